@@ -1,0 +1,1 @@
+"""Coupling, studies and the command line."""

@@ -1,0 +1,1 @@
+"""Mechanics of an ice block on four springs and a moving surface."""

@@ -1,0 +1,1 @@
+"""Heat in belt and ice."""
