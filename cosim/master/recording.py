@@ -12,7 +12,8 @@ class Recording:
     """All outputs and the connected inputs of a system, one row per recorded time.
 
     The newest row is replaced by the next one until it is kept, so that a run that ends early
-    still has the point it came to. An input's row holds the value that the step ending there was made with.
+    still has the point it came to. An input's row holds the value that the step ending there was
+    made with.
     names: `participant.port`, in the order of participants and ports; units: name -> unit.
     """
 
