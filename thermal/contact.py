@@ -1,0 +1,100 @@
+"""Heat exchange between belt face and ice face over one step.
+
+Friction produces the flux f, half of it at either face; a conductance h joins the faces. With
+p_j the flux into strip j of the belt, q_j its part that comes through the contact, and g the flux
+into the ice, all constant over the step and in W/m2 of contact,
+
+    q_j = f/2 + h (T_ice - T_j),        sum_j w_j q_j + g + m = f,
+
+w_j the strips' shares of the area and m the flux that melts ice. The temperatures are means over
+the step of the footprint-weighted faces, so the conditions are the Galerkin equations of the
+diffusive responses, which are symmetric and positive: no step and no conductance makes the scheme
+unstable. h to infinity leaves T_j = T_ice, perfect contact. The second equation is what makes
+every joule arrive.
+
+Approximated: the fluxes are constant over a step and over a strip; the ice takes the mean flux,
+uniform over the contact, and answers with its mean face temperature (the belt passes below it,
+but its own temperature does not vary along x).
+
+The belt's modes lose heat over the whole contact face; under the ice the face is not free, and
+p_j = q_j + h_air T_j gives that back (T a rise above the air).
+
+Melting: when the ice face would end the step above the melting point, g is what takes it there
+exactly, and m is what remains.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class BeltFace:
+    """Step-mean temperature of the strips: free (strips,) K, response (strips, strips) K m2/W."""
+
+    free: Array
+    response: Array
+
+
+@dataclass(frozen=True)
+class IceFace:
+    """Face temperature without flux (K above the air) and its response (K m2/W).
+
+    Each as mean over the step and at its end; melting: the melting point, K above the air.
+    """
+
+    free_mean: float
+    free_end: float
+    response_mean: float
+    response_end: float
+    melting: float
+
+
+@dataclass(frozen=True)
+class Fluxes:
+    """W/m2: into the belt's strips, of that from the contact, into the ice, into melting."""
+
+    belt: Array
+    from_contact: Array
+    ice: float
+    melting: float
+
+
+def _belt_fluxes(belt: BeltFace, shares: Array, resistance: float, free_face_h: float,
+                 ice_temperature: float, ice_response: float, friction: float) -> tuple:
+    """Solve the strips for an ice face at ice_temperature - ice_response * sum(w q)."""
+    through = np.eye(shares.size) - free_face_h * belt.response
+    matrix = (resistance * through + belt.response
+              + ice_response * (shares @ through)[None, :])
+    kept = free_face_h * belt.free
+    right = (ice_temperature - belt.free + 0.5 * friction * resistance
+             + resistance * kept + ice_response * (shares @ kept))
+    into_belt = np.linalg.solve(matrix, right)
+    return into_belt, through @ into_belt - kept
+
+
+def exchange(belt: BeltFace, ice: IceFace, shares: Array, conductance: float,
+             free_face_h: float, friction: float) -> Fluxes:
+    """Fluxes of one step.
+
+    shares (strips,): sum 1; conductance, free_face_h: W/m2K, the contact's and the belt's film
+    that the ice covers; friction: W/m2.
+    """
+    resistance = 1.0 / conductance
+    into_belt, from_contact = _belt_fluxes(
+        belt, shares, resistance, free_face_h,
+        ice.free_mean + ice.response_mean * friction, ice.response_mean, friction)
+    into_ice = friction - float(shares @ from_contact)
+    if ice.free_end + ice.response_end * into_ice <= ice.melting:
+        return Fluxes(into_belt, from_contact, into_ice, 0.0)
+    into_ice = (ice.melting - ice.free_end) / ice.response_end
+    into_belt, from_contact = _belt_fluxes(
+        belt, shares, resistance, free_face_h,
+        ice.free_mean + ice.response_mean * into_ice, 0.0, friction)
+    melting = friction - float(shares @ from_contact) - into_ice
+    return Fluxes(into_belt, from_contact, into_ice, melting)

@@ -1,0 +1,43 @@
+"""The heat ledger: what friction produced, and where it went."""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass
+class HeatLedger:
+    """Totals since the start, J.
+
+    `to_air` is integrated along with the temperatures, `belt` and `ice` are read off the
+    temperature fields: none of them is inferred from the others, so `residual` can fail.
+    """
+
+    received: float = 0.0
+    from_contact_to_belt: float = 0.0
+    to_air: float = 0.0
+    latent: float = 0.0
+    belt: float = 0.0
+    ice: float = 0.0
+
+    @property
+    def residual(self) -> float:
+        """Received less everything found: 0 up to rounding."""
+        return self.received - (self.belt + self.ice + self.to_air + self.latent)
+
+    @property
+    def belt_share(self) -> float:
+        """Share of the friction heat that went into the belt so far; 0 before any."""
+        return self.from_contact_to_belt / self.received if self.received > 0.0 else 0.0
+
+    def array(self) -> NDArray[np.float64]:
+        """The totals as numbers, for saving."""
+        return np.array(astuple(self))
+
+    def restore(self, numbers: NDArray[np.float64]) -> None:
+        """Take totals that `array` returned."""
+        for field, number in zip(fields(self), numbers, strict=True):
+            setattr(self, field.name, float(number))

@@ -1,0 +1,189 @@
+"""Belt and ice, joined by the contact: the thermal model that a coupled run advances."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .belt import Belt
+from .contact import BeltFace, Fluxes, IceFace, exchange
+from .footprint import Footprint
+from .ice import Ice
+from .ledger import HeatLedger
+from .parameters import MELTING_POINT_DEGC, ThermalParameters
+
+Array = NDArray[np.float64]
+
+#: Longest movement of the patch in one internal step, as a share of the contact's length: ten
+#: steps a passage resolve the rise under the contact; longer macro steps are cut.
+_MOVEMENT = 0.1
+
+
+class BeltIceModel:
+    """Belt under a standing block of ice, both starting at the temperature of the air.
+
+    parameters: checked numbers. Positions are material coordinates of the belt, m; the ice
+    stands at `contact_position`, which runs backwards along the belt as the belt runs forwards.
+    """
+
+    def __init__(self, parameters: ThermalParameters | None = None) -> None:
+        self.parameters = parameters = parameters or ThermalParameters()
+        contact = parameters.contact
+        self.footprint = Footprint(contact.radius, parameters.belt.width, contact.strips)
+        self.belt = Belt(parameters.belt)
+        self.ice = Ice(parameters.ice, contact.radius, self.footprint.arc_share,
+                       touching=0.5 * parameters.belt.width)
+        self.ledger = HeatLedger()
+        self._ambient = parameters.ambient.temperature_degC
+        self._shares = self.footprint.areas / self.footprint.area
+        self._longest = _MOVEMENT * 2.0 * contact.radius
+        self._travel = 0.0
+        self._direction = 1.0
+        self._melt_rate = 0.0
+
+    @property
+    def contact_position(self) -> float:
+        """Centre of the contact in the belt's own coordinate, in [0, length), m."""
+        length = self.parameters.belt.length
+        return (0.5 * length - self._travel) % length
+
+    def step(self, duration: float, heat: float, displacement: float) -> None:
+        """Advance by duration (s, > 0).
+
+        heat: friction heat produced in the step, J, >= 0. displacement: way of the belt
+        material under the contact, m, signed, any size. Heat and movement are spread evenly
+        over the step. ValueError for anything else; the state is then unchanged.
+        """
+        _check_step(duration, heat, displacement)
+        parts = max(1, math.ceil(abs(displacement) / self._longest))
+        latent = self.ledger.latent
+        for _ in range(parts):
+            self._advance(duration / parts, heat / parts, displacement / parts)
+        if displacement != 0.0:
+            self._direction = math.copysign(1.0, displacement)
+        self.ledger.belt, self.ledger.ice = self.belt.heat(), self.ice.heat()
+        self._melt_rate = ((self.ledger.latent - latent)
+                           / (self.parameters.ice.latent_heat * duration))
+
+    def _advance(self, duration: float, heat: float, displacement: float) -> None:
+        """One internal step: loads of the strips, fluxes, both fields, ledger."""
+        footprint, length = self.footprint, self.parameters.belt.length
+        first, loads = footprint.loads(self.contact_position, -displacement, self.belt.cell)
+        strips = self.belt.spectrum(first, loads)
+        free, response = self._strip_temperatures(strips, duration)
+        fluxes = exchange(
+            BeltFace(free, response), self._ice_face(duration), self._shares,
+            self.parameters.contact.conductance, self.parameters.belt.air_heat_transfer,
+            heat / (duration * footprint.area))
+        to_air = self.belt.advance(duration, fluxes.belt @ strips)
+        to_air += self.ice.advance(duration, fluxes.ice * footprint.area)
+        self._book(duration, heat, to_air, fluxes, free + response @ fluxes.belt)
+        self._travel = math.fmod(self._travel + displacement, length)
+
+    def _strip_temperatures(self, strips: NDArray, duration: float) -> tuple[Array, Array]:
+        """Step-mean of the strips: without flux, and response to the strips' fluxes."""
+        weighted = strips.conj() * self.belt.parseval
+        weighted /= self.footprint.areas[:, None]
+        free = (weighted @ self.belt.free_face_mean(duration)).real
+        weighted *= self.belt.response(duration).face
+        return free, (weighted @ strips.T).real
+
+    def _ice_face(self, duration: float) -> IceFace:
+        response = self.ice.response(duration)
+        area = self.footprint.area
+        mean, end = self.ice.free_face(duration)
+        return IceFace(mean, end, response.face_mean * area, response.face_end * area,
+                       MELTING_POINT_DEGC - self._ambient)
+
+    def _book(self, duration: float, heat: float, to_air: float, fluxes: Fluxes,
+              strip_temperatures: Array) -> None:
+        ledger, areas = self.ledger, self.footprint.areas
+        covered = self.parameters.belt.air_heat_transfer * (areas @ strip_temperatures)
+        ledger.received += heat
+        ledger.to_air += to_air - covered * duration
+        ledger.from_contact_to_belt += float(areas @ fluxes.from_contact) * duration
+        ledger.latent += fluxes.melting * self.footprint.area * duration
+
+    def outputs(self) -> dict[str, float]:
+        """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, J.
+
+        The interface temperature is the mean of the two faces, each averaged over the contact's
+        area. Entry and exit: belt face one cell before and behind the contact, seen in the
+        direction of the last movement.
+        """
+        face = self.belt.face()
+        first, loads = self.footprint.loads(self.contact_position, 0.0, self.belt.cell)
+        under = face[(first + np.arange(loads.shape[1])) % face.size]
+        belt_face = float(loads.sum(axis=0) @ under) / self.footprint.area
+        ice_face = self.ice.face()
+        ahead = self._direction * (self.parameters.contact.radius + self.belt.cell)
+        ledger = self.ledger
+        return {
+            "interface_temperature": self._ambient + 0.5 * (belt_face + ice_face),
+            "belt_entry_temperature": self._ambient + self._at(face, -ahead),
+            "belt_exit_temperature": self._ambient + self._at(face, ahead),
+            "ice_face_temperature": self._ambient + ice_face,
+            "belt_share": ledger.belt_share,
+            "melt_rate": self._melt_rate,
+            "melted_mass": ledger.latent / self.parameters.ice.latent_heat,
+            "heat_received": ledger.received,
+            "belt_heat": ledger.belt,
+            "ice_heat": ledger.ice,
+            "air_heat": ledger.to_air,
+            "latent_heat": ledger.latent,
+            "heat_residual": ledger.residual,
+        }
+
+    def _at(self, face: Array, offset: float) -> float:
+        """Belt face at a distance (m) from the contact's centre, K above the air."""
+        place = (self.contact_position + offset) / self.belt.cell
+        node = math.floor(place)
+        part = place - node
+        return float((1.0 - part) * face[node % face.size] + part * face[(node + 1) % face.size])
+
+    def belt_profile(self) -> tuple[Array, Array]:
+        """Material position (cells,) m and temperature of the contact face (cells,) degC."""
+        return self.belt.position, self._ambient + self.belt.face()
+
+    def belt_field(self) -> tuple[Array, Array, Array]:
+        """Position (cells,) m, depth (depths,) m below the contact face, degC (cells, depths)."""
+        return self.belt.position, self.belt.depth, self._ambient + self.belt.field()
+
+    def ice_field(self) -> tuple[Array, Array, Array]:
+        """Radius (radii,) m, height (heights,) m, temperature (radii, heights) degC."""
+        return self.ice.r, self.ice.z, self._ambient + self.ice.field()
+
+    def state(self) -> Array:
+        """Everything that a continuation needs, as a copy; its length depends on the mesh."""
+        return np.concatenate((
+            [self._travel, self._direction, self._melt_rate], self.ledger.array(),
+            self.ice.amplitudes, self.belt.amplitudes.view(np.float64).ravel()))
+
+    def restore(self, array: Array) -> None:
+        """Take a state that `state` returned; the continuation is the same bit for bit."""
+        array = np.asarray(array, dtype=np.float64)
+        ledger = self.ledger.array().size
+        sizes = 3 + ledger, 3 + ledger + self.ice.amplitudes.size
+        expected = sizes[1] + 2 * self.belt.amplitudes.size
+        if array.shape != (expected,):
+            raise ValueError(
+                f"thermal state has shape {array.shape}, expected ({expected},): it was saved with"
+                " another mesh")
+        self._travel, self._direction, self._melt_rate = (float(x) for x in array[:3])
+        self.ledger.restore(array[3:sizes[0]])
+        self.ice.amplitudes[:] = array[sizes[0]:sizes[1]]
+        self.belt.amplitudes.view(np.float64)[:] = array[sizes[1]:].reshape(
+            self.belt.amplitudes.shape[0], -1)
+
+
+def _check_step(duration: float, heat: float, displacement: float) -> None:
+    for name, value, unit in (("duration", duration, "s"), ("heat", heat, "J"),
+                              ("displacement", displacement, "m")):
+        if not math.isfinite(value):
+            raise ValueError(f"{name} = {value} {unit} is not a finite number")
+    if duration <= 0.0:
+        raise ValueError(f"duration = {duration:g} s must be positive")
+    if heat < 0.0:
+        raise ValueError(f"heat = {heat:g} J must not be negative: friction produces heat")

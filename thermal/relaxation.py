@@ -1,0 +1,34 @@
+"""Exact time integrals of u' = -rate u + p with p constant over a step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Below this x the closed forms cancel; their Taylor series of 16 terms are then exact.
+_SERIES_BELOW = 0.7
+_TERMS = 16
+
+
+def decay(x: Array) -> Array:
+    """exp(-x)."""
+    return np.exp(-x)
+
+
+def mean_decay(x: Array) -> Array:
+    """(1 - exp(-x)) / x, the mean of the decay over a step; 1 at x = 0."""
+    safe = np.where(x == 0.0, 1.0, x)
+    return np.where(x == 0.0, 1.0, -np.expm1(-safe) / safe)
+
+
+def mean_response(x: Array) -> Array:
+    """(exp(-x) - 1 + x) / x^2, the mean over a step of the response to p; 1/2 at x = 0."""
+    large = np.maximum(x, _SERIES_BELOW)
+    closed = (np.expm1(-large) + large) / large**2
+    small = np.minimum(x, _SERIES_BELOW)
+    series = np.zeros_like(small)
+    for n in range(_TERMS + 1, 1, -1):
+        series = (1.0 - small * series) / n
+    return np.where(x < _SERIES_BELOW, series, closed)
