@@ -26,22 +26,20 @@ Array = NDArray[np.float64]
 _STANDSTILL = 3e-4
 
 
-def _repeated(primitives: tuple[Array, Array, Array, Array],
-              at_end: tuple[float, float, float]) -> tuple[Array, Array, Array]:
-    """Integrals, 1- to 3-fold, of a function from the left end of its interval.
+def _interval(half: float, x: Array, antiderivatives: Callable,
+              at_start: tuple[float, float, float]) -> tuple[Array, Array, Array]:
+    """1-, 2- and 3-fold integral from -half to x of a function that is 0 outside [-half, half].
 
-    `primitives`: distance of the points from the left end (clipped to the interval) and three
-    successive antiderivatives there; `at_end`: those at the left end.
+    antiderivatives: three successive ones, valid inside; at_start: their values at -half.
     """
-    y, p1, p2, p3 = primitives
-    e1, e2, e3 = at_end
-    return p1 - e1, p2 - e2 - e1 * y, p3 - e3 - y * (e2 + 0.5 * e1 * y)
-
-
-def _beyond(integrals: tuple[Array, Array, Array], excess: Array) -> tuple[Array, Array, Array]:
-    """Continue the repeated integrals `excess` (m) past the right end, where the function is 0."""
-    i1, i2, i3 = integrals
-    return i1, i2 + i1 * excess, i3 + excess * (i2 + 0.5 * i1 * excess)
+    inside = np.minimum(np.maximum(x, -half), half)
+    s1, s2, s3 = at_start
+    p1, p2, p3 = antiderivatives(inside)
+    y = inside + half
+    i1, i2, i3 = p1 - s1, p2 - s2 - s1 * y, p3 - s3 - y * (s2 + 0.5 * s1 * y)
+    past = x - inside
+    past[x < 0.0] = 0.0
+    return i1, i2 + i1 * past, i3 + past * (i2 + 0.5 * i1 * past)
 
 
 class Footprint:
@@ -56,6 +54,8 @@ class Footprint:
         half = 0.5 * width
         #: Half of the length over which the belt is narrower than the disc, m.
         self.flat = float(np.sqrt(radius**2 - half**2)) if half < radius else 0.0
+        self._arc_ends = tuple(float(p) for p in self._arc(np.float64(-radius)))
+        self._overhang_ends = tuple(float(p) for p in self._overhang(np.float64(-self.flat)))
         self.edges = np.linspace(-radius, radius, strips + 1)
         self._at_edges = tuple(part[:, None] for part in self.integrals(self.edges))
         self.areas: Array = np.diff(self._at_edges[0][:, 0])
@@ -75,31 +75,25 @@ class Footprint:
         """Successive antiderivatives of 2 sqrt(a^2 - x^2): m2, m3, m4."""
         a2 = self.radius**2
         root = np.sqrt(np.maximum(a2 - x * x, 0.0))
-        angle = np.arcsin(np.clip(x / self.radius, -1.0, 1.0))
+        angle = np.arcsin(x / self.radius)
         first = x * root + a2 * angle
-        second = a2 * x * angle + a2 * root - root**3 / 3.0
+        second = a2 * x * angle + root * (a2 - root * root / 3.0)
         third = (a2 * (0.5 * x * x + 0.125 * a2) * angle
-                 + x * root * (0.625 * a2 - root**2 / 12.0))
+                 + x * root * (0.625 * a2 - root * root / 12.0))
         return first, second, third
 
-    def _interval(self, half: float, x: Array, antiderivatives: Callable) -> tuple:
-        """Repeated integrals from -half of a function that vanishes outside [-half, half]."""
-        inside = np.clip(x, -half, half)
-        ends = tuple(float(p[0]) for p in antiderivatives(np.array([-half])))
-        values = _repeated((inside + half, *antiderivatives(inside)), ends)
-        return _beyond(values, np.maximum(x - half, 0.0))
+    def _overhang(self, x: Array) -> tuple[Array, Array, Array]:
+        """Successive antiderivatives of 2 sqrt(a^2 - x^2) - w: m2, m3, m4."""
+        first, second, third = self._arc(x)
+        w = self.width
+        return first - w * x, second - 0.5 * w * x * x, third - w * x * x * x / 6.0
 
     def integrals(self, x: Array) -> tuple[Array, Array, Array]:
         """1-, 2- and 3-fold integral of the chord from minus infinity to x: m2, m3, m4."""
-        total = self._interval(self.radius, x, self._arc)
+        total = _interval(self.radius, x, self._arc, self._arc_ends)
         if self.flat == 0.0:
             return total
-
-        def overhang(y: Array) -> tuple[Array, Array, Array]:
-            flat = self.width * y, 0.5 * self.width * y**2, self.width * y**3 / 6.0
-            return tuple(p - q for p, q in zip(self._arc(y), flat, strict=True))
-
-        cut = self._interval(self.flat, x, overhang)
+        cut = _interval(self.flat, x, self._overhang, self._overhang_ends)
         return tuple(p - q for p, q in zip(total, cut, strict=True))
 
     def _strips(self, x: Array, fold: int) -> Array:

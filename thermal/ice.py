@@ -32,6 +32,16 @@ def _around(x: Array) -> Array:
     return 2.0 * np.pi * x[0]
 
 
+def _with_midpoints(boundaries: Array) -> Array:
+    """Nodes of P2 elements from the elements' boundaries."""
+    return np.sort(np.concatenate((boundaries, 0.5 * (boundaries[1:] + boundaries[:-1]))))
+
+
+def _nearest(nodes: Array, places: Array) -> NDArray[np.intp]:
+    """Number of the nearest node to each place."""
+    return np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), places)
+
+
 class Response(NamedTuple):
     """What a step of given duration does, per mode unless said."""
 
@@ -55,8 +65,11 @@ class Ice:
                  arc_share: Callable[[Array], Array] = np.ones_like,
                  touching: float | None = None) -> None:
         r = radius - graded(radius, parameters.radial_elements, _RADIAL_GRADING)[::-1]
+        r[0] = 0.0
         if touching is not None and touching < radius:
-            r = np.union1d(r[np.abs(r - touching) > 1e-3 * radius], [0.0, touching, radius])
+            far = np.abs(r - touching) > 1e-3 * radius
+            far[[0, -1]] = True
+            r = np.union1d(r[far], touching)
         z = graded(parameters.height, parameters.axial_elements, _AXIAL_GRADING)
         mesh = MeshQuad.init_tensor(r, z).with_boundaries({
             "bottom": lambda x: x[1] < 0.5 * z[1],
@@ -70,17 +83,13 @@ class Ice:
         weight = LinearForm(lambda v, w: _around(w.x) * arc_share(w.x[0]) * v).assemble(bottom)
         self._face = (weight / weight.sum()) @ modes.shapes
         self._rates, self._heat, self._air = modes.rates, modes.heat, modes.air
-        self._node_grid(basis.doflocs)
+        self.r, self.z = _with_midpoints(r), _with_midpoints(z)
+        self._grid = np.empty((self.r.size, self.z.size), dtype=np.intp)
+        self._grid[_nearest(self.r, basis.doflocs[0]), _nearest(self.z, basis.doflocs[1])] = (
+            np.arange(basis.N))
         self._shapes = modes.shapes
         self.amplitudes: Array = np.zeros(self._rates.size)
         self.response = lru_cache(maxsize=8)(self._response)
-
-    def _node_grid(self, doflocs: Array) -> None:
-        """Nodes of the P2 tensor mesh as a grid: `r`, `z` and the numbers of its nodes."""
-        order = np.lexsort((doflocs[1].round(12), doflocs[0].round(12)))
-        self.r = np.unique(doflocs[0].round(12))
-        self.z = np.unique(doflocs[1].round(12))
-        self._grid = order.reshape(self.r.size, self.z.size)
 
     def _response(self, duration: float) -> Response:
         x = self._rates * duration

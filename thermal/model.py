@@ -16,9 +16,9 @@ from .parameters import MELTING_POINT_DEGC, ThermalParameters
 
 Array = NDArray[np.float64]
 
-#: Longest movement of the patch in one internal step, as a share of the contact's length: ten
+#: Longest movement of the patch in one internal step, as a share of the contact's length: eight
 #: steps a passage resolve the rise under the contact; longer macro steps are cut.
-_MOVEMENT = 0.1
+_MOVEMENT = 0.125
 
 
 class BeltIceModel:
@@ -102,7 +102,7 @@ class BeltIceModel:
         ledger, areas = self.ledger, self.footprint.areas
         covered = self.parameters.belt.air_heat_transfer * (areas @ strip_temperatures)
         ledger.received += heat
-        ledger.to_air += to_air - covered * duration
+        ledger.to_air += to_air - float(covered) * duration
         ledger.from_contact_to_belt += float(areas @ fluxes.from_contact) * duration
         ledger.latent += fluxes.melting * self.footprint.area * duration
 
