@@ -9,7 +9,6 @@ advanced exactly for loads that are constant over a step. Temperatures are rises
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -20,18 +19,18 @@ from skfem import BilinearForm, CellBasis, ElementLineP1, ElementLineP2, FacetBa
 
 from .eigenmodes import Medium, eigenmodes
 from .parameters import Belt as BeltParameters
-from .relaxation import decay, mean_decay, mean_response
+from .relaxation import LastDurations, decay, mean_decay, mean_response
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
-#: Ratio of neighbouring elements through the thickness; the finest lies at the contact face.
-_GRADING = 1.6
+#: Last element through the thickness over the first, which lies at the contact face.
+_STRETCH = 10.0
 
 
-def graded(length: float, elements: int, ratio: float) -> Array:
-    """Element boundaries from 0 to length, each element `ratio` times the one before it, m."""
-    sizes = ratio ** np.arange(elements)
+def graded(length: float, elements: int, stretch: float) -> Array:
+    """Element boundaries from 0 to length, m; a geometric row, last over first is `stretch`."""
+    sizes = stretch ** (np.arange(elements) / max(1, elements - 1))
     return np.concatenate(([0.0], np.cumsum(sizes) * (length / sizes.sum())))
 
 
@@ -62,30 +61,30 @@ class Response(NamedTuple):
 
 
 class Belt:
-    """Temperature field of the belt.
+    """Temperature field of the lane (width m) of a belt that runs under the ice.
 
-    `amplitudes` (modes, wave numbers), complex: real FFT along x of the nodes' modal
-    amplitudes. A load is the real FFT of nodal loads in W at the contact face.
+    `rates` (modes, wave numbers), 1/s. `amplitudes` (modes, wave numbers), complex: real FFT
+    along x of the nodes' modal amplitudes. A load is the real FFT of nodal loads in W at the
+    contact face.
     """
 
-    def __init__(self, parameters: BeltParameters) -> None:
+    def __init__(self, parameters: BeltParameters, lane: float) -> None:
         self.cells = parameters.cells
         self.cell = parameters.length / self.cells
         self.position = np.arange(self.cells) * self.cell
         basis = CellBasis(
-            MeshLine(graded(parameters.thickness, parameters.elements, _GRADING)), ElementLineP2())
+            MeshLine(graded(parameters.thickness, parameters.elements, _STRETCH)), ElementLineP2())
         self._order = np.argsort(basis.doflocs[0])
         self.depth = basis.doflocs[0][self._order]
         medium = Medium(parameters.density, parameters.heat_capacity, parameters.conductivity)
         films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()),
                   parameters.air_heat_transfer)]
-        width = parameters.width
-        modes = eigenmodes(basis, films, medium, lambda x: width + 0.0 * x[0])
+        modes = eigenmodes(basis, films, medium, lambda x: lane + 0.0 * x[0])
         self._shapes = modes.shapes[self._order]
         self._face = self._shapes[0]
         self._mass, stiffness = periodic_symbols(self.cells, self.cell)
         diffusivity = medium.conductivity / medium.capacity
-        self._rates = modes.rates[:, None] + diffusivity * stiffness / self._mass
+        self.rates = modes.rates[:, None] + diffusivity * stiffness / self._mass
         self._heat = modes.heat * self.cell
         self._air = modes.air * self.cell
         #: Weights that turn a sum over half the wave numbers into one over the nodes.
@@ -93,11 +92,11 @@ class Belt:
         self.parseval[0] = 1.0 / self.cells
         if self.cells % 2 == 0:
             self.parseval[-1] = 1.0 / self.cells
-        self.amplitudes: Spectrum = np.zeros(self._rates.shape, dtype=np.complex128)
-        self.response = lru_cache(maxsize=8)(self._response)
+        self.amplitudes: Spectrum = np.zeros(self.rates.shape, dtype=np.complex128)
+        self.response = LastDurations(self._response)
 
     def _response(self, duration: float) -> Response:
-        x = self._rates * duration
+        x = self.rates * duration
         mean, response = mean_decay(x), mean_response(x)
         entering = self._face[:, None] / self._mass
         slow = duration * mean[:, 0]

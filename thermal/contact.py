@@ -4,12 +4,12 @@ Friction produces the flux f, half of it at either face; a conductance h joins t
 p_j the flux into strip j of the belt, q_j its part that comes through the contact, and g the flux
 into the ice, all constant over the step and in W/m2 of contact,
 
-    q_j = f/2 + h (T_ice - T_j),        sum_j w_j q_j + g + m = f,
+    q_j = f/2 + h (T_ice - T_j),        mean(q) + g + m = f,
 
-w_j the strips' shares of the area and m the flux that melts ice. The temperatures are means over
-the step of the footprint-weighted faces, so the conditions are the Galerkin equations of the
-diffusive responses, which are symmetric and positive: no step and no conductance makes the scheme
-unstable. h to infinity leaves T_j = T_ice, perfect contact. The second equation is what makes
+m the flux that melts ice; the strips have equal areas. The temperatures are means over the step
+of the faces, averaged over each strip and over its way, so the conditions are the Galerkin
+equations of the diffusive responses, which are symmetric and positive: no step and no conductance
+makes the scheme unstable. h to infinity leaves T_j = T_ice, perfect contact. The second equation is what makes
 every joule arrive.
 
 Approximated: the fluxes are constant over a step and over a strip; the ice takes the mean flux,
@@ -65,36 +65,36 @@ class Fluxes:
     melting: float
 
 
-def _belt_fluxes(belt: BeltFace, shares: Array, resistance: float, free_face_h: float,
+def _belt_fluxes(belt: BeltFace, resistance: float, free_face_h: float,
                  ice_temperature: float, ice_response: float, friction: float) -> tuple:
-    """Solve the strips for an ice face at ice_temperature - ice_response * sum(w q)."""
-    through = np.eye(shares.size) - free_face_h * belt.response
+    """Solve the strips for an ice face at ice_temperature - ice_response * mean(q)."""
+    through = np.eye(belt.free.size) - free_face_h * belt.response
     matrix = (resistance * through + belt.response
-              + ice_response * (shares @ through)[None, :])
+              + ice_response * through.mean(axis=0))
     kept = free_face_h * belt.free
     right = (ice_temperature - belt.free + 0.5 * friction * resistance
-             + resistance * kept + ice_response * (shares @ kept))
+             + resistance * kept + ice_response * kept.mean())
     into_belt = np.linalg.solve(matrix, right)
     return into_belt, through @ into_belt - kept
 
 
-def exchange(belt: BeltFace, ice: IceFace, shares: Array, conductance: float,
-             free_face_h: float, friction: float) -> Fluxes:
+def exchange(belt: BeltFace, ice: IceFace, conductance: float, free_face_h: float,
+             friction: float) -> Fluxes:
     """Fluxes of one step.
 
-    shares (strips,): sum 1; conductance, free_face_h: W/m2K, the contact's and the belt's film
-    that the ice covers; friction: W/m2.
+    conductance: of the contact, free_face_h: of the belt's film that the ice covers, W/m2K;
+    friction: W/m2.
     """
     resistance = 1.0 / conductance
     into_belt, from_contact = _belt_fluxes(
-        belt, shares, resistance, free_face_h,
+        belt, resistance, free_face_h,
         ice.free_mean + ice.response_mean * friction, ice.response_mean, friction)
-    into_ice = friction - float(shares @ from_contact)
+    into_ice = friction - float(from_contact.mean())
     if ice.free_end + ice.response_end * into_ice <= ice.melting:
         return Fluxes(into_belt, from_contact, into_ice, 0.0)
     into_ice = (ice.melting - ice.free_end) / ice.response_end
     into_belt, from_contact = _belt_fluxes(
-        belt, shares, resistance, free_face_h,
+        belt, resistance, free_face_h,
         ice.free_mean + ice.response_mean * into_ice, 0.0, friction)
-    melting = friction - float(shares @ from_contact) - into_ice
+    melting = friction - float(from_contact.mean()) - into_ice
     return Fluxes(into_belt, from_contact, into_ice, melting)

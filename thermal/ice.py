@@ -9,7 +9,6 @@ constant flux. Temperatures are rises above the air.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -19,13 +18,13 @@ from skfem import CellBasis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
 from .belt import graded
 from .eigenmodes import Medium, eigenmodes
 from .parameters import Ice as IceParameters
-from .relaxation import decay, mean_decay, mean_response
+from .relaxation import LastDurations, decay, mean_decay, mean_response
 
 Array = NDArray[np.float64]
 
-#: Ratios of neighbouring elements, finest at the contact (height) and at the side (radius).
-_AXIAL_GRADING = 2.0
-_RADIAL_GRADING = 1.5
+#: Largest element over smallest: the smallest lie at the contact (height), at the side (radius).
+_AXIAL_STRETCH = 500.0
+_RADIAL_STRETCH = 8.0
 
 
 def _around(x: Array) -> Array:
@@ -64,13 +63,13 @@ class Ice:
     def __init__(self, parameters: IceParameters, radius: float,
                  arc_share: Callable[[Array], Array] = np.ones_like,
                  touching: float | None = None) -> None:
-        r = radius - graded(radius, parameters.radial_elements, _RADIAL_GRADING)[::-1]
+        r = radius - graded(radius, parameters.radial_elements, _RADIAL_STRETCH)[::-1]
         r[0] = 0.0
         if touching is not None and touching < radius:
             far = np.abs(r - touching) > 1e-3 * radius
             far[[0, -1]] = True
             r = np.union1d(r[far], touching)
-        z = graded(parameters.height, parameters.axial_elements, _AXIAL_GRADING)
+        z = graded(parameters.height, parameters.axial_elements, _AXIAL_STRETCH)
         mesh = MeshQuad.init_tensor(r, z).with_boundaries({
             "bottom": lambda x: x[1] < 0.5 * z[1],
             "free": lambda x: (x[0] > 0.5 * (r[-2] + r[-1])) | (x[1] > 0.5 * (z[-2] + z[-1])),
@@ -82,17 +81,17 @@ class Ice:
         bottom = FacetBasis(mesh, ElementQuad2(), facets="bottom", intorder=12)
         weight = LinearForm(lambda v, w: _around(w.x) * arc_share(w.x[0]) * v).assemble(bottom)
         self._face = (weight / weight.sum()) @ modes.shapes
-        self._rates, self._heat, self._air = modes.rates, modes.heat, modes.air
+        self.rates, self._heat, self._air = modes.rates, modes.heat, modes.air
         self.r, self.z = _with_midpoints(r), _with_midpoints(z)
         self._grid = np.empty((self.r.size, self.z.size), dtype=np.intp)
         self._grid[_nearest(self.r, basis.doflocs[0]), _nearest(self.z, basis.doflocs[1])] = (
             np.arange(basis.N))
         self._shapes = modes.shapes
-        self.amplitudes: Array = np.zeros(self._rates.size)
-        self.response = lru_cache(maxsize=8)(self._response)
+        self.amplitudes: Array = np.zeros(self.rates.size)
+        self.response = LastDurations(self._response)
 
     def _response(self, duration: float) -> Response:
-        x = self._rates * duration
+        x = self.rates * duration
         mean, response = mean_decay(x), mean_response(x)
         forced = self._face * duration * mean
         return Response(

@@ -16,9 +16,13 @@ from .parameters import MELTING_POINT_DEGC, ThermalParameters
 
 Array = NDArray[np.float64]
 
-#: Longest movement of the patch in one internal step, as a share of the contact's length: eight
-#: steps a passage resolve the rise under the contact; longer macro steps are cut.
-_MOVEMENT = 0.125
+#: Longest movement of the patch in one internal step, as a share of the contact's length; longer
+#: macro steps are cut. At 1/16 the temperatures err by 0.1 % of their rise, at 1/8 by 0.3 %.
+_MOVEMENT = 1 / 16
+
+#: Entry and exit temperatures are read this far outside the contact, as a share of its length:
+#: beyond the way over which heat of the last internal step is spread.
+_PROBE = 1 / 8
 
 
 class BeltIceModel:
@@ -32,13 +36,15 @@ class BeltIceModel:
         self.parameters = parameters = parameters or ThermalParameters()
         contact = parameters.contact
         self.footprint = Footprint(contact.radius, parameters.belt.width, contact.strips)
-        self.belt = Belt(parameters.belt)
+        self.belt = Belt(parameters.belt, self.footprint.lane)
         self.ice = Ice(parameters.ice, contact.radius, self.footprint.arc_share,
                        touching=0.5 * parameters.belt.width)
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
-        self._shares = self.footprint.areas / self.footprint.area
-        self._longest = _MOVEMENT * 2.0 * contact.radius
+        self._longest = _MOVEMENT * self.footprint.length
+        #: Distance of entry and exit from the contact's centre, m.
+        self._probe = 0.5 * min((1.0 + 2.0 * _PROBE) * self.footprint.length,
+                                parameters.belt.length)
         self._travel = 0.0
         self._direction = 1.0
         self._melt_rate = 0.0
@@ -74,7 +80,7 @@ class BeltIceModel:
         strips = self.belt.spectrum(first, loads)
         free, response = self._strip_temperatures(strips, duration)
         fluxes = exchange(
-            BeltFace(free, response), self._ice_face(duration), self._shares,
+            BeltFace(free, response), self._ice_face(duration),
             self.parameters.contact.conductance, self.parameters.belt.air_heat_transfer,
             heat / (duration * footprint.area))
         to_air = self.belt.advance(duration, fluxes.belt @ strips)
@@ -85,7 +91,7 @@ class BeltIceModel:
     def _strip_temperatures(self, strips: NDArray, duration: float) -> tuple[Array, Array]:
         """Step-mean of the strips: without flux, and response to the strips' fluxes."""
         weighted = strips.conj() * self.belt.parseval
-        weighted /= self.footprint.areas[:, None]
+        weighted /= self.footprint.strip_area
         free = (weighted @ self.belt.free_face_mean(duration)).real
         weighted *= self.belt.response(duration).face
         return free, (weighted @ strips.T).real
@@ -99,26 +105,26 @@ class BeltIceModel:
 
     def _book(self, duration: float, heat: float, to_air: float, fluxes: Fluxes,
               strip_temperatures: Array) -> None:
-        ledger, areas = self.ledger, self.footprint.areas
-        covered = self.parameters.belt.air_heat_transfer * (areas @ strip_temperatures)
+        ledger, area = self.ledger, self.footprint.strip_area
+        covered = self.parameters.belt.air_heat_transfer * area * strip_temperatures.sum()
         ledger.received += heat
         ledger.to_air += to_air - float(covered) * duration
-        ledger.from_contact_to_belt += float(areas @ fluxes.from_contact) * duration
+        ledger.from_contact_to_belt += float(fluxes.from_contact.sum()) * area * duration
         ledger.latent += fluxes.melting * self.footprint.area * duration
 
     def outputs(self) -> dict[str, float]:
         """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, J.
 
         The interface temperature is the mean of the two faces, each averaged over the contact's
-        area. Entry and exit: belt face one cell before and behind the contact, seen in the
-        direction of the last movement.
+        area. Entry and exit: belt face an eighth of the contact's length before and behind the
+        contact, seen in the direction of the last movement.
         """
         face = self.belt.face()
         first, loads = self.footprint.loads(self.contact_position, 0.0, self.belt.cell)
         under = face[(first + np.arange(loads.shape[1])) % face.size]
         belt_face = float(loads.sum(axis=0) @ under) / self.footprint.area
         ice_face = self.ice.face()
-        ahead = self._direction * (self.parameters.contact.radius + self.belt.cell)
+        ahead = self._direction * self._probe
         ledger = self.ledger
         return {
             "interface_temperature": self._ambient + 0.5 * (belt_face + ice_face),

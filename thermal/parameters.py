@@ -9,6 +9,9 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 #: Highest temperature at which the block is still ice, degC.
 MELTING_POINT_DEGC = 0.0
 
+#: Most cells along the belt: a slip of the unit must not exhaust the memory.
+MOST_CELLS = 200_000
+
 
 def quantity(default: float, unit: str, description: str, **bounds: Any) -> Any:
     """A number with its unit (`1` for none) in the JSON schema and in its description."""
@@ -108,6 +111,8 @@ class ThermalParameters(Block):
             raise ValueError(
                 f"belt.length = {self.belt.length:g} m is shorter than the contact: it must"
                 f" exceed 2 contact.radius = {diameter:g} m")
-        if self.belt.length < 4.0 * self.belt.length / self.belt.cells:
-            raise ValueError("belt.cell_length leaves fewer than 4 cells along the belt")
+        if self.belt.length / self.belt.cell_length > MOST_CELLS:
+            raise ValueError(
+                f"belt.cell_length = {self.belt.cell_length:g} m cuts the belt into more than"
+                f" {MOST_CELLS} cells")
         return self

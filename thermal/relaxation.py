@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 #: Below this x the closed forms cancel; their Taylor series of 16 terms are then exact.
 _SERIES_BELOW = 0.7
@@ -32,3 +36,20 @@ def mean_response(x: Array) -> Array:
     for n in range(_TERMS + 1, 1, -1):
         series = (1.0 - small * series) / n
     return np.where(x < _SERIES_BELOW, series, closed)
+
+
+class LastDurations(Generic[T]):
+    """What was computed for the last few step durations (s); the oldest is forgotten first."""
+
+    def __init__(self, compute: Callable[[float], T], kept: int = 8) -> None:
+        self._compute = compute
+        self._kept = kept
+        self._known: dict[float, T] = {}
+
+    def __call__(self, duration: float) -> T:
+        known = self._known.get(duration)
+        if known is None:
+            if len(self._known) >= self._kept:
+                del self._known[next(iter(self._known))]
+            known = self._known[duration] = self._compute(duration)
+        return known

@@ -1,0 +1,112 @@
+"""Temperature of belt and ice as one file series that ParaView opens.
+
+One VTU file (written by meshio) for each time and a PVD collection that names them. A file
+appears under its name only when it is complete and the collection is replaced as a whole, so
+whatever interrupts a run, what was written before stays readable.
+
+Seen from the rig: x = 0 is the centre of the contact, z = 0 the contact face, metres. The belt
+lies below (the loop cut opposite the contact, its temperatures interpolated linearly to this
+frame), the section of the ice through its axis stands above.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+from numpy.typing import NDArray
+
+from .model import BeltIceModel
+
+Array = NDArray[np.float64]
+
+
+def _quadrilaterals(columns: int, rows: int) -> NDArray[np.int64]:
+    """Cells of a grid of nodes, numbered row by row within each column: (cells, 4)."""
+    corner = (np.arange(columns - 1)[:, None] * rows + np.arange(rows - 1)).ravel()
+    return np.stack((corner, corner + rows, corner + rows + 1, corner + 1), axis=1)
+
+
+def _points(x: Array, z: Array) -> Array:
+    """Nodes of a grid in the plane y = 0: (columns * rows, 3), m."""
+    grid = np.zeros((x.size, z.size, 3))
+    grid[..., 0] = x[:, None]
+    grid[..., 2] = z
+    return grid.reshape(-1, 3)
+
+
+class FieldSeries:
+    """Writes `<name>.pvd` and `<name>_<number>.vtu` into a folder that exists.
+
+    Point data `temperature` (degC), cell data `part` (0 belt, 1 ice). An earlier series of that
+    name is replaced from its first file on.
+    """
+
+    def __init__(self, folder: str | Path, model: BeltIceModel, name: str = "temperature") -> None:
+        self.folder = Path(folder)
+        if not self.folder.is_dir():
+            raise ValueError(f"{self.folder}: no such folder for the temperature fields")
+        self.name = name
+        self._model = model
+        self._written: list[tuple[float, str]] = []
+        belt, ice = model.belt, model.ice
+        self._offset = (np.arange(belt.cells + 1) - belt.cells / 2) * belt.cell
+        across = np.concatenate((-ice.r[:0:-1], ice.r))
+        self._points = np.concatenate((
+            _points(self._offset, -belt.depth), _points(across, ice.z)))
+        below = _quadrilaterals(self._offset.size, belt.depth.size)
+        above = _quadrilaterals(across.size, ice.z.size) + self._offset.size * belt.depth.size
+        self._cells = [("quad", np.concatenate((below, above)))]
+        self._part = [np.repeat(np.array([0, 1], dtype=np.int32), (len(below), len(above)))]
+
+    @property
+    def path(self) -> Path:
+        """The collection, the one file to open."""
+        return self.folder / f"{self.name}.pvd"
+
+    def _temperature(self) -> Array:
+        """degC at all points."""
+        model = self._model
+        _, _, belt = model.belt_field()
+        place = (model.contact_position + self._offset) / model.belt.cell
+        node = np.floor(place).astype(np.int64)
+        part = (place - node)[:, None]
+        cells = model.belt.cells
+        seen = (1.0 - part) * belt[node % cells] + part * belt[(node + 1) % cells]
+        _, _, ice = model.ice_field()
+        section = np.concatenate((ice[:0:-1], ice))
+        return np.concatenate((seen.ravel(), section.ravel()))
+
+    def write(self, time: float) -> Path:
+        """Add the model's present fields at time (s); returns the VTU file.
+
+        ValueError when time is not after the last one written; OSError when the disk refuses.
+        """
+        if not math.isfinite(time) or (self._written and time <= self._written[-1][0]):
+            last = f"{self._written[-1][0]:g} s" if self._written else "none"
+            raise ValueError(f"time = {time:g} s of a field must be after the last one ({last})")
+        path = self.folder / f"{self.name}_{len(self._written):05d}.vtu"
+        mesh = meshio.Mesh(self._points, self._cells,
+                           point_data={"temperature": self._temperature()},
+                           cell_data={"part": self._part})
+        partial = path.with_suffix(".partial")
+        mesh.write(partial, file_format="vtu")
+        os.replace(partial, path)
+        self._written.append((time, path.name))
+        self._write_collection()
+        return path
+
+    def _write_collection(self) -> None:
+        root = ElementTree.Element("VTKFile", type="Collection", version="0.1",
+                                   byte_order="LittleEndian")
+        collection = ElementTree.SubElement(root, "Collection")
+        for time, file in self._written:
+            ElementTree.SubElement(collection, "DataSet", timestep=repr(time), group="",
+                                   part="0", file=file)
+        partial = self.path.with_suffix(".partial")
+        ElementTree.ElementTree(root).write(partial, encoding="utf-8", xml_declaration=True)
+        os.replace(partial, self.path)
