@@ -9,8 +9,8 @@ into the ice, all constant over the step and in W/m2 of contact,
 m the flux that melts ice; the strips have equal areas. The temperatures are means over the step
 of the faces, averaged over each strip and over its way, so the conditions are the Galerkin
 equations of the diffusive responses, which are symmetric and positive: no step and no conductance
-makes the scheme unstable. h to infinity leaves T_j = T_ice, perfect contact. The second equation is what makes
-every joule arrive.
+makes the scheme unstable. h to infinity leaves T_j = T_ice, perfect contact. The second equation
+is what makes every joule arrive.
 
 Approximated: the fluxes are constant over a step and over a strip; the ice takes the mean flux,
 uniform over the contact, and answers with its mean face temperature (the belt passes below it,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from difflib import get_close_matches
 from typing import Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 #: Highest temperature at which the block is still ice, degC.
 MELTING_POINT_DEGC = 0.0
@@ -17,6 +19,10 @@ def quantity(default: float, unit: str, description: str, **bounds: Any) -> Any:
     """A number with its unit (`1` for none) in the JSON schema and in its description."""
     return Field(default, description=f"{description} [{unit}]", json_schema_extra={"unit": unit},
                  **bounds)
+
+
+class ParameterError(ValueError):
+    """A parameter is unknown or out of bounds; one line: key, value, what is allowed."""
 
 
 class Block(BaseModel):
@@ -116,3 +122,30 @@ class ThermalParameters(Block):
                 f"belt.cell_length = {self.belt.cell_length:g} m cuts the belt into more than"
                 f" {MOST_CELLS} cells")
         return self
+
+    @classmethod
+    def checked(cls, blocks: Mapping[str, Any]) -> Self:
+        """Parameters from a mapping of blocks, as a TOML file holds them.
+
+        ParameterError, one line for the first fault, instead of pydantic's report.
+        """
+        try:
+            return cls.model_validate(blocks)
+        except ValidationError as report:
+            raise ParameterError(_one_line(report.errors()[0])) from None
+
+
+_BLOCKS = {"ambient": Ambient, "belt": Belt, "ice": Ice, "contact": Contact}
+
+
+def _one_line(fault: Mapping[str, Any]) -> str:
+    """Key, value and what is allowed, from an entry of pydantic's report."""
+    key = ".".join(str(part) for part in fault["loc"])
+    if fault["type"] == "extra_forbidden":
+        owner, name = fault["loc"][:-1], str(fault["loc"][-1])
+        known = list(_BLOCKS[owner[0]].model_fields if owner else _BLOCKS)
+        near = get_close_matches(name, known, 1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
+        return f"{key} is not a parameter: {hint}"
+    message = fault["msg"].removeprefix("Value error, ")
+    return f"{key} = {fault['input']!r}: {message}" if key else message
