@@ -1,0 +1,10 @@
+"""The FMU that the interop tests run, built once a session from what is here now."""
+
+import pytest
+
+from cosim.fmu_build import build_fmu
+
+
+@pytest.fixture(scope="session")
+def fmu(tmp_path_factory):
+    return build_fmu(tmp_path_factory.mktemp("fmu"))

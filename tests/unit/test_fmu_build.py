@@ -1,0 +1,109 @@
+"""The recipe of the FMU: repeatable builds, staleness by content, what is inside."""
+
+import re
+import sys
+import warnings
+import zipfile
+
+import pytest
+
+from cosim import fmu_build
+from cosim.fmu_build import FmuBuildError, build_fmu, ensure_fmu, recipe_file
+
+sys.path.insert(0, str(recipe_file().parent))
+
+import pythonfmu_library  # noqa: E402  (the recipe's folder is no package)
+
+STANDARD_LIBRARY_USED = {"functools", "json", "math", "sys"}
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    return build_fmu(tmp_path_factory.mktemp("build"))
+
+
+def test_the_same_content_gives_the_same_file(built, tmp_path):
+    assert build_fmu(tmp_path).read_bytes() == built.read_bytes()
+
+
+def test_an_fmu_of_today_s_content_is_not_built_again(built):
+    before = built.stat().st_mtime_ns
+    assert ensure_fmu(built.parent) == built
+    assert built.stat().st_mtime_ns == before
+
+
+@pytest.mark.parametrize("damage", ["missing", "truncated", "empty", "flipped", "another"])
+def test_an_fmu_that_will_not_do_is_built_again(built, tmp_path, damage):
+    content = built.read_bytes()
+    middle = len(content) // 2
+    flipped = content[:middle] + bytes([content[middle] ^ 255]) + content[middle + 1 :]
+    spoilt = {"truncated": content[:-1000], "empty": b"", "flipped": flipped, "another": b"PK"}
+    target = tmp_path / built.name
+    if damage in spoilt:
+        target.write_bytes(spoilt[damage])
+    assert ensure_fmu(tmp_path).read_bytes() == content
+    assert [file.name for file in tmp_path.iterdir()] == [built.name]
+
+
+def test_an_fmu_of_other_content_is_stale(built, tmp_path):
+    recipe = fmu_build._recipe()
+    other = recipe.build(tmp_path, changed_sources(recipe))
+    assert recipe.built_hash(other) not in (None, recipe.content_hash())
+    assert ensure_fmu(tmp_path).read_bytes() == built.read_bytes()
+
+
+def changed_sources(recipe):
+    return recipe.sources() | {"stickslip/__init__.py": b'"""Another."""\n'}
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FmuBuildError, match=r"file/here: cannot be made"):
+        build_fmu(tmp_path / "file" / "here")
+
+
+def test_the_slave_needs_the_standard_library_only(built):
+    """No numpy, no pydantic: whatever the host has, the FMU brings what it needs."""
+    with zipfile.ZipFile(built) as archive:
+        sources = [
+            archive.read(name).decode()
+            for name in archive.namelist()
+            if re.match(r"resources/stickslip\w*[./].*\.?py$", name)
+        ]
+    imported = {
+        name
+        for source in sources
+        for name in re.findall(r"^\s*(?:from|import) (\w+)", source, re.MULTILINE)
+    }
+    own = {name for name in imported if re.fullmatch(r"stickslip_[0-9a-f]{12}", name)}
+    assert len(sources) > 10 and len(own) == 1
+    assert imported - own - {"pythonfmu"} <= STANDARD_LIBRARY_USED
+
+
+def test_the_module_names_carry_the_content_s_hash(built):
+    content = fmu_build._recipe().built_hash(built)
+    with zipfile.ZipFile(built) as archive:
+        assert f"resources/stickslip3dof_{content}.py" in archive.namelist()
+        assert f"resources/stickslip_{content}/packing.py" in archive.namelist()
+
+
+def test_an_unknown_library_is_left_alone_and_that_is_said():
+    known = b"head" + pythonfmu_library.DISCARD + b"tail"
+    assert pythonfmu_library.returning_errors(known) == (
+        b"head" + pythonfmu_library.ERROR + b"tail"
+    )
+    for unknown in (b"head", known * 2):
+        with pytest.warns(UserWarning, match="fmi2Discard"):
+            assert pythonfmu_library.returning_errors(unknown) == unknown
+
+
+def test_the_libraries_of_the_installed_pythonfmu_are_known():
+    import pythonfmu.builder
+
+    folder = pythonfmu.builder.HERE / "resources" / "binaries"
+    libraries = [*folder.rglob("*.so"), *folder.rglob("*.dll")]
+    assert len(libraries) == 2
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for library in libraries:
+            pythonfmu_library.returning_errors(library.read_bytes())
