@@ -12,5 +12,5 @@ from .model import BeltIceModel
 from .parameters import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 from .single_pass import SinglePass
 
-__all__ = ["Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "ParameterError", "SinglePass",
-           "ThermalParameters"]
+__all__ = ["Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "ParameterError",
+           "SinglePass", "ThermalParameters"]

@@ -1,0 +1,165 @@
+import copy
+import math
+
+import numpy as np
+import pytest
+
+from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
+
+COARSE = ThermalParameters(belt=Belt(cell_length=4e-3))
+INSULATED = ThermalParameters(
+    belt=Belt(cell_length=4e-3, air_heat_transfer=0.0), ice=Ice(air_heat_transfer=0.0))
+OUTPUTS = {
+    "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
+    "ice_face_temperature", "belt_share", "melt_rate", "melted_mass", "heat_received",
+    "belt_heat", "ice_heat", "air_heat", "latent_heat", "heat_residual"}
+
+
+def test_starts_at_the_temperature_of_the_air():
+    outputs = BeltIceModel().outputs()
+    assert set(outputs) == OUTPUTS
+    for name, value in outputs.items():
+        assert type(value) is float
+        assert value == (-8.0 if name.endswith("temperature") else 0.0)
+
+
+@pytest.mark.parametrize("displacement", [0.0, 1e-9, 1e-3, -0.2, 1.0, -7.77])
+@pytest.mark.parametrize("duration", [1e-6, 0.01, 5.0])
+def test_all_heat_is_found_whatever_the_movement(displacement, duration):
+    model = BeltIceModel(INSULATED)
+    model.step(duration, 0.02, displacement)
+    outputs = model.outputs()
+    assert outputs["belt_heat"] + outputs["ice_heat"] == pytest.approx(0.02, rel=1e-12)
+    assert outputs["air_heat"] == 0.0
+
+
+def test_a_movement_and_its_reverse_bring_the_contact_back():
+    model = BeltIceModel(COARSE)
+    start = model.contact_position
+    model.step(0.1, 0.0, 2.3456)
+    model.step(0.1, 0.0, -2.3456)
+    assert model.contact_position == pytest.approx(start, abs=1e-14)
+
+
+def test_one_loop_further_is_the_same_place():
+    model = BeltIceModel(COARSE)
+    model.step(1.0, 0.5, 1.0)
+    position, temperature = model.belt_profile()
+    assert model.contact_position == pytest.approx(0.5)
+    assert position.shape == temperature.shape == (250,)
+    assert np.all(temperature > -8.0)
+
+
+def test_exit_is_warmer_than_entry_in_either_direction():
+    for sign in (1.0, -1.0):
+        model = BeltIceModel(COARSE)
+        for _ in range(30):
+            model.step(0.01, 0.03, sign * 0.008)
+        outputs = model.outputs()
+        assert outputs["belt_exit_temperature"] > outputs["belt_entry_temperature"] + 0.02
+        assert outputs["belt_entry_temperature"] == pytest.approx(-8.0, abs=1e-6)
+
+
+def test_stuck_without_heat_conducts_from_ice_to_belt():
+    model = BeltIceModel(COARSE)
+    for _ in range(50):
+        model.step(0.1, 0.3, 0.05)
+    model.step(1e-3, 0.0, 0.5)                      # fresh belt below the warm ice
+    before = model.outputs()
+    for _ in range(20):
+        model.step(0.01, 0.0, 0.0)
+    after = model.outputs()
+    assert after["ice_heat"] < before["ice_heat"]
+    assert after["belt_heat"] > before["belt_heat"]
+    assert after["heat_received"] == before["heat_received"]
+
+
+def test_no_place_is_colder_than_the_air():
+    model = BeltIceModel()
+    for displacement in [0.002] * 50 + [0.0] * 20 + [-0.001] * 30:
+        model.step(0.01, 0.02, displacement)
+    assert model.belt_profile()[1].min() > -8.0 - 1e-10
+
+
+def test_a_very_good_contact_makes_the_faces_equal():
+    parameters = ThermalParameters(belt=Belt(cell_length=2e-3), contact=Contact(conductance=1e12))
+    model = BeltIceModel(parameters)
+    for _ in range(200):
+        model.step(0.01, 0.02, 0.0)
+    outputs = model.outputs()
+    difference = outputs["interface_temperature"] - outputs["ice_face_temperature"]
+    assert abs(difference) < 1e-3 * (outputs["ice_face_temperature"] + 8.0)
+
+
+@pytest.mark.parametrize("duration", [1e-5, 1e-2, 1.0, 1e3])
+@pytest.mark.parametrize("conductance", [1e-3, 1e4, 1e12])
+def test_stable_for_any_step_and_conductance(duration, conductance):
+    """After heating stops, no temperature may rise above what it was, nor fall below the air."""
+    model = BeltIceModel(ThermalParameters(
+        belt=Belt(cell_length=4e-3), contact=Contact(conductance=conductance)))
+    model.step(duration, 0.01 * duration, 0.3)
+    hottest = max(model.belt_profile()[1].max(), model.ice_field()[2].max())
+    for _ in range(60):
+        model.step(duration, 0.0, 0.0)
+    for temperature in (model.belt_profile()[1], model.ice_field()[2]):
+        assert temperature.max() <= hottest
+        assert temperature.min() >= -8.0 - 0.05 * (hottest + 8.0)
+
+
+def test_state_continues_bit_for_bit():
+    steps = [(0.01, 0.02 * (n % 3), 0.004 * math.sin(n)) for n in range(60)]
+    model = BeltIceModel(COARSE)
+    for step in steps[:30]:
+        model.step(*step)
+    state = model.state()
+    kept = state.copy()
+    for step in steps[30:]:
+        model.step(*step)
+    assert np.array_equal(state, kept), "state must be a copy"
+    other = BeltIceModel(COARSE)
+    other.restore(state)
+    for step in steps[30:]:
+        other.step(*step)
+    assert np.array_equal(other.state(), model.state())
+    assert other.outputs() == model.outputs()
+
+
+def test_copies_are_independent():
+    model = BeltIceModel(COARSE)
+    twin = copy.deepcopy(model)
+    twin.step(0.01, 0.02, 0.001)
+    assert model.outputs()["heat_received"] == 0.0
+
+
+def test_state_of_another_mesh_is_refused():
+    with pytest.raises(ValueError, match="another mesh"):
+        BeltIceModel(COARSE).restore(BeltIceModel().state())
+
+
+@pytest.mark.parametrize(("step", "says"), [
+    ((0.0, 0.1, 0.1), r"duration = 0 s must be positive"),
+    ((-1.0, 0.1, 0.1), "duration = -1 s"),
+    ((0.1, -0.1, 0.1), r"heat = -0\.1 J"),
+    ((math.nan, 0.1, 0.1), "duration = nan"),
+    ((0.1, math.inf, 0.1), "heat = inf"),
+    ((0.1, 0.1, math.nan), "displacement = nan"),
+])
+def test_bad_steps_are_refused_and_leave_the_state(step, says):
+    model = BeltIceModel(COARSE)
+    before = model.state()
+    with pytest.raises(ValueError, match=says):
+        model.step(*step)
+    assert np.array_equal(model.state(), before)
+
+
+def test_fields_have_the_shapes_they_state():
+    model = BeltIceModel(COARSE)
+    model.step(0.1, 0.5, 0.01)
+    position, depth, belt = model.belt_field()
+    assert belt.shape == (position.size, depth.size) == (250, 13)
+    assert belt[:, 0] == pytest.approx(model.belt_profile()[1], abs=1e-12)
+    assert depth[0] == 0.0 and depth[-1] == pytest.approx(1e-3)
+    radius, height, ice = model.ice_field()
+    assert ice.shape == (radius.size, height.size)
+    assert ice[0, 0] == ice.max() or ice[:, 0].max() == ice.max()
+    assert ice[0, -1] == pytest.approx(-8.0, abs=1e-6)

@@ -1,0 +1,37 @@
+import pytest
+
+from thermal import ParameterError, ThermalParameters
+
+
+def test_defaults_are_the_rig():
+    parameters = ThermalParameters.checked({})
+    belt = parameters.belt
+    assert belt.width * belt.thickness * belt.density == pytest.approx(0.0525)
+    assert parameters.ambient.temperature_degC == -8.0
+    assert 2 * parameters.contact.radius == 0.08
+
+
+def test_every_number_states_its_unit():
+    schema = ThermalParameters.model_json_schema()
+    for block in ("Ambient", "Belt", "Ice", "Contact"):
+        for name, entry in schema["$defs"][block]["properties"].items():
+            assert "unit" in entry or entry["type"] == "integer", f"{block}.{name}"
+
+
+@pytest.mark.parametrize(("blocks", "says"), [
+    ({"belt": {"thickness": 0.0}}, "belt.thickness = 0.0: Input should be greater than 0"),
+    ({"belt": {"length": 0.07}}, "shorter than the contact"),
+    ({"belt": {"cell_length": 1e-7}}, "more than 200000 cells"),
+    ({"belt": {"conductivity": float("nan")}}, "belt.conductivity = nan"),
+    ({"belt": {"lenght": 2.0}}, "belt.lenght is not a parameter: did you mean length?"),
+    ({"bellt": {}}, "did you mean belt?"),
+    ({"ambient": {"temperature_degC": 0.0}}, "ambient.temperature_degC = 0.0"),
+    ({"ice": {"height": -0.1}}, "ice.height = -0.1"),
+    ({"ice": {"latent_heat": "much"}}, "ice.latent_heat = 'much'"),
+    ({"contact": {"conductance": 0.0}}, "contact.conductance = 0.0"),
+])
+def test_bad_input_is_refused_in_one_line(blocks, says):
+    with pytest.raises(ParameterError) as refused:
+        ThermalParameters.checked(blocks)
+    assert says in str(refused.value)
+    assert "\n" not in str(refused.value)
