@@ -166,12 +166,17 @@ def _finish(raw: Path, table: list[dict]) -> bytes:
 
     packed = io.BytesIO()
     with zipfile.ZipFile(raw) as archive, zipfile.ZipFile(packed, "w") as result:
+        if not any(name.startswith("binaries/") for name in archive.namelist()):
+            raise ValueError(
+                "pythonfmu has no libraries to put into the FMU; it was imported from inside "
+                "another FMU, so build in a process that has loaded none"
+            )
         for name in sorted(archive.namelist()):
             content = archive.read(name)
             if name == "modelDescription.xml":
                 content = model_description.complete(content, table)
             elif name.startswith("binaries/"):
-                content = pythonfmu_library.returning_errors(content)
+                content = pythonfmu_library.corrected(content)
             entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o755 << 16 if name.startswith("binaries/") else 0o644 << 16

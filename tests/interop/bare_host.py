@@ -6,8 +6,19 @@ Runs COUNT communication steps with the belt at 0.15 m/s and prints x and the mo
 """
 
 import sys
-from ctypes import CDLL, CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_size_t
-from ctypes import c_uint, c_void_p
+from ctypes import (
+    CDLL,
+    CFUNCTYPE,
+    POINTER,
+    Structure,
+    byref,
+    c_char_p,
+    c_double,
+    c_int,
+    c_size_t,
+    c_uint,
+    c_void_p,
+)
 from importlib.abc import MetaPathFinder
 from pathlib import Path
 

@@ -1,5 +1,8 @@
 """The FMU that the interop tests run, built once a session from what is here now."""
 
+# Before any FMU is loaded: an FMU that is the first to import pythonfmu imports its own copy of it,
+# and that cannot build.
+import pythonfmu  # noqa: F401
 import pytest
 
 from cosim.fmu_build import build_fmu

@@ -87,14 +87,15 @@ def test_the_module_names_carry_the_content_s_hash(built):
         assert f"resources/stickslip_{content}/packing.py" in archive.namelist()
 
 
-def test_an_unknown_library_is_left_alone_and_that_is_said():
-    known = b"head" + pythonfmu_library.DISCARD + b"tail"
-    assert pythonfmu_library.returning_errors(known) == (
-        b"head" + pythonfmu_library.ERROR + b"tail"
-    )
+def test_an_unknown_library_is_left_alone_and_what_is_lost_is_said():
+    step = pythonfmu_library.REFUSED_STEP
+    known = b"head" + step.found + b"tail"
+    assert pythonfmu_library.corrected(known) == b"head" + step.put + b"tail"
     for unknown in (b"head", known * 2):
-        with pytest.warns(UserWarning, match="fmi2Discard"):
-            assert pythonfmu_library.returning_errors(unknown) == unknown
+        with pytest.warns(UserWarning, match="not known: the FMU returns fmi2Discard"):
+            assert pythonfmu_library.corrected(unknown) == unknown
+    with pytest.warns(UserWarning, match="may abort at the end"):
+        pythonfmu_library.corrected(b"\x7fELF" + known)
 
 
 def test_the_libraries_of_the_installed_pythonfmu_are_known():
@@ -106,4 +107,4 @@ def test_the_libraries_of_the_installed_pythonfmu_are_known():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for library in libraries:
-            pythonfmu_library.returning_errors(library.read_bytes())
+            pythonfmu_library.corrected(library.read_bytes())

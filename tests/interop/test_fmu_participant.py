@@ -1,0 +1,136 @@
+"""FmuParticipant on the real FMU: what it declares, what it refuses, failures and teardown."""
+
+import tempfile
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from cosim.master import (
+    CoupledSystem,
+    FmuError,
+    FmuParticipant,
+    GaussSeidel,
+    ParticipantError,
+    run,
+)
+
+HELD = {"surface_speed": 0.15}
+
+
+def alone(participant, **arguments):
+    with CoupledSystem([participant], []) as system:
+        return run(
+            system,
+            GaussSeidel((participant.name,)),
+            **{"stop": 1.0, "macro_step": 0.01} | arguments,
+        )
+
+
+def test_ports_and_units_come_from_the_fmu(fmu):
+    ports = FmuParticipant(fmu).ports
+    assert str(ports["surface_speed"].causality) == "input"
+    assert str(ports["heat"].causality) == "output"
+    assert [ports[name].unit for name in ("heat", "interface_temperature", "mode")] == [
+        "J",
+        "degC",
+        "1",
+    ]
+
+
+@pytest.mark.parametrize(
+    "settings, message",
+    [
+        (
+            {"parameters": {"rig.mas": 1.0}},
+            r"no parameter of block is named 'rig.mas'; nearest: 'rig.mass'",
+        ),
+        ({"parameters": {"x": 1.0}}, "block.x is a output, not a parameter"),
+        ({"parameters": {"rig.mass": float("nan")}}, "block.rig.mass = nan: must be a finite"),
+        ({"parameters": {"rig.mass": True}}, "must be a finite number"),
+        ({"parameters": {"rig.mass": -1.0}}, r"block.rig.mass = -1: must lie in \[0, inf\]"),
+        ({"inputs": {"surface_sped": 1.0}}, "nearest: 'surface_speed'"),
+        ({"inputs": {"interface_temperature": -300.0}}, r"must lie in \[-273.15, inf\]"),
+    ],
+)
+def test_a_setting_that_does_not_fit_is_refused(fmu, settings, message):
+    with pytest.raises(FmuError, match=message):
+        FmuParticipant(fmu, "block", **settings)
+
+
+def test_a_file_that_is_no_fmu_is_refused_in_one_line(fmu, tmp_path):
+    whole, broken = fmu.read_bytes(), tmp_path / "broken.fmu"
+    with pytest.raises(FmuError, match=r"broken.fmu: no such file"):
+        FmuParticipant(broken)
+    for content in (whole[: len(whole) // 2], b"", b"text"):
+        broken.write_bytes(content)
+        with pytest.raises(FmuError, match=r"broken.fmu: not an FMU, or truncated \(.*\)$"):
+            FmuParticipant(broken)
+    with zipfile.ZipFile(broken, "w") as archive:
+        archive.writestr("readme.txt", "hello")
+    with pytest.raises(FmuError, match="holds no modelDescription.xml"):
+        FmuParticipant(broken)
+    with zipfile.ZipFile(broken, "w") as archive:
+        archive.writestr("modelDescription.xml", "<fmiModelDescription")
+    with pytest.raises(FmuError, match="modelDescription.xml is not valid"):
+        FmuParticipant(broken)
+
+
+def test_a_run_is_that_of_fmpy_and_can_be_repeated(fmu):
+    block = FmuParticipant(fmu, "block", inputs=HELD)
+    first, second = alone(block), alone(block)
+    reference = fmpy.simulate_fmu(
+        str(fmu), stop_time=1.0, output_interval=0.01, start_values=HELD, output=["x"]
+    )
+    assert first.status == "complete"
+    assert first["block.x"].tolist() == second["block.x"].tolist() == reference["x"].tolist()
+
+
+def test_parameters_reach_the_model(fmu):
+    light = alone(FmuParticipant(fmu, "block", inputs=HELD, parameters={"rig.mass": 0.3}))
+    heavy = alone(FmuParticipant(fmu, "block", inputs=HELD, parameters={"rig.mass": 0.6}))
+    force = "block.friction_force_x"
+    assert heavy[force][0] == pytest.approx(2 * light[force][0], rel=1e-12)
+
+
+def test_what_the_fmu_logs_reaches_the_exception(fmu):
+    """mass = 0 lies on the declared limit; the FMU itself knows that it is excluded."""
+    block = FmuParticipant(fmu, "block", inputs=HELD, parameters={"rig.mass": 0.0})
+    with pytest.raises(ParticipantError, match="block: failed during .*rig.mass = 0: must lie in"):
+        alone(block)
+
+
+def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(fmu):
+    block = FmuParticipant(fmu, "block", inputs=HELD)
+    step = block.step
+    block.step = lambda time, size: step(time + (0.1 if time > 0.5 else 0.0), size)
+    result = alone(block)
+    assert result.status == "failed" and 0.5 < result.time[-1] < 0.53
+    assert "the last one ended at" in result.reason and "status 3 (error)" in result.reason
+
+
+def test_state_goes_back_and_on(fmu):
+    with FmuParticipant(fmu, "block", inputs=HELD) as block:
+        assert block.can_restore
+        block.enter_initialisation(0.0, 1.0)
+        block.exit_initialisation()
+        block.step(0.0, 0.5)
+        state = block.get_state()
+        block.step(0.5, 0.5)
+        ahead = block.read()
+        block.set_state(state)
+        block.step(0.5, 0.5)
+        assert block.read() == ahead
+        block.free_state(state)
+
+
+def test_nothing_is_left_behind(fmu, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    block = FmuParticipant(fmu, "block", inputs=HELD)
+    assert list(tmp_path.iterdir()) == []
+    block.enter_initialisation(0.0, 1.0)
+    assert len(list(Path(tmp_path).iterdir())) == 1
+    block.close()
+    block.close()
+    assert list(tmp_path.iterdir()) == []
