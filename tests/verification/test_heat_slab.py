@@ -1,0 +1,167 @@
+"""The belt alone against closed forms of the slab, with the order of convergence of its elements.
+
+Slab of thickness d, conductivity k, diffusivity alpha, effusivity e; z from the heated face.
+"""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from thermal import Belt as BeltParameters
+from thermal.belt import Belt
+
+D, K, RHO, C = 1e-3, 0.5, 700.0, 840.0
+ALPHA, EFFUSIVITY = K / (RHO * C), np.sqrt(K * RHO * C)
+LANE = 0.075
+ORDER_OF_P2_EIGENVALUES = 4
+ORDER_OF_P2_IN_L2 = 3
+ORDER_OF_P1_EIGENVALUES = 2
+# The graded meshes are similar only in the limit of many elements.
+ASYMPTOTIC = 0.25
+
+
+def slab(elements=6, h=0.0, cells=8, length=1.0):
+    return Belt(BeltParameters(
+        thickness=D, conductivity=K, density=RHO, heat_capacity=C, air_heat_transfer=h,
+        elements=elements, length=length, cell_length=length / cells), LANE)
+
+
+def uniform_flux(belt, flux):
+    """Load of a flux (W/m2) over the whole contact face."""
+    return belt.spectrum(0, np.full((1, belt.cells), flux * LANE * belt.cell))[0]
+
+
+def orders(sizes, errors):
+    return np.diff(np.log(errors)) / np.diff(np.log(sizes))
+
+
+def between_nodes(belt, values, points):
+    """P2 interpolation of nodal values (depths,) at points (m)."""
+    nodes = belt.depth
+    element = np.clip(np.searchsorted(nodes[::2], points, side="right") - 1, 0, nodes.size // 2 - 1)
+    left, right = nodes[2 * element], nodes[2 * element + 2]
+    s = (points - left) / (right - left)
+    return (values[2 * element] * (1 - s) * (1 - 2 * s) + values[2 * element + 1] * 4 * s * (1 - s)
+            + values[2 * element + 2] * s * (2 * s - 1))
+
+
+def test_semi_infinite_body_under_constant_flux():
+    """T = 2 q sqrt(t / pi) / e (Carslaw and Jaeger), while the far face is still cold.
+
+    The default elements stay within 0.5 % from a millisecond on, and refined ones go to it.
+    """
+    for t in (1e-3, 5e-3, 0.02):
+        errors = []
+        for elements in (6, 12, 24):
+            belt = slab(elements)
+            belt.advance(t, uniform_flux(belt, 1e3))
+            errors.append(abs(belt.face()[0] / (2e3 * np.sqrt(t / np.pi) / EFFUSIVITY) - 1.0))
+        assert errors[0] < 5e-3
+        assert errors[2] < 2e-6
+
+
+def test_finite_slab_under_constant_flux_and_order_in_l2():
+    """Both faces insulated: T = q t/(rho c d) + (q d/k) [(3 (1-z/d)^2 - 1)/6 - series]."""
+    flux, t = 1e3, 0.2
+    points = (np.arange(4000) + 0.5) / 4000 * D
+    n = np.arange(1, 60)[:, None]
+    series = np.sum(np.exp(-ALPHA * (n * np.pi / D) ** 2 * t) * 2 / (n * np.pi) ** 2
+                    * np.cos(n * np.pi * points / D), axis=0)
+    exact = flux * t / (RHO * C * D) + flux * D / K * (
+        (3 * (1 - points / D) ** 2 - 1) / 6 - series)
+    sizes, errors = [], []
+    for elements in (3, 6, 12, 24):
+        belt = slab(elements)
+        belt.advance(t, uniform_flux(belt, flux))
+        error = between_nodes(belt, belt.field()[0], points) - exact
+        sizes.append(1 / elements)
+        errors.append(np.sqrt(np.mean(error**2)) / np.sqrt(np.mean(exact**2)))
+    assert errors[1] < 1e-3
+    assert orders(sizes, errors)[-1] == pytest.approx(ORDER_OF_P2_IN_L2, abs=ASYMPTOTIC)
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_cosine_modes_of_the_insulated_slab(n):
+    """cos(n pi z/d) decays with alpha (n pi/d)^2."""
+    points = (np.arange(4000) + 0.5) / 4000 * D
+    exact_rate, exact_shape = ALPHA * (n * np.pi / D) ** 2, np.cos(n * np.pi * points / D)
+    sizes, of_rates, of_shapes = [], [], []
+    for elements in (6, 12, 24):
+        belt = slab(elements)
+        belt.amplitudes[n, 0] = belt.cells
+        shape = between_nodes(belt, belt.field()[0], points)
+        shape /= shape @ exact_shape / (exact_shape @ exact_shape)
+        sizes.append(1 / elements)
+        of_rates.append(abs(belt.rates[n, 0] / exact_rate - 1.0))
+        of_shapes.append(np.sqrt(np.mean((shape - exact_shape) ** 2)))
+    assert orders(sizes, of_rates)[-1] == pytest.approx(ORDER_OF_P2_EIGENVALUES, abs=ASYMPTOTIC)
+    assert orders(sizes, of_shapes)[-1] == pytest.approx(ORDER_OF_P2_IN_L2, abs=ASYMPTOTIC)
+
+
+def test_cooling_of_the_slab_by_both_faces():
+    """Slowest rate alpha (2 beta/d)^2 with beta tan beta = h d/(2 k); about 2h/(rho c d)."""
+    h = 15.0
+    belt = slab(h=h)
+    biot = h * D / (2 * K)
+    beta = brentq(lambda b: b * np.tan(b) - biot, 1e-6, 1.5, xtol=1e-15)
+    assert belt.rates[0, 0] == pytest.approx(ALPHA * (2 * beta / D) ** 2, rel=1e-9)
+    assert belt.rates[0, 0] == pytest.approx(2 * h / (RHO * C * D), rel=biot)
+
+
+def test_uniform_belt_cools_as_a_lump():
+    belt = slab(h=15.0)
+    belt.advance(1.0, uniform_flux(belt, 1e3))
+    belt.advance(5.0, uniform_flux(belt, 0.0))
+    warm = belt.heat()
+    lost = belt.advance(10.0, uniform_flux(belt, 0.0))
+    assert belt.heat() / warm == pytest.approx(np.exp(-10.0 * 30.0 / (RHO * C * D)), rel=0.03)
+    assert lost == pytest.approx(warm - belt.heat(), rel=1e-12)
+
+
+def test_diffusion_along_the_belt():
+    """cos(2 pi j x/L) decays with alpha (2 pi j/L)^2 on top of the thickness mode."""
+    length, j = 0.02, 3
+    exact = ALPHA * (2 * np.pi * j / length) ** 2
+    cells = np.array([20, 40, 80, 160])
+    errors = [abs((belt.rates[0, j] - belt.rates[0, 0]) / exact - 1.0)
+              for belt in (slab(cells=n, length=length) for n in cells)]
+    assert orders(1 / cells, errors) == pytest.approx(ORDER_OF_P1_EIGENVALUES, abs=0.05)
+
+
+def test_constant_flux_is_exact_in_time():
+    fields = []
+    for steps in (1, 7, 1000):
+        belt = slab(h=15.0)
+        load = uniform_flux(belt, 1e3)
+        air = sum(belt.advance(2.0 / steps, load) for _ in range(steps))
+        fields.append(np.append(belt.field().ravel(), air))
+    assert fields[1] == pytest.approx(fields[0], rel=1e-12)
+    assert fields[2] == pytest.approx(fields[0], rel=1e-11)
+
+
+def test_tensor_factors_are_the_assembled_two_dimensional_problem():
+    """Rates against a generalised eigenproblem that scikit-fem assembles in two dimensions.
+
+    Mesh and elements as in the model (here Q2 is avoided: P1 along x times P2 in z is spanned by
+    products of the assembled 1-D bases), with the periodic ends identified by a projection.
+    """
+    from scipy.linalg import eigh
+    from skfem import BilinearForm, CellBasis, ElementQuad2, FacetBasis, MeshQuad
+    cells, length, h = 10, 0.004, 2000.0
+    belt = slab(elements=3, h=h, cells=cells, length=length)
+    mesh = MeshQuad.init_tensor(np.linspace(0, length, 4 * cells + 1), belt.depth[::2])
+    basis = CellBasis(mesh, ElementQuad2())
+    faces = FacetBasis(mesh, ElementQuad2(), facets=mesh.facets_satisfying(
+        lambda x: (x[1] < 1e-9) | (x[1] > D - 1e-9)))
+    stiffness = BilinearForm(lambda u, v, w: K * (
+        u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])).assemble(basis)
+    stiffness += h * BilinearForm(lambda u, v, w: u * v).assemble(faces)
+    mass = RHO * C * BilinearForm(lambda u, v, w: u * v).assemble(basis)
+    place = np.round(np.stack((basis.doflocs[0] % length, basis.doflocs[1])) * 1e9) % (length * 1e9)
+    place[1] = np.round(basis.doflocs[1] * 1e9)
+    _, same = np.unique(place, axis=1, return_inverse=True)
+    identify = np.eye(same.max() + 1)[same.ravel()]
+    rates = eigh(identify.T @ stiffness @ identify, identify.T @ mass @ identify,
+                 eigvals_only=True)
+    assert belt.rates[0, 0] == pytest.approx(rates[0], rel=1e-9)
+    assert belt.rates[0, 1] == pytest.approx(rates[1], rel=0.02)
