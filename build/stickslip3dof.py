@@ -81,7 +81,8 @@ def content_hash(files: dict[str, bytes] | None = None, table: list[dict] | None
     return digest.hexdigest()[:12]
 
 
-RECIPE_FILES = ("stickslip3dof.py", "model_description.py", "pythonfmu_library.py")
+DESCRIBED = ("name", "unit", "nominal", "min", "max", "description", "start")
+RECIPE_FILES = ("stickslip3dof.py", "ports.py", "model_description.py", "pythonfmu_library.py")
 
 
 def built_hash(fmu: Path) -> str | None:
@@ -101,6 +102,8 @@ def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
 
     Written beside its final place and moved there, so that nobody ever sees half of it.
     """
+    if str(HERE) not in sys.path:
+        sys.path.insert(0, str(HERE))
     files = sources() if files is None else files
     table = parameter_table()
     content = content_hash(files, table)
@@ -137,13 +140,19 @@ def _build_with_pythonfmu(
 
 
 def _variables_module(table: list[dict], content: str) -> bytes:
-    guid = str(uuid.uuid5(uuid.NAMESPACE_URL, f"StickSlip3DOF/{content}"))
-    lines = [
-        '"""What this build of the FMU is, and its parameters."""',
-        f"BUILD = {content!r}",
-        f"GUID = {guid!r}",
-        f"PARAMETERS = {pprint.pformat(table, width=100, sort_dicts=False)}",
-    ]
+    import ports
+
+    values = {
+        "BUILD": content,
+        "GUID": str(uuid.uuid5(uuid.NAMESPACE_URL, f"StickSlip3DOF/{content}")),
+        # (name, slot, start) and (name, slot, is an integer)
+        "INPUTS": [(port.name, port.slot, port.start) for port in ports.INPUTS],
+        "OUTPUTS": [(port.name, port.slot, port.unit is None) for port in ports.OUTPUTS],
+        "PARAMETERS": table,
+    }
+    lines = ['"""What this build of the FMU is, its ports and its parameters."""']
+    for name, value in values.items():
+        lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")
     return "\n".join(lines).encode() + b"\n"
 
 
@@ -159,10 +168,11 @@ def _rename_imports(source: bytes, package: str) -> bytes:
 
 def _finish(raw: Path, table: list[dict]) -> bytes:
     """The FMU with its full description and library, entries in order and without a date."""
-    if str(HERE) not in sys.path:
-        sys.path.insert(0, str(HERE))
     import model_description
+    import ports
     import pythonfmu_library
+
+    parameters = [ports.Port(slot="", **{key: entry[key] for key in DESCRIBED}) for entry in table]
 
     packed = io.BytesIO()
     with zipfile.ZipFile(raw) as archive, zipfile.ZipFile(packed, "w") as result:
@@ -174,7 +184,7 @@ def _finish(raw: Path, table: list[dict]) -> bytes:
         for name in sorted(archive.namelist()):
             content = archive.read(name)
             if name == "modelDescription.xml":
-                content = model_description.complete(content, table)
+                content = model_description.complete(content, parameters)
             elif name.startswith("binaries/"):
                 content = pythonfmu_library.corrected(content)
             entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))

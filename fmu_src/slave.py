@@ -22,40 +22,8 @@ from stickslip.kernel import layout
 from stickslip.kernel.advance import advance, initialise
 from stickslip.kernel.outputs import show
 from stickslip.packing import pack
-from stickslip.variables import BUILD, GUID, PARAMETERS
+from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 
-# name: (slot in u, start)
-INPUTS = {
-    "surface_speed": (layout.U_SPEED, 0.0),
-    "interface_temperature": (layout.U_TEMPERATURE, 0.0),
-    "external_force_x": (layout.U_FORCE_X, 0.0),
-    "external_force_y": (layout.U_FORCE_Y, 0.0),
-    "external_moment": (layout.U_MOMENT, 0.0),
-}
-# name: (slot in o, type)
-OUTPUTS = {
-    "x": (layout.O_X, Real),
-    "y": (layout.O_X + 1, Real),
-    "phi": (layout.O_X + 2, Real),
-    "vx": (layout.O_X + 3, Real),
-    "vy": (layout.O_X + 4, Real),
-    "omega": (layout.O_X + 5, Real),
-    "friction_force_x": (layout.O_FRICTION_X, Real),
-    "friction_force_y": (layout.O_FRICTION_X + 1, Real),
-    "friction_moment": (layout.O_FRICTION_X + 2, Real),
-    "sliding_speed": (layout.O_SLIDING_SPEED, Real),
-    "heat_flow": (layout.O_HEAT_FLOW, Real),
-    "heat": (layout.O_HEAT, Real),
-    "sliding_distance": (layout.O_DISTANCE, Real),
-    "surface_travel": (layout.O_TRAVEL, Real),
-    "mode": (layout.O_MODE, Integer),
-    "slip_count": (layout.O_SLIPS, Integer),
-    "energy_residual": (layout.O_ENERGY_RESIDUAL, Real),
-}
-# For each instance pythonfmu's library releases the namespace of this module once more than it has
-# taken it (findClass in PySlaveInstance.cpp); without a reference to spare, the process would crash
-# after some ten instances.
-HELD = []
 # A host computes its communication points in one way or another and may miss the end of the last
 # step by rounding; a gap of more than this part of a step is not rounding.
 GAP = 1e-6
@@ -110,11 +78,11 @@ class StickSlip3DOF(Fmi2Slave):
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
-        HELD.append(globals())
         self.guid = GUID
         # value reference -> value, of all variables
         self.cells = []
         self.input_slots, self.output_slots, self.parameter_names = {}, {}, {}
+        self.u = [0.0] * layout.U_SIZE
         self._register_ports()
         self._register_parameters()
         self.phase = "instantiated"  # then "initialising", "stepping", "terminated"
@@ -124,44 +92,37 @@ class StickSlip3DOF(Fmi2Slave):
         self.stepped = False  # before the first step all follows from parameters and inputs
         self.stale = True
         self.p = []
-        self.u = [start for _, start in INPUTS.values()]
         self.z = [0.0] * layout.Z_SIZE
         self.w = [0.0] * layout.W_SIZE
         self.e = [0.0] * layout.E_FIRST  # no room for events: they are not logged here
         self.o = [0.0] * layout.O_SIZE
 
     def _register_ports(self):
-        for name, (slot, start) in INPUTS.items():
-            self.input_slots[self._register(Real, name, start, Fmi2Causality.input)] = slot
-        for name, (slot, kind) in OUTPUTS.items():
-            reference = self._register(
-                kind,
-                name,
-                0.0 if kind is Real else 0,
-                Fmi2Causality.output,
-                initial=Fmi2Initial.calculated,
-                variability=None if kind is Real else Fmi2Variability.discrete,
-            )
-            self.output_slots[reference] = slot
+        for name, slot, start in INPUTS:
+            reference = self._register(Real, name, start, causality=Fmi2Causality.input)
+            self.input_slots[reference] = getattr(layout, slot)
+            self.u[self.input_slots[reference]] = start
+        for name, slot, integer in OUTPUTS:
+            more = {"variability": Fmi2Variability.discrete} if integer else {}
+            more |= {"causality": Fmi2Causality.output, "initial": Fmi2Initial.calculated}
+            reference = self._register(Integer if integer else Real, name, 0, **more)
+            self.output_slots[reference] = getattr(layout, slot)
 
     def _register_parameters(self):
+        fixed = {
+            "causality": Fmi2Causality.parameter,
+            "initial": Fmi2Initial.exact,
+            "variability": Fmi2Variability.fixed,
+        }
         for entry in PARAMETERS:
-            reference = self._register(
-                Real,
-                entry["name"],
-                entry["start"],
-                Fmi2Causality.parameter,
-                initial=Fmi2Initial.exact,
-                variability=Fmi2Variability.fixed,
-            )
+            reference = self._register(Real, entry["name"], entry["start"], **fixed)
             self.parameter_names[reference] = entry["name"]
 
-    def _register(self, kind, name, start, causality, **more):
+    def _register(self, kind, name, start, **more):
         reference = len(self.cells)
         self.cells.append(start)
         getter = functools.partial(self.cells.__getitem__, reference)
-        variable = kind(name, causality=causality, getter=getter, **more)
-        self.register_variable(variable, nested=False)
+        self.register_variable(kind(name, getter=getter, **more), nested=False)
         return reference
 
     def fail(self, reason):
@@ -298,20 +259,7 @@ class StickSlip3DOF(Fmi2Slave):
 
     # --- state ---
 
-    STATE = (
-        "cells",
-        "phase",
-        "failure",
-        "tolerance",
-        "start",
-        "time",
-        "stepped",
-        "stale",
-        "p",
-        "u",
-        "z",
-        "o",
-    )
+    STATE = tuple("cells phase failure tolerance start time stepped stale p u z o".split())
 
     @shielded(result=dict)
     def _get_fmu_state(self):

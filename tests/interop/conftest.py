@@ -2,8 +2,8 @@
 
 # Before any FMU is loaded: an FMU that is the first to import pythonfmu imports its own copy of it,
 # and that cannot build.
-import pythonfmu  # noqa: F401
 import pytest
+import pythonfmu  # noqa: F401
 
 from cosim.fmu_build import build_fmu
 
