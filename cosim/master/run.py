@@ -109,8 +109,8 @@ def _march(
     """Make the macro steps; status, the failure if there was one, whole steps made."""
     last = len(times) - 1
     done = 0
-    try:
-        with deferred_interrupt() as interrupt:
+    with deferred_interrupt() as interrupt:
+        try:
             while done < last and not interrupt.requested:
                 exchange.time = times[done]
                 scheme.step(exchange, times[done + 1] - times[done])
@@ -118,10 +118,11 @@ def _march(
                 recording.add(times[done], exchange, keep=done % record_every == 0)
                 if progress is not None:
                     progress(times[done])
-    except ParticipantError as error:
-        return "failed", error, done
-    except KeyboardInterrupt:
-        return "interrupted", None, done
+        except ParticipantError as error:
+            # A second Ctrl-C in the middle of a step reaches us as that participant's failure.
+            return ("interrupted" if interrupt.requested else "failed"), error, done
+        except KeyboardInterrupt:
+            return "interrupted", None, done
     return ("complete" if done == last else "interrupted"), None, done
 
 
