@@ -1,0 +1,225 @@
+"""From one moment to another: internal steps, events, and the moments a caller asks for.
+
+The integrator walks on its own grid, HERE to NEXT, and a moment asked for inside a step is
+reached by a shorter step from HERE that leaves the grid alone. As long as the inputs do not
+change, the trajectory therefore does not depend on when anybody looks at it.
+"""
+
+from math import isfinite
+
+from .contact import scaled_sliding_speed
+from .events import break_away, look_at, set_direction, settle, time_to_rest
+from .layout import (
+    BLOCK,
+    DIRECTION,
+    DONE,
+    HEAT,
+    HERE,
+    MODE,
+    NEXT,
+    NOT_FINITE,
+    P_INITIAL,
+    P_LATERAL,
+    P_RADIUS,
+    P_RATE,
+    P_RUN_UP,
+    SHOWN,
+    SLIP,
+    SLIPS,
+    STEP_VANISHED,
+    STICK,
+    TIME,
+    U_SIZE,
+    W_SLIDING,
+    Z_ENERGY,
+    Z_HAS_NEXT,
+    Z_HEAT_BEFORE,
+    Z_INPUTS,
+    Z_SIZE,
+    Z_STARTED,
+    Z_STEP,
+    Z_TIME_BEFORE,
+    X,
+)
+from .motion import block_energy, rest_speed
+from .runge_kutta import begin_step, take_step
+
+
+def initialise(p: "float[:]", z: "float[:]", time: float):
+    """Lay out a run that starts at ``time`` from the parameters' initial state."""
+    for i in range(Z_SIZE):
+        z[i] = 0.0
+    z[SHOWN + TIME] = time
+    for i in range(6):
+        z[SHOWN + X + i] = p[P_INITIAL + i]
+    z[SHOWN + MODE] = STICK
+    z[SHOWN + DIRECTION] = 1.0
+    z[Z_STEP] = 0.01 / p[P_RATE]
+    z[Z_ENERGY] = block_energy(p, z, SHOWN)
+    z[Z_TIME_BEFORE] = time
+
+
+def copy_block(z: "float[:]", source: int, target: int):
+    """Copy one block of ``z`` over another."""
+    for i in range(BLOCK):
+        z[target + i] = z[source + i]
+
+
+def longest_step(p: "float[:]", z: "float[:]", w: "float[:]", rest: float) -> float:
+    """Bound on the internal step from HERE, s.
+
+    A twelfth of the period of the free vibration, so that no break-away is stepped over; the end
+    of the run-up; and, where the block is coming to rest on the surface in the time ``rest``,
+    most of that time: the approach is geometric, and faster the nearer it is, because the
+    estimate's own error falls with the time that is left.
+    """
+    h = 0.5 / p[P_RATE]
+    if z[HERE + TIME] < p[P_RUN_UP]:
+        h = min(h, p[P_RUN_UP] - z[HERE + TIME])
+    if rest > 0.0:
+        h = min(h, rest * (1.0 - min(0.1, max(1e-4, 4.0 * rest * p[P_RATE]))))
+    return h
+
+
+def has_turned(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]") -> float:
+    """Sliding velocity of NEXT along the direction of sliding in HERE, m/s: negative if reversed.
+
+    Leaves the contact at NEXT in ``w``.
+    """
+    look_at(p, u, z, w, NEXT)
+    along = w[W_SLIDING] * z[HERE + DIRECTION]
+    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[HERE + DIRECTION + 1]
+    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[HERE + DIRECTION + 2]
+    return along
+
+
+def try_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", bound: float) -> float:
+    """Step from HERE to NEXT that passes the error test; returns its error, or -1 on failure.
+
+    A slip that would come out reversed is stepped over its end: the step is halved until it
+    stops short of it, or is too short to tell.
+    """
+    h = min(z[Z_STEP], bound)
+    finest = 1e-15 * max(1.0, abs(z[HERE + TIME]))
+    error = 2.0
+    while error > 1.0:
+        if h < finest:
+            return -1.0
+        error = take_step(p, u, z, w, HERE, NEXT, h)
+        if not isfinite(error):
+            error = 1e8
+        if error > 1.0:
+            h *= max(0.1, 0.9 * error ** (-0.125))
+        elif z[HERE + MODE] == SLIP and h > 16.0 * finest:
+            if has_turned(p, u, z, w) < 0.0 and scaled_sliding_speed(p, w) > rest_speed(p, u):
+                error = 2.0
+                h *= 0.5
+                begin_step(p, u, z, w, HERE)
+    return error
+
+
+def finish_slip_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]"):
+    """Note the course of a slip at NEXT, or settle the contact where the slip has turned round."""
+    along = has_turned(p, u, z, w)
+    speed = scaled_sliding_speed(p, w)
+    if along < 0.0:
+        settle(p, u, z, w, e, NEXT)
+    elif speed > rest_speed(p, u):
+        set_direction(p, z, w, NEXT, speed)
+
+
+def land(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", rest: float):
+    """Last step of a slip: the time to rest in one go, then stick or a new slip."""
+    take_step(p, u, z, w, HERE, NEXT, rest)
+    settle(p, u, z, w, e, NEXT)
+
+
+def internal_step(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", cap: float
+) -> int:
+    """One step of the integrator's own grid: fills NEXT, events at its end included."""
+    begin_step(p, u, z, w, HERE)
+    rest = -1.0
+    if z[HERE + MODE] == SLIP:
+        rest = time_to_rest(p, w)
+    slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)
+    if slow and 0.0 < rest and rest * p[P_RATE] < 1e-3:  # a landing that takes longer is no landing
+        land(p, u, z, w, e, rest)
+    else:
+        bound = longest_step(p, z, w, rest)
+        if cap > 0.0:
+            bound = min(bound, cap)
+        to_run_up = p[P_RUN_UP] - z[HERE + TIME]
+        error = try_step(p, u, z, w, bound)
+        if error < 0.0:
+            return STEP_VANISHED
+        h = z[NEXT + TIME] - z[HERE + TIME]
+        if h == to_run_up:
+            z[NEXT + TIME] = p[P_RUN_UP]
+        z[Z_STEP] = max(h * min(8.0, 0.9 * max(error, 1e-12) ** (-0.125)), min(z[Z_STEP], bound))
+        if z[HERE + MODE] == STICK:
+            break_away(p, u, z, w, e)
+        else:
+            finish_slip_step(p, u, z, w, e)
+    if z[NEXT + MODE] != z[HERE + MODE]:
+        z[Z_STEP] = 0.1 / p[P_RATE]
+    return DONE
+
+
+def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]") -> int:
+    """Start afresh from SHOWN where inputs have changed; 1 if they changed in mid-run."""
+    changed = 0
+    for i in range(U_SIZE):
+        if z[Z_INPUTS + i] != u[i]:
+            changed = 1
+            z[Z_INPUTS + i] = u[i]
+    if z[Z_STARTED] == 0.0:
+        z[Z_STARTED] = 1.0
+        settle(p, u, z, w, e, SHOWN)
+        z[SHOWN + SLIPS] = 0.0  # a run that starts in slip has not broken away
+        copy_block(z, SHOWN, HERE)
+        return 0
+    if changed == 1:
+        settle(p, u, z, w, e, SHOWN)
+        copy_block(z, SHOWN, HERE)
+        z[Z_HAS_NEXT] = 0.0
+    return changed
+
+
+def advance(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", end: float
+) -> int:
+    """Bring SHOWN to the time ``end``; returns DONE or the reason why not.
+
+    After a change of inputs the first internal step ends at ``end``: whoever changes the inputs
+    at every communication point pays for no step that the next change would discard.
+    """
+    z[Z_TIME_BEFORE] = z[SHOWN + TIME]
+    z[Z_HEAT_BEFORE] = z[SHOWN + HEAT]
+    changed = take_inputs(p, u, z, w, e)
+    while z[SHOWN + TIME] < end:
+        if z[Z_HAS_NEXT] == 0.0:
+            cap = 0.0
+            if changed == 1:
+                cap = end - z[HERE + TIME]
+            status = internal_step(p, u, z, w, e, cap)
+            if status != DONE:
+                copy_block(z, HERE, SHOWN)
+                return status
+            z[Z_HAS_NEXT] = 1.0
+        gap = end - z[NEXT + TIME]
+        same = abs(gap) <= 4e-16 * abs(end)
+        if gap >= 0.0 or same:
+            copy_block(z, NEXT, HERE)
+            copy_block(z, NEXT, SHOWN)
+            z[Z_HAS_NEXT] = 0.0
+            if same:
+                z[SHOWN + TIME] = end
+        else:
+            begin_step(p, u, z, w, HERE)
+            take_step(p, u, z, w, HERE, SHOWN, end - z[HERE + TIME])
+            z[SHOWN + TIME] = end
+    for i in range(BLOCK):
+        if not isfinite(z[SHOWN + i]):
+            return NOT_FINITE
+    return DONE

@@ -1,0 +1,150 @@
+"""Does the contact hold? The limit surface in stick, and the way a slip begins."""
+
+from math import sqrt
+
+from .disc import disc_friction
+from .friction import holding_coefficient, kinetic_coefficient
+from .layout import (
+    OMEGA,
+    P_FREE_PHI,
+    P_FREE_Y,
+    P_INERTIA,
+    P_LATERAL,
+    P_MASS,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+    VX,
+    VY,
+    W_DIRECTION,
+    W_FRICTION,
+    W_LOAD,
+    W_PAIR,
+    W_SLIDING,
+    W_SURFACE,
+)
+
+
+def set_sliding_velocity(w: "float[:]", state: int):
+    """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``."""
+    w[W_SLIDING] = w[state + VX] - w[W_SURFACE]
+    w[W_SLIDING + 1] = w[state + VY] - w[W_SURFACE + 1]
+    w[W_SLIDING + 2] = w[state + OMEGA] - w[W_SURFACE + 2]
+
+
+def scaled_sliding_speed(p: "float[:]", w: "float[:]") -> float:
+    """Length of the scaled sliding velocity (U_x, kappa U_y, kappa a Omega), m/s."""
+    sx = w[W_SLIDING]
+    sy = p[P_LATERAL] * w[W_SLIDING + 1]
+    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    return sqrt(sx * sx + sy * sy + sr * sr)
+
+
+def set_holding_load(p: "float[:]", w: "float[:]"):
+    """Friction that would keep the block on the surface, into ``w[W_FRICTION:]``.
+
+    M a_surface - loads, for the directions in which friction acts and the block is free;
+    guides carry the rest.
+    """
+    w[W_FRICTION] = p[P_MASS] * w[W_SURFACE + 3] - w[W_LOAD]
+    w[W_FRICTION + 1] = 0.0
+    w[W_FRICTION + 2] = 0.0
+    if p[P_LATERAL] > 0.0:
+        w[W_FRICTION + 1] = p[P_FREE_Y] * (p[P_MASS] * w[W_SURFACE + 4] - w[W_LOAD + 1])
+        w[W_FRICTION + 2] = p[P_FREE_PHI] * (p[P_INERTIA] * w[W_SURFACE + 5] - w[W_LOAD + 2])
+
+
+def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
+    """How far a load reaches towards the limit surface: 1 on it, below 1 inside.
+
+    ``force`` is per mu N, ``moment`` per mu N a, both >= 0. The ratio is the gauge of the convex
+    set that the curve (f, m) of `disc_friction` bounds. Where the load and the point of the curve
+    are parallel, the ratio is max over n of load.n / support(n), so an error in the parameter
+    enters squared.
+    """
+    if moment == 0.0:
+        return force
+    if force == 0.0:
+        return 1.5 * moment
+    low = 0.0
+    high = 1.0
+    cross_low = -moment  # cross product of load and point; pure sliding is the point (1, 0)
+    cross_high = force * 2.0 / 3.0  # pure spinning is (0, 2/3)
+    t = 0.5
+    before = 2.0
+    sweep = 0
+    while abs(t - before) > 1e-9 and sweep < 100:
+        before = t
+        t = high - cross_high * (high - low) / (cross_high - cross_low)
+        disc_friction(1.0 - t, t, w)
+        cross = force * w[W_PAIR + 1] - moment * w[W_PAIR]
+        if cross < 0.0:
+            low = t
+            cross_low = cross
+            cross_high = 0.5 * cross_high  # Illinois: keeps both ends moving
+        else:
+            high = t
+            cross_high = cross
+            cross_low = 0.5 * cross_low
+        sweep += 1
+    support = (1.0 - t) * w[W_PAIR] + t * w[W_PAIR + 1]
+    return ((1.0 - t) * force + t * moment) / support
+
+
+def holding_ratio(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """Load over what the contact can hold; the block breaks away where it reaches 1.
+
+    Takes the load from `set_holding_load`. A contact without friction holds nothing: 2.
+    """
+    limit = holding_coefficient(p, u) * p[P_NORMAL_FORCE]
+    if limit == 0.0:
+        return 2.0
+    kappa = p[P_LATERAL]
+    fx = w[W_FRICTION] / limit
+    if kappa == 0.0:
+        return abs(fx)
+    fy = w[W_FRICTION + 1] / (limit * kappa)
+    m = w[W_FRICTION + 2] / (limit * kappa * p[P_RADIUS])
+    return limit_surface_ratio(sqrt(fx * fx + fy * fy), abs(m), w)
+
+
+def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
+    """Direction in which a block at rest on the surface begins to slide, into ``w[W_DIRECTION:]``.
+
+    The scaled relative acceleration s satisfies m s = T - mu_k N grad P(s), where -T is the
+    holding load of `set_holding_load` and P the mean local sliding speed: the minimum of a
+    strictly convex function. Found by lagged weights: grad P(s) = weight * s in the sliding and
+    in the spinning part, with the weights of the last iterate. For a load on the limit surface
+    the iterates shrink, so their direction is what converges.
+    """
+    limit = kinetic_coefficient(p, u) * p[P_NORMAL_FORCE]
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    tx = -w[W_FRICTION]
+    ty = -kappa * w[W_FRICTION + 1]
+    tr = -arm * w[W_FRICTION + 2]
+    w[W_DIRECTION] = 1.0
+    w[W_DIRECTION + 1] = 0.0
+    w[W_DIRECTION + 2] = 0.0
+    slide = 0.0
+    spin = 0.0
+    change = 1.0
+    sweep = 0
+    while change > 1e-13 and sweep < 500:
+        sx = tx / (p[P_MASS] + slide)
+        sy = ty / (p[P_MASS] + kappa * kappa * slide)
+        sr = tr / (p[P_INERTIA] + arm * arm * spin)
+        size = sqrt(sx * sx + sy * sy + sr * sr)
+        if size == 0.0:
+            break
+        change = abs(sx / size - w[W_DIRECTION]) + abs(sy / size - w[W_DIRECTION + 1])
+        change += abs(sr / size - w[W_DIRECTION + 2])
+        w[W_DIRECTION] = sx / size
+        w[W_DIRECTION + 1] = sy / size
+        w[W_DIRECTION + 2] = sr / size
+        sliding = sqrt(sx * sx + sy * sy)
+        disc_friction(sliding, abs(sr), w)
+        if sliding > 0.0:
+            slide = limit * w[W_PAIR] / sliding
+        if sr != 0.0:
+            spin = limit * w[W_PAIR + 1] / abs(sr)
+        sweep += 1

@@ -1,0 +1,188 @@
+"""Stick and slip as events: where a slip begins, where it ends, and what the contact does then."""
+
+from .contact import (
+    holding_ratio,
+    scaled_sliding_speed,
+    set_holding_load,
+    set_onset_direction,
+)
+from .friction import holding_coefficient
+from .layout import (
+    DIRECTION,
+    E_CAPACITY,
+    E_COUNT,
+    E_FIRST,
+    E_WIDTH,
+    HEAT,
+    HERE,
+    MODE,
+    NEXT,
+    OMEGA,
+    P_FREE_PHI,
+    P_FREE_Y,
+    P_INERTIA,
+    P_LATERAL,
+    P_MASS,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+    SLIP,
+    SLIPS,
+    STICK,
+    TIME,
+    VX,
+    VY,
+    W_DIRECTION,
+    W_SLIDING,
+    W_SLOPES,
+    W_STATE,
+    W_SURFACE,
+    WORK_SURFACE,
+    X,
+)
+from .motion import rest_speed, set_contact
+from .runge_kutta import follow_surface, load_block, take_step
+
+
+def look_at(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Loads, surface and sliding velocity at a block of ``z``."""
+    load_block(p, z, w, block)
+    set_contact(p, u, w, W_STATE)
+
+
+def excess_load(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
+    """Load over holding capacity, less 1: the function whose zero is the break-away."""
+    look_at(p, u, z, w, block)
+    set_holding_load(p, w)
+    return holding_ratio(p, u, w) - 1.0
+
+
+def log_event(z: "float[:]", e: "float[:]", block: int):
+    """Note time, new mode and x; events beyond the capacity are counted only."""
+    count = int(e[E_COUNT])
+    if count < int(e[E_CAPACITY]):
+        e[E_FIRST + E_WIDTH * count] = z[block + TIME]
+        e[E_FIRST + E_WIDTH * count + 1] = z[block + MODE]
+        e[E_FIRST + E_WIDTH * count + 2] = z[block + X]
+    e[E_COUNT] = count + 1.0
+
+
+def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Let the contact slide, in the direction that the holding load in ``w`` asks for."""
+    set_onset_direction(p, u, w)
+    z[block + MODE] = SLIP
+    for i in range(3):
+        z[block + DIRECTION + i] = w[W_DIRECTION + i]
+
+
+def set_direction(p: "float[:]", z: "float[:]", w: "float[:]", block: int, speed: float):
+    """Remember the direction of sliding, from the sliding velocity in ``w``."""
+    z[block + DIRECTION] = w[W_SLIDING] / speed
+    z[block + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
+    z[block + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+
+
+def stop_sliding(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Take away what is left of the sliding velocity in ``w``, as friction would.
+
+    The impulse -M u acts against the mean sliding velocity u/2, so half of it is heat, and on the
+    moving surface, which does work: the ledger stays closed.
+    """
+    ux = w[W_SLIDING]
+    uy = 0.0
+    ur = 0.0
+    if p[P_LATERAL] > 0.0:
+        uy = p[P_FREE_Y] * w[W_SLIDING + 1]
+        ur = p[P_FREE_PHI] * w[W_SLIDING + 2]
+    m = p[P_MASS]
+    j = p[P_INERTIA]
+    z[block + HEAT] += 0.5 * (m * (ux * ux + uy * uy) + j * ur * ur)
+    work = m * (ux * w[W_SURFACE] + uy * w[W_SURFACE + 1]) + j * ur * w[W_SURFACE + 2]
+    z[block + WORK_SURFACE] -= work
+    follow_surface(p, u, z, w, block)
+
+
+def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", block: int):
+    """Decide whether the contact at a block sticks or slips, and make the block consistent."""
+    look_at(p, u, z, w, block)
+    before = z[block + MODE]
+    speed = scaled_sliding_speed(p, w)
+    if speed > rest_speed(p, u):
+        z[block + MODE] = SLIP
+        set_direction(p, z, w, block, speed)
+    elif holding_coefficient(p, u) * p[P_NORMAL_FORCE] == 0.0:
+        z[block + MODE] = SLIP
+    else:
+        stop_sliding(p, u, z, w, block)
+        if excess_load(p, u, z, w, block) < 0.0:
+            z[block + MODE] = STICK
+        else:
+            release(p, u, z, w, block)
+    if z[block + MODE] != before:
+        if z[block + MODE] == SLIP:
+            z[block + SLIPS] += 1.0
+        log_event(z, e, block)
+
+
+def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]"):
+    """Move NEXT back to the break-away, if the contact gives way in the step from HERE.
+
+    Illinois iteration on the size of the step until time itself has no finer resolution: every
+    trial is a step of full order from HERE, so the event is as exact as the motion. NEXT ends at
+    the side where the load has reached the limit.
+    """
+    excess = excess_load(p, u, z, w, NEXT)
+    if excess < 0.0:
+        return
+    load_block(p, z, w, HERE)  # the trials belong to the surface phase of HERE
+    low = 0.0
+    high = z[NEXT + TIME] - z[HERE + TIME]
+    excess_low = excess_load(p, u, z, w, HERE)
+    excess_high = excess
+    finest = 4e-16 * max(abs(z[NEXT + TIME]), high)
+    side = 0
+    sweep = 0
+    while high - low > finest and excess != 0.0 and sweep < 200:
+        h = 0.5 * (low + high)
+        if excess_low < 0.0 and sweep % 4 != 3:
+            h = high - excess_high * (high - low) / (excess_high - excess_low)
+        load_block(p, z, w, HERE)
+        take_step(p, u, z, w, HERE, NEXT, h)
+        excess = excess_load(p, u, z, w, NEXT)
+        if excess < 0.0:
+            low = h
+            excess_low = excess
+            if side == -1:
+                excess_high = 0.5 * excess_high
+            side = -1
+        else:
+            high = h
+            excess_high = excess
+            if side == 1:
+                excess_low = 0.5 * excess_low
+            side = 1
+        sweep += 1
+    if excess < 0.0:
+        load_block(p, z, w, HERE)
+        take_step(p, u, z, w, HERE, NEXT, high)
+        excess_load(p, u, z, w, NEXT)
+    release(p, u, z, w, NEXT)
+    z[NEXT + SLIPS] += 1.0
+    log_event(z, e, NEXT)
+
+
+def time_to_rest(p: "float[:]", w: "float[:]") -> float:
+    """Time in which the scaled sliding speed would vanish at its present rate, s; -1 if it grows.
+
+    From d(s^2/2)/dt = s . ds/dt, with the slopes of `begin_step` and the contact in ``w``.
+    """
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    sx = w[W_SLIDING]
+    sy = kappa * w[W_SLIDING + 1]
+    sr = arm * w[W_SLIDING + 2]
+    rate = sx * (w[W_SLOPES + VX - 1] - w[W_SURFACE + 3])
+    rate += sy * kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
+    rate += sr * arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
+    if rate >= 0.0:
+        return -1.0
+    return (sx * sx + sy * sy + sr * sr) / -rate

@@ -1,0 +1,137 @@
+"""Equations of motion: slopes of the integrated state in stick and in slip."""
+
+from .contact import scaled_sliding_speed, set_holding_load, set_sliding_velocity
+from .friction import friction_along
+from .layout import (
+    DISTANCE,
+    HEAT,
+    OMEGA,
+    P_FREE_PHI,
+    P_FREE_Y,
+    P_INERTIA,
+    P_LATERAL,
+    P_MASS,
+    P_RADIUS,
+    P_SPEED_SCALE,
+    PHI,
+    SLIP,
+    TIME,
+    TRAVEL,
+    U_FORCE_X,
+    U_FORCE_Y,
+    U_MOMENT,
+    U_SPEED,
+    VX,
+    VY,
+    W_DIRECTION,
+    W_FRICTION,
+    W_LOAD,
+    W_MEAN_SPEED,
+    W_SLIDING,
+    W_STATE,
+    W_SURFACE,
+    WORK_EXTERNAL,
+    WORK_SURFACE,
+    X,
+    Y,
+)
+from .springs import add_spring_forces, spring_energy
+from .surface import surface_motion, surface_speed
+
+
+def speed_scale(p: "float[:]", u: "float[:]") -> float:
+    """A speed typical of this motion, m/s: what is small is small against it."""
+    return max(abs(u[U_SPEED]), p[P_SPEED_SCALE])
+
+
+def rest_speed(p: "float[:]", u: "float[:]") -> float:
+    """Scaled sliding speed below which a decelerating contact is taken to come to rest, m/s.
+
+    Below it the direction of friction is frozen, and one smooth step lands the block on the
+    surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m.
+    It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
+    and passes rest at a distance never reaches it exactly, however small the distance.
+    """
+    return 1e-6 * speed_scale(p, u)
+
+
+def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+    """Springs and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
+    w[W_LOAD] = u[U_FORCE_X]
+    w[W_LOAD + 1] = u[U_FORCE_Y]
+    w[W_LOAD + 2] = u[U_MOMENT]
+    add_spring_forces(p, w, state)
+
+
+def set_contact(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+    """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
+    set_loads(p, u, w, state)
+    surface_motion(p, u, w, state)
+    set_sliding_velocity(w, state)
+
+
+def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
+    """Kinetic friction into ``w[W_FRICTION:]``.
+
+    Where the sliding velocity is too small to have a direction, at the first instant of a slip,
+    the direction is the one of `set_onset_direction`.
+    """
+    if scaled_sliding_speed(p, w) > rest_speed(p, u):
+        sx = w[W_SLIDING]
+        sy = p[P_LATERAL] * w[W_SLIDING + 1]
+        sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+        friction_along(p, u, w, sx, sy, sr)
+    else:
+        friction_along(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2])
+        w[W_MEAN_SPEED] = scaled_sliding_speed(p, w)
+
+
+def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
+    """Rates of x, y, phi and of their velocities at ``w[W_STATE:]``, into ``w[out:]``."""
+    set_contact(p, u, w, W_STATE)
+    if mode == SLIP:
+        set_slip_friction(p, u, w)
+    else:
+        set_holding_load(p, w)
+        w[W_MEAN_SPEED] = 0.0
+        w[W_STATE + VX] = w[W_SURFACE]
+        if p[P_LATERAL] > 0.0:
+            w[W_STATE + VY] = w[W_SURFACE + 1]
+            w[W_STATE + OMEGA] = w[W_SURFACE + 2]
+    w[out + X - 1] = w[W_STATE + VX]
+    w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
+    w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
+    w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
+    w[out + VY - 1] = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
+    w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
+
+
+def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
+    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat and work.
+
+    Friction heat is what friction takes out of the relative motion; the surface's work is what
+    it puts into the block through friction. Their difference drives block and springs.
+    """
+    set_motion(p, u, w, mode, out)
+    heat = 0.0
+    if mode == SLIP:
+        heat -= w[W_FRICTION] * w[W_SLIDING] + w[W_FRICTION + 1] * w[W_SLIDING + 1]
+        heat -= w[W_FRICTION + 2] * w[W_SLIDING + 2]
+    work = w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
+    work += w[W_FRICTION + 2] * w[W_SURFACE + 2]
+    external = u[U_FORCE_X] * w[W_STATE + VX] + u[U_FORCE_Y] * w[W_STATE + VY]
+    external += u[U_MOMENT] * w[W_STATE + OMEGA]
+    w[out + HEAT - 1] = heat
+    w[out + DISTANCE - 1] = w[W_MEAN_SPEED]
+    w[out + TRAVEL - 1] = surface_speed(p, u, w, w[W_STATE + TIME])
+    w[out + WORK_SURFACE - 1] = work
+    w[out + WORK_EXTERNAL - 1] = external
+
+
+def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+    """Kinetic energy of the block and elastic energy of the springs, J."""
+    vx = z[block + VX]
+    vy = z[block + VY]
+    omega = z[block + OMEGA]
+    kinetic = 0.5 * p[P_MASS] * (vx * vx + vy * vy) + 0.5 * p[P_INERTIA] * omega * omega
+    return kinetic + spring_energy(p, z[block + X], z[block + Y], z[block + PHI])

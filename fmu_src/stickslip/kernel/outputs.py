@@ -1,0 +1,69 @@
+"""What a run shows at the moment that `advance` has reached."""
+
+from .layout import (
+    DISTANCE,
+    HEAT,
+    MODE,
+    O_DISTANCE,
+    O_ENERGY_RESIDUAL,
+    O_FRICTION_X,
+    O_HEAT,
+    O_HEAT_FLOW,
+    O_MODE,
+    O_SLIDING_SPEED,
+    O_SLIPS,
+    O_SURFACE_SPEED,
+    O_TRAVEL,
+    O_X,
+    SHOWN,
+    SLIPS,
+    TIME,
+    TRAVEL,
+    W_FRICTION,
+    W_MEAN_SPEED,
+    WORK_EXTERNAL,
+    WORK_SURFACE,
+    Z_ENERGY,
+    Z_HEAT_BEFORE,
+    Z_TIME_BEFORE,
+    X,
+)
+from .motion import block_energy
+from .runge_kutta import begin_step
+from .surface import surface_speed
+
+
+def energy_residual(p: "float[:]", z: "float[:]") -> float:
+    """Energy gained less energy supplied, J: zero but for the integrator's error.
+
+    (kinetic + elastic) - its start - work of surface and external loads + friction heat.
+    """
+    gained = block_energy(p, z, SHOWN) - z[Z_ENERGY]
+    supplied = z[SHOWN + WORK_SURFACE] + z[SHOWN + WORK_EXTERNAL] - z[SHOWN + HEAT]
+    return gained - supplied
+
+
+def mean_heat_flow(z: "float[:]") -> float:
+    """Friction heat of the last call of `advance` over its duration, W."""
+    duration = z[SHOWN + TIME] - z[Z_TIME_BEFORE]
+    if duration <= 0.0:
+        return 0.0
+    return (z[SHOWN + HEAT] - z[Z_HEAT_BEFORE]) / duration
+
+
+def show(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", o: "float[:]", at: int):
+    """Write the outputs (`O_*`) at SHOWN to ``o[at:]``."""
+    begin_step(p, u, z, w, SHOWN)
+    for i in range(6):
+        o[at + O_X + i] = z[SHOWN + X + i]
+    for i in range(3):
+        o[at + O_FRICTION_X + i] = w[W_FRICTION + i]
+    o[at + O_SLIDING_SPEED] = w[W_MEAN_SPEED]
+    o[at + O_HEAT_FLOW] = mean_heat_flow(z)
+    o[at + O_HEAT] = z[SHOWN + HEAT]
+    o[at + O_DISTANCE] = z[SHOWN + DISTANCE]
+    o[at + O_MODE] = z[SHOWN + MODE]
+    o[at + O_SLIPS] = z[SHOWN + SLIPS]
+    o[at + O_ENERGY_RESIDUAL] = energy_residual(p, z)
+    o[at + O_TRAVEL] = z[SHOWN + TRAVEL]
+    o[at + O_SURFACE_SPEED] = surface_speed(p, u, w, z[SHOWN + TIME])

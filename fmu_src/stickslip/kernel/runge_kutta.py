@@ -1,0 +1,143 @@
+"""One explicit Runge-Kutta step with an error estimate (tableau in the parameter vector)."""
+
+from math import sqrt
+
+from .contact import set_sliding_velocity
+from .layout import (
+    BLOCK,
+    DIRECTION,
+    DISTANCE,
+    HEAT,
+    MODE,
+    OMEGA,
+    P_LATERAL,
+    P_MASS,
+    P_RADIUS,
+    P_RATE,
+    P_TABLEAU,
+    P_TOLERANCE,
+    PHI,
+    STAGES,
+    STATES,
+    STICK,
+    T_A,
+    T_B,
+    T_C,
+    T_E3,
+    T_E5,
+    TIME,
+    TRAVEL,
+    VX,
+    VY,
+    W_DIRECTION,
+    W_SLOPES,
+    W_STATE,
+    W_SURFACE,
+    X,
+    Y,
+)
+from .motion import set_slopes, speed_scale
+from .surface import set_surface_phase, surface_motion
+
+
+def load_block(p: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Make a block of ``z`` the moment that the laws of motion look at."""
+    for i in range(BLOCK):
+        w[W_STATE + i] = z[block + i]
+    for i in range(3):
+        w[W_DIRECTION + i] = z[block + DIRECTION + i]
+    set_surface_phase(p, w, z[block + TIME])
+
+
+def begin_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int):
+    """First stage of the step from block ``start``; every step size tried from there shares it."""
+    load_block(p, z, w, start)
+    set_slopes(p, u, w, z[start + MODE], W_SLOPES)
+
+
+def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
+    """Error of state i that counts as 1 in the error test, in the unit of the state."""
+    speed = speed_scale(p, u)
+    length = speed / p[P_RATE]
+    scale = p[P_MASS] * speed * speed  # works and heat
+    if i == X or i == Y or i == DISTANCE or i == TRAVEL:
+        scale = length
+    elif i == PHI:
+        scale = length / p[P_RADIUS]
+    elif i == VX or i == VY:
+        scale = speed
+    elif i == OMEGA:
+        scale = speed / p[P_RADIUS]
+    elif i == HEAT:
+        return p[P_TOLERANCE] * scale
+    return p[P_TOLERANCE] * (scale + abs(value))
+
+
+def take_step(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int, h: float
+) -> float:
+    """Step of size h from block ``start`` (see `begin_step`) to block ``end``.
+
+    Returns the scaled error estimate: the step is good where it is at most 1.
+    """
+    mode = z[start + MODE]
+    for stage in range(1, STAGES):
+        w[W_STATE + TIME] = z[start + TIME] + h * p[P_TABLEAU + T_C + stage]
+        for i in range(STATES):
+            slope = 0.0
+            for before in range(stage):
+                weight = p[P_TABLEAU + T_A + stage * STAGES + before]
+                if weight != 0.0:
+                    slope += weight * w[W_SLOPES + before * STATES + i]
+            w[W_STATE + 1 + i] = z[start + 1 + i] + h * slope
+        set_slopes(p, u, w, mode, W_SLOPES + stage * STATES)
+    for i in range(TIME, BLOCK):
+        z[end + i] = z[start + i]
+    z[end + TIME] = z[start + TIME] + h
+    error = close_step(p, u, z, w, end, h)
+    if mode == STICK:
+        follow_surface(p, u, z, w, end)
+    return error
+
+
+def close_step(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", end: int, h: float
+) -> float:
+    """Add the weighted slopes to block ``end``; the error norm is that of DOP853."""
+    error5 = 0.0
+    error3 = 0.0
+    for i in range(STATES):
+        change = 0.0
+        e5 = 0.0
+        e3 = 0.0
+        for stage in range(STAGES):
+            slope = w[W_SLOPES + stage * STATES + i]
+            change += p[P_TABLEAU + T_B + stage] * slope
+            e5 += p[P_TABLEAU + T_E5 + stage] * slope
+            e3 += p[P_TABLEAU + T_E3 + stage] * slope
+        z[end + 1 + i] += h * change
+        scale = state_scale(p, u, i + 1, z[end + 1 + i])
+        error5 += (e5 / scale) * (e5 / scale)
+        error3 += (e3 / scale) * (e3 / scale)
+    bottom = error5 + 0.01 * error3
+    if bottom == 0.0:
+        return 0.0
+    return abs(h) * error5 / sqrt(bottom * STATES)
+
+
+def follow_surface(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Give the block the surface's velocity exactly, where friction holds it.
+
+    Leaves the surface's motion and the (now zero) sliding velocity at that moment in ``w``.
+    """
+    for i in range(BLOCK):
+        w[W_STATE + i] = z[block + i]
+    surface_motion(p, u, w, W_STATE)
+    z[block + VX] = w[W_SURFACE]
+    w[W_STATE + VX] = w[W_SURFACE]
+    if p[P_LATERAL] > 0.0:
+        z[block + VY] = w[W_SURFACE + 1]
+        z[block + OMEGA] = w[W_SURFACE + 2]
+        w[W_STATE + VY] = w[W_SURFACE + 1]
+        w[W_STATE + OMEGA] = w[W_SURFACE + 2]
+    set_sliding_velocity(w, W_STATE)

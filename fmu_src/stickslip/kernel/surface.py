@@ -1,0 +1,57 @@
+"""The moving surface: a belt (translation) or a slab that turns about a centre at (0, R)."""
+
+from .layout import (
+    P_CURVATURE,
+    P_RUN_UP,
+    TIME,
+    U_SPEED,
+    VX,
+    VY,
+    W_RUNNING_UP,
+    W_SURFACE,
+    X,
+    Y,
+)
+
+
+def set_surface_phase(p: "float[:]", w: "float[:]", t: float):
+    """Say whether the internal step that begins at t lies in the run-up or behind it.
+
+    No internal step straddles the end of the run-up, so the phase belongs to the step and not
+    to the time: the acceleration, which jumps there, is unambiguous at both ends of every step.
+    """
+    w[W_RUNNING_UP] = 0.0
+    if t < p[P_RUN_UP]:
+        w[W_RUNNING_UP] = 1.0
+
+
+def surface_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
+    """Speed of the surface where the block rests, m/s: a linear run-up, then constant."""
+    if w[W_RUNNING_UP] == 1.0:
+        return u[U_SPEED] * t / p[P_RUN_UP]
+    return u[U_SPEED]
+
+
+def surface_acceleration(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """Rate of `surface_speed`, m/s^2."""
+    if w[W_RUNNING_UP] == 1.0:
+        return u[U_SPEED] / p[P_RUN_UP]
+    return 0.0
+
+
+def surface_motion(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+    """Motion of the surface under the block's centre, into ``w[W_SURFACE:]``.
+
+    Three velocities and three accelerations (x, y, turning). With curvature c = 1/R the surface
+    turns at v c about (0, R): v_s = (v (1 - c y), v c x). The accelerations are those of a block
+    whose centre moves with (vx, vy) and keeps the velocity of the surface under it.
+    """
+    v = surface_speed(p, u, w, w[state + TIME])
+    a = surface_acceleration(p, u, w)
+    c = p[P_CURVATURE]
+    w[W_SURFACE] = v * (1.0 - c * w[state + Y])
+    w[W_SURFACE + 1] = v * c * w[state + X]
+    w[W_SURFACE + 2] = v * c
+    w[W_SURFACE + 3] = a * (1.0 - c * w[state + Y]) - v * c * w[state + VY]
+    w[W_SURFACE + 4] = a * c * w[state + X] + v * c * w[state + VX]
+    w[W_SURFACE + 5] = a * c
