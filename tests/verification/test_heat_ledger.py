@@ -1,0 +1,53 @@
+"""Heat received = stored in belt and ice + given to the air + melted, to 1e-10, for any history."""
+
+import numpy as np
+import pytest
+
+from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
+
+CLOSED = 1e-10
+
+SHORT = {"length": 0.3, "cell_length": 4e-3}
+CASES = {
+    "rig": ThermalParameters(belt=Belt(**SHORT)),
+    "near melting": ThermalParameters(
+        ambient=Ambient(temperature_degC=-0.3), belt=Belt(**SHORT)),
+    "strong draught": ThermalParameters(
+        belt=Belt(air_heat_transfer=500.0, **SHORT), ice=Ice(air_heat_transfer=200.0)),
+    "poor contact": ThermalParameters(belt=Belt(**SHORT), contact=Contact(conductance=5.0)),
+    "perfect contact, wide belt": ThermalParameters(
+        belt=Belt(width=0.3, **SHORT), contact=Contact(conductance=1e12, strips=3)),
+    "odd cells": ThermalParameters(belt=Belt(length=0.305, cell_length=5e-3)),
+}
+PASSES = dict.fromkeys(CASES, 100) | {"rig": 1000}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_ledger_over_many_passes(case):
+    """Random steps, pauses and reversals between movements of up to two loops."""
+    rng = np.random.default_rng(20)
+    model = BeltIceModel(CASES[case])
+    length = model.parameters.belt.length
+    worst, passes = 0.0, 0.0
+    while passes < PASSES[case]:
+        movements = [0.0, *rng.normal(0.0, 0.01, 4), rng.uniform(0.0, 2.0 * length)]
+        for movement in movements:
+            model.step(rng.choice([1e-4, 0.01, 0.1, 0.7]), rng.exponential(0.2), movement)
+            passes += abs(movement) / length
+        outputs = model.outputs()
+        worst = max(worst, abs(outputs["heat_residual"]) / outputs["heat_received"])
+    assert worst < CLOSED
+    assert outputs["air_heat"] > 0.05 * outputs["heat_received"], "the air's part must matter"
+    if case == "near melting":
+        assert outputs["latent_heat"] > 0.05 * outputs["heat_received"]
+
+
+def test_residual_is_a_check_that_can_fail():
+    """An air loss that is off by one part in a million shows."""
+    model = BeltIceModel(CASES["rig"])
+    advance = model.belt.advance
+    model.belt.advance = lambda duration, load: advance(duration, load) * (1.0 + 1e-6)
+    for _ in range(500):
+        model.step(0.1, 0.05, 0.03)
+    outputs = model.outputs()
+    assert abs(outputs["heat_residual"]) > CLOSED * outputs["heat_received"]
