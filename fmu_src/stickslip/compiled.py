@@ -1,0 +1,69 @@
+"""The kernel compiled by numba: the same source, function for function.
+
+The kernel's files are joined into one module, whose name carries a hash of the text, and that
+module is written to the user's cache folder and imported from there: numba keeps its machine code
+beside a real file, and a changed kernel is a new module, so no run ever meets stale code.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib.util
+import os
+import sys
+import tempfile
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from types import FunctionType, ModuleType
+
+import numba
+import platformdirs
+
+from .kernel import MODULES
+
+
+def kernel_source() -> str:
+    """The kernel as the text of one module: its files in order, without their mutual imports."""
+    package = resources.files("stickslip.kernel")
+    parts = []
+    for name in MODULES:
+        tree = ast.parse((package / f"{name}.py").read_text(encoding="utf-8"))
+        tree.body = [
+            node for node in tree.body if not (isinstance(node, ast.ImportFrom) and node.level)
+        ]
+        parts.append(f"# {name}\n{ast.unparse(tree)}\n")
+    return "\n".join(parts)
+
+
+@cache
+def compiled_kernel() -> ModuleType:
+    """The kernel as a module of numba functions; machine code is cached between processes."""
+    source = kernel_source()
+    name = "stickslip_kernel_" + hashlib.sha256(source.encode()).hexdigest()[:16]
+    spec = importlib.util.spec_from_file_location(name, _write_module(name, source))
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # numba's cache finds the functions again by this name
+    spec.loader.exec_module(module)
+    for key, value in list(vars(module).items()):
+        if isinstance(value, FunctionType) and value.__module__ == name:
+            setattr(module, key, numba.njit(value, cache=True, error_model="numpy"))
+    return module
+
+
+def _write_module(name: str, source: str) -> Path:
+    """Write the module where numba may keep its cache beside it; processes may race for it."""
+    for folder in (platformdirs.user_cache_path("stickslip"), Path(tempfile.gettempdir())):
+        path = folder / f"{name}.py"
+        if path.exists() and path.read_text(encoding="utf-8") == source:
+            return path
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            partial = folder / f"{name}.{os.getpid()}.partial"
+            partial.write_text(source, encoding="utf-8")
+            partial.replace(path)
+        except OSError:
+            continue
+        return path
+    raise OSError("no folder for the compiled kernel is writable: set XDG_CACHE_HOME or TMPDIR")

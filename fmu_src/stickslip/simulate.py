@@ -1,0 +1,139 @@
+"""Parameters to trajectory: the mechanical model alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import numpy as np
+
+from .compiled import compiled_kernel
+from .kernel import advance, layout, outputs, record
+from .kernel.layout import (
+    E_CAPACITY,
+    E_COUNT,
+    E_FIRST,
+    E_WIDTH,
+    O_SIZE,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    W_SIZE,
+    Z_SIZE,
+)
+from .parameters import Parameters
+from .trajectory import NAMES, Trajectory
+
+EVENTS_PER_BLOCK = 4096
+ROWS_PER_BLOCK = 1000
+
+# the kernel as it stands, for whoever wants to step through it
+INTERPRETED = SimpleNamespace(
+    initialise=advance.initialise,
+    advance=advance.advance,
+    show=outputs.show,
+    record=record.record,
+)
+
+
+def simulate(
+    parameters: Parameters,
+    duration: float = 30.0,
+    output_interval: float = 0.01,
+    *,
+    interpreted: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Run the mechanical model from 0 to ``duration`` (s), sampled every ``output_interval`` (s).
+
+    The samples are the model's own accuracy, not interpolated, and have no influence on it. The
+    interface stays at the reference temperature of ``temperature_dependence``. ``progress`` is
+    called with the time reached, and may raise: what was computed until then is in the
+    exception's ``trajectory``.
+
+    Raises ValueError for a duration or an interval that is not positive.
+    """
+    if not duration > 0.0:
+        raise ValueError(f"duration = {duration!r}: must be above 0 s")
+    if not 0.0 < output_interval:
+        raise ValueError(f"output_interval = {output_interval!r}: must be above 0 s")
+    run = _Run(parameters, sample_times(duration, output_interval), interpreted)
+    try:
+        while run.reason is None:
+            run.next_rows()
+            if progress is not None:
+                progress(run.time_reached)
+    except BaseException as stop:
+        stop.trajectory = run.trajectory(reason=f"stopped: {type(stop).__name__}")
+        raise
+    return run.trajectory(run.reason)
+
+
+def sample_times(duration: float, interval: float) -> np.ndarray:
+    """0, interval, 2 interval, ... and ``duration`` itself, s."""
+    count = int(np.floor(duration / interval * (1.0 + 1e-12)))
+    times = np.arange(count + 1) * interval
+    if duration - times[-1] > 1e-9 * interval:
+        return np.append(times, duration)
+    times[-1] = duration
+    return times
+
+
+class _Run:
+    """The kernel's arrays for one run, filled block of rows by block of rows."""
+
+    def __init__(self, parameters: Parameters, times: np.ndarray, interpreted: bool):
+        self.parameters = parameters
+        self.kernel = INTERPRETED if interpreted else compiled_kernel()
+        array = list if interpreted else np.array
+        u = np.zeros(U_SIZE)
+        u[U_SPEED] = parameters.surface.speed
+        u[U_TEMPERATURE] = parameters.temperature_dependence.reference_degC
+        self.p, self.u = array(parameters.pack()), array(u)
+        self.z, self.w = array(np.zeros(Z_SIZE)), array(np.zeros(W_SIZE))
+        self.e = array(np.zeros(E_FIRST + E_WIDTH * EVENTS_PER_BLOCK))
+        self.e[E_CAPACITY] = EVENTS_PER_BLOCK
+        self.times, self.t = times, array(times)
+        self.o = array(np.zeros(O_SIZE * len(times)))
+        self.rows = 0
+        self.events: list[np.ndarray] = []
+        self.reason: str | None = None
+        self.kernel.initialise(self.p, self.z, 0.0)
+
+    @property
+    def time_reached(self) -> float:
+        return float(self.times[self.rows - 1]) if self.rows else 0.0
+
+    def next_rows(self) -> None:
+        """Advance by some rows; set ``reason`` where the run is over."""
+        wanted = min(ROWS_PER_BLOCK, len(self.times) - self.rows)
+        done = self.kernel.record(
+            self.p, self.u, self.z, self.w, self.e, self.t, self.o, self.rows, wanted
+        )
+        self.rows += done
+        self._drain_events()
+        if done < wanted:
+            self.reason = self._failure()
+        elif self.rows == len(self.times):
+            self.reason = ""
+
+    def _drain_events(self) -> None:
+        count = int(self.e[E_COUNT])
+        kept = min(count, EVENTS_PER_BLOCK)
+        flat = np.array(self.e[E_FIRST : E_FIRST + E_WIDTH * kept])
+        self.events.append(flat.reshape(kept, E_WIDTH))
+        self.e[E_COUNT] = 0.0
+
+    def _failure(self) -> str:
+        time = self.z[layout.HERE + layout.TIME]
+        return (
+            f"the integrator gave up at t = {time:.9g} s: its step fell below the resolution of "
+            "time, or the state is no longer finite; check stiffness, mass and initial state, or "
+            "loosen solver.tolerance"
+        )
+
+    def trajectory(self, reason: str) -> Trajectory:
+        table = np.array(self.o).reshape(-1, O_SIZE)[: self.rows]
+        columns = {name: table[:, i].copy() for i, name in enumerate(NAMES)}
+        events = np.concatenate([np.empty((0, E_WIDTH)), *self.events])
+        return Trajectory(self.times[: self.rows], columns, events, self.parameters, reason)
