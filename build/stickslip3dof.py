@@ -59,12 +59,41 @@ def sources() -> dict[str, bytes]:
 
 
 def parameter_table() -> list[dict]:
-    """Every parameter of the FMU, from the models that describe it to everybody else."""
+    """Every parameter of the FMU, with unit, bounds and description from the parameter models.
+
+    One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
+    is excluded), description, start.
+    """
     if str(package_directory().parent) not in sys.path:
         sys.path.insert(0, str(package_directory().parent))
-    from stickslip.parameters import fmu_parameters
+    from stickslip.parameters import Parameters
 
-    return fmu_parameters()
+    return [_entry(Parameters, name, start) for name, start in Parameters().flat().items()]
+
+
+def _entry(models: type, name: str, start: float) -> dict:
+    block, key = name.split(".")
+    entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
+    if key in GUIDES:
+        return entry | {"start": int(start)}
+    field = models.model_fields[block].annotation.model_fields[key.partition("[")[0]]
+    bounds = {
+        kind: getattr(bound, kind)
+        for bound in field.metadata
+        for kind in ("gt", "ge", "le")
+        if getattr(bound, kind, None) is not None
+    }
+    return (
+        entry
+        | {
+            "unit": field.json_schema_extra["unit"],
+            "min": bounds.get("gt", bounds.get("ge")),
+            "max": bounds.get("le"),
+            "above_min": "gt" in bounds,
+            "description": field.description,
+        }
+        | SPECIAL.get(name, {})
+    )
 
 
 def content_hash(files: dict[str, bytes] | None = None, table: list[dict] | None = None) -> str:
@@ -81,6 +110,24 @@ def content_hash(files: dict[str, bytes] | None = None, table: list[dict] | None
     return digest.hexdigest()[:12]
 
 
+# Parameters that the FMU shows otherwise than the parameter models do.
+GUIDES = {
+    key: {
+        "unit": None,
+        "nominal": None,
+        "min": 0,
+        "max": 1,
+        "above_min": False,
+        "description": f"1: the block can move in {motion}; 0: a guide keeps it from that",
+    }
+    for key, motion in (("free_y", "y"), ("free_phi", "phi"))
+}
+SPECIAL = {
+    "rig.inertia": {
+        "min": 0,
+        "description": "moment of inertia about the vertical; 0: that of a disc, m a^2 / 2",
+    },
+}
 DESCRIBED = ("name", "unit", "nominal", "min", "max", "description", "start")
 RECIPE_FILES = ("stickslip3dof.py", "ports.py", "model_description.py", "pythonfmu_library.py")
 

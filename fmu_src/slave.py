@@ -115,7 +115,8 @@ class StickSlip3DOF(Fmi2Slave):
             "variability": Fmi2Variability.fixed,
         }
         for entry in PARAMETERS:
-            reference = self._register(Real, entry["name"], entry["start"], **fixed)
+            kind = Integer if entry["unit"] is None else Real
+            reference = self._register(kind, entry["name"], entry["start"], **fixed)
             self.parameter_names[reference] = entry["name"]
 
     def _register(self, kind, name, start, **more):
@@ -157,7 +158,7 @@ class StickSlip3DOF(Fmi2Slave):
         """Lay out the run afresh from parameters and inputs, as long as no step was made."""
         if self.stepped or not self.stale:
             return
-        values = {name: self.cells[ref] for ref, name in self.parameter_names.items()}
+        values = {name: float(self.cells[ref]) for ref, name in self.parameter_names.items()}
         self._check(values)
         if self.tolerance is not None and self.tolerance > 0.0:
             values["solver.tolerance"] = min(values["solver.tolerance"], self.tolerance)
