@@ -58,7 +58,7 @@ def sine_cosine_integral(k2: float, b: float, d: float) -> float:
     """
     if k2 > 0.05:
         return (b - d) / (3.0 * k2)
-    # int sin^(2n+2) cos^2 = pi/2 (2n+1)!! / (2n+4)!!, times the binomial coefficient (2n-1)!!/(2n)!!
+    # int sin^(2n+2) cos^2 = pi/2 (2n+1)!!/(2n+4)!!, times the binomial (2n-1)!!/(2n)!!
     term = pi / 16.0
     total = term
     for n in range(1, 13):
