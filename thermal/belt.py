@@ -59,7 +59,7 @@ class Response(NamedTuple):
     decay: Array
     free_mean: Array          # weights of the amplitudes in the contact face's mean over the step
     forced: Array             # amplitude at the end for load 1
-    face: Array               # (wave numbers,) step-mean of the contact face for load 1
+    face: Array               # (wave numbers,) share in the contact face's mean for load 1
     loss_free: Array          # (modes,) J lost to the air per amplitude of wave number 0
     loss_forced: float        # J lost to the air per load of wave number 0
 
@@ -92,10 +92,10 @@ class Belt:
         self._heat = modes.heat * self.cell
         self._air = modes.air * self.cell
         #: Weights that turn a sum over half the wave numbers into one over the nodes.
-        self.parseval = np.full(self.cells // 2 + 1, 2.0 / self.cells)
-        self.parseval[0] = 1.0 / self.cells
+        self._parseval = np.full(self.cells // 2 + 1, 2.0 / self.cells)
+        self._parseval[0] = 1.0 / self.cells
         if self.cells % 2 == 0:
-            self.parseval[-1] = 1.0 / self.cells
+            self._parseval[-1] = 1.0 / self.cells
         self.amplitudes: Spectrum = np.zeros(self.rates.shape, dtype=np.complex128)
         self.response = LastDurations(self._response)
 
@@ -108,7 +108,8 @@ class Belt:
             decay=decay(x),
             free_mean=self._face[:, None] * mean,
             forced=entering * duration * mean,
-            face=np.sum(self._face[:, None] * entering * duration * response, axis=0),
+            face=self._parseval * duration * np.sum(
+                self._face[:, None] * entering * response, axis=0),
             loss_free=self._air * slow,
             loss_forced=float(np.sum(self._air * entering[:, 0] * response[:, 0]) * duration**2))
 
@@ -121,9 +122,20 @@ class Belt:
             nodal[:, (first + start + np.arange(piece.shape[1])) % self.cells] += piece
         return rfft(nodal, axis=1)
 
-    def free_face_mean(self, duration: float) -> Spectrum:
-        """Contact face, mean over a step without load (real FFT of the nodes), K."""
-        return np.einsum("mk,mk->k", self.response(duration).free_mean, self.amplitudes)
+    def face_means(self, duration: float, weights: Spectrum) -> tuple[Array, Array]:
+        """Step-means of the contact face, summed over the nodes with weights.
+
+        weights (rows, wave numbers): real FFT of nodal weights. Returns the means (rows,)
+        without load, K times the weights' unit, and their response (rows, rows) to loads that
+        are distributed as the weights. Sums by einsum: BLAS would start threads for so little.
+        """
+        response = self.response(duration)
+        free = np.einsum("mk,mk->k", response.free_mean, self.amplitudes)
+        free *= self._parseval
+        parts = weights.view(np.float64)
+        means = np.einsum("rk,k->r", parts, free.view(np.float64))
+        spread = (weights * response.face).view(np.float64)
+        return means, np.einsum("rk,sk->rs", parts, spread)
 
     def advance(self, duration: float, load: Spectrum) -> float:
         """Advance by duration (s) under a load (real FFT of W per node); heat to the air, J."""
@@ -140,7 +152,7 @@ class Belt:
 
     def face(self) -> Array:
         """Contact face at the nodes, K above the air: (cells,)."""
-        return irfft(self._face @ self.amplitudes, self.cells)
+        return irfft(np.einsum("m,mk->k", self._face, self.amplitudes), self.cells)
 
     def field(self) -> Array:
         """Temperature rise at all nodes, K: (cells, depths)."""

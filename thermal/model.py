@@ -24,6 +24,9 @@ _MOVEMENT = 1 / 16
 #: beyond the way over which heat of the last internal step is spread.
 _PROBE = 1 / 8
 
+#: Most loops in one step: the internal steps follow the movement, more would seem to hang.
+_MOST_LOOPS = 1000
+
 
 class BeltIceModel:
     """Belt under a standing block of ice, both starting at the temperature of the air.
@@ -59,10 +62,10 @@ class BeltIceModel:
         """Advance by duration (s, > 0).
 
         heat: friction heat produced in the step, J, >= 0. displacement: way of the belt
-        material under the contact, m, signed, any size. Heat and movement are spread evenly
-        over the step. ValueError for anything else; the state is then unchanged.
+        material under the contact, m, signed, up to 1000 loops. Heat and movement are spread
+        evenly over the step. ValueError for anything else; the state is then unchanged.
         """
-        _check_step(duration, heat, displacement)
+        _check_step(duration, heat, displacement, self.parameters.belt.length)
         parts = max(1, math.ceil(abs(displacement) / self._longest))
         latent = self.ledger.latent
         for _ in range(parts):
@@ -74,27 +77,22 @@ class BeltIceModel:
                            / (self.parameters.ice.latent_heat * duration))
 
     def _advance(self, duration: float, heat: float, displacement: float) -> None:
-        """One internal step: loads of the strips, fluxes, both fields, ledger."""
+        """One internal step: loads of the strips, fluxes, both fields, ledger.
+
+        Sums over the wave numbers by einsum: BLAS would start threads for so little.
+        """
         footprint, length = self.footprint, self.parameters.belt.length
         first, loads = footprint.loads(self.contact_position, -displacement, self.belt.cell)
         strips = self.belt.spectrum(first, loads)
-        free, response = self._strip_temperatures(strips, duration)
+        sums, response = self.belt.face_means(duration, strips)
+        belt_face = BeltFace(sums / footprint.strip_area, response / footprint.strip_area)
         fluxes = exchange(
-            BeltFace(free, response), self._ice_face(duration),
-            self.parameters.contact.conductance, self.parameters.belt.air_heat_transfer,
-            heat / (duration * footprint.area))
-        to_air = self.belt.advance(duration, fluxes.belt @ strips)
+            belt_face, self._ice_face(duration), self.parameters.contact.conductance,
+            self.parameters.belt.air_heat_transfer, heat / (duration * footprint.area))
+        to_air = self.belt.advance(duration, np.einsum("s,sk->k", fluxes.belt, strips))
         to_air += self.ice.advance(duration, fluxes.ice * footprint.area)
-        self._book(duration, heat, to_air, fluxes, free + response @ fluxes.belt)
+        self._book(duration, heat, to_air, fluxes, belt_face)
         self._travel = math.fmod(self._travel + displacement, length)
-
-    def _strip_temperatures(self, strips: NDArray, duration: float) -> tuple[Array, Array]:
-        """Step-mean of the strips: without flux, and response to the strips' fluxes."""
-        weighted = strips.conj() * self.belt.parseval
-        weighted /= self.footprint.strip_area
-        free = (weighted @ self.belt.free_face_mean(duration)).real
-        weighted *= self.belt.response(duration).face
-        return free, (weighted @ strips.T).real
 
     def _ice_face(self, duration: float) -> IceFace:
         response = self.ice.response(duration)
@@ -104,7 +102,9 @@ class BeltIceModel:
                        MELTING_POINT_DEGC - self._ambient)
 
     def _book(self, duration: float, heat: float, to_air: float, fluxes: Fluxes,
-              strip_temperatures: Array) -> None:
+              belt_face: BeltFace) -> None:
+        """Add one internal step to the ledger; `to_air` as if the block covered nothing."""
+        strip_temperatures = belt_face.free + belt_face.response @ fluxes.belt
         ledger, area = self.ledger, self.footprint.strip_area
         covered = self.parameters.belt.air_heat_transfer * area * strip_temperatures.sum()
         ledger.received += heat
@@ -184,7 +184,7 @@ class BeltIceModel:
             self.belt.amplitudes.shape[0], -1)
 
 
-def _check_step(duration: float, heat: float, displacement: float) -> None:
+def _check_step(duration: float, heat: float, displacement: float, length: float) -> None:
     for name, value, unit in (("duration", duration, "s"), ("heat", heat, "J"),
                               ("displacement", displacement, "m")):
         if not math.isfinite(value):
@@ -193,3 +193,6 @@ def _check_step(duration: float, heat: float, displacement: float) -> None:
         raise ValueError(f"duration = {duration:g} s must be positive")
     if heat < 0.0:
         raise ValueError(f"heat = {heat:g} J must not be negative: friction produces heat")
+    if abs(displacement) > _MOST_LOOPS * length:
+        raise ValueError(f"displacement = {displacement:g} m is more than {_MOST_LOOPS} loops of"
+                         f" the {length:g} m belt in one step: take shorter steps")

@@ -143,6 +143,7 @@ def test_state_of_another_mesh_is_refused():
     ((math.nan, 0.1, 0.1), "duration = nan"),
     ((0.1, math.inf, 0.1), "heat = inf"),
     ((0.1, 0.1, math.nan), "displacement = nan"),
+    ((0.1, 0.1, -1e6), "more than 1000 loops"),
 ])
 def test_bad_steps_are_refused_and_leave_the_state(step, says):
     model = BeltIceModel(COARSE)
