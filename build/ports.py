@@ -34,7 +34,7 @@ INPUTS = (
     Port("external_moment", "U_MOMENT", "N.m", 0.1, "Moment on the block", start=0.0),
 )
 OUTPUTS = (
-    Port("x", "O_X", "m", 0.1, "Position along the motion of the surface, from the springs' rest"),
+    Port("x", "O_X", "m", 0.1, "Position along the motion of the surface; 0 as installed"),
     Port("y", "O_Y", "m", 0.1, "Position across"),
     Port("phi", "O_PHI", "rad", 0.1, "Rotation about the vertical"),
     Port("vx", "O_VX", "m/s", 0.1, "Velocity along x"),
@@ -43,12 +43,13 @@ OUTPUTS = (
     Port("friction_force_x", "O_FRICTION_X", "N", 1.0, "Friction on the block along x"),
     Port("friction_force_y", "O_FRICTION_Y", "N", 1.0, "Friction on the block along y"),
     Port("friction_moment", "O_FRICTION_MOMENT", "N.m", 0.1, "Friction moment on the block"),
-    Port("sliding_speed", "O_SLIDING_SPEED", "m/s", 0.1, "Mean over the contact", min=0.0),
+    Port("sliding_speed", "O_SLIDING_SPEED", "m/s", 0.1, "Local sliding speed, mean", min=0.0),
     Port("heat_flow", "O_HEAT_FLOW", "W", 0.1, "Friction heat, mean over the last step", min=0.0),
     Port("heat", "O_HEAT", "J", 1.0, "Friction heat since the start", min=0.0),
-    Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Way slid, mean over the contact", min=0.0),
+    Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Local way slid, mean", min=0.0),
     Port("surface_travel", "O_TRAVEL", "m", 1.0, "Way of the surface since the start"),
     Port("mode", "O_MODE", None, None, "0 stick, 1 slip", min=0, max=1),
     Port("slip_count", "O_SLIPS", None, None, "Break-aways since the start", min=0),
     Port("energy_residual", "O_ENERGY_RESIDUAL", "J", 1.0, "Energy gained less energy supplied"),
+    Port("surface_speed_actual", "O_SURFACE_SPEED", "m/s", 0.1, "Speed of the surface, run-up in"),
 )

@@ -1,9 +1,12 @@
 """The FMU in fmpy: description, refusals, state, many instances, any communication step."""
 
 import math
+import os
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -173,6 +176,18 @@ def test_a_parameter_out_of_range_is_logged_and_no_step_is_made(block, name, val
     block.initialise(**{name: value})
     assert f"{name} = {value:g}: must" in block.log.take_errors()
     refused(block.slave.doStep, 0.0, 0.01)
+
+
+def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(block):
+    """In a Python host the signal arrives in the slave's own code; there it may not escape."""
+    block.initialise()
+    block.march(0, 10, 0.01)
+    x = block.get("x")
+    timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    refused(block.slave.doStep, 0.1, 1e5)
+    assert "KeyboardInterrupt" in block.log.take_errors()
+    assert block.get("x") == x
 
 
 def test_a_reset_starts_all_over(block):

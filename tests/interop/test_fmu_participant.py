@@ -1,6 +1,9 @@
 """FmuParticipant on the real FMU: what it declares, what it refuses, failures and teardown."""
 
+import os
+import signal
 import tempfile
+import threading
 import zipfile
 from pathlib import Path
 
@@ -108,6 +111,16 @@ def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(fmu):
     result = alone(block)
     assert result.status == "failed" and 0.5 < result.time[-1] < 0.53
     assert "the last one ended at" in result.reason and "status 3 (error)" in result.reason
+
+
+def test_ctrl_c_ends_the_run_between_two_steps(fmu):
+    block = FmuParticipant(fmu, "block", inputs=HELD)
+    timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with CoupledSystem([block], []) as system:
+        result = run(system, GaussSeidel(("block",)), stop=1e3, macro_step=0.01)
+        assert result.status == "interrupted" and result.steps > 0
+        block.step(result.time[-1], 0.01)
 
 
 def test_state_goes_back_and_on(fmu):

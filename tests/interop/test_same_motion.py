@@ -1,0 +1,80 @@
+"""The FMU under a master beside the model alone: the same motion, whatever the macro step."""
+
+import sys
+
+import numpy as np
+import pytest
+from stickslip import Parameters, simulate
+from stickslip.kernel import layout
+from stickslip.trajectory import OUTPUTS
+
+from cosim.fmu_build import recipe_file
+from cosim.master import CoupledSystem, FmuParticipant, GaussSeidel, run
+
+sys.path.insert(0, str(recipe_file().parent))
+
+import ports  # noqa: E402  (the recipe's folder is no package)
+
+CASES = {
+    "reference": {},
+    "planar friction": {
+        "lateral_friction": {"ratio": 1.0},
+        "initial": {"x": 0.01, "y": 0.02, "phi": 0.1},
+        "surface": {"run_up_time": 2.0},
+    },
+    "slab": {"rig": {"surface": "slab", "slab_radius": 0.4}, "lateral_friction": {"ratio": 1.0}},
+    "one degree of freedom": {"rig": {"degrees_of_freedom": ["x"], "inertia": "ring"}},
+    "no springs": {"springs": {"stiffness": 0.0}},
+    "backwards": {"surface": {"speed": -0.15}},
+    "at rest": {"surface": {"speed": 0.0}},
+    "stiff": {"springs": {"stiffness": 9999.0}, "surface": {"speed": 0.0}},
+}
+TIMES = ("x", "y", "phi", "heat", "sliding_distance", "surface_travel")
+
+
+def in_fmu(fmu, parameters, stop, macro_step, record_every=1):
+    inputs = {
+        "surface_speed": parameters.surface.speed,
+        "interface_temperature": parameters.temperature_dependence.reference_degC,
+    }
+    block = FmuParticipant(fmu, "block", parameters=parameters.flat(), inputs=inputs)
+    with CoupledSystem([block], []) as system:
+        result = run(
+            system,
+            GaussSeidel(("block",)),
+            stop=stop,
+            macro_step=macro_step,
+            record_every=record_every,
+        )
+    assert result.status == "complete", result.reason
+    return result
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("macro_step", [0.01, 0.25])
+def test_the_fmu_moves_as_the_model_alone(fmu, case, macro_step):
+    parameters = Parameters.model_validate(CASES[case])
+    alone = simulate(parameters, duration=5.0, output_interval=macro_step)
+    coupled = in_fmu(fmu, parameters, 5.0, macro_step)
+    for name in TIMES:
+        np.testing.assert_allclose(coupled[f"block.{name}"], alone[name], rtol=1e-9, atol=1e-8)
+    for name in ("mode", "slip_count"):
+        np.testing.assert_array_equal(coupled[f"block.{name}"], alone[name])
+
+
+def test_any_macro_step_gives_the_same_thirty_seconds(fmu):
+    parameters = Parameters()
+    alone = simulate(parameters, duration=30.0, output_interval=0.5)
+    for macro_step, every in ((0.002, 250), (0.0625, 8), (0.5, 1)):
+        coupled = in_fmu(fmu, parameters, 30.0, macro_step, every)
+        np.testing.assert_allclose(coupled["block.x"], alone["x"], rtol=0, atol=1e-8)
+        residual = np.abs(coupled["block.energy_residual"]).max()
+        assert residual < 1e-9 * coupled["block.heat"][-1]
+
+
+def test_the_fmu_s_ports_are_the_model_s_outputs():
+    """Same names, units and places in the kernel; only the belt's speed is also an input."""
+    of_model = {name: (unit, slot) for slot, (name, unit, _) in enumerate(OUTPUTS)}
+    of_model["surface_speed_actual"] = of_model.pop("surface_speed")
+    of_fmu = {port.name: (port.unit or "1", getattr(layout, port.slot)) for port in ports.OUTPUTS}
+    assert of_fmu == of_model
