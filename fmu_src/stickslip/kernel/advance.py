@@ -13,6 +13,7 @@ from .layout import (
     BLOCK,
     DIRECTION,
     DONE,
+    E_COUNT,
     HEAT,
     HERE,
     MODE,
@@ -177,6 +178,7 @@ def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "
         z[Z_STARTED] = 1.0
         settle(p, u, z, w, e, SHOWN)
         z[SHOWN + SLIPS] = 0.0  # a run that starts in slip has not broken away
+        e[E_COUNT] = 0.0
         copy_block(z, SHOWN, HERE)
         return 0
     if changed == 1:

@@ -1,0 +1,75 @@
+"""Block on a belt with Coulomb friction mu_s > mu_k: the limit cycle in closed form.
+
+With a = (F_s - F_k)/K and omega = sqrt(K/m) a cycle slips for (2/omega)(pi - arctan(a omega/v))
+and sticks for 2 a/v; the slip ends at F_k/K - a; the extremes are F_k/K -+ sqrt(a^2 + v^2/omega^2).
+"""
+
+import numpy as np
+import pytest
+from stickslip import (
+    Friction,
+    Initial,
+    LateralFriction,
+    Parameters,
+    Rig,
+    Solver,
+    Springs,
+    Surface,
+    simulate,
+)
+
+GRAVITY = 9.81
+F_S, F_K, SPEED = 1.0, 0.5, 0.2
+SLIP, PERIOD = 3.902605407814523, 8.902605407814523
+
+
+def unit_oscillator(**changes) -> Parameters:
+    """m = K = 1, F_s = 1 N, F_k = 0.5 N, v = 0.2 m/s; the block starts at rest on the belt."""
+    blocks = {
+        "rig": Rig(mass=1.0, spring_length=10.0, spring_natural_length=10.0),
+        "springs": Springs(stiffness=0.25),
+        "friction": Friction(mu_s=F_S / GRAVITY, mu_k=F_K / GRAVITY),
+        "surface": Surface(speed=SPEED),
+        "initial": Initial(vx=SPEED),
+    }
+    return Parameters(**(blocks | changes))
+
+
+@pytest.mark.parametrize("ratio", [0.0, 1.0], ids=["along x", "in the plane"])
+def test_limit_cycle(ratio):
+    run = simulate(unit_oscillator(lateral_friction=LateralFriction(ratio=ratio)), 60.0, 1e-3)
+    a = F_S - F_K
+    begins = run.events[run.events[:, 1] == 1]
+    ends = run.events[run.events[:, 1] == 0]
+    n = min(len(begins), len(ends))
+    np.testing.assert_allclose(ends[:n, 0] - begins[:n, 0], SLIP, atol=1e-9)
+    np.testing.assert_allclose(np.diff(begins[:, 0]), PERIOD, atol=1e-9)
+    np.testing.assert_allclose(begins[:, 2], F_S, atol=1e-9)
+    np.testing.assert_allclose(ends[:, 2], F_K - a, atol=1e-9)
+    reach = np.hypot(a, SPEED)
+    after = run.time > begins[0, 0]
+    # the extremes between samples, from the energy of the free oscillation about F_k/K
+    swing = np.hypot(run["x"] - F_K, run["vx"])[after & (run["mode"] == 1)]
+    np.testing.assert_allclose(swing, reach, atol=1e-9)
+
+
+def test_converges_with_the_internal_tolerance():
+    """The error against the closed form falls with solver.tolerance, to rounding."""
+    errors = []
+    for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
+        run = simulate(unit_oscillator(solver=Solver(tolerance=tolerance)), 90.0)
+        last = run.slip_starts[-1]
+        exact = run.slip_starts[0] + PERIOD * (len(run.slip_starts) - 1)
+        errors.append(abs(last - exact))
+    # loose tolerances share the bound that keeps events from being stepped over, T/12: 4e-9
+    assert errors == sorted(errors, reverse=True)
+    assert errors[0] < 1e-8
+    assert errors[-1] < 5e-11  # ten periods of 8.9 s
+
+
+def test_no_sampling_changes_the_trajectory():
+    """Bit for bit: who looks when has no influence."""
+    coarse = simulate(unit_oscillator(), 30.0, 0.5)
+    fine = simulate(unit_oscillator(), 30.0, 0.001)
+    np.testing.assert_array_equal(coarse.events, fine.events)
+    np.testing.assert_array_equal(coarse["x"], fine["x"][::500])

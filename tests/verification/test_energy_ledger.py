@@ -1,0 +1,98 @@
+"""What the surface puts in is what block, springs and friction heat took: to 1e-9 of the work."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from stickslip import (
+    Friction,
+    Initial,
+    LateralFriction,
+    Parameters,
+    Rig,
+    Springs,
+    Surface,
+    simulate,
+)
+
+RIGS = {
+    "along x": Parameters(surface=Surface(run_up_time=10.0)),
+    "in the plane": Parameters(
+        lateral_friction=LateralFriction(ratio=1.0), surface=Surface(run_up_time=10.0)
+    ),
+    "slab": Parameters(
+        rig=Rig(surface="slab", spring_natural_length=0.17),
+        lateral_friction=LateralFriction(ratio=1.0),
+    ),
+    "hundreds of events": Parameters(
+        springs=Springs(stiffness=400.0),
+        lateral_friction=LateralFriction(ratio=1.0),
+        surface=Surface(speed=0.1, run_up_time=3.0),
+        rig=Rig(spring_natural_length=0.17),
+    ),
+    "swerving": Parameters(
+        rig=Rig(spring_natural_length=0.17),
+        lateral_friction=LateralFriction(ratio=1.0),
+        initial=Initial(y=0.03, phi=0.5),
+    ),
+}
+
+
+@pytest.mark.parametrize("rig", RIGS)
+def test_closed_over_thirty_seconds(rig):
+    run = simulate(RIGS[rig], 30.0)
+    assert run.complete
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
+    if rig == "hundreds of events":
+        assert len(run.events) > 200
+
+
+parameters = st.builds(
+    lambda mass, stiffness, mu_s, ratio_k, ratio, speed, natural, x, y, phi: Parameters(
+        rig=Rig(mass=mass, spring_natural_length=natural),
+        springs=Springs(stiffness=stiffness),
+        friction=Friction(mu_s=mu_s, mu_k=ratio_k * mu_s),
+        lateral_friction=LateralFriction(ratio=ratio),
+        surface=Surface(speed=speed),
+        initial=Initial(x=x, y=y, phi=phi),
+    ),
+    st.floats(0.3, 3.0),
+    st.floats(5.0, 150.0),
+    st.floats(0.02, 0.6),
+    st.floats(0.3, 1.0),
+    st.sampled_from([0.0, 0.3, 1.0]),
+    st.floats(0.01, 0.9),
+    st.floats(0.15, 0.2),
+    st.floats(-0.02, 0.02),
+    st.floats(-0.01, 0.01),
+    st.floats(-0.2, 0.2),
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(parameters)
+def test_any_rig(p):
+    run = simulate(p, 3.0)
+    assert run.complete
+    scale = run["heat"][-1] + 0.5 * p.rig.mass * p.surface.speed**2
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
+    assert np.all(np.diff(run["heat"]) >= -1e-12 * scale)  # friction never drives the sliding
+    assert np.all(np.diff(run["sliding_distance"]) >= -1e-15)
+
+
+@settings(max_examples=30, deadline=None)
+@given(parameters)
+def test_mirror_images(p):
+    """Left and right: y, phi change sign. Belt reversed: x, phi change sign, with the start."""
+    start = p.initial
+    run = simulate(p, 1.5)
+    across = p.model_copy(update={"initial": Initial(x=start.x, y=-start.y, phi=-start.phi)})
+    back = p.model_copy(
+        update={
+            "initial": Initial(x=-start.x, y=start.y, phi=-start.phi),
+            "surface": Surface(speed=-p.surface.speed),
+        }
+    )
+    for other, signs in ((simulate(across, 1.5), (1, -1, -1)), (simulate(back, 1.5), (-1, 1, -1))):
+        for name, sign in zip(("x", "y", "phi"), signs, strict=True):
+            np.testing.assert_allclose(other[name], sign * run[name], atol=1e-7)

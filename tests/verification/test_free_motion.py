@@ -1,0 +1,106 @@
+"""Limits of the rig in which the motion is known in closed form."""
+
+import numpy as np
+import pytest
+from stickslip import (
+    Friction,
+    Initial,
+    LateralFriction,
+    Parameters,
+    Rig,
+    Springs,
+    Surface,
+    simulate,
+)
+
+GRAVITY = 9.81
+FRICTIONLESS = Friction(mu_s=0.0, mu_k=0.0)
+
+
+def test_free_vibration():
+    """x = x0 cos(omega t), omega = sqrt(4 k / m): along x the exact geometry is linear too."""
+    run = simulate(Parameters(friction=FRICTIONLESS, initial=Initial(x=0.03)), 20.0)
+    omega = np.sqrt(4.0 * 20.17 / 0.67)
+    assert np.max(np.abs(run["x"] - 0.03 * np.cos(omega * run.time))) < 1e-9 * 0.03
+    assert np.all(run["mode"] == 1)  # a block without friction slides
+
+
+@pytest.mark.parametrize("ratio", [0.0, 1.0])
+def test_runaway_without_springs(ratio):
+    """k = 0: x = F t^2 / (2 m) under the constant friction F, until the surface is caught up."""
+    run = simulate(
+        Parameters(
+            springs=Springs(stiffness=0.0),
+            surface=Surface(speed=5.0),
+            lateral_friction=LateralFriction(ratio=ratio),
+        ),
+        4.0,
+    )
+    a = 0.2086 * GRAVITY
+    caught_up = 5.0 / a
+    sliding = run.time < caught_up
+    np.testing.assert_allclose(run["x"][sliding], 0.5 * a * run.time[sliding] ** 2, rtol=1e-10)
+    assert run.events[-1, :2] == pytest.approx([caught_up, 0.0], abs=1e-12)
+    riding = ~sliding
+    np.testing.assert_allclose(
+        run["x"][riding], 0.5 * 5.0 * caught_up + 5.0 * (run.time[riding] - caught_up), rtol=1e-10
+    )
+
+
+def test_stiff_springs_hold_the_block():
+    """k = 9999 N/m: the block never goes further than where the springs balance mu_s N twice."""
+    run = simulate(Parameters(springs=Springs(stiffness=9999.0)), 5.0)
+    balance = 0.2815 * 0.67 * GRAVITY / (4.0 * 9999.0)
+    assert np.max(np.abs(run["x"])) < 2.0 * balance + 0.15 / np.sqrt(4.0 * 9999.0 / 0.67)
+    assert run.complete
+
+
+def test_block_at_rest_on_a_standing_belt_stays():
+    run = simulate(Parameters(surface=Surface(speed=0.0), initial=Initial(x=0.01)), 5.0)
+    assert np.all(run["x"] == 0.01)
+    assert np.all(run["mode"] == 0)
+    assert run["heat"][-1] == 0.0
+
+
+def test_everything_zero():
+    """No speed, no springs, no friction: nothing moves and nothing fails."""
+    run = simulate(
+        Parameters(
+            surface=Surface(speed=0.0), springs=Springs(stiffness=0.0), friction=FRICTIONLESS
+        ),
+        5.0,
+    )
+    assert run.complete
+    assert all(np.all(run[name] == 0.0) for name in ("x", "y", "phi", "heat", "energy_residual"))
+
+
+def test_block_decays_to_rest_in_the_dead_zone():
+    """On a standing belt each half swing loses 2 F_k / K; the block stops where F_s holds it."""
+    run = simulate(Parameters(surface=Surface(speed=0.0), initial=Initial(x=0.1)), 10.0)
+    normal, stiffness = 0.67 * GRAVITY, 4.0 * 20.17
+    x, swings = 0.1, 0
+    while abs(x) * stiffness > 0.2815 * normal:
+        x = -np.sign(x) * (abs(x) - 2.0 * 0.2086 * normal / stiffness)
+        swings += 1
+    assert run["x"][-1] == pytest.approx(x, abs=1e-11)
+    assert run.events[-1, 0] == pytest.approx(swings * np.pi * np.sqrt(0.67 / stiffness), abs=1e-10)
+    assert run["heat"][-1] == pytest.approx(0.5 * stiffness * (0.1**2 - x**2), rel=1e-10)
+
+
+def test_coulomb_spinning_disc_stops():
+    """A disc that only spins slows down at mu N (2/3) a / J and stops after omega0 / that."""
+    rig = Rig(spring_natural_length=0.2)
+    run = simulate(
+        Parameters(
+            rig=rig,
+            springs=Springs(stiffness=0.0),
+            surface=Surface(speed=0.0),
+            lateral_friction=LateralFriction(ratio=1.0),
+            initial=Initial(omega=10.0),
+        ),
+        3.0,
+    )
+    inertia = 0.5 * 0.67 * 0.04**2
+    slowing = 0.2086 * 0.67 * GRAVITY * (2.0 / 3.0) * 0.04 / inertia
+    assert run.events[-1, 0] == pytest.approx(10.0 / slowing, rel=1e-12)
+    assert run["phi"][-1] == pytest.approx(0.5 * 10.0**2 / slowing, rel=1e-11)
