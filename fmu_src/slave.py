@@ -27,6 +27,7 @@ from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 # A host computes its communication points in one way or another and may miss the end of the last
 # step by rounding; a gap of more than this part of a step is not rounding.
 GAP = 1e-6
+FINEST_TOLERANCE = next(e["min"] for e in PARAMETERS if e["name"] == "solver.tolerance")
 WHY_NOT = {
     layout.STEP_VANISHED: "the accuracy asked for needs steps below the resolution of time; "
     "raise solver.tolerance",
@@ -161,8 +162,9 @@ class StickSlip3DOF(Fmi2Slave):
         values = {name: float(self.cells[ref]) for ref, name in self.parameter_names.items()}
         self._check(values)
         if self.tolerance is not None and self.tolerance > 0.0:
-            values["solver.tolerance"] = min(values["solver.tolerance"], self.tolerance)
-        self.p = pack(values)
+            tighter = max(self.tolerance, FINEST_TOLERANCE)
+            values["solver.tolerance"] = min(values["solver.tolerance"], tighter)
+        self.p[:] = pack(values)
         initialise(self.p, self.z, self.start)
         self._advance(self.start)
         self.stale = False
@@ -189,11 +191,11 @@ class StickSlip3DOF(Fmi2Slave):
             raise Refused(f"a step while the instance is {self.phase}")
         self._check_step(current_time, step_size)
         self._refresh()
-        before = self.z.copy()
+        before = self.z.copy(), self.o.copy(), self.cells.copy()
         try:
             self._advance(current_time + step_size)
         except BaseException:
-            self.z[:] = before
+            self.z[:], self.o[:], self.cells[:] = before
             raise
         self.time = current_time + step_size
         self.stepped = True

@@ -37,10 +37,10 @@ class Instance:
     def set(self, name, value):
         self.slave.setReal([self.references[name]], [value])
 
-    def initialise(self, start=0.0, **values):
+    def initialise(self, start=0.0, tolerance=None, **values):
         for name, value in {**SLIDING, **values}.items():
             self.set(name, value)
-        self.slave.setupExperiment(startTime=start)
+        self.slave.setupExperiment(startTime=start, tolerance=tolerance)
         self.slave.enterInitializationMode()
         self.slave.exitInitializationMode()
 
@@ -330,6 +330,16 @@ def test_a_run_that_starts_late_is_the_same(block):
         block.slave.doStep(100.0 + n * 0.03125, 0.03125)
     late = block.get("x")
     assert late == pytest.approx(trajectory(block, 0.03125, stop=3.125)[-1], abs=1e-9)
+
+
+@pytest.mark.parametrize("tolerance, same", [(1e-3, True), (0.0, True), (1e-30, False)])
+def test_a_host_s_tolerance_tightens_and_never_loosens(block, tolerance, same):
+    own = trajectory(block, 0.25)[-1]
+    block.slave.reset()
+    block.initialise(tolerance=tolerance)
+    block.march(0, 12, 0.25)
+    assert bool(block.get("x") == own) is same
+    assert block.get("x") == pytest.approx(own, abs=1e-9)
 
 
 def test_simulate_fmu_runs_it(fmu):
