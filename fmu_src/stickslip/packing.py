@@ -21,6 +21,7 @@ from .kernel.layout import (
     P_REFERENCE,
     P_RUN_UP,
     P_SENSITIVITY,
+    P_SHORTEST,
     P_SIZE,
     P_SPEED_SCALE,
     P_STIFFNESS,
@@ -76,7 +77,13 @@ def pack(values: dict[str, float]) -> list[float]:
 
 
 def _place_springs(p: list[float], values: dict[str, float]) -> None:
-    """Attachments on the block, and anchors one spring length away from them along x."""
+    """Attachments on the block, and anchors one spring length away from them along x.
+
+    A spring shorter than a twentieth of its installed length has collapsed: the block has been
+    carried into the anchor, where the direction of the spring force has no meaning any more.
+    """
+    if p[P_STIFFNESS] > 0.0:
+        p[P_SHORTEST] = 0.05 * values["rig.spring_length"]
     radius = values["rig.attachment_radius"]
     for i in range(4):
         angle = radians(values[f"rig.attachment_angles_deg[{i + 1}]"])

@@ -21,6 +21,7 @@ from .kernel.layout import (
     W_SIZE,
     Z_SIZE,
 )
+from .kernel.status import WHY_NOT
 from .parameters import Parameters
 from .trajectory import NAMES, Trajectory
 
@@ -125,12 +126,12 @@ class _Run:
         self.e[E_COUNT] = 0.0
 
     def _failure(self) -> str:
-        time = self.z[layout.HERE + layout.TIME]
-        return (
-            f"the integrator gave up at t = {time:.9g} s: its step fell below the resolution of "
-            "time, or the state is no longer finite; check stiffness, mass and initial state, or "
-            "loosen solver.tolerance"
+        """Why the kernel stopped: asked once more, it gives its status."""
+        status = self.kernel.advance(
+            self.p, self.u, self.z, self.w, self.e, float(self.times[self.rows])
         )
+        time = self.z[layout.SHOWN + layout.TIME]
+        return f"the run ended at t = {time:.9g} s: {WHY_NOT[status]}"
 
     def trajectory(self, reason: str) -> Trajectory:
         table = np.array(self.o).reshape(-1, O_SIZE)[: self.rows]

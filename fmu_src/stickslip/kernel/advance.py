@@ -24,9 +24,11 @@ from .layout import (
     P_RADIUS,
     P_RATE,
     P_RUN_UP,
+    P_SHORTEST,
     SHOWN,
     SLIP,
     SLIPS,
+    SPRING_COLLAPSED,
     STEP_VANISHED,
     STICK,
     TIME,
@@ -44,6 +46,7 @@ from .layout import (
 )
 from .motion import block_energy, rest_speed
 from .runge_kutta import begin_step, take_step
+from .springs import shortest_spring
 
 
 def initialise(p: "float[:]", z: "float[:]", time: float):
@@ -164,6 +167,8 @@ def internal_step(
             finish_slip_step(p, u, z, w, e)
     if z[NEXT + MODE] != z[HERE + MODE]:
         z[Z_STEP] = 0.1 / p[P_RATE]
+    if p[P_SHORTEST] > 0.0 and shortest_spring(p, z, NEXT) < p[P_SHORTEST]:
+        return SPRING_COLLAPSED
     return DONE
 
 

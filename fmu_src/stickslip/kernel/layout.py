@@ -83,8 +83,9 @@ P_RUN_UP = 30  # s
 P_TOLERANCE = 31
 P_RATE = 32  # characteristic rate of the motion, rad/s
 P_SPEED_SCALE = 33  # speed that the motion reaches by itself, m/s; scales the error test
-P_INITIAL = 34  # six numbers: x, y, phi, vx, vy, omega
-P_TABLEAU = 40  # the Runge-Kutta coefficients, see tableau
+P_SHORTEST = 34  # length below which a spring counts as collapsed, m
+P_INITIAL = 35  # six numbers: x, y, phi, vx, vy, omega
+P_TABLEAU = 41  # the Runge-Kutta coefficients, see tableau
 
 # --- the tableau's parts, offsets from P_TABLEAU ----------------------------------------------
 STAGES = 12
@@ -93,7 +94,7 @@ T_B = 144
 T_C = 156
 T_E5 = 168
 T_E3 = 180
-P_SIZE = 232
+P_SIZE = 233
 
 # --- w: scratch -------------------------------------------------------------------------------
 W_STATE = 0  # a block: the moment at which the right-hand side is wanted
@@ -139,3 +140,4 @@ O_SIZE = 18
 DONE = 0
 STEP_VANISHED = 1  # the error test asks for a step below the resolution of time
 NOT_FINITE = 2
+SPRING_COLLAPSED = 3  # the block has been carried into the anchor of a spring

@@ -50,3 +50,17 @@ def spring_energy(p: "float[:]", x: float, y: float, phi: float) -> float:
         stretch = sqrt(dx * dx + dy * dy) - p[P_NATURAL_LENGTH]
         energy += 0.5 * p[P_STIFFNESS] * stretch * stretch
     return energy
+
+
+def shortest_spring(p: "float[:]", z: "float[:]", block: int) -> float:
+    """Length of the shortest of the four springs at a block of ``z``, m."""
+    c = cos(z[block + PHI])
+    s = sin(z[block + PHI])
+    shortest = 1e300
+    for i in range(4):
+        bx = p[P_ATTACH + 2 * i]
+        by = p[P_ATTACH + 2 * i + 1]
+        dx = p[P_ANCHOR + 2 * i] - z[block + X] - (c * bx - s * by)
+        dy = p[P_ANCHOR + 2 * i + 1] - z[block + Y] - (s * bx + c * by)
+        shortest = min(shortest, sqrt(dx * dx + dy * dy))
+    return shortest
