@@ -1,0 +1,10 @@
+"""Results of a run: dataset, files, summary, figures and page.
+
+>>> from cosim.report import run_dataset, trajectory_dataset, write_results
+"""
+
+from .dataset import run_dataset, trajectory_dataset
+from .errors import OutputError
+from .summary import summary
+
+__all__ = ["OutputError", "run_dataset", "summary", "trajectory_dataset"]

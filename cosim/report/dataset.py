@@ -1,0 +1,190 @@
+"""A run as an xarray Dataset: what files, figures and summary are made of."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from typing import Any, Protocol
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from pydantic import BaseModel
+from stickslip import Trajectory
+
+from cosim.master import CoupledResult
+
+from .blocks import blocks_of, value_of
+from .variables import MECHANICAL, OUTPUTS, THERMAL, TIME, attributes
+from .versions import versions
+
+Array = NDArray[np.float64]
+
+# whole numbers that models and masters carry as floats
+_COUNTS = {"mode": np.int8, "slip_count": np.int64}
+
+
+class BeltSnapshots(Protocol):
+    """The belt's contact face at some times, in its own (material) coordinate.
+
+    time (k,) s; position (n,) m; temperature (k, n) degC; contact (k,) m, the contact's centre.
+    """
+
+    time: Any
+    position: Any
+    temperature: Any
+    contact: Any
+
+
+def run_dataset(
+    result: CoupledResult,
+    scenario: BaseModel,
+    toml: str,
+    *,
+    mechanics: str = "mechanics",
+    thermal: str = "thermal",
+    snapshots: BeltSnapshots | None = None,
+) -> xr.Dataset:
+    """A coupled run as a dataset over ``time`` (n,).
+
+    scenario: the model that ``toml`` was read into; mechanics, thermal: the participants' names.
+    """
+    columns, units = _columns(result, mechanics, thermal)
+    columns["coupling_residual"] = result.ledger.residual
+    dataset = _dataset(result.time, columns, units)
+    _describe(dataset, scenario, toml, "coupled", result.status, result.reason, result.wall_time)
+    dataset.attrs["events"] = (
+        "mode and slip_count are sampled at the communication points: break-away and re-stick "
+        "are known to one interval of time; the motion itself was computed with exact events"
+    )
+    if "surface_speed" not in dataset:
+        dataset["surface_speed"] = "time", _surface_speed(dataset), attributes("surface_speed")
+    return dataset if snapshots is None else dataset.merge(_snapshots(snapshots))
+
+
+def trajectory_dataset(
+    trajectory: Trajectory,
+    scenario: BaseModel,
+    toml: str,
+    *,
+    wall_time: float | None = None,
+) -> xr.Dataset:
+    """A run of the mechanics alone as a dataset over ``time`` (n,) and ``event_time`` (k,).
+
+    scenario: the model that ``toml`` was read into; wall_time: of the integration, s.
+    """
+    units = {name: unit for name, unit, _ in OUTPUTS}
+    dataset = _dataset(trajectory.time, trajectory.columns, units)
+    status, reason = _outcome(trajectory)
+    _describe(dataset, scenario, toml, "mechanics", status, reason, wall_time)
+    dataset.attrs["events"] = "event_time: break-away and re-stick, located to rounding"
+    return dataset.merge(_events(trajectory.events))
+
+
+def _columns(
+    result: CoupledResult, mechanics: str, thermal: str
+) -> tuple[dict[str, Array], dict[str, str]]:
+    """Columns by port name. An input repeats the output that feeds it: the output is kept."""
+    owners = {name: mechanics for name in MECHANICAL} | {name: thermal for name in THERMAL}
+    columns: dict[str, Array] = {}
+    units: dict[str, str] = {}
+    for address, values in result.values.items():
+        participant, _, port = address.partition(".")
+        if owners.get(port, participant) == participant and port not in columns:
+            columns[port], units[port] = values, result.units[address]
+    return columns, units
+
+
+def _dataset(time: Array, columns: Mapping[str, Array], units: Mapping[str, str]) -> xr.Dataset:
+    variables = {
+        name: ("time", _typed(name, values), attributes(name, units.get(name)))
+        for name, values in columns.items()
+    }
+    return xr.Dataset(variables, coords={"time": ("time", np.asarray(time, float), TIME)})
+
+
+def _typed(name: str, values: Array) -> NDArray[Any]:
+    values = np.asarray(values)
+    if name in _COUNTS and np.all(np.isfinite(values)):
+        return values.astype(_COUNTS[name])
+    return values
+
+
+def _describe(
+    dataset: xr.Dataset,
+    scenario: BaseModel,
+    toml: str,
+    case: str,
+    status: str,
+    reason: str,
+    wall_time: float | None,
+) -> None:
+    dataset.attrs.update(
+        title=str(getattr(scenario, "name", "") or "stick-slip"),
+        case=case,
+        status=status,
+        reason=reason,
+        scenario=toml,
+        parameters=json.dumps(blocks_of(scenario)),
+        versions=json.dumps(versions()),
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+    )
+    if wall_time is not None:
+        dataset.attrs["wall_time"] = float(wall_time)
+
+
+def _surface_speed(dataset: xr.Dataset) -> Array:
+    """Linear run-up from standstill, then constant, m/s (n,)."""
+    speed = value_of(dataset, "surface", "speed") or 0.0
+    run_up = value_of(dataset, "surface", "run_up_time") or 0.0
+    time = dataset["time"].values
+    return speed * (np.minimum(time / run_up, 1.0) if run_up > 0.0 else np.ones_like(time))
+
+
+def _outcome(trajectory: Trajectory) -> tuple[str, str]:
+    if trajectory.complete:
+        return "complete", ""
+    reached = f"{trajectory.time[-1]:.9g} s" if trajectory.time.size else "the start"
+    if trajectory.reason.endswith("KeyboardInterrupt"):
+        return "interrupted", f"interrupted at t = {reached}"
+    return "failed", trajectory.reason
+
+
+def _events(events: Array) -> xr.Dataset:
+    time, mode, x = np.asarray(events, float).reshape(-1, 3).T
+    return xr.Dataset(
+        {
+            "event_mode": (
+                "event_time", mode.astype(np.int8), attributes("mode") | {
+                    "long_name": "mode after the event: 0 stick, 1 slip"},
+            ),
+            "event_x": ("event_time", x, attributes("x")),
+        },
+        coords={"event_time": (
+            "event_time", time, {"units": "s", "long_name": "time of break-away or re-stick"})},
+    )
+
+
+def _snapshots(snapshots: BeltSnapshots) -> xr.Dataset:
+    time, position = np.asarray(snapshots.time, float), np.asarray(snapshots.position, float)
+    temperature = np.asarray(snapshots.temperature, float).reshape(time.size, position.size)
+    return xr.Dataset(
+        {
+            "belt_temperature": (
+                ("snapshot_time", "belt_position"), temperature,
+                {"units": "degC", "long_name": "temperature of the belt's contact face"},
+            ),
+            "contact_position": (
+                "snapshot_time", np.asarray(snapshots.contact, float),
+                {"units": "m", "long_name": "centre of the contact on the belt"},
+            ),
+        },
+        coords={
+            "snapshot_time": (
+                "snapshot_time", time, {"units": "s", "long_name": "time of the belt profile"}),
+            "belt_position": (
+                "belt_position", position,
+                {"units": "m", "long_name": "position along the belt, fixed to its material"}),
+        },
+    )

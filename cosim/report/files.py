@@ -1,0 +1,52 @@
+"""Result files that appear under their names only when they are complete."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from .errors import OutputError
+
+
+def write_atomically(path: Path, write: Callable[[Path], object]) -> Path:
+    """Let ``write`` fill a partial file beside ``path``, then put it in place.
+
+    An earlier file of that name stays as it was until then. OutputError when the disk refuses.
+    """
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        write(partial)
+        os.replace(partial, path)
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+    finally:
+        partial.unlink(missing_ok=True)
+    return path
+
+
+def write_netcdf(dataset: xr.Dataset, path: Path) -> Path:
+    """The whole dataset as netCDF 4 (through h5netcdf)."""
+    return write_atomically(path, lambda partial: dataset.to_netcdf(partial, engine="h5netcdf"))
+
+
+def write_csv(dataset: xr.Dataset, path: Path) -> Path:
+    """Everything over ``time`` as a table; numbers with the digits that restore them exactly."""
+    names = [name for name in dataset.data_vars if dataset[name].dims == ("time",)]
+    table = dataset[names].to_dataframe()
+    return write_atomically(path, lambda partial: table.to_csv(partial))
+
+
+def write_json(content: Mapping[str, Any], path: Path) -> Path:
+    """A JSON file; NaN is refused, a missing number is null."""
+    text = json.dumps(content, indent=2, allow_nan=False, ensure_ascii=False)
+    return write_text(text + "\n", path)
+
+
+def write_text(text: str, path: Path) -> Path:
+    """A text file in UTF-8."""
+    return write_atomically(path, lambda partial: partial.write_text(text, encoding="utf-8"))

@@ -1,0 +1,44 @@
+"""Names, units and descriptions of what a result holds."""
+
+from __future__ import annotations
+
+from stickslip.trajectory import OUTPUTS
+
+# name -> (unit, long name); the mechanical ones as the model itself describes them
+MECHANICAL = {name: (unit, text) for name, unit, text in OUTPUTS}
+
+THERMAL = {
+    "interface_temperature": ("degC", "temperature between block and belt, mean of both faces"),
+    "belt_entry_temperature": ("degC", "belt face just before the contact"),
+    "belt_exit_temperature": ("degC", "belt face just behind the contact"),
+    "ice_face_temperature": ("degC", "face of the ice, mean over the contact"),
+    "belt_share": ("1", "share of the friction heat that went into the belt, since the start"),
+    "melt_rate": ("kg/s", "melting, mean over the last macro step"),
+    "melted_mass": ("kg", "ice melted since the start"),
+    "heat_received": ("J", "friction heat that the thermal model took up since the start"),
+    "belt_heat": ("J", "heat stored in the belt above the start"),
+    "ice_heat": ("J", "heat stored in the ice above the start"),
+    "air_heat": ("J", "heat given to the air since the start"),
+    "latent_heat": ("J", "heat spent on melting since the start"),
+    "heat_residual": ("J", "heat received less heat found: the thermal model's error"),
+}
+
+COUPLING = {
+    "coupling_residual": (
+        "J",
+        "heat handed over and not taken up, and what the participants' own ledgers are off by",
+    ),
+}
+
+KNOWN = MECHANICAL | THERMAL | COUPLING
+
+TIME = {"units": "s", "long_name": "time"}
+
+MODE = {"flag_values": [0, 1], "flag_meanings": "stick slip"}
+
+
+def attributes(name: str, unit: str | None = None) -> dict[str, object]:
+    """units and long_name of a variable; an unknown one is named by its own words."""
+    known_unit, text = KNOWN.get(name, (unit or "1", name.replace("_", " ").replace(".", " ")))
+    attrs: dict[str, object] = {"units": unit or known_unit, "long_name": text}
+    return attrs | (MODE if name == "mode" else {})
