@@ -17,13 +17,18 @@ def references(fmu):
     return {v.name: v.valueReference for v in description.modelVariables}
 
 
-def x_in_libcosim(fmu, instances=1):
-    """x(t) of each instance, (instances, COUNT)."""
-    where = references(fmu)
+def prepared():
     execution = CosimExecution.from_step_size(step_size=round(STEP * 1e9))
     manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
     execution.add_manipulator(manipulator=manipulator)
     execution.add_observer(observer=observer)
+    return execution, manipulator, observer
+
+
+def x_in_libcosim(fmu, instances=1):
+    """x(t) of each instance, (instances, COUNT)."""
+    where = references(fmu)
+    execution, manipulator, observer = prepared()
     slaves = []
     for n in range(instances):
         slave = CosimLocalSlave(fmu_path=str(fmu), instance_name=f"block{n}")
@@ -56,3 +61,18 @@ def x_in_fmpy(fmu, speed):
 def test_libcosim_and_fmpy_see_the_same_motion(fmu, instances):
     for n, x in enumerate(x_in_libcosim(fmu, instances)):
         np.testing.assert_allclose(x, x_in_fmpy(fmu, SPEED * (n + 1)), rtol=0, atol=1e-9)
+
+
+def test_an_input_that_is_no_number_stops_libcosim_and_not_the_process(fmu):
+    where = references(fmu)
+    execution, manipulator, observer = prepared()
+    block = execution.add_local_slave(
+        local_slave=CosimLocalSlave(fmu_path=str(fmu), instance_name="block")
+    )
+    assert execution.step() and execution.step()
+    manipulator.slave_real_values(
+        slave_index=block, variable_references=[where["surface_speed"]], values=[float("nan")]
+    )
+    assert not execution.step()
+    assert execution.status().state == CosimExecutionState.ERROR.value
+    assert np.isfinite(observer.last_real_values(block, [where["x"]])[0])
