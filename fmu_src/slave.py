@@ -21,6 +21,7 @@ from pythonfmu.enums import Fmi2Status
 from stickslip.kernel import layout
 from stickslip.kernel.advance import advance, initialise
 from stickslip.kernel.outputs import show
+from stickslip.kernel.status import WHY_NOT
 from stickslip.packing import pack
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 
@@ -28,11 +29,6 @@ from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 # step by rounding; a gap of more than this part of a step is not rounding.
 GAP = 1e-6
 FINEST_TOLERANCE = next(e["min"] for e in PARAMETERS if e["name"] == "solver.tolerance")
-WHY_NOT = {
-    layout.STEP_VANISHED: "the accuracy asked for needs steps below the resolution of time; "
-    "raise solver.tolerance",
-    layout.NOT_FINITE: "the motion grew beyond all numbers",
-}
 
 
 class Refused(Exception):

@@ -84,12 +84,12 @@ def take_step(
     for stage in range(1, STAGES):
         w[W_STATE + TIME] = z[start + TIME] + h * p[P_TABLEAU + T_C + stage]
         for i in range(STATES):
-            slope = 0.0
-            for before in range(stage):
-                weight = p[P_TABLEAU + T_A + stage * STAGES + before]
-                if weight != 0.0:
-                    slope += weight * w[W_SLOPES + before * STATES + i]
-            w[W_STATE + 1 + i] = z[start + 1 + i] + h * slope
+            w[W_STATE + 1 + i] = z[start + 1 + i]
+        for before in range(stage):
+            weight = h * p[P_TABLEAU + T_A + stage * STAGES + before]
+            if weight != 0.0:
+                for i in range(STATES):
+                    w[W_STATE + 1 + i] += weight * w[W_SLOPES + before * STATES + i]
         set_slopes(p, u, w, mode, W_SLOPES + stage * STATES)
     for i in range(TIME, BLOCK):
         z[end + i] = z[start + i]
