@@ -1,1 +1,38 @@
-"""Coupling, studies and the command line."""
+"""Stick-slip coupled to the heat it makes: master, scenarios, studies and the command line.
+
+In a notebook:
+
+>>> from cosim import read_scenario, run_scenario
+>>> scenario = read_scenario("reference").changed({"rig.mass": 1.2, "run.duration": 15.0})
+>>> run = run_scenario(scenario)                                  # doctest: +SKIP
+>>> run.result.time, run.result["mechanics.x"]                    # doctest: +SKIP
+>>> from cosim.report import run_dataset                          # doctest: +SKIP
+>>> run_dataset(run.result, scenario, scenario.to_toml(), snapshots=run.snapshots)  # doctest: +SKIP
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from cosim.coupled import CoupledRun, run_scenario
+    from cosim.scenario import Scenario, read_scenario
+
+__all__ = ["CoupledRun", "Scenario", "read_scenario", "run_scenario"]
+
+_HOME = {
+    "CoupledRun": "cosim.coupled",
+    "run_scenario": "cosim.coupled",
+    "Scenario": "cosim.scenario",
+    "read_scenario": "cosim.scenario",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: the command line and the master alone start without the models."""
+    if name in _HOME:
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

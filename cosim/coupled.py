@@ -1,0 +1,90 @@
+"""A scenario as a coupled run: the mechanical FMU and the heat in belt and ice."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from cosim.fmu_build import ensure_fmu
+from cosim.master import (
+    Connection,
+    CoupledResult,
+    CoupledSystem,
+    FmuParticipant,
+    GaussSeidel,
+    run,
+)
+from cosim.scenario import Scenario, read_scenario
+from cosim.snapshots import Snapshots
+from cosim.thermal_participant import ThermalParticipant
+from thermal import BeltIceModel
+
+MECHANICS, THERMAL = "mechanics", "thermal"
+BUILD_FOLDER = "build"
+CONNECTIONS = (
+    Connection(f"{MECHANICS}.heat", f"{THERMAL}.heat", taken="heat_received"),
+    Connection(f"{MECHANICS}.surface_travel", f"{THERMAL}.surface_travel"),
+    Connection(f"{MECHANICS}.x", f"{THERMAL}.x"),
+    # always: without temperature_dependence.sensitivity the friction does not feel it
+    Connection(f"{THERMAL}.interface_temperature", f"{MECHANICS}.interface_temperature"),
+)
+RESIDUALS = (f"{MECHANICS}.energy_residual", f"{THERMAL}.heat_residual")
+
+
+@dataclass(frozen=True)
+class CoupledRun:
+    """What a coupled run was made of and what came out.
+
+    result: every output of both sides at the recorded times, as `mechanics.x`,
+    `thermal.interface_temperature`, ..., status and energy ledger. snapshots: the belt's
+    contact face over time.
+    """
+
+    scenario: Scenario
+    result: CoupledResult
+    snapshots: Snapshots
+
+
+def run_scenario(
+    scenario: Scenario | str | Path = "reference",
+    *,
+    fmu: str | Path | None = None,
+    fields: str | Path | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> CoupledRun:
+    """Run a scenario, the name of a packaged one, or a TOML file, coupled.
+
+    fmu: the mechanical FMU; left out, it is `build/StickSlip3DOF.fmu`, built when it is missing
+    or stale. fields: a folder that exists, for the temperature fields (`temperature.pvd` opens
+    in ParaView). progress: called with the time reached (s) after each macro step.
+
+    A run that is interrupted (Ctrl-C) or fails returns what it had; `result.status` says so.
+    Raises ScenarioError, FmuError, FmuBuildError or CouplingError (all ValueErrors of one line)
+    for input that cannot be, ParticipantError when a model fails before the first step.
+
+    >>> run = run_scenario("reference")                      # doctest: +SKIP
+    >>> run.result["thermal.interface_temperature"][-1]      # doctest: +SKIP
+    """
+    if not isinstance(scenario, Scenario):
+        scenario = read_scenario(scenario)
+    record_every = scenario.record_every
+    snapshots = Snapshots(scenario.run.snapshot_interval, fields)
+    mechanics = FmuParticipant(
+        fmu or ensure_fmu(BUILD_FOLDER),
+        MECHANICS,
+        parameters=scenario.mechanics.flat(),
+        inputs={"surface_speed": scenario.surface.speed},
+    )
+    heat = ThermalParticipant(BeltIceModel(scenario.thermal), THERMAL, look=snapshots)
+    with CoupledSystem([mechanics, heat], CONNECTIONS, RESIDUALS) as system:
+        result = run(
+            system,
+            GaussSeidel((MECHANICS, THERMAL)),
+            stop=scenario.run.duration,
+            macro_step=scenario.coupling.macro_step,
+            record_every=record_every,
+            progress=progress,
+        )
+        snapshots.take(float(result.time[-1]), heat.model)
+    return CoupledRun(scenario, result, snapshots)

@@ -1,0 +1,167 @@
+"""What is wrong with a scenario, in one line a user can act on."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+LONGEST_VALUE = 60
+BOUNDS = {
+    "gt": "greater than {:g}",
+    "ge": "at least {:g}",
+    "lt": "less than {:g}",
+    "le": "at most {:g}",
+}
+WRONG = {
+    "finite_number": "not a finite number",
+    "float_type": "not a number",
+    "int_type": "not a whole number",
+    "string_type": "not a text",
+    "model_type": "not a table",
+    "literal_error": "not known",
+    "greater_than": "out of range",
+    "greater_than_equal": "out of range",
+    "less_than": "out of range",
+    "less_than_equal": "out of range",
+    "missing": "has too few entries",
+    "too_long": "has too many entries",
+    "string_pattern_mismatch": "not fit for the name of a folder",
+}
+
+
+class ScenarioError(ValueError):
+    """A scenario cannot be read or makes no sense; one line: file, key, what, what is allowed."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str | None:
+    """The known name that is most like another one, if any is."""
+    near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
+    return near[0] if near else None
+
+
+def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """`key` and `block.key` -> field, of a model made of blocks."""
+    keys = {}
+    for name, field in model.model_fields.items():
+        keys[name] = field
+        if _is_block(field):
+            keys |= {f"{name}.{key}": entry for key, entry in field.annotation.model_fields.items()}
+    return keys
+
+
+def describe_faults(report: ValidationError, model: type[BaseModel]) -> str:
+    """The first fault of pydantic's report, and how many keys have others, in one line."""
+    keys = known_keys(model)
+    faults: dict[str, list[dict[str, Any]]] = {}
+    for fault in report.errors():
+        # deeper places are entries of a list or branches of a union, of one key
+        faults.setdefault(".".join(str(part) for part in fault["loc"][:2]), []).append(fault)
+    key, first = next(iter(faults.items()))
+    line = _describe(key, first, keys)
+    others = len(faults) - 1
+    return line + (f" (and {others} more fault{'s' * (others > 1)})" if others else "")
+
+
+def _describe(key: str, faults: list[dict[str, Any]], keys: dict[str, FieldInfo]) -> str:
+    fault = faults[0]
+    if fault["type"] == "value_error":
+        return _of_several_keys(key, str(fault["ctx"]["error"]), keys)
+    if fault["type"] == "extra_forbidden":
+        return f"{key}: no such key, {_known_instead(key, keys)}"
+    wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
+    return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
+
+
+def _of_several_keys(block: str, message: str, keys: dict[str, FieldInfo]) -> str:
+    """`key = value ...` from a check of several values, as `block.key: value ...`."""
+    message = " ".join(message.split())
+    match = re.match(r"(?P<key>[\w.]+) (?:= )?(?P<rest>.*)", message)
+    if match:
+        for key in (f"{block}.{match['key']}", match["key"]):
+            if key in keys:
+                return f"{key}: {match['rest']}"
+    return f"{block}: {message}" if block else message
+
+
+def _known_instead(key: str, keys: dict[str, FieldInfo]) -> str:
+    """The key that was meant: of the same block, of the same name elsewhere, or the most like."""
+    block, _, entry = key.rpartition(".")
+    if key == "contact.radius":
+        return "the contact's radius is rig.contact_radius"
+    siblings = [known for known in keys if known.rpartition(".")[0] == block]
+    namesakes = [known for known in keys if known.rpartition(".")[2] == entry]
+    near = nearest(key, siblings) or next(iter(namesakes), None) or nearest(key, keys)
+    if near:
+        return f"nearest known: {near}"
+    return f"known: {', '.join(known.rpartition('.')[2] for known in siblings)}"
+
+
+def allowed(key: str, field: FieldInfo) -> str:
+    """What a key may hold, in words."""
+    if _is_block(field):
+        return f"a table [{key}] with {', '.join(field.annotation.model_fields)}"
+    unit = (field.json_schema_extra or {}).get("unit", "1")
+    return _allowed_type(field.annotation, field.metadata, "" if unit == "1" else f" {unit}")
+
+
+def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
+    if kind is float or kind is int:
+        bounds = [
+            words.format(getattr(bound, name))
+            for bound in metadata
+            for name, words in BOUNDS.items()
+            if getattr(bound, name, None) is not None
+        ]
+        number = "a number" if kind is float else "a whole number"
+        return f"{number} {' and '.join(bounds)}".rstrip() + unit
+    if kind is str:
+        return 'a text of 1 to 100 characters without /\\:*?"<>|, a dot or a space not first'
+    if get_origin(kind) is Literal:
+        return " or ".join(f'"{choice}"' for choice in get_args(kind))
+    if get_origin(kind) is tuple:
+        return _allowed_list(get_args(kind), unit)
+    parts = get_args(kind)
+    if hasattr(kind, "__metadata__"):
+        return _allowed_type(parts[0], _flat_metadata(kind), unit)
+    return " or ".join(_allowed_type(part, (), unit) for part in parts)
+
+
+def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
+    if entries[-1] is Ellipsis:
+        return f"a list of {_allowed_type(entries[0], (), unit)}"
+    return f"a list of {len(entries)} numbers{unit and f' in{unit}'}"
+
+
+def _flat_metadata(kind: Any) -> list[Any]:
+    """Bounds of an Annotated type, also those that sit inside a Field."""
+    return [
+        bound
+        for entry in kind.__metadata__
+        for bound in getattr(entry, "metadata", None) or [entry]
+    ]
+
+
+def _is_block(field: FieldInfo) -> bool:
+    return isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel)
+
+
+def _shown(value: Any) -> str:
+    """A value as the file has it, shortened."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        text = f'"{value}"'.replace("\n", "\\n")
+    elif isinstance(value, tuple):
+        text = f"[{', '.join(_shown(entry) for entry in value)}]"
+    elif isinstance(value, dict):
+        text = f"a table with {', '.join(map(str, value)) or 'nothing'}"
+    elif isinstance(value, int) and value.bit_length() > 1000:
+        text = "an integer of over 300 digits"
+    else:
+        text = str(value)
+    return text if len(text) <= LONGEST_VALUE else text[: LONGEST_VALUE - 3] + "..."
