@@ -5,6 +5,9 @@
 
 from .dataset import run_dataset, trajectory_dataset
 from .errors import OutputError
+from .results import write_data, write_results
 from .summary import summary
 
-__all__ = ["OutputError", "run_dataset", "summary", "trajectory_dataset"]
+__all__ = [
+    "OutputError", "run_dataset", "summary", "trajectory_dataset", "write_data", "write_results",
+]

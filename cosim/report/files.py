@@ -50,3 +50,8 @@ def write_json(content: Mapping[str, Any], path: Path) -> Path:
 def write_text(text: str, path: Path) -> Path:
     """A text file in UTF-8."""
     return write_atomically(path, lambda partial: partial.write_text(text, encoding="utf-8"))
+
+
+def write_bytes(content: bytes, path: Path) -> Path:
+    """A binary file."""
+    return write_atomically(path, lambda partial: partial.write_bytes(content))

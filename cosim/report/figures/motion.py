@@ -1,0 +1,46 @@
+"""Position and rotation of the block over time."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ..style import (
+    BLUE,
+    GREEN,
+    RED,
+    at_least,
+    line,
+    readable,
+    slip_patch,
+    styled,
+    time_panels,
+    title,
+)
+
+# what a camera over the rig would just see; smaller motions are not blown up to fill the axis
+SMALLEST_LENGTH = 1e-4
+SMALLEST_ANGLE_DEG = 0.1
+
+
+@styled
+def draw_motion(dataset: xr.Dataset) -> Figure:
+    """x, y and phi over time, slip shaded; the last cycles beside the whole run."""
+    figure, axes = time_panels(dataset, rows=3)
+    time = dataset["time"].values
+    for row, (name, colour) in enumerate((("x", BLUE), ("y", GREEN), ("phi", RED))):
+        if name == "phi":
+            values, label, smallest = np.degrees(dataset[name].values), "φ [°]", SMALLEST_ANGLE_DEG
+        else:
+            scaled = readable(dataset[name].values, "m", floor=1e-3)
+            values = scaled(dataset[name].values)
+            label, smallest = f"{name} [{scaled.unit}]", scaled.factor * SMALLEST_LENGTH
+        for panel in axes[row]:
+            line(panel, time, values, color=colour)
+        at_least(axes[row, 0], smallest)
+        axes[row, 0].set_ylabel(label)
+    figure.align_ylabels(axes[:, 0])
+    title(figure, "Motion of the block", dataset)
+    figure.legend(handles=[slip_patch()], loc="outside upper right")
+    return figure

@@ -1,0 +1,143 @@
+"""The page of a run: one HTML file that holds everything it shows."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import xarray as xr
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from .blocks import stored_blocks
+from .figures import Plate
+from .words import digits, spelled, told, worded
+
+OWN_FILES = {
+    "result.nc": "everything, with units and descriptions: netCDF 4, for xarray, ParaView, Matlab",
+    "result.csv": "all time series as a table with a header, digits in full",
+    "summary.json": "the numbers of this page, with their units",
+}
+TITLES = {"mechanics": "Energy of the block", "heat": "Heat in belt and ice",
+          "coupling": "Heat from mechanics to belt and ice"}
+CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
+
+
+class Table(NamedTuple):
+    """A heading and rows of words and numbers."""
+
+    title: str
+    rows: list[tuple[str, ...]]
+
+
+def page(
+    dataset: xr.Dataset,
+    numbers: Mapping[str, Any],
+    pictures: Mapping[Plate, bytes],
+    *,
+    command: str = "",
+    files: Mapping[str, str] | None = None,
+) -> str:
+    """HTML of a run: numbers of `summary`, PNGs of its figures, further files to be listed."""
+    environment = Environment(
+        loader=PackageLoader("cosim.report"), autoescape=True, undefined=StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True)
+    figures = [
+        (plate, base64.b64encode(picture).decode("ascii")) for plate, picture in pictures.items()]
+    own = dict(OWN_FILES) | {
+        f"{plate.name}.png": "figure, as above" for plate in pictures}
+    return environment.get_template("report.html.j2").render(
+        numbers=numbers,
+        case=CASES.get(numbers["case"], numbers["case"]),
+        overview=overview(numbers),
+        ledgers=list(ledgers(numbers)),
+        tables=list(number_tables(numbers)),
+        temperatures=temperature_rows(numbers),
+        figures=figures,
+        blocks=parameter_tables(dataset),
+        files=own | dict(files or {}),
+        command=command,
+        coupled=numbers["case"] == "coupled",
+    )
+
+
+def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The handful of numbers that stand at the top."""
+    paths = (
+        "time_reached", "after_run_up.frequency", "after_run_up.slip_share",
+        "after_run_up.mean_x", "after_run_up.max_rotation_deg",
+        "temperatures.interface.end_rise", "ledger.mechanics.friction_heat", "wall_time",
+    )
+    words = {
+        "time_reached": "simulated", "wall_time": "computing time",
+        "after_run_up.slip_share": "of the time in slip",
+        "temperatures.interface.end_rise": "rise at the contact, end",
+    }
+    found = []
+    for path in paths:
+        value = _at(numbers, path)
+        if value is not None:
+            found.append((words.get(path, worded(path.rsplit(".")[-1])), _told(numbers, path)))
+    return found
+
+
+def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
+    """One table for each ledger of the run."""
+    for name, entries in numbers.get("ledger", {}).items():
+        yield Table(TITLES[name], _rows(numbers, f"ledger.{name}", entries))
+
+
+def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
+    """Motion after the run-up and over the whole run, and the shares of the heat."""
+    titles = {"after_run_up": "After the run-up", "whole_run": "Whole run",
+              "heat_shares": "Where the heat is at the end"}
+    for name, title in titles.items():
+        if name in numbers:
+            yield Table(title, _rows(numbers, name, numbers[name]))
+
+
+def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Place, end, lowest and highest temperature, rise at the end and at most."""
+    found = []
+    for place, entries in numbers.get("temperatures", {}).items():
+        if place == "ambient":
+            continue
+        degrees = [_degrees(entries[key]) for key in ("end_degC", "min_degC", "max_degC")]
+        rises = [told(entries[key], "K") for key in ("end_rise", "max_rise")]
+        found.append((worded(place), *degrees, *rises))
+    return found
+
+
+def parameter_tables(dataset: xr.Dataset) -> list[Table]:
+    """Every parameter with value, unit and description, block by block."""
+    return [
+        Table(block, [
+            (key, digits(entry["value"]), spelled(entry["unit"]), entry["description"])
+            for key, entry in entries.items()
+        ])
+        for block, entries in stored_blocks(dataset).items()
+    ]
+
+
+def _rows(numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]) -> list[tuple]:
+    shares = path == "heat_shares"
+    return [(worded(key), _told(numbers, f"{path}.{key}", shares)) for key in entries]
+
+
+def _told(numbers: Mapping[str, Any], path: str, share: bool = False) -> str:
+    return told(_at(numbers, path), numbers["units"].get(path, ""),
+                share or path.endswith("share"))
+
+
+def _at(numbers: Mapping[str, Any], path: str) -> Any:
+    node: Any = numbers
+    for key in path.split("."):
+        if not isinstance(node, Mapping) or key not in node:
+            return None
+        node = node[key]
+    return node
+
+
+def _degrees(value: float | None) -> str:
+    """A temperature to 0.1 mK: rises of a thermometer's last digit are what runs differ in."""
+    return "–" if value is None else f"{value:.4f} °C".replace("-", "−")

@@ -1,0 +1,92 @@
+"""Numbers as they are read: digits, prefixes and words for the keys of the summary."""
+
+from __future__ import annotations
+
+from typing import Any
+
+WORDS = {
+    "begin": "window begins",
+    "duration": "window lasts",
+    "break_aways": "break-aways counted",
+    "frequency": "stick-slip frequency",
+    "mean_period": "mean time between break-aways",
+    "slip_share": "share of the time in slip",
+    "mean_x": "mean x",
+    "min_x": "smallest x",
+    "max_x": "largest x",
+    "mean_y": "mean y",
+    "min_y": "smallest y",
+    "max_y": "largest y",
+    "max_rotation_deg": "largest rotation",
+    "mean_friction_force_x": "mean friction along x",
+    "max_friction_force_x": "largest friction along x",
+    "mean_heat_flow": "mean friction heat",
+    "surface_travel": "way of the surface",
+    "sliding_distance": "way slid",
+    "surface_work": "work of the surface",
+    "friction_heat": "friction heat",
+    "residual": "residual at the end",
+    "largest_residual": "largest residual",
+    "relative_residual": "largest residual, relative",
+    "received": "received from friction",
+    "belt": "in the belt",
+    "ice": "in the ice",
+    "air": "given to the air",
+    "melting": "spent on melting",
+    "from_contact_to_belt": "entered the belt at the contact",
+    "handed_over": "handed over by the mechanics",
+    "taken_up": "taken up by belt and ice",
+    "largest_difference": "largest difference",
+    "relative_difference": "largest difference, relative",
+    "largest_total_residual": "largest residual of the whole system",
+    "interface": "contact, mean of both faces",
+    "belt_entry": "belt before the contact",
+    "belt_exit": "belt behind the contact",
+    "ice_face": "face of the ice",
+}
+
+NONE = "–"
+DIGITS = 5
+MINUS = str.maketrans("-", "−")
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+UNITS = {"degC": "°C", "deg": "°", "N.m": "N m", "kg.m2": "kg m²", "m/s2": "m/s²",
+         "kg/m3": "kg/m³", "J/(kg.K)": "J/(kg K)", "W/(m.K)": "W/(m K)",
+         "W/(m2.K)": "W/(m² K)", "1": ""}
+# units that are read more easily with a prefix than with a power of ten
+PREFIXED = {"m", "K", "W", "N", "s"}
+
+
+def worded(key: str) -> str:
+    """A key of the summary in words."""
+    return WORDS.get(key, key.replace("_", " "))
+
+
+def spelled(unit: str) -> str:
+    """A unit as it is printed."""
+    return UNITS.get(unit, unit)
+
+
+def told(value: float | int | None, unit: str, share: bool = False) -> str:
+    """A number with its unit, five digits; a share in percent; a dash where there is none."""
+    if value is None:
+        return NONE
+    if share:
+        return f"{100.0 * value:.2f} %".translate(MINUS)
+    if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:
+        factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
+        return f"{digits(factor * value)} {prefix}{unit}"
+    return f"{digits(value)} {spelled(unit)}".rstrip()
+
+
+def digits(value: Any) -> str:
+    """A value with at most five digits, powers of ten written out; text and lists as they are."""
+    if isinstance(value, (list, tuple)):
+        return ", ".join(digits(item) for item in value)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return str(value)
+    if isinstance(value, int) or value == int(value) and abs(value) < 1e6:
+        return f"{int(value)}".translate(MINUS)
+    if 1e-4 <= abs(value) < 1e6:
+        return f"{value:.{DIGITS}g}".translate(MINUS)
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return f"{mantissa.translate(MINUS)} · 10{str(int(exponent)).translate(SUPERSCRIPT)}"
