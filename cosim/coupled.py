@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from cosim.fmu_build import ensure_fmu
+import platformdirs
+
+from cosim.fmu_build import FmuBuildError, ensure_fmu
 from cosim.master import (
     Connection,
     CoupledResult,
@@ -71,7 +73,7 @@ def run_scenario(
     record_every = scenario.record_every
     snapshots = Snapshots(scenario.run.snapshot_interval, fields)
     mechanics = FmuParticipant(
-        fmu or ensure_fmu(BUILD_FOLDER),
+        fmu or _own_fmu(),
         MECHANICS,
         parameters=scenario.mechanics.flat(),
         inputs={"surface_speed": scenario.surface.speed},
@@ -86,5 +88,27 @@ def run_scenario(
             record_every=record_every,
             progress=progress,
         )
-        snapshots.take(float(result.time[-1]), heat.model)
+        result = _with_last_picture(result, snapshots, heat.model)
     return CoupledRun(scenario, result, snapshots)
+
+
+def _with_last_picture(
+    result: CoupledResult, snapshots: Snapshots, model: BeltIceModel
+) -> CoupledResult:
+    """Also when the disk refuses the picture, the numbers are not lost."""
+    try:
+        snapshots.take(float(result.time[-1]), model)
+    except OSError as error:
+        return replace(result, status="failed", reason=f"temperature fields: {error}", error=error)
+    return result
+
+
+def _own_fmu() -> Path:
+    """The FMU in `build`, or in the user's cache where `build` cannot be written."""
+    try:
+        return ensure_fmu(BUILD_FOLDER)
+    except FmuBuildError as first:
+        try:
+            return ensure_fmu(platformdirs.user_cache_path("stickslip"))
+        except FmuBuildError:
+            raise first from None

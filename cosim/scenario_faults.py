@@ -89,13 +89,13 @@ def _of_several_keys(block: str, message: str, keys: dict[str, FieldInfo]) -> st
 
 
 def _known_instead(key: str, keys: dict[str, FieldInfo]) -> str:
-    """The key that was meant: of the same block, of the same name elsewhere, or the most like."""
+    """The key that was meant: of that name elsewhere, the most like in the block, or anywhere."""
     block, _, entry = key.rpartition(".")
     if key == "contact.radius":
         return "the contact's radius is rig.contact_radius"
     siblings = [known for known in keys if known.rpartition(".")[0] == block]
     namesakes = [known for known in keys if known.rpartition(".")[2] == entry]
-    near = nearest(key, siblings) or next(iter(namesakes), None) or nearest(key, keys)
+    near = next(iter(namesakes), None) or nearest(key, siblings) or nearest(key, keys)
     if near:
         return f"nearest known: {near}"
     return f"known: {', '.join(known.rpartition('.')[2] for known in siblings)}"

@@ -1,0 +1,47 @@
+"""The command `stickslip`: arguments, calls, and what becomes of their errors.
+
+Exit status: 0 done; 2 bad input, refused in one line before anything is computed; 1 a run that
+failed or was interrupted, of which everything computed is on disk. Nothing heavy is imported
+before the arguments are known, so that help is quick and Ctrl-C never meets an import.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from importlib import import_module
+
+from cosim.cli.arguments import parser
+from cosim.cli.errors import BadInput, warnings_in_one_line
+
+DONE, FAILED, BAD_INPUT = 0, 1, 2
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line (sys.argv when left out); the exit status."""
+    arguments = parser().parse_args(argv)
+    try:
+        with warnings_in_one_line():
+            status = import_module(f"cosim.cli.{arguments.command}").main(arguments)
+        sys.stdout.flush()
+        return status
+    except BadInput as error:
+        return _give_up(error, BAD_INPUT, arguments.debug)
+    except KeyboardInterrupt as error:
+        return _give_up(error, FAILED, arguments.debug, "interrupted before there was a result")
+    except BrokenPipeError:
+        # whoever read our output has gone; Python would complain again while it shuts down
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except Exception as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        return _give_up(error, FAILED, arguments.debug, f"{said} (--debug shows where)")
+
+
+def _give_up(error: BaseException, status: int, debug: bool, message: str = "") -> int:
+    if debug:
+        traceback.print_exception(error)
+    print(f"error: {message or error}", file=sys.stderr)
+    return status

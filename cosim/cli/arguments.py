@@ -1,0 +1,96 @@
+"""The arguments of `stickslip` and its commands."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from importlib.metadata import version
+from typing import NoReturn
+
+SCENARIO_HELP = (
+    "TOML file, or the name of a packaged scenario: reference (default), slab, warm_friction"
+)
+OUTPUT_HELP = "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)"
+
+
+class Parser(argparse.ArgumentParser):
+    """An argparse parser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """Refuse the arguments, exit status 2."""
+        print(f"error: {message}; see {self.prog} --help", file=sys.stderr)
+        raise SystemExit(2)
+
+
+def parser() -> Parser:
+    """The parser of the whole command line; `command` names the module that carries it out."""
+    top = Parser(
+        prog="stickslip",
+        description="Stick-slip of an ice block on a moving surface, coupled to the heat it makes.",
+        epilog="example: stickslip run",
+        allow_abbrev=False,
+    )
+    top.add_argument("--version", action="version", version=f"stickslip {version('stickslip')}")
+    top.add_argument("--debug", action="store_true", help="show the traceback of an error")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_run(commands)
+    _add_simulate(commands)
+    _add_build(commands)
+    return top
+
+
+def _add_command(
+    commands: argparse._SubParsersAction, name: str, summary: str, example: str
+) -> Parser:
+    command = commands.add_parser(
+        name,
+        help=summary,
+        description=summary[0].upper() + summary[1:] + ".",
+        epilog=f"example: {example}",
+        allow_abbrev=False,
+    )
+    # Also behind the command's name; suppressed, so that it does not undo one in front of it.
+    command.add_argument(
+        "--debug", action="store_true", default=argparse.SUPPRESS, help="show tracebacks"
+    )
+    return command
+
+
+def _add_run(commands: argparse._SubParsersAction) -> None:
+    run = _add_command(
+        commands,
+        "run",
+        "the coupled case: the mechanical FMU and the heat in belt and ice",
+        "stickslip run my_case.toml -o results/first",
+    )
+    run.add_argument("scenario", nargs="?", default="reference", help=SCENARIO_HELP)
+    run.add_argument("-o", "--output", metavar="DIR", help=OUTPUT_HELP)
+    run.add_argument(
+        "--fmu",
+        metavar="FILE",
+        help="the mechanical FMU (default: build/StickSlip3DOF.fmu, built when missing or stale)",
+    )
+
+
+def _add_simulate(commands: argparse._SubParsersAction) -> None:
+    simulate = _add_command(
+        commands,
+        "simulate",
+        "the mechanics alone, without FMU and heat conduction",
+        "stickslip simulate reference -o results/mechanics",
+    )
+    simulate.add_argument("scenario", nargs="?", default="reference", help=SCENARIO_HELP)
+    simulate.add_argument("-o", "--output", metavar="DIR", help=OUTPUT_HELP)
+
+
+def _add_build(commands: argparse._SubParsersAction) -> None:
+    build = _add_command(
+        commands,
+        "build",
+        "builds StickSlip3DOF.fmu (FMI 2.0 co-simulation) for any FMI tool",
+        "stickslip build -o fmus",
+    )
+    build.add_argument(
+        "-o", "--output", metavar="DIR", default="build", help="folder of the FMU (default: build)"
+    )
+    build.add_argument("--fmi", choices=["2"], default="2", help="version of FMI (default: 2)")

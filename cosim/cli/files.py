@@ -1,0 +1,47 @@
+"""What a command reads and where it writes, checked before anything is computed."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from cosim.cli.errors import BadInput, refusing
+from cosim.scenario import Scenario, read_scenario
+from cosim.scenario_faults import ScenarioError
+
+RESULTS = "results"
+RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html")
+
+
+def scenario_to_run(source: str, *, coupled: bool) -> Scenario:
+    """The scenario, refused here when it is none or does not fit a coupled run."""
+    with refusing(ScenarioError):
+        scenario = read_scenario(source)
+    if coupled:
+        with refusing(ScenarioError, prefix=f"{source}: "):
+            assert scenario.record_every
+    return scenario
+
+
+def results_folder(given: str | None, scenario: Scenario) -> Path:
+    """The folder of the results, made and found writable."""
+    folder = Path(given) if given is not None else Path(RESULTS) / scenario.name
+    return writable_folder(folder, RESULT_FILES)
+
+
+def writable_folder(folder: Path, files: Iterable[str]) -> Path:
+    """Make a folder; BadInput when nothing can be written to it, or a name in it is taken."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass  # the only sure test: permissions do not bind everybody, a disk may be read-only
+    except OSError as error:
+        raise BadInput(
+            f"{folder}: cannot be written to ({error.strerror}), allowed is a folder that can: "
+            "name one with -o"
+        ) from error
+    for name in files:
+        if (folder / name).is_dir():
+            raise BadInput(f"{folder / name}: is a folder, allowed is a file or nothing")
+    return folder

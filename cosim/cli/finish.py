@@ -1,0 +1,75 @@
+"""The end of a run: its files, its last lines, its exit status."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from cosim.master.interrupt import deferred_interrupt
+from cosim.report import summary, write_results
+
+COMPLETE = "complete"
+
+
+def finish(
+    dataset: xr.Dataset, folder: Path, wall_time: float, files: Mapping[str, str] | None = None
+) -> int:
+    """Write all results and say what came out; 0 when the run is complete, else 1.
+
+    wall_time: of the whole command so far, s. files: further ones to list on the page.
+    A Ctrl-C waits until everything is written; a second one does not.
+    """
+    command = shlex.join(["stickslip", *sys.argv[1:]])
+    with deferred_interrupt():
+        write_results(dataset, folder, command=command, files=dict(files or {}))
+    numbers = summary(dataset)
+    if numbers["status"] != COMPLETE:
+        print(f"error: {numbers['reason']}; what was computed is in {folder}", file=sys.stderr)
+        return 1
+    print("\n".join(closing_lines(numbers, folder, wall_time)))
+    return 0
+
+
+def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:
+    """Three to six lines for whoever waited."""
+    late, ledgers = numbers["after_run_up"], numbers["ledger"]
+    lines = [
+        f"{numbers['name']}: {numbers['time_reached']:g} s in {wall_time:.1f} s of wall time, "
+        f"{numbers['wall_time']:.2g} s of them in the models",
+        f"  stick-slip   {_number(late['frequency'], '.3f')} break-aways per second at constant "
+        f"speed, slip share {_number(late['slip_share'], '.3f')}",
+    ]
+    if "temperatures" in numbers:
+        interface, shares = numbers["temperatures"]["interface"], numbers["heat_shares"]
+        lines += [
+            f"  interface    {interface['end_degC']:.4f} degC at the end, "
+            f"{interface['end_rise']:+.4f} K over the air",
+            f"  heat         {ledgers['heat']['received']:.4g} J, in "
+            + ", ".join(
+                f"{sink} {_number(shares[sink], '.3f')}" for sink in ("belt", "ice", "air")
+            ),
+        ]
+    lines.append(f"  ledgers      {_ledger_line(ledgers)}")
+    lines.append(f"  results      {folder / 'report.html'} and beside it")
+    return lines
+
+
+def _ledger_line(ledgers: Mapping[str, Any]) -> str:
+    """What each ledger is off by, as a part of what it is about."""
+    parts = [f"mechanics {_number(ledgers['mechanics']['relative_residual'], '.1e')} of the work"]
+    if "heat" in ledgers:
+        parts += [
+            f"heat {_number(ledgers['heat']['relative_residual'], '.1e')}",
+            f"coupling {_number(ledgers['coupling']['relative_difference'], '.1e')} of the heat",
+        ]
+    return ", ".join(parts)
+
+
+def _number(value: float | None, form: str) -> str:
+    """A run too short for a number has None."""
+    return "none" if value is None else format(value, form)

@@ -1,0 +1,47 @@
+"""`stickslip run`: the coupled case."""
+
+from __future__ import annotations
+
+import time
+from argparse import Namespace
+
+from cosim.cli.errors import BadInput, refusing
+from cosim.cli.files import results_folder, scenario_to_run, writable_folder
+from cosim.cli.finish import finish
+from cosim.cli.progress import progress_over
+from cosim.coupled import CoupledRun, run_scenario
+from cosim.master import CouplingError, FmuError, ParticipantError
+from cosim.report import run_dataset
+from cosim.scenario import Scenario
+
+FIELDS = "fields"
+#: What the models' own code calls a step, a port, a file it refuses: not the user's run failing.
+REFUSED = (CouplingError, FmuError)
+
+
+def main(arguments: Namespace) -> int:
+    """Run, write, report; the exit status."""
+    began = time.perf_counter()
+    scenario = scenario_to_run(arguments.scenario, coupled=True)
+    folder = results_folder(arguments.output, scenario)
+    fields = writable_folder(folder / FIELDS, ())
+    with progress_over(scenario.run.duration) as progress:
+        done = _coupled(scenario, fmu=arguments.fmu, fields=fields, progress=progress)
+    dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
+    files = {}
+    if done.snapshots.file is not None:
+        name = done.snapshots.file.relative_to(folder).as_posix()
+        files[name] = "temperature fields of belt and ice; opens in ParaView"
+    return finish(dataset, folder, time.perf_counter() - began, files)
+
+
+def _coupled(scenario: Scenario, **arguments) -> CoupledRun:
+    """`run_scenario`, with what it refuses as bad input."""
+    try:
+        with refusing(*REFUSED):
+            return run_scenario(scenario, **arguments)
+    except ParticipantError as error:
+        # an FMU's contents are only unpacked when it starts
+        if isinstance(error.__cause__, REFUSED):
+            raise BadInput(str(error.__cause__)) from error
+        raise

@@ -1,0 +1,167 @@
+"""The coupled case on the real FMU: what crosses, the closed loop, pictures, state."""
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import pythonfmu  # noqa: F401  before any FMU is loaded: one that imports it first spoils its copy
+
+from cosim import Scenario, run_scenario
+from cosim.fmu_build import build_fmu
+from cosim.master import FmuError
+from cosim.scenario_faults import ScenarioError
+from cosim.snapshots import Snapshots
+from cosim.thermal_participant import ThermalParticipant
+from thermal import BeltIceModel
+
+SHORT = {"run.duration": 2.0, "run.snapshot_interval": 0.5}
+#: Coarse enough to be quick; conservation does not depend on the mesh.
+COARSE = {"belt.cell_length": 5e-3, "belt.elements": 3, "ice.axial_elements": 4}
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory):
+    return build_fmu(tmp_path_factory.mktemp("fmu"))
+
+
+def case(**changes):
+    return Scenario().changed(
+        SHORT | COARSE | {k.replace("__", "."): v for k, v in changes.items()}
+    )
+
+
+def last(run, name):
+    return run.result[name][-1]
+
+
+def test_a_run_is_complete_and_no_joule_is_lost(fmu):
+    run = run_scenario(case(), fmu=fmu)
+    assert run.result.status == "complete" and run.result.time[-1] == 2.0
+    assert len(run.result.time) == 201
+    ledger = run.result.ledger
+    assert ledger.exchanged > 0.1
+    np.testing.assert_allclose(ledger.flows[0].in_transit, 0.0, atol=1e-13)
+    assert ledger.largest_residual < 1e-10 * ledger.exchanged
+
+
+def test_the_belt_passes_as_far_as_the_surface_less_the_block(fmu):
+    run = run_scenario(case(), fmu=fmu)
+    way = last(run, "mechanics.surface_travel") - (
+        last(run, "mechanics.x") - run.result["mechanics.x"][0]
+    )
+    assert run.snapshots.contact[-1] == pytest.approx((0.5 - way) % 1.0, abs=1e-12)
+
+
+def test_rows_at_multiples_of_the_macro_step_are_those_of_the_full_record(fmu):
+    full = run_scenario(case(), fmu=fmu)
+    sparse = run_scenario(case(run__output_interval=0.05), fmu=fmu)
+    for name, values in full.result.values.items():
+        np.testing.assert_array_equal(sparse.result[name], values[::5])
+
+
+def test_temperature_acts_on_friction_only_when_it_is_asked_to(fmu):
+    plain = run_scenario(case(), fmu=fmu)
+    fed = "mechanics.interface_temperature"
+    assert plain.result[fed][-1] == plain.result["thermal.interface_temperature"][-2]
+    warm = run_scenario(case(temperature_dependence__sensitivity=5.0), fmu=fmu)
+    slip = (plain.result["mechanics.mode"] == 1) & (warm.result["mechanics.mode"] == 1)
+    # mu_k of the step is that of the temperature which its start was given
+    rise = warm.result[fed][slip] - -8.0
+    force = np.abs(warm.result["mechanics.friction_force_x"][slip])
+    expected = 0.2086 * 0.67 * 9.81 * (1.0 - 5.0 * rise)
+    np.testing.assert_allclose(force, expected, rtol=1e-6)
+    assert np.ptp(expected) > 1e-3
+
+
+def test_pictures_at_every_interval_and_at_the_end(fmu, tmp_path):
+    run = run_scenario(
+        case(run__duration=0.7, run__snapshot_interval=0.25), fmu=fmu, fields=tmp_path
+    )
+    np.testing.assert_allclose(run.snapshots.time, [0.0, 0.25, 0.5, 0.7])
+    assert run.snapshots.temperature.shape == (4, 200) == (4, run.snapshots.position.size)
+    times = [
+        float(entry.get("timestep"))
+        for entry in ElementTree.parse(run.snapshots.file).iter("DataSet")
+    ]
+    assert times == run.snapshots.time.tolist()
+    assert len(list(tmp_path.glob("*.vtu"))) == 4
+
+
+def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(fmu, tmp_path, monkeypatch):
+    def full(self, time):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("thermal.fields.FieldSeries.write", full)
+    run = run_scenario(case(), fmu=fmu, fields=tmp_path)
+    assert run.result.status == "failed" and "No space left" in run.result.reason
+
+
+def test_a_scenario_or_an_fmu_that_does_not_fit_is_refused(fmu, tmp_path):
+    with pytest.raises(ScenarioError, match="whole multiple"):
+        run_scenario(case(run__output_interval=0.015), fmu=fmu)
+    broken = tmp_path / "broken.fmu"
+    broken.write_bytes(fmu.read_bytes()[:1000])
+    with pytest.raises(FmuError, match="not an FMU, or truncated"):
+        run_scenario(case(), fmu=broken)
+
+
+def model():
+    return BeltIceModel(case().thermal)
+
+
+def test_a_participant_takes_differences_of_totals():
+    part, direct = ThermalParticipant(model()), model()
+    part.enter_initialisation(0.0, 1.0)
+    part.write({"heat": 2.0, "surface_travel": 1.0, "x": 0.5})
+    part.exit_initialisation()
+    part.write({"heat": 2.5, "surface_travel": 1.2, "x": 0.55})
+    part.step(0.0, 0.1)
+    direct.step(0.1, heat=0.5, displacement=0.15)
+    assert part.read()["heat_received"] == pytest.approx(0.5, rel=1e-14)
+    assert part.read() == pytest.approx(direct.outputs(), abs=1e-12)
+
+
+def test_a_total_that_falls_by_rounding_is_made_up_for_and_one_that_falls_is_refused():
+    part = ThermalParticipant(model())
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    for heat in (1.0, 1.0 - 1e-15, 1.5):
+        part.write({"heat": heat})
+        part.step(0.0, 0.1)
+    assert part.read()["heat_received"] == 1.5
+    part.write({"heat": 1.4})
+    with pytest.raises(ValueError, match="must not be negative"):
+        part.step(0.0, 0.1)
+
+
+def test_a_participant_goes_back_and_on_bit_for_bit():
+    part = ThermalParticipant(model())
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    part.write({"heat": 0.1, "surface_travel": 0.02})
+    part.step(0.0, 0.1)
+    state = part.get_state()
+    outcomes = []
+    for _ in range(2):
+        part.set_state(state)
+        part.write({"heat": 0.3, "x": 0.01})
+        part.step(0.1, 0.1)
+        outcomes.append(part.read())
+    assert outcomes[0] == outcomes[1]
+    part.enter_initialisation(0.0, 1.0)
+    assert part.read()["heat_received"] == 0.0
+
+
+def test_a_state_that_is_taken_back_is_in_no_picture():
+    pictures = Snapshots(0.1)
+    part = ThermalParticipant(model(), look=pictures)
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    start = part.get_state()
+    for heat in (9.0, 0.1):  # a first try, and the step that counts
+        part.set_state(start)
+        part.write({"heat": heat})
+        part.step(0.0, 0.1)
+    part.step(0.1, 0.1)
+    assert pictures.time.tolist() == [0.0, 0.1]
+    assert pictures.temperature.max() < -7.9
