@@ -66,8 +66,15 @@ def mechanics_of(dataset: xr.Dataset) -> Parameters:
 
 
 def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
-    """The thermal parameters that a dataset was computed with."""
-    return ThermalParameters.model_validate(_selected(dataset, ThermalParameters))
+    """The thermal parameters that a dataset was computed with.
+
+    A scenario states the contact's radius once, with the rig.
+    """
+    blocks = _selected(dataset, ThermalParameters)
+    radius = value_of(dataset, "rig", "contact_radius")
+    if radius is not None:
+        blocks["contact"] = {"radius": radius} | blocks.get("contact", {})
+    return ThermalParameters.model_validate(blocks)
 
 
 def _selected(dataset: xr.Dataset, model: type[BaseModel]) -> dict[str, dict[str, Any]]:

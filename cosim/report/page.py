@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterator, Mapping
+from datetime import datetime
 from typing import Any, NamedTuple
 
 import xarray as xr
@@ -11,7 +12,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from .blocks import stored_blocks
 from .figures import Plate
-from .words import digits, spelled, told, worded
+from .style import DPI
+from .words import digits, spelled, told, with_unit, worded
 
 OWN_FILES = {
     "result.nc": "everything, with units and descriptions: netCDF 4, for xarray, ParaView, Matlab",
@@ -20,6 +22,7 @@ OWN_FILES = {
 }
 TITLES = {"mechanics": "Energy of the block", "heat": "Heat in belt and ice",
           "coupling": "Heat from mechanics to belt and ice"}
+CSS_DPI = 96
 CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
 
 
@@ -43,11 +46,13 @@ def page(
         loader=PackageLoader("cosim.report"), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True)
     figures = [
-        (plate, base64.b64encode(picture).decode("ascii")) for plate, picture in pictures.items()]
+        (plate.caption, _width(picture), base64.b64encode(picture).decode("ascii"))
+        for plate, picture in pictures.items()]
     own = dict(OWN_FILES) | {
         f"{plate.name}.png": "figure, as above" for plate in pictures}
     return environment.get_template("report.html.j2").render(
         numbers=numbers,
+        created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
         case=CASES.get(numbers["case"], numbers["case"]),
         overview=overview(numbers),
         ledgers=list(ledgers(numbers)),
@@ -112,11 +117,22 @@ def parameter_tables(dataset: xr.Dataset) -> list[Table]:
     """Every parameter with value, unit and description, block by block."""
     return [
         Table(block, [
-            (key, digits(entry["value"]), spelled(entry["unit"]), entry["description"])
+            (key, _valued(entry["value"], entry["unit"]), entry["description"])
             for key, entry in entries.items()
         ])
         for block, entries in stored_blocks(dataset).items()
     ]
+
+
+def _valued(value: Any, unit: str) -> str:
+    """A parameter's value; a unit only behind numbers."""
+    return digits(value) if isinstance(value, str) else with_unit(digits(value), spelled(unit))
+
+
+def _width(png: bytes) -> int:
+    """Width of a picture on the page, CSS pixels: type as large as its inches say."""
+    pixels = int.from_bytes(png[16:20], "big")  # of the header, after signature and chunk name
+    return round(pixels * CSS_DPI / DPI)
 
 
 def _rows(numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]) -> list[tuple]:

@@ -11,9 +11,9 @@ import xarray as xr
 from .figures import plates_of
 from .files import write_bytes, write_csv, write_json, write_netcdf, write_text
 from .page import page
+from .style import DPI
 from .summary import summary
 
-DPI = 150
 Progress = Callable[[str], None]
 
 

@@ -51,6 +51,8 @@ RC = {
     "lines.solid_joinstyle": "round",
 }
 
+DPI = 150  # of the PNG files
+
 PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
 SPELLING = {"N.m": "N m", "1": "1", "degC": "°C"}
 

@@ -75,7 +75,12 @@ def told(value: float | int | None, unit: str, share: bool = False) -> str:
     if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:
         factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
         return f"{digits(factor * value)} {prefix}{unit}"
-    return f"{digits(value)} {spelled(unit)}".rstrip()
+    return with_unit(digits(value), spelled(unit))
+
+
+def with_unit(number: str, unit: str) -> str:
+    """A number and its spelled unit; the degree of an angle stands close."""
+    return number + unit if unit == "°" else f"{number} {unit}".rstrip()
 
 
 def digits(value: Any) -> str:

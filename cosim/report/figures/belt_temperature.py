@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from thermal.footprint import Footprint
 
-from ..blocks import thermal_of
+from ..blocks import thermal_of, value_of
 from ..heat_numbers import ambient_degC
 from ..style import GREY, line, plain_ticks, readable, styled, title
 from .temperatures import SMALLEST_RISE
@@ -38,9 +38,13 @@ def draw_belt_temperature(dataset: xr.Dataset) -> Figure:
     profiles.set_ylabel(f"rise over the air [{scaled.unit}]")
     profiles.set_xlabel("")
     _contact_strip(contact, dataset, shown["contact_position"].values, times, shades)
-    title(figure, "Temperature along the belt", dataset)
+    title(figure, f"Temperature along the {_surface(dataset)}", dataset)
     figure.legend(*profiles.get_legend_handles_labels(), loc="outside right center", title="time")
     return figure
+
+
+def _surface(dataset: xr.Dataset) -> str:
+    return str(value_of(dataset, "rig", "surface") or "belt")
 
 
 def chosen_profiles(count: int) -> NDArray[np.int64]:
@@ -75,4 +79,4 @@ def _contact_strip(
     axes.grid(axis="y", visible=False)
     axes.spines["left"].set_color(GREY)
     axes.set_ylabel("contact")
-    axes.set_xlabel("position along the belt, fixed to its material [m]")
+    axes.set_xlabel(f"position along the {_surface(dataset)}, fixed to its material [m]")

@@ -98,9 +98,13 @@ def _box(parameters: Parameters, poses: list[Pose]) -> tuple[float, float, float
 def _sheet(width: float, height: float, panels: int, stacked: bool) -> tuple[float, float]:
     """Size of the figure, inches, that leaves little beside panels of equal scale."""
     across, down = (1, panels) if stacked else (panels, 1)
-    room = SHEET_WIDTH - 0.9 * across
-    scale = min(room / (across * width), (SHEET_HEIGHT - 0.85 * down - 0.5) / (down * height))
-    return (0.9 * across + scale * across * width, 0.5 + 0.85 * down + scale * down * height)
+    # for labels and titles of two lines: left of a column, over a row, and once for the sheet
+    left, over, sheet = (0.9, 0.6, 0.9) if stacked else (0.75, 0.6, 0.95)
+    scale = min(
+        (SHEET_WIDTH - left * across) / (across * width),
+        (SHEET_HEIGHT - over * down - sheet) / (down * height),
+    )
+    return left * across + scale * across * width, sheet + over * down + scale * down * height
 
 
 def _frame(axes: Axes, text: str, box: tuple[float, float, float, float]) -> None:
@@ -118,7 +122,8 @@ def _draw_surface(
     """The belt as a band of its width (a slab fills the view) and the way that it moves."""
     speed = parameters.surface.speed
     centre = _centre(parameters)
-    width = value_of(dataset, "belt", "width") if centre is None else None
+    belt = parameters.pack()[P_CURVATURE] == 0.0
+    width = value_of(dataset, "belt", "width") if belt else None
     low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
     axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=SURFACE, zorder=0))
     if centre is not None:
