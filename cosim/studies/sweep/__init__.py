@@ -1,0 +1,19 @@
+"""Parameter sweeps: every combination of some values, on all cores or a Dask cluster.
+
+>>> from cosim.studies.sweep import sweep
+>>> from cosim import read_scenario
+>>> vary = {"rig.mass": [0.67, 2.03], "surface.speed": [0.15, 0.5]}
+>>> sweep(read_scenario(), vary, folder="results/sweep").x_mean      # doctest: +SKIP
+"""
+
+from .combination import Run
+from .dataset import write_sweep
+from .errors import SweepError, SweepStopped
+from .features import FEATURES, features
+from .grid import Grid, product_grid
+from .run import run_grid, sweep
+
+__all__ = [
+    "FEATURES", "Grid", "Run", "SweepError", "SweepStopped", "features", "product_grid",
+    "run_grid", "sweep", "write_sweep",
+]

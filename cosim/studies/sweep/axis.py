@@ -1,0 +1,150 @@
+"""What is varied: the values of one key, or of several that go together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from stickslip import Parameters
+
+from cosim.scenario_faults import known_keys, nearest
+
+from .errors import SweepError
+
+LINK = "+"
+KEYS = {key: entry for key, entry in known_keys(Parameters).items() if "." in key}
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One dimension of a sweep.
+
+    Attributes
+    ----------
+    name : of the dimension
+    settings : for each of its values, `block.key` -> value
+    coordinates : name -> (values as a result file holds them, attributes with unit and long name)
+    """
+
+    name: str
+    settings: tuple[Mapping[str, Any], ...]
+    coordinates: Mapping[str, tuple[np.ndarray, dict[str, str]]] = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.settings)
+
+
+def axis(keys: str | Sequence[str], values: Sequence[Any]) -> Axis:
+    """The axis of one key, or of linked keys: a tuple of keys (or "a+b") and tuples of values.
+
+    Raises SweepError, in one line, for a key that the mechanics does not have, for no values and
+    for a value that is there twice. Bounds are checked with the whole combination.
+
+    >>> len(axis("rig.mass", [0.67, 2.03]))
+    2
+    >>> axis(("friction.mu_s", "friction.mu_k"), [(0.28, 0.21), (0.065, 0.05)]).name
+    'friction.mu_s+friction.mu_k'
+    """
+    keys = tuple(keys.split(LINK)) if isinstance(keys, str) else tuple(keys)
+    name = LINK.join(keys)
+    for key in keys:
+        _check_key(key)
+    if len(set(keys)) < len(keys):
+        raise SweepError(f"{name}: links a key with itself, allowed are different keys")
+    rows = [_row(name, keys, value) for value in _listed(name, values)]
+    if not rows:
+        raise SweepError(f"{name}: no values, allowed is at least one")
+    for i, row in enumerate(rows):
+        if row in rows[:i]:
+            shown = ":".join(_label(value) for value in row)
+            raise SweepError(f"{name}: {shown} is there twice, allowed is each value once")
+    columns = {key: [row[i] for row in rows] for i, key in enumerate(keys)}
+    settings = tuple(dict(zip(keys, row, strict=True)) for row in rows)
+    return Axis(name, settings, _coordinates(name, columns))
+
+
+def labelled_axis(
+    name: str, long_name: str, unit: str, labels: Sequence[Any], settings: Sequence[Mapping]
+) -> Axis:
+    """An axis with values of its own, that stand for some settings."""
+    coordinate = (_column(labels), {"units": unit, "long_name": long_name})
+    return Axis(name, tuple(settings), {name: coordinate})
+
+
+def _check_key(key: str) -> None:
+    if key in KEYS:
+        return
+    namesakes = [known for known in KEYS if known.partition(".")[2] == key.rpartition(".")[2]]
+    near = next(iter(namesakes), None) or nearest(key, KEYS)
+    block = key.partition(".")[0]
+    siblings = [known for known in KEYS if known.partition(".")[0] == block]
+    hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings or KEYS)}"
+    raise SweepError(f"{key}: no such key of the mechanics, {hint}")
+
+
+def _listed(name: str, values: Any) -> list[Any]:
+    if isinstance(values, (str, bytes, Mapping)) or np.ndim(values) == 0 and not hasattr(
+        values, "__iter__"
+    ):
+        raise SweepError(f"{name}: not a list ({values!r}), allowed is a list of values")
+    return list(values)
+
+
+def _row(name: str, keys: tuple[str, ...], value: Any) -> tuple[Any, ...]:
+    """One value for each key, in plain Python types (numpy's are refused by strict models)."""
+    if len(keys) == 1:
+        return (_plain(value),)
+    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != len(keys):
+        raise SweepError(
+            f"{name}: not one value for each linked key ({value!r}), allowed are {len(keys)}"
+        )
+    return tuple(_plain(entry) for entry in value)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return tuple(_plain(entry) for entry in value)
+    return value
+
+
+def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
+    coordinates = {}
+    if len(columns) > 1:
+        rows = zip(*columns.values(), strict=True)
+        labels = [":".join(_label(value) for value in row) for row in rows]
+        coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
+    for key, values in columns.items():
+        field = KEYS[key]
+        unit = (field.json_schema_extra or {}).get("unit", "1")
+        attributes = {"units": unit, "long_name": field.description or key}
+        coordinates[key] = (_column(values), attributes)
+    return coordinates
+
+
+def _column(values: Sequence[Any]) -> np.ndarray:
+    """Numbers as they are, anything else by its label."""
+    if all(_is_number(value) for value in values):
+        return np.array(values, dtype=float)
+    return np.array([_label(value) for value in values], dtype=object)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and _is_finite(value)
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def _label(value: Any) -> str:
+    if isinstance(value, tuple):
+        return " ".join(_label(entry) for entry in value)
+    return format(value, "g") if _is_number(value) else str(value)

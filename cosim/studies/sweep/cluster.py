@@ -1,0 +1,78 @@
+"""Chunks on the workers of a Dask cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from types import TracebackType
+from typing import Self
+
+from .chunk import Task, Work, compute_chunk
+from .combination import Row
+from .errors import SweepError, SweepStopped, WorkersLost
+
+#: A scheduler that does not answer in this time (s) is not there; a far one needs a few.
+CONNECT_SECONDS = 10.0
+
+
+class DaskWorkers:
+    """The workers behind a scheduler's address; one chunk at a time on each of their threads.
+
+    A chunk whose worker dies is handed to another one by the scheduler.
+    """
+
+    def __init__(self, address: str):
+        try:
+            from distributed import Client
+        except ImportError as error:
+            raise SweepError(
+                f"dask: {error.name or 'distributed'} is not installed, "
+                "allowed after pip install 'stickslip[dask]'"
+            ) from error
+        try:
+            self._client = Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            said = " ".join(str(error).split())
+            raise SweepError(
+                f"dask: no scheduler answers at {address} ({said}), allowed is an address such as "
+                "tcp://127.0.0.1:8786"
+            ) from error
+
+    @property
+    def count(self) -> int:
+        """Threads that compute; at least one, for a cluster whose workers are yet to come."""
+        return max(sum(self._client.nthreads().values()), 1)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._client.close()
+
+    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Iterator[list[Row]]:
+        """The rows of each chunk as it is finished; WorkersLost when Dask gave chunks up."""
+        from distributed import KilledWorker, as_completed
+
+        common = self._client.scatter(work, broadcast=True, hash=False)
+        # a name for each call: a sweep started again must not be given cancelled ones
+        futures = self._client.map(compute_chunk, [common] * len(chunks), chunks, pure=False)
+        lost = ""
+        try:
+            for future in as_completed(futures):
+                if future.status == "finished":
+                    yield future.result()
+                    future.release()
+                elif isinstance(error := future.exception(), (KilledWorker, OSError)):
+                    lost = " ".join(str(error).split())
+                elif future.status == "cancelled":
+                    lost = "the scheduler dropped work"
+                else:
+                    raise SweepStopped(f"a worker failed: {error}") from error
+        finally:
+            self._client.cancel(futures)
+        if lost:
+            raise WorkersLost(lost)

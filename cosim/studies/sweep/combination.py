@@ -1,0 +1,91 @@
+"""One combination: its parameters, its content key, its outcome."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import inspect
+import json
+import math
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+from typing import Any, NamedTuple
+
+from stickslip import Parameters, Trajectory, simulate
+from stickslip.compiled import kernel_source
+
+from . import features as feature_module
+from .features import FEATURES, features
+
+COMPLETE, FAILED, ERROR = 0, 1, 2
+STATUS_MEANINGS = "complete failed error"
+KEY_DIGITS = 32
+
+
+class Run(NamedTuple):
+    """How every combination is run: duration and time between two rows, s."""
+
+    duration: float
+    output_interval: float
+
+
+class Row(NamedTuple):
+    """The outcome of one combination; values in the order of `FEATURES`."""
+
+    key: str
+    status: int
+    reason: str
+    values: tuple[float, ...]
+
+
+@cache
+def model_version() -> str:
+    """Hash of everything that turns parameters into features; comments do not count."""
+    package = resources.files("stickslip")
+    files = sorted(file.name for file in package.iterdir() if file.name.endswith(".py"))
+    texts = [(package / name).read_text(encoding="utf-8") for name in files]
+    texts += [kernel_source(), inspect.getsource(feature_module)]
+    plain = "\n".join(ast.unparse(ast.parse(text)) for text in texts)
+    return hashlib.sha256(plain.encode()).hexdigest()[:KEY_DIGITS]
+
+
+def content_key(parameters: Parameters, run: Run) -> str:
+    """Hash of all that the outcome depends on: two equal combinations have one key."""
+    content = [model_version(), *run, parameters.model_dump(mode="json")]
+    text = json.dumps(content, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:KEY_DIGITS]
+
+
+def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
+    """``base`` with `block.key` -> value; raises pydantic's ValidationError."""
+    tables = base.model_dump()
+    for key, value in changes.items():
+        block, _, entry = key.partition(".")
+        tables[block][entry] = value
+    return Parameters.model_validate(tables, strict=True)
+
+
+def compute(key: str, parameters: Parameters, run: Run) -> Row:
+    """Simulate one combination. What goes wrong is in the row: it never ends a sweep.
+
+    FAILED: the model gave up, and would again. ERROR: the program raised, worth another try.
+    """
+    try:
+        trajectory = simulate(parameters, run.duration, run.output_interval)
+        if not trajectory.complete:
+            return without_values(key, FAILED, trajectory.reason)
+        return Row(key, COMPLETE, "", _values(trajectory))
+    except Exception as error:  # noqa: BLE001 - named in the row, for whoever reads the sweep
+        text = " ".join(str(error).split())
+        return without_values(key, ERROR, f"{type(error).__name__}: {text}")
+
+
+def without_values(key: str, status: int, reason: str) -> Row:
+    """The row of a combination that has no features."""
+    return Row(key, status, reason, (math.nan,) * len(FEATURES))
+
+
+def _values(trajectory: Trajectory) -> tuple[float, ...]:
+    numbers = features(trajectory)
+    return tuple(numbers[name] for name in FEATURES)

@@ -1,0 +1,130 @@
+"""What a researcher wants to know of one run, as a row of numbers.
+
+Means, extremes and spread are those of the constant-speed part: from the end of the surface's
+run-up to the end of the run. The samples carry velocities, so integrals and extremes come from
+the cubic through positions and velocities of two neighbouring rows (fourth order in their
+distance); slip times and shares come from the located events.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from stickslip import Trajectory
+from stickslip.packing import GRAVITY
+from stickslip.trajectory import slip_share
+
+Array = NDArray[np.float64]
+
+# name -> (unit, long name)
+FEATURES = {
+    "x_mean": ("m", "mean of x at constant surface speed"),
+    "x_min": ("m", "smallest x at constant surface speed"),
+    "x_max": ("m", "largest x at constant surface speed"),
+    "x_std": ("m", "standard deviation of x at constant surface speed"),
+    "y_mean": ("m", "mean of y at constant surface speed"),
+    "phi_max": ("rad", "largest rotation either way at constant surface speed"),
+    "frequency": ("Hz", "break-aways per second at constant surface speed"),
+    "slip_time": ("s", "mean length of the slip phases that lie in the constant-speed part"),
+    "slip_share": ("1", "share of the constant-speed part spent in slip"),
+    "friction_coefficient": (
+        "1", "mean friction force along x over normal force at constant surface speed",
+    ),
+    "kinetic_coefficient": (
+        "1", "mean size of the friction force over normal force in slip, at constant speed",
+    ),
+    "heat": ("J", "friction heat of the whole run"),
+    "sliding_distance": ("m", "sliding distance of the whole run, mean over the contact"),
+    "energy_residual": ("J", "largest error of the energy ledger in the whole run"),
+}
+
+
+def features(run: Trajectory) -> dict[str, float]:
+    """`FEATURES` of a complete run; NaN where there is nothing to take one from.
+
+    A run that ends before the surface has its speed has no constant-speed part.
+    """
+    numbers = dict.fromkeys(FEATURES, math.nan)
+    numbers |= {
+        "heat": float(run["heat"][-1]),
+        "sliding_distance": float(run["sliding_distance"][-1]),
+        "energy_residual": float(np.max(np.abs(run["energy_residual"]))),
+    }
+    begin = run.parameters.surface.run_up_time
+    late = run.time >= begin
+    if np.count_nonzero(late) < 2:
+        return numbers
+    return numbers | _positions(run, late) | _phases(run, late) | _coefficients(run, late)
+
+
+def _positions(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
+    time, x, vx = run.time[late], run["x"][late], run["vx"][late]
+    mean = _mean(time, x, vx)
+    away = x - mean  # the variance by its definition: no difference of large numbers
+    low, high = _extremes(time, x, vx)
+    turned = _extremes(time, run["phi"][late], run["omega"][late])
+    return {
+        "x_mean": mean,
+        "x_min": low,
+        "x_max": high,
+        "x_std": math.sqrt(max(_mean(time, away * away, 2.0 * away * vx), 0.0)),
+        "y_mean": _mean(time, run["y"][late], run["vy"][late]),
+        "phi_max": max(abs(angle) for angle in turned),
+    }
+
+
+def _phases(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
+    time, mode = run.time[late], run["mode"][late]
+    times, modes = run.events[:, 0], run.events[:, 1]
+    inside = (times >= time[0]) & (times <= time[-1])
+    times, modes = times[inside], modes[inside]
+    # slip phases with both ends in the window
+    whole = np.diff(times)[(modes[:-1] == 1.0) & (modes[1:] == 0.0)]
+    return {
+        "frequency": float(np.count_nonzero(modes == 1.0) / (time[-1] - time[0])),
+        "slip_time": float(whole.mean()) if whole.size else math.nan,
+        "slip_share": slip_share(time, mode, run.events),
+    }
+
+
+def _coefficients(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
+    """Friction over normal force; the force jumps at re-stick, so the rows' mean is first order."""
+    normal = run.parameters.rig.mass * GRAVITY
+    time, along = run.time[late], run["friction_force_x"][late]
+    size = np.hypot(along, run["friction_force_y"][late])
+    slipping = run["mode"][late] == 1.0
+    return {
+        "friction_coefficient": float(np.trapezoid(along, time) / (time[-1] - time[0]) / normal),
+        "kinetic_coefficient": float(size[slipping].mean() / normal) if slipping.any()
+        else math.nan,
+    }
+
+
+def _mean(time: Array, value: Array, slope: Array) -> float:
+    """Mean over time (n,) of the cubics through values and slopes (n,)."""
+    step = np.diff(time)
+    area = 0.5 * step * (value[1:] + value[:-1]) + step**2 / 12.0 * (slope[:-1] - slope[1:])
+    return float(area.sum() / (time[-1] - time[0]))
+
+
+def _extremes(time: Array, value: Array, slope: Array) -> tuple[float, float]:
+    """Smallest and largest value of the cubics through values and slopes (n,).
+
+    Between two rows the cubic turns where its derivative, a quadratic in s = 0 ... 1, is zero.
+    """
+    step = np.diff(time)
+    d0, d1 = step * slope[:-1], step * slope[1:]
+    rise = np.diff(value)
+    a, b = 3.0 * (d0 + d1 - 2.0 * rise), 2.0 * (3.0 * rise - 2.0 * d0 - d1)
+    root = np.sqrt(np.maximum(b * b - 4.0 * a * d0, 0.0))
+    q = -0.5 * (b + np.copysign(root, b))
+    candidates = [value]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turns = (q / a, d0 / q)
+    for s in turns:
+        s = np.where((s > 0.0) & (s < 1.0), s, 0.0)  # NaN too: the row itself
+        candidates.append(value[:-1] + s * (d0 + s * (0.5 * b + s * a / 3.0)))
+    every = np.concatenate(candidates)
+    return float(every.min()), float(every.max())

@@ -1,0 +1,167 @@
+"""A sweep: what is missing is computed, every finished chunk is kept, all rows are returned."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+import xarray as xr
+from stickslip import Parameters, simulate
+
+from .chunk import Task, Work, compute_chunk
+from .cluster import DaskWorkers
+from .combination import Row, Run, model_version, with_changes
+from .dataset import sweep_dataset
+from .errors import SweepError, SweepStopped, WorkersLost
+from .grid import Grid, product_grid
+from .local import LocalWorkers
+from .store import Store
+
+#: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
+CHUNK_SECONDS = 0.5
+#: Chunks per worker at least, so that none waits long for the last one.
+SHARES = 4
+#: Work shorter than this (s) is done before other processes have even been started.
+NOT_WORTH_PROCESSES = 1.5
+#: Starts with fresh workers after some were lost, before a sweep gives up.
+ATTEMPTS = 3
+
+Progress = Callable[[int, int], None]
+
+
+class Workers(Protocol):
+    """Whoever computes chunks."""
+
+    count: int
+
+    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Any: ...
+
+
+def sweep(
+    parameters: Parameters,
+    vary: Mapping[Any, Sequence[Any]],
+    *,
+    duration: float = 30.0,
+    output_interval: float = 0.01,
+    jobs: int | None = None,
+    dask: str | None = None,
+    folder: str | Path | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Features of the motion over the product of the varied keys.
+
+    Parameters
+    ----------
+    parameters : the case that is varied (a scenario too: its mechanical part)
+    vary : `block.key` -> values; a tuple of keys -> tuples of values for keys that go together
+    duration, output_interval : of every run, s
+    jobs : processes on this machine (all cores when left out); dask : a scheduler's address instead
+    folder : where finished chunks are kept, and found again by the next sweep (none: nothing kept)
+    progress : called with the combinations done and their number
+
+    Returns a dataset with one dimension for each varied key, one variable for each of `FEATURES`,
+    `status` and `reason`: a run that failed is NaN there and ends nothing.
+
+    Raises SweepError before anything is computed when the combinations cannot be, SweepStopped
+    when the workers are lost for good; what was finished until then is kept.
+
+    >>> from stickslip import Parameters
+    >>> done = sweep(Parameters(), {"rig.mass": [0.67, 2.03]}, duration=2.0, jobs=1)
+    >>> bool(done.x_mean[1] > 2.5 * done.x_mean[0])
+    True
+    """
+    return run_grid(
+        product_grid(parameters, vary), Run(duration, output_interval),
+        jobs=jobs, dask=dask, folder=folder, progress=progress,
+    )
+
+
+def run_grid(
+    grid: Grid,
+    run: Run,
+    *,
+    jobs: int | None = None,
+    dask: str | None = None,
+    folder: str | Path | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """`sweep` over combinations that are made already."""
+    _check(run)
+    keys = grid.keys(run)
+    store = Store(None if folder is None else Path(folder))
+    rows = store.read()
+    work = Work(grid.base, run, model_version())
+    # equal combinations have one key, and are run once
+    tasks = {key: Task(key, changes) for key, changes in zip(keys, grid.changes, strict=True)}
+    sweeper = _Sweeper(work, tasks, rows, store, progress)
+    if sweeper.missing():
+        with LocalWorkers(jobs) if dask is None else DaskWorkers(dask) as workers:
+            sweeper.finish(workers)
+    return sweep_dataset(grid, run, [rows[key] for key in keys])
+
+
+def _check(run: Run) -> None:
+    for name, value in run._asdict().items():
+        if not (math.isfinite(value) and value > 0.0):
+            raise SweepError(f"{name}: out of range ({value:g}), allowed is above 0 s")
+
+
+class _Sweeper:
+    """Tasks, the rows there are of them, and where to keep new ones."""
+
+    def __init__(
+        self, work: Work, tasks: dict[str, Task], rows: dict[str, Row], store: Store,
+        progress: Progress | None,
+    ):
+        self.work, self.tasks, self.rows, self.store = work, tasks, rows, store
+        self.progress = progress or (lambda done, total: None)
+
+    def missing(self) -> list[Task]:
+        missing = [task for key, task in self.tasks.items() if key not in self.rows]
+        self.progress(len(self.tasks) - len(missing), len(self.tasks))
+        return missing
+
+    def keep(self, rows: list[Row]) -> None:
+        self.store.write(rows)
+        self.rows |= {row.key: row for row in rows}
+
+    def finish(self, workers: Workers) -> None:
+        """Compute what is missing, with fresh workers when some were lost."""
+        seconds = self._first()
+        for attempt in range(ATTEMPTS):
+            missing = self.missing()
+            if len(missing) * seconds < NOT_WORTH_PROCESSES and isinstance(workers, LocalWorkers):
+                workers = LocalWorkers(1)
+            # shorter chunks after a loss: what is lost with a worker is less
+            size = max(math.ceil(_chunk_size(missing, seconds, workers.count) / 4**attempt), 1)
+            chunks = [missing[i : i + size] for i in range(0, len(missing), size)]
+            try:
+                for rows in workers.run(self.work, chunks):
+                    self.keep(rows)
+                    self.missing()
+                return
+            except WorkersLost as error:
+                lost = error
+        raise SweepStopped(
+            f"workers died {ATTEMPTS} times ({lost}); {len(self.missing())} of "
+            f"{len(self.tasks)} combinations are missing, the rest is kept: start the sweep again "
+            "with fewer jobs"
+        ) from lost
+
+    def _first(self) -> float:
+        """Run the first combination here: how long one takes, s, the kernel's loading aside."""
+        task = self.missing()[0]
+        # compiles the kernel before the workers would, all at the same time
+        simulate(with_changes(self.work.base, task.changes), self.work.run.output_interval)
+        start = time.perf_counter()
+        self.keep(compute_chunk(self.work, [task]))
+        return time.perf_counter() - start
+
+
+def _chunk_size(missing: Sequence[Task], seconds: float, workers: int) -> int:
+    """Combinations in a chunk."""
+    most = math.ceil(len(missing) / (SHARES * workers))
+    return max(min(round(CHUNK_SECONDS / seconds), most), 1)

@@ -1,0 +1,80 @@
+"""Finished chunks on disk: what is there need not be computed again.
+
+A chunk is one JSON file that appears under its name only when it is complete. Rows are found by
+their content key, so it does not matter which sweep they were computed for; chunks of another
+version of the model lie in another folder.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+
+from .combination import ERROR, Row, model_version
+from .errors import SweepError
+
+FOLDER = "chunks"
+VERSION_DIGITS = 12
+
+
+class Store:
+    """Rows in ``folder``/chunks; without a folder nothing is kept."""
+
+    def __init__(self, folder: Path | None):
+        self.folder = None if folder is None else folder / FOLDER / model_version()[:VERSION_DIGITS]
+        if self.folder is not None:
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise SweepError(f"{self.folder}: cannot be made: {error.strerror}") from error
+
+    def read(self) -> dict[str, Row]:
+        """Key -> row of everything that is kept."""
+        rows: dict[str, Row] = {}
+        for file in sorted(self.folder.glob("*.json")) if self.folder else ():
+            rows |= {row.key: row for row in _read(file)}
+        return rows
+
+    def write(self, rows: Sequence[Row]) -> None:
+        """Keep the rows of a chunk; those in ERROR are left out and computed again next time."""
+        kept = [row for row in rows if row.status != ERROR]
+        if self.folder is None or not kept:
+            return
+        name = hashlib.sha256("".join(row.key for row in kept).encode()).hexdigest()[:24]
+        text = json.dumps([_plain(row) for row in kept], allow_nan=False)
+        write_atomically(self.folder / f"{name}.json", lambda path: path.write_text(text))
+
+
+def write_atomically(path: Path, write) -> None:
+    """Let ``write`` fill a partial file beside ``path``, bring it to the disk, put it in place."""
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        write(partial)
+        with partial.open("rb+") as file:
+            os.fsync(file.fileno())  # else a power cut may leave the name without the contents
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _plain(row: Row) -> list:
+    values = [value if math.isfinite(value) else None for value in row.values]
+    return [row.key, row.status, row.reason, values]
+
+
+def _read(file: Path) -> list[Row]:
+    """A chunk's rows; none, with a warning, when the file is damaged."""
+    try:
+        entries = json.loads(file.read_text(encoding="utf-8"))
+        return [
+            Row(key, status, reason, tuple(math.nan if v is None else float(v) for v in values))
+            for key, status, reason, values in entries
+        ]
+    except (ValueError, TypeError) as error:
+        warnings.warn(f"{file}: damaged ({error}), its combinations are run again", stacklevel=2)
+        return []
