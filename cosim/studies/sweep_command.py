@@ -30,7 +30,7 @@ from cosim.studies.sweep.arguments import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
 from cosim.studies.sweep.figure import draw_sweep
 from cosim.studies.sweep.store import write_atomically
-from cosim.studies.sweep.test_plan import repeats_grid, test_plan_grid
+from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
 
 SUMMARY = "parameter sweep: every combination of some values"
 EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
@@ -96,7 +96,7 @@ def execute(arguments: Namespace) -> int:
 def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
     """Group of the result file -> combinations."""
     if arguments.test_plan:
-        return {"": test_plan_grid(scenario), REPEATS: repeats_grid(scenario)}
+        return {"": plan_grid(scenario), REPEATS: repeats_grid(scenario)}
     return {"": product_grid(scenario, parse_vary(arguments.vary))}
 
 

@@ -60,7 +60,8 @@ def write_sweep(datasets: dict[str, xr.Dataset], path: Path) -> None:
     """netCDF 4; each dataset in the group it is named by ("" is the root)."""
 
     def write(partial: Path) -> None:
-        for mode, (group, dataset) in zip("w" + "a" * len(datasets), datasets.items(), strict=False):
+        for group, dataset in datasets.items():
+            mode = "a" if partial.exists() else "w"
             dataset.to_netcdf(partial, mode=mode, group=group or None, engine="h5netcdf")
 
     write_atomically(path, write)

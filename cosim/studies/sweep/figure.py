@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+Array = NDArray[np.float64]
+
 # feature -> label and factor to the unit in it
 SHOWN = {
     "x_mean": ("mean x [mm]", 1e3),
@@ -35,33 +37,30 @@ RC = {
     "grid.linewidth": 0.6,
     "legend.frameon": False,
 }
-BLUE, BAND = "#0072B2", "#BFD9EA"
+BLUE, HALF, BAND = "#0072B2", "#8FBFDD", "#D3E5F0"
 COLOURS = matplotlib.colormaps["viridis"]
 PANEL = (2.9, 1.75)  # inches
+SMALLEST_SPAN = 0.05
 
 
 def draw_sweep(dataset: xr.Dataset) -> Figure:
-    """One row for each feature, one column for each varied dimension.
+    """One row for each feature, one column for each varied dimension (two columns for one).
 
     With few lines in a panel there is one for each combination of the other dimensions, else
-    their median in the range of all. Runs that failed are left out.
+    their median, the middle half of them (darker) and their range. Runs that failed are left out.
     """
     dims = [str(name) for name in dataset["status"].dims]
     with matplotlib.rc_context(RC):
-        width, height = PANEL
-        figure = Figure(
-            (1.0 + max(width * len(dims), 1.6 * width), 1.2 + height * len(SHOWN)),
-            layout="constrained",
-        )
-        panels = figure.subplots(len(SHOWN), len(dims), sharex="col", sharey="row", squeeze=False)
-        for row, (feature, (label, factor)) in enumerate(SHOWN.items()):
-            for column, dim in enumerate(dims):
-                _draw(panels[row, column], factor * dataset[feature], dim)
-            panels[row, 0].set_ylabel(label)
+        figure, panels = _panels(dims)
+        for row, (feature, (label, factor)) in zip(panels, SHOWN.items(), strict=True):
+            for axes, dim in zip(row, dims, strict=True):
+                _draw(axes, factor * dataset[feature], dim)
+            _widen(row[0])
+            row[0].set_ylabel(label)
         for column, dim in enumerate(dims):
-            _name_axis(panels[-1, column], dataset, dim)
+            for axes in panels[:, column]:
+                _name_axis(axes, dataset, dim)
             _explain(panels[0, column], dataset, dim, dims)
-        figure.align_ylabels(panels[:, 0])
         complete = int(np.count_nonzero(dataset["status"] == 0))
         figure.suptitle(
             f"Sweep over {dataset.attrs['title']}: {complete} of {dataset['status'].size} "
@@ -70,19 +69,50 @@ def draw_sweep(dataset: xr.Dataset) -> Figure:
     return figure
 
 
+def _panels(dims: list[str]) -> tuple[Figure, NDArray[np.object_]]:
+    """A figure and its panels (features, dims)."""
+    rows, columns = (len(SHOWN), len(dims)) if len(dims) > 1 else (math.ceil(len(SHOWN) / 2), 2)
+    width, height = PANEL
+    figure = Figure((1.0 + width * columns, 1.2 + height * rows), layout="constrained")
+    share_y = "row" if len(dims) > 1 else False
+    panels = figure.subplots(rows, columns, sharex="col", sharey=share_y, squeeze=False)
+    return figure, panels.reshape(len(SHOWN), len(dims))
+
+
+def _widen(axes: Axes) -> None:
+    """A range that is a small part of the values is not blown up to fill the axis."""
+    low, high = axes.get_ylim()
+    span = SMALLEST_SPAN * max(abs(low), abs(high))
+    if high - low < span:
+        middle = 0.5 * (low + high)
+        axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)
+
+
 def _draw(axes: Axes, values: xr.DataArray, dim: str) -> None:
     places = _places(values[dim])
     table = values.transpose(..., dim).values.reshape(-1, places.size)
-    style = {"marker": "o", "markersize": 3.0, "linewidth": 1.3}
+    numeric = _is_numeric(values[dim])
+    style = {"marker": "o", "markersize": 3.0, "linewidth": 1.3 if numeric else 0.4}
     if len(table) <= MOST_LINES:
         for line, colour in zip(table, _colours(len(table)), strict=True):
             axes.plot(places, line, color=colour, **style)
         return
     known = np.isfinite(table).any(axis=0)
     if known.any():
-        low, middle, high = np.nanquantile(table[:, known], [0.0, 0.5, 1.0], axis=0)
-        axes.fill_between(places[known], low, high, color=BAND, linewidth=0.0)
-        axes.plot(places[known], middle, color=BLUE, **style)
+        quantiles = np.nanquantile(table[:, known], [0.0, 0.25, 0.5, 0.75, 1.0], axis=0)
+        _draw_spread(axes, places[known], quantiles, numeric)
+
+
+def _draw_spread(axes: Axes, places: Array, quantiles: Array, numeric: bool) -> None:
+    """Range, middle half and median (5, n): bands over numbers, bars over names."""
+    low, quarter, middle, three_quarters, high = quantiles
+    for bottom, top, colour in ((low, high, BAND), (quarter, three_quarters, HALF)):
+        if numeric and places.size > 1:
+            axes.fill_between(places, bottom, top, color=colour, linewidth=0.0)
+        else:
+            axes.vlines(places, bottom, top, color=colour, linewidth=7.0)
+    axes.plot(places, middle, color=BLUE, marker="o", markersize=3.0,
+              linewidth=1.3 if numeric else 0.0)
 
 
 def _colours(count: int) -> list:
@@ -93,7 +123,7 @@ def _is_numeric(coordinate: xr.DataArray) -> bool:
     return np.issubdtype(coordinate.dtype, np.number)
 
 
-def _places(coordinate: xr.DataArray) -> NDArray[np.float64]:
+def _places(coordinate: xr.DataArray) -> Array:
     """Where the values stand: at themselves, names side by side."""
     if _is_numeric(coordinate):
         return coordinate.values.astype(float)
@@ -102,8 +132,9 @@ def _places(coordinate: xr.DataArray) -> NDArray[np.float64]:
 
 def _name_axis(axes: Axes, dataset: xr.Dataset, dim: str) -> None:
     coordinate = dataset[dim]
-    unit = coordinate.attrs["units"]
-    axes.set_xlabel(dim if unit == "1" else f"{dim} [{unit}]")
+    unit = coordinate.attrs["units"].replace("degC", "°C")
+    if axes.get_subplotspec().is_last_row():
+        axes.set_xlabel(dim if unit == "1" else f"{dim} [{unit}]")
     if not _is_numeric(coordinate):
         labels = [str(label) for label in coordinate.values]
         long = sum(map(len, labels)) > 24
@@ -119,7 +150,7 @@ def _explain(axes: Axes, dataset: xr.Dataset, dim: str, dims: list[str]) -> None
     if not others or lines == 1:
         return
     if lines > MOST_LINES:
-        axes.set_title("median and range of the others", fontsize=8.0, loc="left")
+        axes.set_title("median, middle half, range", fontsize=8.0, loc="left")
         return
     grid = np.indices([dataset.sizes[name] for name in others]).reshape(len(others), -1).T
     labels = [

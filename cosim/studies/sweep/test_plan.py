@@ -40,7 +40,7 @@ PER_KELVIN = 0.02
 SCATTER, SEED = 0.05, 1
 
 
-def test_plan_grid(
+def plan_grid(
     parameters: Parameters,
     belts: Mapping[str, float] = BELTS,
     per_kelvin: float = PER_KELVIN,
