@@ -82,7 +82,7 @@ class Scenario(Parameters):
     _thermal: ThermalParameters = PrivateAttr()
 
     @model_validator(mode="after")
-    def _check_together(self) -> Self:
+    def _join_with_heat(self) -> Self:
         if self.rig.surface == "slab":
             self._take_length_from_slab()
         for key, interval in (

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from cosim.master import inputs, outputs, port_table
 from thermal import BeltIceModel
 
-#: Joules that a cumulative heat may fall by rounding, as a part of itself.
+#: Change of a total that is rounding, as a part of the total: it was added up from 1e4 steps.
 ROUNDING = 1e-12
 
 PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
@@ -83,9 +83,12 @@ class ThermalParticipant:
         now, taken = self._now, self._taken
         heat = now.heat - taken.heat
         if -ROUNDING * abs(now.heat) <= heat < 0.0:
-            # taken later: the total stays that of the mechanical side
+            # not taken yet: the total stays that of the mechanical side
             heat, now = 0.0, now._replace(heat=taken.heat)
         way = (now.surface_travel - taken.surface_travel) - (now.x - taken.x)
+        if abs(way) <= ROUNDING * (abs(now.surface_travel) + abs(now.x)):
+            # stick; taken as it is, its sign would tell the belt to run backwards
+            way, now = 0.0, now._replace(surface_travel=taken.surface_travel, x=taken.x)
         self.model.step(size, heat, way)
         self._taken = now
         self._time = time + size

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import shlex
 import sys
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
+from cosim.cli.progress import progress_over_files
 from cosim.master.interrupt import deferred_interrupt
 from cosim.report import summary, write_results
 
@@ -17,21 +19,21 @@ COMPLETE = "complete"
 
 
 def finish(
-    dataset: xr.Dataset, folder: Path, wall_time: float, files: Mapping[str, str] | None = None
+    dataset: xr.Dataset, folder: Path, began: float, files: Mapping[str, str] | None = None
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
-    wall_time: of the whole command so far, s. files: further ones to list on the page.
+    began: of the command, on time.perf_counter, s. files: further ones to list on the page.
     A Ctrl-C waits until everything is written; a second one does not.
     """
     command = shlex.join(["stickslip", *sys.argv[1:]])
-    with deferred_interrupt():
-        write_results(dataset, folder, command=command, files=dict(files or {}))
+    with deferred_interrupt(), progress_over_files() as progress:
+        write_results(dataset, folder, command=command, files=dict(files or {}), progress=progress)
     numbers = summary(dataset)
     if numbers["status"] != COMPLETE:
         print(f"error: {numbers['reason']}; what was computed is in {folder}", file=sys.stderr)
         return 1
-    print("\n".join(closing_lines(numbers, folder, wall_time)))
+    print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
     return 0
 
 
@@ -41,8 +43,7 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
     lines = [
         f"{numbers['name']}: {numbers['time_reached']:g} s in {wall_time:.1f} s of wall time, "
         f"{numbers['wall_time']:.2g} s of them in the models",
-        f"  stick-slip   {_number(late['frequency'], '.3f')} break-aways per second at constant "
-        f"speed, slip share {_number(late['slip_share'], '.3f')}",
+        f"  stick-slip   {_motion_line(late)}",
     ]
     if "temperatures" in numbers:
         interface, shares = numbers["temperatures"]["interface"], numbers["heat_shares"]
@@ -57,6 +58,15 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
     lines.append(f"  ledgers      {_ledger_line(ledgers)}")
     lines.append(f"  results      {folder / 'report.html'} and beside it")
     return lines
+
+
+def _motion_line(late: Mapping[str, Any]) -> str:
+    if late["frequency"] is None:
+        return "not known: the run ends before the surface has its speed"
+    return (
+        f"{late['frequency']:.3f} break-aways per second at constant speed, "
+        f"slip share {_number(late['slip_share'], '.3f')}"
+    )
 
 
 def _ledger_line(ledgers: Mapping[str, Any]) -> str:

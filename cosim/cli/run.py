@@ -32,7 +32,7 @@ def main(arguments: Namespace) -> int:
     if done.snapshots.file is not None:
         name = done.snapshots.file.relative_to(folder).as_posix()
         files[name] = "temperature fields of belt and ice; opens in ParaView"
-    return finish(dataset, folder, time.perf_counter() - began, files)
+    return finish(dataset, folder, began, files)
 
 
 def _coupled(scenario: Scenario, **arguments) -> CoupledRun:

@@ -24,7 +24,7 @@ def main(arguments: Namespace) -> int:
     trajectory = _simulated(scenario)
     stepped = time.perf_counter() - start
     dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
-    return finish(dataset, folder, time.perf_counter() - began)
+    return finish(dataset, folder, began)
 
 
 def _simulated(scenario: Scenario) -> Trajectory:

@@ -134,6 +134,23 @@ def test_a_total_that_falls_by_rounding_is_made_up_for_and_one_that_falls_is_ref
         part.step(0.0, 0.1)
 
 
+def test_stick_is_no_movement_whatever_rounding_says():
+    part = ThermalParticipant(model())
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    part.write({"heat": 1.0, "surface_travel": 0.3, "x": 0.1})
+    part.step(0.0, 0.1)
+    entry = part.read()["belt_entry_temperature"]
+    at = part.model.contact_position
+    part.write({"surface_travel": 0.4, "x": 0.2 + 1e-16})
+    part.step(0.1, 1e-6)
+    assert part.model.contact_position == at
+    assert part.read()["belt_entry_temperature"] == pytest.approx(entry, abs=1e-3)
+    part.write({"surface_travel": 0.45})
+    part.step(0.2, 0.1)
+    assert part.model.contact_position == pytest.approx(at - 0.05, abs=1e-14)
+
+
 def test_a_participant_goes_back_and_on_bit_for_bit():
     part = ThermalParticipant(model())
     part.enter_initialisation(0.0, 1.0)

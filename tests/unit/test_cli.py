@@ -1,0 +1,143 @@
+"""The command line in this process: arguments, refusals, closing lines."""
+
+import os
+from importlib.metadata import version
+
+import pytest
+
+from cosim.cli import arguments, errors, main
+from cosim.cli.files import writable_folder
+
+
+def refusal(capsys, *argv):
+    """Exit status 2 and one line on stderr, nothing on stdout; the line."""
+    try:
+        status = main(argv)
+    except SystemExit as stop:  # argparse's way
+        status = stop.code
+    out, err = capsys.readouterr()
+    assert (status, out) == (2, "")
+    assert err.startswith("error: ") and err.count("\n") == 1
+    return err.removeprefix("error: ").strip()
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("command", [[], ["run"], ["simulate"], ["build"]])
+def test_help_has_an_example(capsys, command):
+    with pytest.raises(SystemExit) as stop:
+        main([*command, "--help"])
+    out = capsys.readouterr().out
+    assert stop.value.code == 0
+    assert "example: stickslip " + " ".join(command) in " ".join(out.split())
+
+
+def test_version(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--version"])
+    assert stop.value.code == 0
+    assert capsys.readouterr().out == f"stickslip {version('stickslip')}\n"
+
+
+@pytest.mark.parametrize(
+    "argv, line",
+    [
+        ([], "the following arguments are required: COMMAND"),
+        (["rnu"], "invalid choice: 'rnu'"),
+        (["run", "--out", "x"], "unrecognized arguments: --out"),
+        (["build", "--native"], "unrecognized arguments: --native"),
+        (["build", "--fmi", "3"], "argument --fmi: invalid choice: '3'"),
+        (["run", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
+    ],
+)
+def test_arguments_that_do_not_exist_are_refused(capsys, argv, line):
+    assert line in refusal(capsys, *argv)
+
+
+@pytest.mark.parametrize("command", ["run", "simulate"])
+@pytest.mark.parametrize(
+    "text, line",
+    [
+        ("[rig]\nmass = -1", "case.toml: rig.mass: out of range (-1), allowed is a number greater"),
+        ("[rig]\nmas = 1", "case.toml: rig.mas: no such key, nearest known: rig.mass"),
+        ("[rig", "case.toml: not TOML: expected ']'"),
+        (None, "case.toml: no such file"),
+    ],
+)
+def test_a_bad_scenario_is_refused(capsys, tmp_path, command, text, line):
+    if text is not None:
+        (tmp_path / "case.toml").write_text(text)
+    assert line in refusal(capsys, command, "case.toml", "-o", "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_rows_between_macro_steps_are_refused_for_run_only(capsys, tmp_path):
+    (tmp_path / "case.toml").write_text("[run]\noutput_interval = 0.015")
+    line = refusal(capsys, "run", "case.toml")
+    assert line.startswith("case.toml: run.output_interval: 0.015 s does not fall on the macro")
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(capsys, tmp_path):
+    (tmp_path / "taken").write_text("a file")
+    for command in ("run", "simulate"):
+        for folder in ("taken", "taken/below"):
+            line = refusal(capsys, command, "-o", folder)
+            assert line.startswith(f"{folder}: cannot be written to (") and "-o" in line
+    assert refusal(capsys, "build", "-o", "taken").startswith("taken: cannot be written to")
+    assert (tmp_path / "taken").read_text() == "a file"
+    assert [path.name for path in tmp_path.iterdir()] == ["taken"]
+
+
+def test_a_name_that_a_folder_has_taken_is_refused(capsys, tmp_path):
+    (tmp_path / "out" / "result.nc").mkdir(parents=True)
+    assert refusal(capsys, "simulate", "-o", "out").startswith("out/result.nc: is a folder")
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_without_permission_is_refused(tmp_path):
+    tmp_path.chmod(0o500)
+    with pytest.raises(errors.BadInput, match="cannot be written to"):
+        writable_folder(tmp_path, ())
+
+
+@pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04 and then nothing"])
+def test_what_is_no_fmu_is_refused(capsys, tmp_path, content):
+    (tmp_path / "given.fmu").write_bytes(content)
+    line = refusal(capsys, "run", "--fmu", "given.fmu")
+    assert line.startswith("given.fmu: not an FMU, or truncated")
+    assert refusal(capsys, "run", "--fmu", "nix.fmu").startswith("nix.fmu: no such file")
+
+
+def test_debug_shows_the_traceback_on_either_side_of_the_command(capsys):
+    for argv in (["--debug", "run", "nix.toml"], ["run", "nix.toml", "--debug"]):
+        assert main(argv) == 2
+        err = capsys.readouterr().err
+        assert "Traceback" in err and err.splitlines()[-1].startswith("error: nix.toml: no such")
+
+
+def test_a_fault_of_ours_is_one_line_and_no_bad_input(capsys, monkeypatch):
+    def broken(folder):
+        raise RuntimeError("spring\nbroke")
+
+    monkeypatch.setattr("cosim.fmu_build.build_fmu", broken)
+    monkeypatch.setattr("cosim.cli.build.build_fmu", broken, raising=False)
+    assert main(["build"]) == 1
+    assert capsys.readouterr().err == "error: spring broke (--debug shows where)\n"
+
+
+def test_our_warnings_are_one_line_each_and_come_once(capsys):
+    import warnings
+
+    with errors.warnings_in_one_line():
+        for _ in range(2):
+            warnings.warn("mu_k exceeds\nmu_s", stacklevel=1)
+            warnings.warn("of a library", DeprecationWarning, stacklevel=1)
+    assert capsys.readouterr().err == "warning: mu_k exceeds mu_s\n"
+
+
+def test_every_command_has_a_module():
+    for command in ("run", "simulate", "build"):
+        assert arguments.parser().parse_args([command]).command == command
