@@ -83,10 +83,12 @@ def _entry(models: type, name: str, start: float) -> dict:
         for kind in ("gt", "ge", "le")
         if getattr(bound, kind, None) is not None
     }
+    whole = field.annotation is int
     return (
         entry
+        | ({"start": int(start), "nominal": None} if whole else {})
         | {
-            "unit": field.json_schema_extra["unit"],
+            "unit": None if whole else field.json_schema_extra["unit"],
             "min": bounds.get("gt", bounds.get("ge")),
             "max": bounds.get("le"),
             "above_min": "gt" in bounds,

@@ -6,32 +6,54 @@
 (501,)
 """
 
-from .parameters import (
-    Friction,
-    Initial,
+from .effects import (
+    CATALOGUE,
+    FilmDrag,
     LateralFriction,
-    Parameters,
-    Rig,
-    Solver,
-    Springs,
-    Surface,
+    LoadDependence,
+    RunIn,
+    SpeedRipple,
+    SpringHardening,
+    SpringMisalignment,
+    StaticStrengthening,
+    StickStiffness,
+    StructuralDamping,
+    SurfacePattern,
+    SurfaceScatter,
     TemperatureDependence,
+    ThermalWeakening,
     TurningSurface,
+    VelocityWeakening,
 )
+from .parameters import Friction, Initial, Parameters, Rig, Solver, Springs, Surface
 from .simulate import simulate
 from .trajectory import Trajectory
 
 __all__ = [
+    "CATALOGUE",
+    "FilmDrag",
     "Friction",
     "Initial",
     "LateralFriction",
+    "LoadDependence",
     "Parameters",
     "Rig",
+    "RunIn",
     "Solver",
+    "SpeedRipple",
+    "SpringHardening",
+    "SpringMisalignment",
     "Springs",
+    "StaticStrengthening",
+    "StickStiffness",
+    "StructuralDamping",
     "Surface",
+    "SurfacePattern",
+    "SurfaceScatter",
     "TemperatureDependence",
+    "ThermalWeakening",
     "Trajectory",
     "TurningSurface",
+    "VelocityWeakening",
     "simulate",
 ]

@@ -8,22 +8,14 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Annotated, Any, Literal, Self
+from itertools import pairwise
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
-from .packing import pack
-
-
-def quantity(default: float, unit: str, description: str, **bounds: Any) -> Any:
-    """A field with unit and description; ``bounds`` are pydantic's gt, ge, lt, le."""
-    return Field(default, description=description, json_schema_extra={"unit": unit}, **bounds)
-
-
-class Block(BaseModel):
-    """A table of parameters: unknown keys, NaN and infinities are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
+from .block import Block, quantity
+from .effects import EffectBlocks
+from .packing import CURVE_LIMIT, pack
 
 
 class Rig(Block):
@@ -83,6 +75,37 @@ class Springs(Block):
     """The four equal springs."""
 
     stiffness: float = quantity(20.17, "N/m", "stiffness of one of the four springs", ge=0)
+    force_curve_extension: tuple[float, ...] = Field(
+        (),
+        description="extensions of a measured force-length curve of one spring, growing, at most "
+        "16; the curve replaces stiffness, which then only sets the time scale",
+        json_schema_extra={"unit": "m"},
+        strict=False,
+        max_length=CURVE_LIMIT,
+    )
+    force_curve_force: tuple[float, ...] = Field(
+        (),
+        description="forces of the curve, not falling; joined by a monotone cubic",
+        json_schema_extra={"unit": "N"},
+        strict=False,
+        max_length=CURVE_LIMIT,
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        extension, force = self.force_curve_extension, self.force_curve_force
+        if len(extension) != len(force):
+            raise ValueError(
+                f"force_curve_extension has {len(extension)} values and force_curve_force has "
+                f"{len(force)}: allowed is the same number"
+            )
+        if len(extension) == 1:
+            raise ValueError("a force curve of one point: allowed are none or 2 to 16")
+        if any(b <= a for a, b in pairwise(extension)):
+            raise ValueError("force_curve_extension must grow from value to value")
+        if any(b < a for a, b in pairwise(force)):
+            raise ValueError("force_curve_force must not fall from value to value")
+        return self
 
 
 class Friction(Block):
@@ -90,38 +113,6 @@ class Friction(Block):
 
     mu_s: float = quantity(0.2815, "1", "static friction coefficient", ge=0)
     mu_k: float = quantity(0.2086, "1", "kinetic friction coefficient", ge=0)
-
-
-class LateralFriction(Block):
-    """Friction across the motion: lateral and spin components."""
-
-    ratio: float = quantity(
-        0.0,
-        "1",
-        "friction across the motion relative to that along x: 0 along x only, 1 along the local "
-        "relative velocity",
-        ge=0,
-        le=1,
-    )
-
-
-class TurningSurface(Block):
-    """A slab instead of a belt."""
-
-    curvature: float = quantity(
-        0.0, "1/m", "1/R of a surface that turns about (0, R); 0 is a belt", ge=-20, le=20
-    )
-
-
-class TemperatureDependence(Block):
-    """Kinetic friction that falls as the interface warms, up to the melting point (0 degC)."""
-
-    sensitivity: float = quantity(
-        0.0, "1/K", "fraction of mu_k lost per kelvin above reference_degC; 0 is off", ge=0
-    )
-    reference_degC: float = quantity(
-        -8.0, "degC", "interface temperature at which mu_k holds", ge=-273.15, le=0
-    )
 
 
 class Surface(Block):
@@ -148,26 +139,26 @@ class Solver(Block):
     """Internal integrator."""
 
     tolerance: float = quantity(
-        1e-11, "1", "error of one internal step, relative to the motion's own scale",
-        ge=1e-13, le=1e-3,
+        1e-11,
+        "1",
+        "error of one internal step, relative to the motion's own scale",
+        ge=1e-13,
+        le=1e-3,
     )
 
 
-class Parameters(Block):
+class Parameters(EffectBlocks):
     """Everything that the mechanical model needs, the drive included."""
 
     rig: Rig = Rig()
     springs: Springs = Springs()
     friction: Friction = Friction()
-    lateral_friction: LateralFriction = LateralFriction()
-    turning_surface: TurningSurface = TurningSurface()
-    temperature_dependence: TemperatureDependence = TemperatureDependence()
     surface: Surface = Surface()
     initial: Initial = Initial()
     solver: Solver = Solver()
 
     @model_validator(mode="after")
-    def _check(self) -> Self:
+    def _check_together(self) -> Self:
         if self.rig.surface == "slab" and self.turning_surface.curvature != 0.0:
             raise ValueError(
                 'rig.surface = "slab" already sets turning_surface.curvature to 1/slab_radius; '
@@ -204,10 +195,20 @@ class Parameters(Block):
         values["rig.inertia"] = self._inertia()
         for i, angle in enumerate(rig.attachment_angles_deg):
             values[f"rig.attachment_angles_deg[{i + 1}]"] = angle
+        values |= self._curve_values()
         values["rig.free_y"] = float("y" in rig.degrees_of_freedom)
         values["rig.free_phi"] = float("phi" in rig.degrees_of_freedom)
         if rig.surface == "slab":
             values["turning_surface.curvature"] = 1.0 / rig.slab_radius
+        return values
+
+    def _curve_values(self) -> dict[str, float]:
+        """The curve at its full length: unused places repeat zero, which does not grow."""
+        values = {}
+        for key in ("force_curve_extension", "force_curve_force"):
+            curve = getattr(self.springs, key)
+            padded = [*curve, *[0.0] * (CURVE_LIMIT - len(curve))]
+            values |= {f"springs.{key}[{i + 1}]": value for i, value in enumerate(padded)}
         return values
 
     def _inertia(self) -> float:

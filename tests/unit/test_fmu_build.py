@@ -14,7 +14,7 @@ sys.path.insert(0, str(recipe_file().parent))
 
 import pythonfmu_library  # noqa: E402  (the recipe's folder is no package)
 
-STANDARD_LIBRARY_USED = {"functools", "json", "math", "sys"}
+STANDARD_LIBRARY_USED = {"random", "functools", "json", "math", "sys"}
 
 
 @pytest.fixture(scope="module")

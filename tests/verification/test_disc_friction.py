@@ -36,7 +36,12 @@ def friction_over_disc(sliding: float, spinning: float) -> tuple[float, float]:
         # the disc is symmetric about y, so half of it is integrated
         value, _ = dblquad(
             lambda r, theta: 2.0 * components(r, theta)[part],
-            -np.pi / 2, np.pi / 2, 0.0, 1.0, epsabs=1e-9, epsrel=1e-9,
+            -np.pi / 2,
+            np.pi / 2,
+            0.0,
+            1.0,
+            epsabs=1e-9,
+            epsrel=1e-9,
         )
         return value
 

@@ -62,9 +62,7 @@ def friction_along_x(velocity, points):
 
 
 def surface_velocity(q, speed, curvature):
-    return np.array(
-        [speed * (1.0 - curvature * q[1]), speed * curvature * q[0], speed * curvature]
-    )
+    return np.array([speed * (1.0 - curvature * q[1]), speed * curvature * q[0], speed * curvature])
 
 
 CASES = {

@@ -17,10 +17,20 @@ NO_ICE = Ice(conductivity=1e-9, heat_capacity=1e-3, air_heat_transfer=0.0)
 def test_frictional_half_spaces(steps, strips):
     """dT = 2 q sqrt(t/pi)/(e1 + e2), shares e_i/(e1 + e2): steel on rubber, 1e4 W/m2, 1 s."""
     parameters = ThermalParameters(
-        belt=Belt(length=4.0, width=2.0, thickness=5e-3, density=1100, heat_capacity=1700,
-                  conductivity=0.2, air_heat_transfer=0.0, cell_length=2e-3, elements=10),
+        belt=Belt(
+            length=4.0,
+            width=2.0,
+            thickness=5e-3,
+            density=1100,
+            heat_capacity=1700,
+            conductivity=0.2,
+            air_heat_transfer=0.0,
+            cell_length=2e-3,
+            elements=10,
+        ),
         ice=Ice(density=7836, heat_capacity=443, conductivity=48.9, air_heat_transfer=0.0),
-        contact=Contact(radius=1.0, conductance=1e12, strips=strips))
+        contact=Contact(radius=1.0, conductance=1e12, strips=strips),
+    )
     model = BeltIceModel(parameters)
     for _ in range(steps):
         model.step(1.0 / steps, 1e4 * model.footprint.area / steps, 0.0)
@@ -71,23 +81,36 @@ def test_order_in_the_macro_step(speed):
 @pytest.mark.parametrize("macro_step", [0.01, 0.1, 1.0])
 def test_long_macro_steps_on_a_fast_belt_agree(macro_step):
     """Internal steps follow the movement: 2 s at 0.82 m/s within 0.5 % of the rise."""
+
     def rise(step):
         model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=2e-3)))
         for _ in range(round(2.0 / step)):
             model.step(step, 4.03 * 0.82 * step, 0.82 * step)
         outputs = model.outputs()
-        return np.array([outputs[name] + 8.0 for name in (
-            "interface_temperature", "belt_entry_temperature", "belt_exit_temperature")])
+        return np.array(
+            [
+                outputs[name] + 8.0
+                for name in (
+                    "interface_temperature",
+                    "belt_entry_temperature",
+                    "belt_exit_temperature",
+                )
+            ]
+        )
 
     assert rise(macro_step) == pytest.approx(rise(1e-3), rel=5e-3)
 
 
 def ice_only(flux, macro_step, steps):
     """All heat into the ice: a belt that takes next to nothing."""
-    model = BeltIceModel(ThermalParameters(
-        belt=Belt(width=0.08, cell_length=0.02, conductivity=1e-9, density=1e-3,
-                  air_heat_transfer=0.0),
-        ice=Ice(air_heat_transfer=0.0, axial_elements=14)))
+    model = BeltIceModel(
+        ThermalParameters(
+            belt=Belt(
+                width=0.08, cell_length=0.02, conductivity=1e-9, density=1e-3, air_heat_transfer=0.0
+            ),
+            ice=Ice(air_heat_transfer=0.0, axial_elements=14),
+        )
+    )
     for _ in range(steps):
         model.step(macro_step, flux * model.footprint.area * macro_step, 0.0)
         yield model.outputs()

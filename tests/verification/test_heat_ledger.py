@@ -10,13 +10,14 @@ CLOSED = 1e-10
 SHORT = {"length": 0.3, "cell_length": 4e-3}
 CASES = {
     "rig": ThermalParameters(belt=Belt(**SHORT)),
-    "near melting": ThermalParameters(
-        ambient=Ambient(temperature_degC=-0.3), belt=Belt(**SHORT)),
+    "near melting": ThermalParameters(ambient=Ambient(temperature_degC=-0.3), belt=Belt(**SHORT)),
     "strong draught": ThermalParameters(
-        belt=Belt(air_heat_transfer=500.0, **SHORT), ice=Ice(air_heat_transfer=200.0)),
+        belt=Belt(air_heat_transfer=500.0, **SHORT), ice=Ice(air_heat_transfer=200.0)
+    ),
     "poor contact": ThermalParameters(belt=Belt(**SHORT), contact=Contact(conductance=5.0)),
     "perfect contact, wide belt": ThermalParameters(
-        belt=Belt(width=0.3, **SHORT), contact=Contact(conductance=1e12, strips=3)),
+        belt=Belt(width=0.3, **SHORT), contact=Contact(conductance=1e12, strips=3)
+    ),
     "odd cells": ThermalParameters(belt=Belt(length=0.305, cell_length=5e-3)),
 }
 PASSES = dict.fromkeys(CASES, 100) | {"rig": 1000}

@@ -23,9 +23,19 @@ ASYMPTOTIC = 0.25
 
 
 def slab(elements=6, h=0.0, cells=8, length=1.0):
-    return Belt(BeltParameters(
-        thickness=D, conductivity=K, density=RHO, heat_capacity=C, air_heat_transfer=h,
-        elements=elements, length=length, cell_length=length / cells), LANE)
+    return Belt(
+        BeltParameters(
+            thickness=D,
+            conductivity=K,
+            density=RHO,
+            heat_capacity=C,
+            air_heat_transfer=h,
+            elements=elements,
+            length=length,
+            cell_length=length / cells,
+        ),
+        LANE,
+    )
 
 
 def uniform_flux(belt, flux):
@@ -43,8 +53,11 @@ def between_nodes(belt, values, points):
     element = np.clip(np.searchsorted(nodes[::2], points, side="right") - 1, 0, nodes.size // 2 - 1)
     left, right = nodes[2 * element], nodes[2 * element + 2]
     s = (points - left) / (right - left)
-    return (values[2 * element] * (1 - s) * (1 - 2 * s) + values[2 * element + 1] * 4 * s * (1 - s)
-            + values[2 * element + 2] * s * (2 * s - 1))
+    return (
+        values[2 * element] * (1 - s) * (1 - 2 * s)
+        + values[2 * element + 1] * 4 * s * (1 - s)
+        + values[2 * element + 2] * s * (2 * s - 1)
+    )
 
 
 def test_semi_infinite_body_under_constant_flux():
@@ -67,10 +80,14 @@ def test_finite_slab_under_constant_flux_and_order_in_l2():
     flux, t = 1e3, 0.2
     points = (np.arange(4000) + 0.5) / 4000 * D
     n = np.arange(1, 60)[:, None]
-    series = np.sum(np.exp(-ALPHA * (n * np.pi / D) ** 2 * t) * 2 / (n * np.pi) ** 2
-                    * np.cos(n * np.pi * points / D), axis=0)
-    exact = flux * t / (RHO * C * D) + flux * D / K * (
-        (3 * (1 - points / D) ** 2 - 1) / 6 - series)
+    series = np.sum(
+        np.exp(-ALPHA * (n * np.pi / D) ** 2 * t)
+        * 2
+        / (n * np.pi) ** 2
+        * np.cos(n * np.pi * points / D),
+        axis=0,
+    )
+    exact = flux * t / (RHO * C * D) + flux * D / K * ((3 * (1 - points / D) ** 2 - 1) / 6 - series)
     sizes, errors = [], []
     for elements in (3, 6, 12, 24):
         belt = slab(elements)
@@ -125,8 +142,10 @@ def test_diffusion_along_the_belt():
     length, j = 0.02, 3
     exact = ALPHA * (2 * np.pi * j / length) ** 2
     cells = np.array([20, 40, 80, 160])
-    errors = [abs((belt.rates[0, j] - belt.rates[0, 0]) / exact - 1.0)
-              for belt in (slab(cells=n, length=length) for n in cells)]
+    errors = [
+        abs((belt.rates[0, j] - belt.rates[0, 0]) / exact - 1.0)
+        for belt in (slab(cells=n, length=length) for n in cells)
+    ]
     assert orders(1 / cells, errors) == pytest.approx(ORDER_OF_P1_EIGENVALUES, abs=0.05)
 
 
@@ -151,17 +170,20 @@ def test_tensor_factors_are_the_assembled_two_dimensional_problem():
     belt = slab(elements=3, h=h, cells=cells, length=length)
     mesh = MeshQuad.init_tensor(np.linspace(0, length, 4 * cells + 1), belt.depth[::2])
     basis = CellBasis(mesh, ElementQuad2())
-    faces = FacetBasis(mesh, ElementQuad2(), facets=mesh.facets_satisfying(
-        lambda x: (x[1] < 1e-9) | (x[1] > D - 1e-9)))
-    stiffness = BilinearForm(lambda u, v, w: K * (
-        u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])).assemble(basis)
+    faces = FacetBasis(
+        mesh,
+        ElementQuad2(),
+        facets=mesh.facets_satisfying(lambda x: (x[1] < 1e-9) | (x[1] > D - 1e-9)),
+    )
+    stiffness = BilinearForm(
+        lambda u, v, w: K * (u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])
+    ).assemble(basis)
     stiffness += h * BilinearForm(lambda u, v, w: u * v).assemble(faces)
     mass = RHO * C * BilinearForm(lambda u, v, w: u * v).assemble(basis)
-    place = np.round(basis.doflocs * 1e9)           # nanometres, so that equal places are equal
+    place = np.round(basis.doflocs * 1e9)  # nanometres, so that equal places are equal
     place[0] %= round(length * 1e9)
     _, same = np.unique(place, axis=1, return_inverse=True)
     identify = np.eye(same.max() + 1)[same.ravel()]
-    rates = eigh(identify.T @ stiffness @ identify, identify.T @ mass @ identify,
-                 eigvals_only=True)
+    rates = eigh(identify.T @ stiffness @ identify, identify.T @ mass @ identify, eigvals_only=True)
     assert belt.rates[0, 0] == pytest.approx(rates[0], rel=1e-9)
     assert belt.rates[0, 1] == pytest.approx(rates[1], rel=0.02)

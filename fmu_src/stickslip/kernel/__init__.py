@@ -17,6 +17,7 @@ MODULES = (
     "layout",
     "springs",
     "surface",
+    "coefficient",
     "disc",
     "friction",
     "contact",

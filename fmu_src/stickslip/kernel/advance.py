@@ -16,11 +16,13 @@ from .layout import (
     E_COUNT,
     HEAT,
     HERE,
+    HOLD_SINCE,
     MODE,
     NEXT,
     NOT_FINITE,
     P_INITIAL,
     P_LATERAL,
+    P_LONGEST_STEP,
     P_RADIUS,
     P_RATE,
     P_RUN_UP,
@@ -61,6 +63,7 @@ def initialise(p: "float[:]", z: "float[:]", time: float):
     z[Z_STEP] = 0.01 / p[P_RATE]
     z[Z_ENERGY] = block_energy(p, z, SHOWN)
     z[Z_TIME_BEFORE] = time
+    z[SHOWN + HOLD_SINCE] = time
 
 
 def copy_block(z: "float[:]", source: int, target: int):
@@ -72,12 +75,12 @@ def copy_block(z: "float[:]", source: int, target: int):
 def longest_step(p: "float[:]", z: "float[:]", w: "float[:]", rest: float) -> float:
     """Bound on the internal step from HERE, s.
 
-    A twelfth of the period of the free vibration, so that no break-away is stepped over; the end
+    A twelfth of the shortest period, so that no break-away is stepped over; the end
     of the run-up; and, where the block is coming to rest on the surface in the time ``rest``,
     most of that time: the approach is geometric, and faster the nearer it is, because the
     estimate's own error falls with the time that is left.
     """
-    h = 0.5 / p[P_RATE]
+    h = p[P_LONGEST_STEP]
     if z[HERE + TIME] < p[P_RUN_UP]:
         h = min(h, p[P_RUN_UP] - z[HERE + TIME])
     if rest > 0.0:

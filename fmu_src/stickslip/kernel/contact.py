@@ -2,8 +2,8 @@
 
 from math import sqrt
 
+from .coefficient import holding_coefficient, kinetic_coefficient, local_coefficient
 from .disc import disc_friction
-from .friction import holding_coefficient, kinetic_coefficient
 from .layout import (
     OMEGA,
     P_FREE_PHI,
@@ -95,7 +95,7 @@ def holding_ratio(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
 
     Takes the load from `set_holding_load`. A contact without friction holds nothing: 2.
     """
-    limit = holding_coefficient(p, u) * p[P_NORMAL_FORCE]
+    limit = holding_coefficient(p, u, w) * p[P_NORMAL_FORCE]
     if limit == 0.0:
         return 2.0
     kappa = p[P_LATERAL]
@@ -116,7 +116,7 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
     in the spinning part, with the weights of the last iterate. For a load on the limit surface
     the iterates shrink, so their direction is what converges.
     """
-    limit = kinetic_coefficient(p, u) * p[P_NORMAL_FORCE]
+    limit = local_coefficient(p, kinetic_coefficient(p, u, w), 0.0) * p[P_NORMAL_FORCE]
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
     tx = -w[W_FRICTION]

@@ -15,7 +15,8 @@ over the contact is needed where mu is uniform, and none of its noise reaches th
 
 from math import pi, sqrt
 
-from .layout import W_PAIR
+from .coefficient import local_coefficient
+from .layout import DEPTHS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
 
 
 def elliptic_pair(kc2: float, w: "float[:]"):
@@ -90,3 +91,58 @@ def disc_friction(sliding: float, spinning: float, w: "float[:]"):
         d = w[W_PAIR + 1]
         w[W_PAIR] = 4.0 * k / pi * (2.0 * b + d) / 3.0
         w[W_PAIR + 1] = 4.0 / (9.0 * pi) * ((3.0 - k * k) * b + (3.0 - 2.0 * k * k) * d)
+
+
+def add_local_law(
+    p: "float[:]", mu: float, reference: float, sliding: float, spinning: float, w: "float[:]"
+):
+    """Add to ``w[W_PAIR:]`` what a coefficient that varies with the local speed changes.
+
+    Integrates mu(|u|) - reference over the disc, in coordinates centred on the centre of rotation:
+    the local speed is the distance from it, the direction of sliding the angle, and nothing is
+    singular. Outside the disc the angles are those of strips along the sliding (midpoint rule in
+    psi, y = a sin psi: Gauss-Chebyshev), inside those of rays; along them Gauss-Legendre.
+    """
+    if sliding >= spinning:
+        add_law_over_strips(p, mu, reference, sliding, spinning / sliding, w)
+    else:
+        add_law_over_rays(p, mu, reference, spinning, sliding / spinning, w)
+
+
+def add_law_over_strips(
+    p: "float[:]", mu: float, reference: float, sliding: float, k: float, w: "float[:]"
+):
+    """The centre of rotation lies outside: |u| = U (cos theta + k tau cos psi)."""
+    force = 0.0
+    moment = 0.0
+    for j in range(RAYS):
+        c = p[P_QUADRATURE + Q_STRIP + j]
+        along = sqrt(max(0.0, 1.0 - k * k * p[P_QUADRATURE + Q_STRIP + RAYS + j]))
+        for i in range(DEPTHS):
+            tau = p[P_QUADRATURE + Q_DEPTH + i]
+            q = along + k * tau * c
+            excess = local_coefficient(p, mu, sliding * q) - reference
+            share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * c * c * excess / RAYS
+            force += share * q
+            moment += share * c * tau * q / along
+    w[W_PAIR] += force
+    w[W_PAIR + 1] += moment
+
+
+def add_law_over_rays(
+    p: "float[:]", mu: float, reference: float, spinning: float, k: float, w: "float[:]"
+):
+    """The centre of rotation lies inside, k radii from the centre of the disc."""
+    force = 0.0
+    moment = 0.0
+    for j in range(RAYS):
+        c = p[P_QUADRATURE + Q_RAY + j]
+        reach = k * c + sqrt(1.0 - k * k * p[P_QUADRATURE + Q_RAY + RAYS + j])
+        for i in range(DEPTHS):
+            s = 0.5 * reach * (1.0 + p[P_QUADRATURE + Q_DEPTH + i])
+            excess = local_coefficient(p, mu, spinning * s) - reference
+            share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * reach * s * excess / RAYS
+            force += share * c
+            moment += share * (s - k * c)
+    w[W_PAIR] += force
+    w[W_PAIR + 1] += moment

@@ -1,12 +1,12 @@
 """Stick and slip as events: where a slip begins, where it ends, and what the contact does then."""
 
+from .coefficient import holding_coefficient
 from .contact import (
     holding_ratio,
     scaled_sliding_speed,
     set_holding_load,
     set_onset_direction,
 )
-from .friction import holding_coefficient
 from .layout import (
     DIRECTION,
     E_CAPACITY,
@@ -15,6 +15,7 @@ from .layout import (
     E_WIDTH,
     HEAT,
     HERE,
+    HOLD_SINCE,
     MODE,
     NEXT,
     OMEGA,
@@ -25,6 +26,7 @@ from .layout import (
     P_MASS,
     P_NORMAL_FORCE,
     P_RADIUS,
+    P_STICK_RATIO,
     SLIP,
     SLIPS,
     STICK,
@@ -32,6 +34,7 @@ from .layout import (
     VX,
     VY,
     W_DIRECTION,
+    W_FRICTION,
     W_SLIDING,
     W_SLOPES,
     W_STATE,
@@ -50,9 +53,14 @@ def look_at(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: i
 
 
 def excess_load(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
-    """Load over holding capacity, less 1: the function whose zero is the break-away."""
+    """Load over holding capacity, less 1: the function whose zero is the break-away.
+
+    A stick ratio below 1 judges stick by a part of the load (stick_stiffness, the study's fault).
+    """
     look_at(p, u, z, w, block)
     set_holding_load(p, w)
+    for i in range(3):
+        w[W_FRICTION + i] *= p[P_STICK_RATIO]
     return holding_ratio(p, u, w) - 1.0
 
 
@@ -67,7 +75,8 @@ def log_event(z: "float[:]", e: "float[:]", block: int):
 
 
 def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Let the contact slide, in the direction that the holding load in ``w`` asks for."""
+    """Let the contact slide, in the direction that the loads in ``w`` ask for."""
+    set_holding_load(p, w)
     set_onset_direction(p, u, w)
     z[block + MODE] = SLIP
     for i in range(3):
@@ -109,7 +118,7 @@ def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float
     if speed > rest_speed(p, u):
         z[block + MODE] = SLIP
         set_direction(p, z, w, block, speed)
-    elif holding_coefficient(p, u) * p[P_NORMAL_FORCE] == 0.0:
+    elif holding_coefficient(p, u, w) * p[P_NORMAL_FORCE] == 0.0:
         z[block + MODE] = SLIP
     else:
         stop_sliding(p, u, z, w, block)
@@ -120,6 +129,8 @@ def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float
     if z[block + MODE] != before:
         if z[block + MODE] == SLIP:
             z[block + SLIPS] += 1.0
+        else:
+            z[block + HOLD_SINCE] = z[block + TIME]
         log_event(z, e, block)
 
 

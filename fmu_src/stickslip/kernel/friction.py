@@ -1,4 +1,4 @@
-"""Friction coefficients, and the friction on a contact that slides.
+"""Friction on a contact that slides.
 
 One formula serves friction along x and friction along the local velocity. With the ratio kappa
 (`P_LATERAL`) the contact feels the scaled sliding velocity (U_x, kappa U_y, kappa Omega) and
@@ -9,57 +9,72 @@ motion for every kappa.
 
 from math import sqrt
 
-from .disc import disc_friction
+from .coefficient import kinetic_coefficient, local_coefficient
+from .disc import add_local_law, disc_friction
 from .layout import (
+    P_FILM,
     P_LATERAL,
-    P_MU_K,
-    P_MU_S,
+    P_LOCAL_LAW,
     P_NORMAL_FORCE,
     P_RADIUS,
-    P_REFERENCE,
-    P_SENSITIVITY,
-    U_TEMPERATURE,
     W_FRICTION,
     W_MEAN_SPEED,
     W_PAIR,
 )
 
 
-def kinetic_coefficient(p: "float[:]", u: "float[:]") -> float:
-    """mu_k at the interface temperature: linear, constant above the melting point (0 degC)."""
-    temperature = min(u[U_TEMPERATURE], 0.0)
-    return max(0.0, p[P_MU_K] * (1.0 - p[P_SENSITIVITY] * (temperature - p[P_REFERENCE])))
+def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
+    """Friction from the coefficients in ``w[W_PAIR:]`` (force, moment), into ``w[W_FRICTION:]``.
 
-
-def holding_coefficient(p: "float[:]", u: "float[:]") -> float:
-    """Coefficient that a contact at rest can hold: mu_s, or mu_k where that is larger.
-
-    With mu_k > mu_s a block that breaks away at mu_s is stopped at once; at rest it therefore
-    holds up to mu_k.
+    (sx, sy, sr) is the scaled sliding velocity, of which only the direction counts here.
     """
-    return max(p[P_MU_S], kinetic_coefficient(p, u))
-
-
-def friction_along(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
-    """Friction against the scaled sliding velocity (sx, sy, sr), not zero; sr is a rim speed.
-
-    Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local
-    sliding speed to ``w[W_MEAN_SPEED]`` (m/s).
-    """
-    limit = kinetic_coefficient(p, u) * p[P_NORMAL_FORCE]
-    kappa = p[P_LATERAL]
+    force = p[P_NORMAL_FORCE] * w[W_PAIR]
+    moment = p[P_NORMAL_FORCE] * w[W_PAIR + 1] * p[P_LATERAL] * p[P_RADIUS]
     sliding = sqrt(sx * sx + sy * sy)
-    disc_friction(sliding, abs(sr), w)
-    force = w[W_PAIR]
-    moment = w[W_PAIR + 1]
-    w[W_MEAN_SPEED] = force * sliding + moment * abs(sr)
     w[W_FRICTION] = 0.0
     w[W_FRICTION + 1] = 0.0
     w[W_FRICTION + 2] = 0.0
     if sliding > 0.0:
-        w[W_FRICTION] = -limit * force * sx / sliding
-        w[W_FRICTION + 1] = -limit * kappa * force * sy / sliding
+        w[W_FRICTION] = -force * sx / sliding
+        w[W_FRICTION + 1] = -force * p[P_LATERAL] * sy / sliding
     if sr > 0.0:
-        w[W_FRICTION + 2] = -limit * kappa * p[P_RADIUS] * moment
+        w[W_FRICTION + 2] = -moment
     elif sr < 0.0:
-        w[W_FRICTION + 2] = limit * kappa * p[P_RADIUS] * moment
+        w[W_FRICTION + 2] = moment
+
+
+def friction_at_onset(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
+    """Friction against a slip that has a direction but no speed yet, into ``w[W_FRICTION:]``."""
+    mu = local_coefficient(p, kinetic_coefficient(p, u, w), 0.0)
+    disc_friction(sqrt(sx * sx + sy * sy), abs(sr), w)
+    w[W_PAIR] *= mu
+    w[W_PAIR + 1] *= mu
+    set_friction(p, w, sx, sy, sr)
+
+
+def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
+    """Friction against the scaled sliding velocity (sx, sy, sr), not zero; sr is a rim speed.
+
+    Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local
+    sliding speed to ``w[W_MEAN_SPEED]`` (m/s). Where mu_k depends on the local speed, the closed
+    form takes its value at the mean speed and a quadrature adds what differs from that.
+    """
+    mu = kinetic_coefficient(p, u, w)
+    sliding = sqrt(sx * sx + sy * sy)
+    disc_friction(sliding, abs(sr), w)
+    mean_speed = w[W_PAIR] * sliding + w[W_PAIR + 1] * abs(sr)
+    w[W_MEAN_SPEED] = mean_speed
+    reference = mu
+    if p[P_LOCAL_LAW] == 1.0:
+        reference = local_coefficient(p, mu, mean_speed)
+    w[W_PAIR] *= reference
+    w[W_PAIR + 1] *= reference
+    if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
+        add_local_law(p, mu, reference, sliding, abs(sr), w)
+    set_friction(p, w, sx, sy, sr)
+    if p[P_FILM] != 0.0:
+        kappa = p[P_LATERAL]
+        w[W_FRICTION] -= p[P_FILM] * sx
+        w[W_FRICTION + 1] -= p[P_FILM] * kappa * sy
+        # a uniform film: the mean of r^2 over the disc is a^2/2
+        w[W_FRICTION + 2] -= p[P_FILM] * kappa * 0.5 * p[P_RADIUS] * sr

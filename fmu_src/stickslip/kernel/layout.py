@@ -20,7 +20,7 @@ integrator's own step begins; `NEXT`, where it ends; and `SHOWN`, the moment ask
 STICK = 0
 SLIP = 1
 
-# --- integrated state, offsets inside a block -------------------------------------------------
+# --- integrated state, offsets inside a block ---------------------------------------------------
 TIME = 0
 X = 1
 Y = 2
@@ -33,28 +33,31 @@ DISTANCE = 8  # mean sliding distance of the contact, m
 TRAVEL = 9  # way of the surface since the start, m
 WORK_SURFACE = 10  # work of the surface on the block, J
 WORK_EXTERNAL = 11  # work of the external forces, J
-STATES = 11  # integrated numbers: X ... WORK_EXTERNAL
+DAMPED = 12  # work of the block on the structural damping, J
+WARMTH = 13  # recent friction heat, J (thermal_weakening)
+STATES = 13  # integrated numbers: X ... WARMTH
 
-# --- discrete state, offsets inside a block ---------------------------------------------------
-MODE = 12
-DIRECTION = 13  # three numbers: unit vector of the scaled sliding velocity
-SLIPS = 16  # break-aways since the start
-BLOCK = 17
+# --- discrete state, offsets inside a block -----------------------------------------------------
+MODE = 14
+DIRECTION = 15  # unit vector of the scaled sliding velocity
+SLIPS = 18  # break-aways since the start
+HOLD_SINCE = 19  # when the present stick began, s
+BLOCK = 20
 
-# --- z: memory of a run -----------------------------------------------------------------------
+# --- z: memory of a run -------------------------------------------------------------------------
 HERE = 0
-NEXT = 17
-SHOWN = 34
-Z_STEP = 51  # size that the next internal step wants, s
-Z_HAS_NEXT = 52  # 1 while NEXT holds the end of the internal step that begins in HERE
-Z_ENERGY = 53  # kinetic and spring energy at the start, J
-Z_STARTED = 54
-Z_INPUTS = 55  # the inputs that HERE and NEXT were computed with, five numbers
-Z_HEAT_BEFORE = 60  # friction heat at the communication point before, J
-Z_TIME_BEFORE = 61
-Z_SIZE = 62
+NEXT = 20
+SHOWN = 40
+Z_STEP = 60  # size that the next internal step wants, s
+Z_HAS_NEXT = 61  # 1 while NEXT holds the end of the internal step that begins in HERE
+Z_ENERGY = 62  # kinetic and spring energy at the start, J
+Z_STARTED = 63
+Z_INPUTS = 64  # the inputs that HERE and NEXT were computed with
+Z_HEAT_BEFORE = 69  # friction heat at the communication point before, J
+Z_TIME_BEFORE = 70
+Z_SIZE = 71
 
-# --- u: inputs --------------------------------------------------------------------------------
+# --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
 U_TEMPERATURE = 1  # interface temperature, degC
 U_FORCE_X = 2
@@ -62,7 +65,7 @@ U_FORCE_Y = 3
 U_MOMENT = 4
 U_SIZE = 5
 
-# --- p: parameters ----------------------------------------------------------------------------
+# --- p: parameters ------------------------------------------------------------------------------
 P_MASS = 0
 P_INERTIA = 1
 P_NORMAL_FORCE = 2
@@ -71,51 +74,88 @@ P_FREE_Y = 4  # 1 free, 0 guided
 P_FREE_PHI = 5
 P_STIFFNESS = 6  # one spring, N/m
 P_NATURAL_LENGTH = 7
-P_ATTACH = 8  # eight numbers: x, y of each attachment in the block's frame
-P_ANCHOR = 16  # eight numbers: x, y of each anchor in the frame of the rig
-P_MU_S = 24
-P_MU_K = 25
-P_LATERAL = 26  # friction across the motion relative to that along x: 0 ... 1
-P_CURVATURE = 27  # 1/R of the slab, 1/m; 0 is a belt
-P_SENSITIVITY = 28  # 1/K
-P_REFERENCE = 29  # temperature at which mu_k holds, degC
-P_RUN_UP = 30  # s
-P_TOLERANCE = 31
-P_RATE = 32  # characteristic rate of the motion, rad/s
-P_SPEED_SCALE = 33  # speed that the motion reaches by itself, m/s; scales the error test
-P_SHORTEST = 34  # length below which a spring counts as collapsed, m
-P_INITIAL = 35  # six numbers: x, y, phi, vx, vy, omega
-P_TABLEAU = 41  # the Runge-Kutta coefficients, see tableau
+P_ATTACH = 8  # x, y of each attachment in the block's frame
+P_ANCHOR = 16  # x, y of each anchor in the frame of the rig
+P_CUBIC = 24  # spring_hardening, N/m^3
+P_CURVE_POINTS = 25  # points of the tabulated force-length curve; 0: none
+P_CURVE = 26  # extension, force, stiffness, energy of each point
+P_DAMPING = 90  # N s/m
+P_DAMPING_ROTATION = 91  # N m s
+P_MU_S = 92
+P_MU_K = 93
+P_LATERAL = 94  # friction across the motion relative to that along x: 0 ... 1
+P_STRENGTHENING = 95  # growth of mu_s per decade of hold time
+P_HOLD_TIME = 96  # s
+P_LOCAL_LAW = 97  # 1 where mu_k depends on the local sliding speed
+P_LINEAR = 98  # s/m
+P_HYPERBOLIC = 99  # s/m
+P_INVERSE_ROOT = 100  # s/m
+P_STRIBECK = 101  # part of mu_k
+P_STRIBECK_SPEED = 102  # m/s
+P_FILM = 103  # linear film drag, N s/m
+P_FILM_ROOT = 104  # film drag growing with the root of the speed, N at 1 m/s
+P_WEAKENING = 105  # thermal_weakening, 1/J
+P_RELAXATION = 106  # s
+P_RUN_IN = 107  # final change of mu_k, part of it
+P_RUN_IN_DISTANCE = 108  # m
+P_PATTERN = 109  # amplitude
+P_PATTERN_WAVENUMBER = 110  # rad/m
+P_PATTERN_PHASE = 111  # rad
+P_SCATTER = 112  # standard deviation of the friction field, part of mu
+P_SCATTER_WAVES = 113  # wavenumber and phase of 16 waves
+P_SENSITIVITY = 145  # 1/K
+P_REFERENCE = 146  # temperature at which mu_k holds, degC
+P_CURVATURE = 147  # 1/R of the slab, 1/m; 0 is a belt
+P_RUN_UP = 148  # s
+P_RIPPLE = 149  # amplitude
+P_RIPPLE_RATE = 150  # rad/s
+P_RIPPLE_PHASE = 151  # rad
+P_STICK_RATIO = 152  # part of the spring force that stick is judged by (1; the study's fault: 1/4)
+P_TOLERANCE = 153
+P_RATE = 154  # characteristic rate of the motion, rad/s
+P_LONGEST_STEP = 155  # s
+P_SPEED_SCALE = 156  # speed that the motion reaches by itself, m/s; scales the error test
+P_SHORTEST = 157  # length below which a spring counts as collapsed, m
+P_INITIAL = 158  # x, y, phi, vx, vy, omega
+P_QUADRATURE = 164  # nodes and weights for friction that varies over the disc, see disc
+P_TABLEAU = 204  # the Runge-Kutta coefficients, see tableau
+P_SIZE = 396
 
-# --- the tableau's parts, offsets from P_TABLEAU ----------------------------------------------
+# --- sizes inside p -----------------------------------------------------------------------------
+CURVE_WIDTH = 4
+WAVES = 16
 STAGES = 12
 T_A = 0  # STAGES x STAGES, row by row
 T_B = 144
 T_C = 156
 T_E5 = 168
 T_E3 = 180
-P_SIZE = 233
+RAYS = 8
+Q_STRIP = 0  # cos and sin^2 of the strips' angle, RAYS of each
+Q_RAY = 16  # cos and sin^2 of the rays' angle about the centre of rotation, RAYS of each
+DEPTHS = 4
+Q_DEPTH = 32  # Gauss-Legendre nodes, then weights, DEPTHS of each
 
-# --- w: scratch -------------------------------------------------------------------------------
+# --- w: scratch ---------------------------------------------------------------------------------
 W_STATE = 0  # a block: the moment at which the right-hand side is wanted
-W_SLOPES = 17  # STAGES rows of STATES slopes
-W_LOAD = 149  # force and moment of springs and external loads on the block: x, y, phi
-W_SLIDING = 152  # velocity of the block relative to the surface: x, y, phi
-W_FRICTION = 155  # friction on the block: x, y, phi
-W_MEAN_SPEED = 158  # local sliding speed, mean over the contact, m/s
-W_SURFACE = 159  # velocity and acceleration of the surface under the block, 6 numbers
-W_PAIR = 165  # return values of functions with two results
-W_DIRECTION = 167  # direction of sliding where the sliding velocity is too small to tell
-W_RUNNING_UP = 170  # 1 while the internal step lies in the surface's run-up
-W_SIZE = 171
+W_SLOPES = 20  # STAGES rows of STATES slopes
+W_LOAD = 176  # springs, damping and external loads on the block: x, y, phi
+W_SLIDING = 179  # velocity of the block relative to the surface: x, y, phi
+W_FRICTION = 182  # friction on the block: x, y, phi
+W_MEAN_SPEED = 185  # local sliding speed, mean over the contact, m/s
+W_SURFACE = 186  # velocity and acceleration of the surface under the block
+W_PAIR = 192  # return values of functions with two results
+W_DIRECTION = 194  # direction of sliding where the sliding velocity is too small to tell
+W_RUNNING_UP = 197  # 1 while the internal step lies in the surface's run-up
+W_SIZE = 198
 
-# --- e: log of events -------------------------------------------------------------------------
+# --- e: log of events ---------------------------------------------------------------------------
 E_COUNT = 0
 E_CAPACITY = 1
 E_FIRST = 2
 E_WIDTH = 3  # time, mode after the event, x
 
-# --- o: what a run shows at a moment ----------------------------------------------------------
+# --- o: what a run shows at a moment ------------------------------------------------------------
 O_X = 0
 O_Y = 1
 O_PHI = 2
@@ -136,7 +176,7 @@ O_TRAVEL = 16
 O_SURFACE_SPEED = 17
 O_SIZE = 18
 
-# --- what `advance` returns -------------------------------------------------------------------
+# --- what `advance` returns ---------------------------------------------------------------------
 DONE = 0
 STEP_VANISHED = 1  # the error test asks for a step below the resolution of time
 NOT_FINITE = 2

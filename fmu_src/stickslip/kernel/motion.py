@@ -1,8 +1,9 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
 from .contact import scaled_sliding_speed, set_holding_load, set_sliding_velocity
-from .friction import friction_along
+from .friction import friction_at_onset, friction_in_slip
 from .layout import (
+    DAMPED,
     DISTANCE,
     HEAT,
     OMEGA,
@@ -12,6 +13,7 @@ from .layout import (
     P_LATERAL,
     P_MASS,
     P_RADIUS,
+    P_RELAXATION,
     P_SPEED_SCALE,
     PHI,
     SLIP,
@@ -30,12 +32,13 @@ from .layout import (
     W_SLIDING,
     W_STATE,
     W_SURFACE,
+    WARMTH,
     WORK_EXTERNAL,
     WORK_SURFACE,
     X,
     Y,
 )
-from .springs import add_spring_forces, spring_energy
+from .springs import add_damping, add_spring_forces, damping_power, elastic_energy
 from .surface import surface_motion, surface_speed
 
 
@@ -56,11 +59,12 @@ def rest_speed(p: "float[:]", u: "float[:]") -> float:
 
 
 def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
-    """Springs and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
+    """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
     w[W_LOAD] = u[U_FORCE_X]
     w[W_LOAD + 1] = u[U_FORCE_Y]
     w[W_LOAD + 2] = u[U_MOMENT]
     add_spring_forces(p, w, state)
+    add_damping(p, w, state)
 
 
 def set_contact(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
@@ -80,9 +84,9 @@ def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
         sx = w[W_SLIDING]
         sy = p[P_LATERAL] * w[W_SLIDING + 1]
         sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
-        friction_along(p, u, w, sx, sy, sr)
+        friction_in_slip(p, u, w, sx, sy, sr)
     else:
-        friction_along(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2])
+        friction_at_onset(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2])
         w[W_MEAN_SPEED] = scaled_sliding_speed(p, w)
 
 
@@ -107,7 +111,7 @@ def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
 
 
 def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
-    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat and work.
+    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works, warmth.
 
     Friction heat is what friction takes out of the relative motion; the surface's work is what
     it puts into the block through friction. Their difference drives block and springs.
@@ -126,6 +130,8 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     w[out + TRAVEL - 1] = surface_speed(p, u, w, w[W_STATE + TIME])
     w[out + WORK_SURFACE - 1] = work
     w[out + WORK_EXTERNAL - 1] = external
+    w[out + DAMPED - 1] = damping_power(p, w, W_STATE)
+    w[out + WARMTH - 1] = heat - w[W_STATE + WARMTH] / p[P_RELAXATION]
 
 
 def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:
@@ -134,4 +140,4 @@ def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:
     vy = z[block + VY]
     omega = z[block + OMEGA]
     kinetic = 0.5 * p[P_MASS] * (vx * vx + vy * vy) + 0.5 * p[P_INERTIA] * omega * omega
-    return kinetic + spring_energy(p, z[block + X], z[block + Y], z[block + PHI])
+    return kinetic + elastic_energy(p, z, block)

@@ -1,6 +1,7 @@
 """What a run shows at the moment that `advance` has reached."""
 
 from .layout import (
+    DAMPED,
     DISTANCE,
     HEAT,
     MODE,
@@ -36,11 +37,11 @@ from .surface import surface_speed
 def energy_residual(p: "float[:]", z: "float[:]") -> float:
     """Energy gained less energy supplied, J: zero but for the integrator's error.
 
-    (kinetic + elastic) - its start - work of surface and external loads + friction heat.
+    (kinetic + elastic) - its start - work of surface and external loads + friction heat + damping.
     """
     gained = block_energy(p, z, SHOWN) - z[Z_ENERGY]
-    supplied = z[SHOWN + WORK_SURFACE] + z[SHOWN + WORK_EXTERNAL] - z[SHOWN + HEAT]
-    return gained - supplied
+    supplied = z[SHOWN + WORK_SURFACE] + z[SHOWN + WORK_EXTERNAL]
+    return gained - supplied + z[SHOWN + HEAT] + z[SHOWN + DAMPED]
 
 
 def mean_heat_flow(z: "float[:]") -> float:

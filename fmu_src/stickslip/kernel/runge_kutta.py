@@ -69,7 +69,7 @@ def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
     elif i == OMEGA:
         scale = speed / p[P_RADIUS]
     elif i == HEAT:
-        return p[P_TOLERANCE] * scale
+        return p[P_TOLERANCE] * scale  # it only grows, and the ledger counts every part
     return p[P_TOLERANCE] * (scale + abs(value))
 
 

@@ -1,28 +1,99 @@
-"""Four linear springs with exact geometry, between anchors in the rig and the block."""
+"""Four springs with exact geometry between anchors in the rig and the block, and the damping."""
 
 from math import cos, sin, sqrt
 
 from .layout import (
+    CURVE_WIDTH,
+    OMEGA,
     P_ANCHOR,
     P_ATTACH,
+    P_CUBIC,
+    P_CURVE,
+    P_CURVE_POINTS,
+    P_DAMPING,
+    P_DAMPING_ROTATION,
     P_NATURAL_LENGTH,
     P_STIFFNESS,
     PHI,
+    VX,
+    VY,
     W_LOAD,
     X,
     Y,
 )
 
 
+def curve_piece(p: "float[:]", extension: float) -> int:
+    """Index into ``p`` of the piece of the force-length curve that an extension falls into.
+
+    The first and the last piece extend the curve beyond its ends.
+    """
+    last = int(p[P_CURVE_POINTS]) - 2
+    piece = 0
+    while piece < last and extension > p[P_CURVE + CURVE_WIDTH * (piece + 1)]:
+        piece += 1
+    return P_CURVE + CURVE_WIDTH * piece
+
+
+def curve_force(p: "float[:]", extension: float) -> float:
+    """Force of the tabulated curve, N: cubic Hermite pieces, straight lines outside."""
+    at = curve_piece(p, extension)
+    span = p[at + 4] - p[at]
+    t = (extension - p[at]) / span
+    if t < 0.0:
+        return p[at + 1] + p[at + 2] * (extension - p[at])
+    if t > 1.0:
+        return p[at + 5] + p[at + 6] * (extension - p[at + 4])
+    rise = p[at + 5] - p[at + 1]
+    a = span * p[at + 2]
+    b = span * p[at + 6]
+    return p[at + 1] + t * (a + t * (3.0 * rise - 2.0 * a - b + t * (a + b - 2.0 * rise)))
+
+
+def curve_energy(p: "float[:]", extension: float) -> float:
+    """Energy under the tabulated curve from its first point, J."""
+    at = curve_piece(p, extension)
+    span = p[at + 4] - p[at]
+    t = (extension - p[at]) / span
+    if t < 0.0:
+        d = extension - p[at]
+        return p[at + 3] + d * (p[at + 1] + 0.5 * p[at + 2] * d)
+    if t > 1.0:
+        d = extension - p[at + 4]
+        return p[at + 7] + d * (p[at + 5] + 0.5 * p[at + 6] * d)
+    rise = p[at + 5] - p[at + 1]
+    a = span * p[at + 2]
+    b = span * p[at + 6]
+    c = 3.0 * rise - 2.0 * a - b
+    d = a + b - 2.0 * rise
+    return p[at + 3] + span * t * (p[at + 1] + t * (a / 2.0 + t * (c / 3.0 + t * d / 4.0)))
+
+
+def spring_tension(p: "float[:]", extension: float) -> float:
+    """Force of one spring, N: k e + k_3 e^3, or the tabulated curve in place of k e."""
+    cubic = p[P_CUBIC] * extension * extension * extension
+    if p[P_CURVE_POINTS] > 0.0:
+        return curve_force(p, extension) + cubic
+    return p[P_STIFFNESS] * extension + cubic
+
+
+def spring_energy(p: "float[:]", extension: float) -> float:
+    """Energy of one spring, J: the integral of `spring_tension`."""
+    square = extension * extension
+    quartic = 0.25 * p[P_CUBIC] * square * square
+    if p[P_CURVE_POINTS] > 0.0:
+        return curve_energy(p, extension) + quartic
+    return 0.5 * p[P_STIFFNESS] * square + quartic
+
+
 def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
     """Add force (N) and moment (N m) of the springs on the block to ``w[W_LOAD:]``.
 
-    Spring i pulls its attachment r_i = (x, y) + R(phi) b_i towards its anchor A_i with
-    k (l_i - l_0), l_i = |A_i - r_i|: no linearisation in x, y or phi.
+    Spring i pulls its attachment r_i = (x, y) + R(phi) b_i towards its anchor A_i with the tension
+    of its extension |A_i - r_i| - l_0: no linearisation in x, y or phi.
     """
     c = cos(w[state + PHI])
     s = sin(w[state + PHI])
-    k = p[P_STIFFNESS]
     for i in range(4):
         bx = p[P_ATTACH + 2 * i]
         by = p[P_ATTACH + 2 * i + 1]
@@ -31,36 +102,49 @@ def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
         dx = p[P_ANCHOR + 2 * i] - w[state + X] - arm_x
         dy = p[P_ANCHOR + 2 * i + 1] - w[state + Y] - arm_y
         length = sqrt(dx * dx + dy * dy)
-        tension = k * (length - p[P_NATURAL_LENGTH]) / length
-        w[W_LOAD] += tension * dx
-        w[W_LOAD + 1] += tension * dy
-        w[W_LOAD + 2] += tension * (arm_x * dy - arm_y * dx)
+        pull = spring_tension(p, length - p[P_NATURAL_LENGTH]) / length
+        w[W_LOAD] += pull * dx
+        w[W_LOAD + 1] += pull * dy
+        w[W_LOAD + 2] += pull * (arm_x * dy - arm_y * dx)
 
 
-def spring_energy(p: "float[:]", x: float, y: float, phi: float) -> float:
-    """Elastic energy of the four springs, J."""
-    c = cos(phi)
-    s = sin(phi)
+def add_damping(p: "float[:]", w: "float[:]", state: int):
+    """Add viscous force and moment against the frame (structural_damping) to ``w[W_LOAD:]``."""
+    w[W_LOAD] -= p[P_DAMPING] * w[state + VX]
+    w[W_LOAD + 1] -= p[P_DAMPING] * w[state + VY]
+    w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * w[state + OMEGA]
+
+
+def damping_power(p: "float[:]", w: "float[:]", state: int) -> float:
+    """Power that the damping takes, W."""
+    vx = w[state + VX]
+    vy = w[state + VY]
+    omega = w[state + OMEGA]
+    return p[P_DAMPING] * (vx * vx + vy * vy) + p[P_DAMPING_ROTATION] * omega * omega
+
+
+def spring_length(p: "float[:]", z: "float[:]", block: int, i: int) -> float:
+    """Length of spring i at a block of ``z``, m."""
+    c = cos(z[block + PHI])
+    s = sin(z[block + PHI])
+    bx = p[P_ATTACH + 2 * i]
+    by = p[P_ATTACH + 2 * i + 1]
+    dx = p[P_ANCHOR + 2 * i] - z[block + X] - (c * bx - s * by)
+    dy = p[P_ANCHOR + 2 * i + 1] - z[block + Y] - (s * bx + c * by)
+    return sqrt(dx * dx + dy * dy)
+
+
+def elastic_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+    """Elastic energy of the four springs at a block of ``z``, J."""
     energy = 0.0
     for i in range(4):
-        bx = p[P_ATTACH + 2 * i]
-        by = p[P_ATTACH + 2 * i + 1]
-        dx = p[P_ANCHOR + 2 * i] - x - (c * bx - s * by)
-        dy = p[P_ANCHOR + 2 * i + 1] - y - (s * bx + c * by)
-        stretch = sqrt(dx * dx + dy * dy) - p[P_NATURAL_LENGTH]
-        energy += 0.5 * p[P_STIFFNESS] * stretch * stretch
+        energy += spring_energy(p, spring_length(p, z, block, i) - p[P_NATURAL_LENGTH])
     return energy
 
 
 def shortest_spring(p: "float[:]", z: "float[:]", block: int) -> float:
     """Length of the shortest of the four springs at a block of ``z``, m."""
-    c = cos(z[block + PHI])
-    s = sin(z[block + PHI])
     shortest = 1e300
     for i in range(4):
-        bx = p[P_ATTACH + 2 * i]
-        by = p[P_ATTACH + 2 * i + 1]
-        dx = p[P_ANCHOR + 2 * i] - z[block + X] - (c * bx - s * by)
-        dy = p[P_ANCHOR + 2 * i + 1] - z[block + Y] - (s * bx + c * by)
-        shortest = min(shortest, sqrt(dx * dx + dy * dy))
+        shortest = min(shortest, spring_length(p, z, block, i))
     return shortest

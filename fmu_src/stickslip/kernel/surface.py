@@ -1,7 +1,12 @@
 """The moving surface: a belt (translation) or a slab that turns about a centre at (0, R)."""
 
+from math import cos, sin
+
 from .layout import (
     P_CURVATURE,
+    P_RIPPLE,
+    P_RIPPLE_PHASE,
+    P_RIPPLE_RATE,
     P_RUN_UP,
     TIME,
     U_SPEED,
@@ -26,17 +31,24 @@ def set_surface_phase(p: "float[:]", w: "float[:]", t: float):
 
 
 def surface_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
-    """Speed of the surface where the block rests, m/s: a linear run-up, then constant."""
+    """Speed of the surface where the block rests, m/s.
+
+    A linear run-up, then constant, times 1 + A sin(2 pi f t + phase) (speed_ripple).
+    """
+    ripple = 1.0 + p[P_RIPPLE] * sin(p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE])
     if w[W_RUNNING_UP] == 1.0:
-        return u[U_SPEED] * t / p[P_RUN_UP]
-    return u[U_SPEED]
+        return ripple * u[U_SPEED] * t / p[P_RUN_UP]
+    return ripple * u[U_SPEED]
 
 
-def surface_acceleration(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+def surface_acceleration(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
     """Rate of `surface_speed`, m/s^2."""
+    angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
+    swing = p[P_RIPPLE] * p[P_RIPPLE_RATE] * cos(angle)
     if w[W_RUNNING_UP] == 1.0:
-        return u[U_SPEED] / p[P_RUN_UP]
-    return 0.0
+        ripple = 1.0 + p[P_RIPPLE] * sin(angle)
+        return u[U_SPEED] / p[P_RUN_UP] * (ripple + swing * t)
+    return u[U_SPEED] * swing
 
 
 def surface_motion(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
@@ -47,7 +59,7 @@ def surface_motion(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
     whose centre moves with (vx, vy) and keeps the velocity of the surface under it.
     """
     v = surface_speed(p, u, w, w[state + TIME])
-    a = surface_acceleration(p, u, w)
+    a = surface_acceleration(p, u, w, w[state + TIME])
     c = p[P_CURVATURE]
     w[W_SURFACE] = v * (1.0 - c * w[state + Y])
     w[W_SURFACE + 1] = v * c * w[state + X]

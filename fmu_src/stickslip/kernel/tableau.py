@@ -8,9 +8,7 @@ the parameter vector.
 # row i: weights of the stages before stage i
 STAGE_WEIGHTS = (
     (),
-    (
-        0.05260015195876773,
-    ),
+    (0.05260015195876773,),
     (
         0.0197250569845379,
         0.0591751709536137,

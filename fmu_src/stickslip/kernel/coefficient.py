@@ -1,0 +1,105 @@
+"""Friction coefficients: how mu_s and mu_k depend on place, time, heat, distance and speed."""
+
+from math import cos, exp, log10, sqrt
+
+from .layout import (
+    DISTANCE,
+    HOLD_SINCE,
+    MODE,
+    P_FILM_ROOT,
+    P_HOLD_TIME,
+    P_HYPERBOLIC,
+    P_INVERSE_ROOT,
+    P_LINEAR,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
+    P_PATTERN,
+    P_PATTERN_PHASE,
+    P_PATTERN_WAVENUMBER,
+    P_REFERENCE,
+    P_RUN_IN,
+    P_RUN_IN_DISTANCE,
+    P_SCATTER,
+    P_SCATTER_WAVES,
+    P_SENSITIVITY,
+    P_STRENGTHENING,
+    P_STRIBECK,
+    P_STRIBECK_SPEED,
+    P_WEAKENING,
+    STICK,
+    TIME,
+    TRAVEL,
+    U_TEMPERATURE,
+    W_STATE,
+    WARMTH,
+    WAVES,
+    X,
+)
+
+
+def surface_factor(p: "float[:]", w: "float[:]") -> float:
+    """Friction of the place on the surface under the block, relative to the surface's mean.
+
+    The place is x less the way of the surface. A periodic pattern (surface_pattern) and a random
+    field of standard deviation sigma (surface_scatter), a sum of waves with random wavenumber and
+    phase: it belongs to the place, so a place met again has the same friction.
+    """
+    factor = 1.0
+    place = w[W_STATE + X] - w[W_STATE + TRAVEL]
+    if p[P_PATTERN] != 0.0:
+        angle = p[P_PATTERN_WAVENUMBER] * place + p[P_PATTERN_PHASE]
+        factor += p[P_PATTERN] * cos(angle)
+    if p[P_SCATTER] != 0.0:
+        total = 0.0
+        for i in range(WAVES):
+            total += cos(p[P_SCATTER_WAVES + 2 * i] * place + p[P_SCATTER_WAVES + 2 * i + 1])
+        factor += p[P_SCATTER] * sqrt(2.0 / WAVES) * total
+    return max(0.0, factor)
+
+
+def kinetic_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """mu_k before any dependence on the sliding speed, at the moment in ``w[W_STATE:]``.
+
+    Linear in the interface temperature up to the melting point (0 degC, temperature_dependence),
+    linear in the recent heat (thermal_weakening), approaching a final value with the distance slid
+    (run_in).
+    """
+    mu = p[P_MU_K] * surface_factor(p, w)
+    temperature = min(u[U_TEMPERATURE], 0.0)
+    mu *= 1.0 - p[P_SENSITIVITY] * (temperature - p[P_REFERENCE])
+    mu *= max(0.0, 1.0 - p[P_WEAKENING] * w[W_STATE + WARMTH])
+    if p[P_RUN_IN] != 0.0:
+        mu *= 1.0 + p[P_RUN_IN] * (1.0 - exp(-w[W_STATE + DISTANCE] / p[P_RUN_IN_DISTANCE]))
+    return max(0.0, mu)
+
+
+def local_coefficient(p: "float[:]", mu: float, speed: float) -> float:
+    """mu_k at a local sliding speed (m/s), where ``mu`` is the value without that dependence.
+
+    velocity_weakening: linear, hyperbolic 1/(1 + delta v), inverse root 1/sqrt(1 + c v), Stribeck
+    peak; film_drag: a film whose shear grows with the root of the speed.
+    """
+    factor = max(0.0, 1.0 - p[P_LINEAR] * speed) / (1.0 + p[P_HYPERBOLIC] * speed)
+    if p[P_INVERSE_ROOT] != 0.0:
+        factor /= sqrt(1.0 + p[P_INVERSE_ROOT] * speed)
+    if p[P_STRIBECK] != 0.0:
+        factor += p[P_STRIBECK] * exp(-speed / p[P_STRIBECK_SPEED])
+    mu *= factor
+    if p[P_FILM_ROOT] != 0.0:
+        mu += p[P_FILM_ROOT] * sqrt(speed) / p[P_NORMAL_FORCE]
+    return mu
+
+
+def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """Coefficient that a contact at rest can hold: mu_s, or mu_k where that is larger.
+
+    mu_s grows by a fixed amount per decade of the time at rest (static_strengthening). With
+    mu_k > mu_s a block that breaks away at mu_s is stopped at once; at rest it therefore holds up
+    to mu_k.
+    """
+    mu = p[P_MU_S] * surface_factor(p, w)
+    if p[P_STRENGTHENING] != 0.0 and w[W_STATE + MODE] == STICK:
+        hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
+        mu += p[P_STRENGTHENING] * log10(1.0 + hold / p[P_HOLD_TIME])
+    return max(mu, local_coefficient(p, kinetic_coefficient(p, u, w), 0.0))

@@ -1,0 +1,63 @@
+"""Faults of the study's scheme that can be switched one by one.
+
+F1 to F6 keep the numbers under which they are known; F12 to F15 are further ones, found when the
+scheme was written anew.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+DESCRIPTIONS = {
+    "F1": "stick ends where k x, not 4 k x, reaches mu_s N",
+    "F2": "the attachment radius is missing from the rise that sets the spring angles",
+    "F5": "the scatter of friction is white per sample, so its effect depends on the time step",
+    "F6": "break-away and re-stick fall on the 10 ms grid",
+    "F12": "after a stick, velocities and spring angles of before the last slip block come back",
+    "F13": "springs on the +x side get the spring angle of the -x side instead of its mirror image",
+    "F14": "a slip of more than 100 blocks (1 s) is cut: the block jumps to the belt's speed",
+    "F15": "friction that depends on speed keeps the speeds of the block's beginning for 10 ms",
+}
+
+
+@dataclass(frozen=True)
+class Faults:
+    """One flag a fault; True is as the study prints it. The default is the printed scheme."""
+
+    F1: bool = True
+    F2: bool = True
+    F5: bool = True
+    F6: bool = True
+    F12: bool = True
+    F13: bool = True
+    F14: bool = True
+    F15: bool = True
+
+    @classmethod
+    def mended(cls) -> Faults:
+        """None of them."""
+        return cls(**{field.name: False for field in fields(cls)})
+
+    def without(self, *ids: str) -> Faults:
+        """These faults mended; ValueError for an unknown one."""
+        return replace(self, **{known(one): False for one in ids})
+
+    def only(self, *ids: str) -> Faults:
+        """These faults and no other; ValueError for an unknown one."""
+        return replace(Faults.mended(), **{known(one): True for one in ids})
+
+    @property
+    def present(self) -> tuple[str, ...]:
+        """Ids of the faults that are in."""
+        return tuple(field.name for field in fields(self) if getattr(self, field.name))
+
+
+def known(fault: str) -> str:
+    """``fault`` itself, or ValueError with the ids that are allowed."""
+    if fault not in DESCRIPTIONS:
+        raise ValueError(f"fault {fault!r}: allowed are {', '.join(DESCRIPTIONS)}")
+    return fault
+
+
+PRINTED = Faults()
+MENDED = Faults.mended()

@@ -1,0 +1,197 @@
+"""The source study's scheme, from its equations: linear springs and blocks of 10 ms.
+
+Stick: x' = v, y' = phi' = 0 until the springs reach mu_s N. Slip: M q'' + K q = (F, 0, M_F) with
+q = (x, y, phi), solved exactly in blocks of 10 ms with the friction sampled a hundred times a
+block (`linear_step`), the spring angles alpha by one of four treatments (`spring_angles`) and
+friction summed over a hundred strips (`strip_friction`). Each known fault can be mended
+(`faults`).
+
+What the study does not print is a parameter here: the scatter of mu (its standard deviation, per
+strip), the slope of mu_k over the sliding speed (its four data points are only drawn) and, for
+the mended scatter, the length over which friction is correlated.
+
+>>> from stickslip.reference.linearised import Scheme
+>>> run = Scheme(scatter=0.0).run(cycles=3)
+>>> run.slips
+3
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+
+from . import linearised_motion
+from .faults import PRINTED, Faults
+from .scheme_types import (
+    CUT,
+    PHASE,
+    ROW,
+    ROW_STEPS,
+    SLIP,
+    STEP,
+    STICK_STEP,
+    STUCK_AGAIN,
+    Memory,
+    SchemeFaults,
+    SchemeRig,
+)
+from .spring_angles import (
+    ATTACHMENT_ANGLES,
+    ATTACHMENT_RADIUS,
+    attachments,
+    fixed_angles,
+    treatment_number,
+)
+from .strip_friction import strips
+
+GRAVITY = 9.81
+MOST_PHASES = 20_000
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """The scheme's numbers; SI units.
+
+    stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip) and
+    of mu_s (per cycle). mu_slope: loss of mu_k per m/s of sliding speed above mu_k_speed, at
+    which mu_k holds. correlation_length: of the scatter on the surface once F5 is mended.
+    curvature: 1/R of a turning slab, whose speed falls across the block. x0, v0: start, in slip if
+    ``start_in_slip``.
+    """
+
+    mass: float = 0.67
+    stiffness: float = 20.17
+    speed: float = 0.15
+    mu_s: float = 0.2815
+    mu_k: float = 0.2086
+    treatment: str = "updated"
+    scatter: float = 0.02
+    static_scatter: float = 0.0
+    mu_slope: float = 0.0
+    mu_k_speed: float = 0.15
+    correlation_length: float = 1e-3
+    curvature: float = 0.0
+    radius: float = ATTACHMENT_RADIUS
+    spring_length: float = 0.20
+    faults: Faults = field(default=PRINTED)
+
+    def __post_init__(self) -> None:
+        treatment_number(self.treatment)
+        positive = ("mass", "speed", "correlation_length", "radius", "spring_length")
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if not isinstance(value, (int, float)):
+                continue
+            if not math.isfinite(value) or (item.name in positive and value <= 0.0):
+                raise ValueError(
+                    f"{item.name} = {value:g}: must be finite"
+                    f"{' and above 0' if item.name in positive else ''}"
+                )
+        for name in ("stiffness", "mu_s", "mu_k", "scatter", "static_scatter"):
+            if getattr(self, name) < 0.0:
+                raise ValueError(f"{name} = {getattr(self, name):g}: must not be negative")
+
+    def run(self, *, cycles: int = 1_000_000, duration: float = 300.0, seed: int = 0) -> SchemeRun:
+        """Stick-slip from rest at the springs' middle, until ``cycles`` or ``duration`` (s)."""
+        memory = self._memory(duration)
+        linearised_motion.run(self._rig(seed), self._faults(), memory, cycles, float(duration))
+        return _result(memory)
+
+    def slide(
+        self, duration: float, *, x0: float = 0.0, v0: float = 0.0, seed: int = 0
+    ) -> SchemeRun:
+        """Slip alone, whatever the block's speed, as the study's verification runs do."""
+        memory = self._memory(duration)
+        memory.q[0], memory.v[0] = x0, v0
+        linearised_motion.slide(self._rig(seed), self._faults(), memory, float(duration))
+        return _result(memory)
+
+    def _rig(self, seed: int) -> SchemeRig:
+        normal_force = self.mass * GRAVITY
+        shares, middles = strips(self.radius)
+        scatter = self.scatter * normal_force
+        return SchemeRig(
+            mass=self.mass,
+            inertia=self.mass * self.radius**2,
+            stiffness=float(self.stiffness),
+            normal_force=normal_force,
+            speed=float(self.speed),
+            curvature=self.curvature,
+            mu_s=self.mu_s,
+            mu_k=self.mu_k,
+            mu_slope=self.mu_slope,
+            mu_k_speed=self.mu_k_speed,
+            static_scatter=self.static_scatter,
+            force_scatter=scatter * float(np.sqrt(np.sum(shares**2))),
+            moment_scatter=scatter * float(np.sqrt(np.sum((shares * middles) ** 2))),
+            correlation_length=self.correlation_length,
+            reach=1.0 if self.faults.F2 else self.radius,
+            spring_length=self.spring_length,
+            updated=self.treatment == "updated",
+            strip_wise=self.mu_slope != 0.0,
+            seed=seed,
+        )
+
+    def _faults(self) -> SchemeFaults:
+        faults = self.faults
+        return SchemeFaults(
+            one_spring=faults.F1, white=faults.F5, on_grid=faults.F6, stale=faults.F12,
+            mirrored=not faults.F13, cut=faults.F14, lagging=faults.F15,
+        )
+
+    def _memory(self, duration: float) -> Memory:
+        shares, middles = strips(self.radius)
+        # the mean load of all strips where it does not depend on their speeds
+        steady = np.array([shares.sum() * self.mu_k * self.mass * GRAVITY, 0.0])
+        rows = int(duration / (ROW_STEPS * STEP) + duration / STICK_STEP) + 4 * MOST_PHASES
+        return Memory(
+            q=np.zeros(3), v=np.zeros(3), before=np.zeros(3),
+            alpha=fixed_angles(self.treatment), load=np.zeros(2), mean=steady,
+            attachment=attachments(self.radius), beta=ATTACHMENT_ANGLES.copy(),
+            shares=shares, middles=middles,
+            rows=np.empty((rows, ROW)), phases=np.empty((MOST_PHASES, PHASE)),
+            counts=np.zeros(2, dtype=np.int64),
+        )
+
+
+@dataclass(frozen=True)
+class SchemeRun:
+    """A run of the scheme.
+
+    time (n,) s; q, velocity (n, 3): x, y, phi; load (n, 2): N, N m; mode (n,): 0 stick, 1 slip.
+    phases (k, 5): begin s, end s, mode, how it ended (`scheme_types`), jump of x' at its end m/s.
+    """
+
+    time: np.ndarray
+    q: np.ndarray
+    velocity: np.ndarray
+    load: np.ndarray
+    mode: np.ndarray
+    phases: np.ndarray
+
+    @property
+    def slip_phases(self) -> np.ndarray:
+        """Phases of slip that ended in stick, (k, 5)."""
+        ended = self.phases[:, 3]
+        return self.phases[(self.phases[:, 2] == SLIP) & ((ended == STUCK_AGAIN) | (ended == CUT))]
+
+    @property
+    def slips(self) -> int:
+        """Slips that ended in stick."""
+        return len(self.slip_phases)
+
+    @property
+    def cuts(self) -> int:
+        """Slips that were cut off in motion (fault F14)."""
+        return int(np.sum(self.phases[:, 3] == CUT))
+
+
+def _result(memory: Memory) -> SchemeRun:
+    rows = memory.rows[: memory.counts[0]].copy()
+    return SchemeRun(
+        time=rows[:, 0], q=rows[:, 1:4], velocity=rows[:, 4:7], load=rows[:, 7:9],
+        mode=rows[:, 9], phases=memory.phases[: memory.counts[1]].copy(),
+    )

@@ -1,0 +1,208 @@
+"""The study's scheme: its matrices, its exact step, its limit cycle once mended, its faults."""
+
+import numpy as np
+import pytest
+from scipy import signal
+from scipy.linalg import expm
+from stickslip.reference.coulomb_oscillator import CoulombOscillator
+from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED, Faults
+from stickslip.reference.interpreted_scheme import (
+    interpreted_run,
+    linear_system,
+    load_strip_by_strip,
+    load_strips_together,
+)
+from stickslip.reference.linear_step import propagator, step
+from stickslip.reference.linearised import Scheme
+from stickslip.reference.spring_angles import fixed_angles, stiffness_matrix
+from stickslip.reference.strip_friction import field_scatter, strips
+
+#: K/k as printed, five decimals
+PRINTED_MATRICES = {
+    "zero": [[4, 0, 0], [0, 0, 0], [0, 0, 0.00117]],
+    "constant": [[3.99878, 0.06980, 0], [0.06980, 0.00122, 0], [0, 0, 0.00117]],
+    "opposed": [[3.99878, 0, 0], [0, 0.00122, -0.00119], [0, -0.00119, 0.00117]],
+}
+MASS, STIFFNESS, SPEED, MU_S, MU_K = 0.67, 20.17, 0.15, 0.2815, 0.2086
+
+
+@pytest.mark.parametrize("treatment", PRINTED_MATRICES)
+def test_stiffness_matrix(treatment):
+    matrix = stiffness_matrix(fixed_angles(treatment))
+    np.testing.assert_array_equal(np.round(matrix, 5), PRINTED_MATRICES[treatment])
+
+
+def test_updated_begins_as_zero():
+    np.testing.assert_array_equal(fixed_angles("updated"), fixed_angles("zero"))
+
+
+def test_unknown_treatment():
+    with pytest.raises(ValueError, match="allowed are zero, constant, opposed, updated"):
+        Scheme(treatment="exact")
+
+
+def test_step_is_the_matrix_exponential():
+    """Hold of first order: load written as two more states, expm of the whole."""
+    rng = np.random.default_rng(3)
+    w = 200.0 * rng.normal(size=(3, 3))
+    h, q, v, a0, a1 = 1e-3, *rng.normal(size=(4, 3))
+    system = np.zeros((12, 12))
+    system[:3, 3:6] = np.eye(3)
+    system[3:6, :3], system[3:6, 6:9] = -w, np.eye(3)
+    system[6:9, 9:12] = np.eye(3)
+    expected = expm(system * h) @ np.concatenate([q, v, a0, (a1 - a0) / h])
+    prop, q1, v1 = np.empty((5, 3, 3)), np.empty(3), np.empty(3)
+    propagator(w, h, prop)
+    step(prop, h, q, v, a0, a1, q1, v1)
+    np.testing.assert_allclose(np.concatenate([q1, v1]), expected[:6], rtol=1e-13, atol=1e-15)
+
+
+def test_slip_is_what_lsim_gives():
+    """Slip of 1 s under the constant mean load, against scipy's simulation of the same system."""
+    run = Scheme(treatment="opposed", scatter=0.0).slide(1.0, x0=0.03)
+    force = strips(0.05)[0].sum() * MU_K * MASS * 9.81
+    times = np.linspace(0.0, 1.0, 1001)
+    load = np.tile([force, 0.0], (1001, 1))
+    system = linear_system(MASS, STIFFNESS, fixed_angles("opposed"))
+    states = signal.lsim(system, load, times, [0.03, 0, 0, 0, 0, 0])[2]
+    np.testing.assert_allclose(run.q[-1], states[-1, :3], atol=1e-12)
+
+
+def plain_oscillator() -> CoulombOscillator:
+    """What the mended scheme without scatter is: one mass on four springs."""
+    weight = MASS * 9.81
+    share = strips(0.05)[0].sum()  # the trapezium strips cover a little less than the disc
+    return CoulombOscillator(MASS, 4 * STIFFNESS, SPEED, MU_S * weight, share * MU_K * weight)
+
+
+def test_mended_scheme_is_the_closed_form():
+    run = Scheme(scatter=0.0, faults=MENDED).run(cycles=12)
+    expected = plain_oscillator()
+    slips = run.slip_phases
+    np.testing.assert_allclose(slips[:, 1] - slips[:, 0], expected.slip_time, atol=1e-10)
+    np.testing.assert_allclose(np.diff(slips[:, 0]), expected.period, atol=1e-10)
+    np.testing.assert_allclose(slips[:, 4], 0.0, atol=1e-12)
+    np.testing.assert_array_equal(run.q[:, 1:], 0.0)
+
+
+@pytest.mark.parametrize(("springs", "faults"), [(1, MENDED.only("F1")), (4, MENDED)])
+def test_where_slip_begins(springs, faults):
+    """F1: one spring in stick puts break-away at four times the displacement."""
+    run = Scheme(scatter=0.0, faults=faults).run(cycles=1)
+    breakaway = run.q[run.mode == 0, 0].max()
+    assert breakaway == pytest.approx(MU_S * MASS * 9.81 / (springs * STIFFNESS), abs=1e-12)
+
+
+def test_events_on_the_grid():
+    """F6: slips last whole blocks and overshoot the surface's speed; sticks stop a sample short."""
+    run = Scheme(scatter=0.0, faults=MENDED.only("F6")).run(cycles=8)
+    slips = run.slip_phases
+    blocks = (slips[:, 1] - slips[:, 0]) / 0.01
+    np.testing.assert_allclose(blocks, np.round(blocks), atol=1e-9)
+    assert np.all(slips[:, 4] < 0.0)
+    sticks = run.phases[run.phases[:, 2] == 0]
+    samples = (sticks[:, 1] - sticks[:, 0]) / (20.0 / 1999.0)
+    np.testing.assert_allclose(samples, np.round(samples), atol=1e-9)
+
+
+@pytest.mark.parametrize("mended", ["F2", "F13"])
+def test_rotation_needs_both_faults_of_the_angle(mended):
+    """The printed scheme turns by tens of degrees; without either fault of alpha it does not."""
+    turn = {
+        name: np.degrees(np.abs(Scheme(faults=faults).run(cycles=25, seed=1).q[:, 2]).max())
+        for name, faults in {"printed": PRINTED, "mended": PRINTED.without(mended)}.items()
+    }
+    assert turn["printed"] > 30.0
+    assert turn["mended"] < 1.0
+
+
+def test_slip_is_cut_after_a_second():
+    """F14: whatever is still sliding after 100 blocks jumps to the surface's speed."""
+    low = dict(mu_s=0.065, mu_k=0.05)
+    printed = [Scheme(**low).run(cycles=25, seed=seed) for seed in range(3)]
+    assert sum(run.cuts for run in printed) > 0
+    for run in printed:
+        assert np.max(run.slip_phases[:, 1] - run.slip_phases[:, 0]) < 1.0 + 1e-9
+    whole = Scheme(**low, faults=PRINTED.without("F14")).run(cycles=25)
+    assert whole.cuts == 0
+
+
+def test_two_draws_stand_for_a_hundred_strips():
+    rig = Scheme(scatter=0.05)._rig(seed=0)
+    rng = np.random.default_rng(5)
+    loads = load_strips_together(40_000, 1.0, 0.05, rng)
+    n = len(loads)
+    relative = 4.0 / np.sqrt(2 * n)  # four standard errors of a standard deviation
+    weight = MASS * 9.81
+    assert loads[:, 0].std() * weight == pytest.approx(rig.force_scatter, rel=relative)
+    assert loads[:, 1].std() * weight == pytest.approx(rig.moment_scatter, rel=relative)
+    assert abs(np.corrcoef(loads.T)[0, 1]) < 4.0 / np.sqrt(n)
+
+
+def test_strips_one_by_one_or_together():
+    one = load_strip_by_strip(3, 1.4, 0.0, np.random.default_rng(0))
+    np.testing.assert_allclose(
+        one, load_strips_together(3, 1.4, 0.0, np.random.default_rng(0)), atol=1e-14
+    )
+    assert strips(0.05)[0].sum() == pytest.approx(0.9989, abs=1e-4)
+
+
+def test_scatter_belongs_to_places():
+    """Mended F5: the same place gives the same draw, neighbours are alike, variance is one."""
+    normals = np.empty((4000, 2))
+    for i, row in enumerate(normals):
+        field_scatter(7, 0.00137 * i, 1e-3, row)
+    again = np.empty(2)
+    field_scatter(7, 0.00137 * 5, 1e-3, again)
+    np.testing.assert_array_equal(again, normals[5])
+    # neighbouring places share a node, so four standard errors of independent draws, doubled
+    np.testing.assert_allclose(normals.mean(axis=0), 0.0, atol=8 / np.sqrt(4000))
+    np.testing.assert_allclose(normals.std(axis=0), 1.0, atol=8 / np.sqrt(2 * 4000))
+    close = np.empty(2)
+    field_scatter(7, 0.00137 * 5 + 1e-9, 1e-3, close)
+    np.testing.assert_allclose(close, again, atol=1e-5)
+
+
+def test_speed_dependence_lags_a_block():
+    """F15 shifts the load by up to 10 ms; mended, mu_k is that of the speed at every sample."""
+    law = dict(mu_slope=0.05, scatter=0.0, mu_s=0.3)
+    run = Scheme(**law, faults=MENDED).run(cycles=6)
+    slip = run.mode == 1
+    mu = MU_K - 0.05 * (SPEED - run.velocity[slip, 0] - 0.15)
+    expected = mu * strips(0.05)[0].sum() * MASS * 9.81
+    np.testing.assert_allclose(run.load[slip, 0], expected, atol=1e-6)
+    late = Scheme(**law, faults=MENDED.only("F15")).run(cycles=6)
+    assert abs(late.slip_phases[-1, 1] - run.slip_phases[-1, 1]) > 1e-4
+
+
+def test_interpreted_scheme_agrees():
+    """The script-like peer, strips in numpy or Python, walks the same way as the compiled loop."""
+    together = interpreted_run(0.8, together=True)
+    one = interpreted_run(0.8)
+    np.testing.assert_allclose(one, together, atol=1e-12)
+    run = Scheme(scatter=0.0, faults=MENDED.only("F6")).run(duration=0.8)
+    # its stick grid is 10 ms, the other's 10.005 ms: break-away differs by up to a sample
+    place = np.interp(together[:, 0], run.time, run.q[:, 0])
+    np.testing.assert_allclose(together[:, 1], place, atol=SPEED * 0.011)
+
+
+def test_seed_repeats_a_run():
+    first, again, other = (Scheme().run(cycles=4, seed=s) for s in (3, 3, 4))
+    np.testing.assert_array_equal(first.q, again.q)
+    assert not np.array_equal(first.q[:50], other.q[:50]) or len(first.q) != len(other.q)
+
+
+def test_faults_by_name():
+    assert PRINTED.present == tuple(DESCRIPTIONS)
+    assert MENDED.present == ()
+    assert Faults().without("F1", "F2").present == tuple(DESCRIPTIONS)[2:]
+    with pytest.raises(ValueError, match="allowed are F1, F2"):
+        PRINTED.without("F99")
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("mass", 0.0), ("scatter", -1.0), ("speed", float("nan"))]
+)
+def test_bad_numbers(key, value):
+    with pytest.raises(ValueError, match=key):
+        Scheme(**{key: value})
