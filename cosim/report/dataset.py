@@ -11,11 +11,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from pydantic import BaseModel
-from stickslip import Trajectory
+from stickslip import Parameters, Trajectory
+from stickslip.kernel import layout, surface
 
 from cosim.master import CoupledResult
 
-from .blocks import blocks_of, value_of
+from .blocks import blocks_of, mechanics_of
 from .variables import MECHANICAL, OUTPUTS, THERMAL, TIME, attributes
 from .versions import versions
 
@@ -23,6 +24,10 @@ Array = NDArray[np.float64]
 
 # whole numbers that models and masters carry as floats
 _COUNTS = {"mode": np.int8, "slip_count": np.int64}
+
+
+# blocks of a scenario that a run without heat makes use of
+MECHANICS_ALONE = {*Parameters.model_fields, "run"}
 
 
 class BeltSnapshots(Protocol):
@@ -53,7 +58,8 @@ def run_dataset(
     columns, units = _columns(result, mechanics, thermal)
     columns["coupling_residual"] = result.ledger.residual
     dataset = _dataset(result.time, columns, units)
-    _describe(dataset, scenario, toml, "coupled", result.status, result.reason, result.wall_time)
+    _describe(dataset, scenario, toml, result.status, result.reason, result.wall_time)
+    dataset.attrs.update(case="coupled", parameters=json.dumps(blocks_of(scenario)))
     dataset.attrs["events"] = (
         "mode and slip_count are sampled at the communication points: break-away and re-stick "
         "are known to one interval of time; the motion itself was computed with exact events"
@@ -77,7 +83,9 @@ def trajectory_dataset(
     units = {name: unit for name, unit, _ in OUTPUTS}
     dataset = _dataset(trajectory.time, trajectory.columns, units)
     status, reason = _outcome(trajectory)
-    _describe(dataset, scenario, toml, "mechanics", status, reason, wall_time)
+    _describe(dataset, scenario, toml, status, reason, wall_time)
+    used = {name: block for name, block in blocks_of(scenario).items() if name in MECHANICS_ALONE}
+    dataset.attrs.update(case="mechanics", parameters=json.dumps(used))
     dataset.attrs["events"] = "event_time: break-away and re-stick, located to rounding"
     return dataset.merge(_events(trajectory.events))
 
@@ -115,18 +123,15 @@ def _describe(
     dataset: xr.Dataset,
     scenario: BaseModel,
     toml: str,
-    case: str,
     status: str,
     reason: str,
     wall_time: float | None,
 ) -> None:
     dataset.attrs.update(
         title=str(getattr(scenario, "name", "") or "stick-slip"),
-        case=case,
         status=status,
         reason=reason,
         scenario=toml,
-        parameters=json.dumps(blocks_of(scenario)),
         versions=json.dumps(versions()),
         created=datetime.now(UTC).isoformat(timespec="seconds"),
     )
@@ -135,11 +140,16 @@ def _describe(
 
 
 def _surface_speed(dataset: xr.Dataset) -> Array:
-    """Linear run-up from standstill, then constant, m/s (n,)."""
-    speed = value_of(dataset, "surface", "speed") or 0.0
-    run_up = value_of(dataset, "surface", "run_up_time") or 0.0
-    time = dataset["time"].values
-    return speed * (np.minimum(time / run_up, 1.0) if run_up > 0.0 else np.ones_like(time))
+    """Speed of the surface where the block rests, by the model's own law of the drive, m/s (n,)."""
+    parameters = mechanics_of(dataset)
+    p, u, w = parameters.pack(), [0.0] * layout.U_SIZE, [0.0] * layout.W_SIZE
+    u[layout.U_SPEED] = parameters.surface.speed
+
+    def speed(time: float) -> float:
+        surface.set_surface_phase(p, w, time)
+        return surface.surface_speed(p, u, w, time)
+
+    return np.array([speed(time) for time in dataset["time"].values.tolist()])
 
 
 def _outcome(trajectory: Trajectory) -> tuple[str, str]:

@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import xarray as xr
 from stickslip import Parameters
-from stickslip.kernel.layout import P_INERTIA, P_MASS
-from stickslip.kernel.springs import spring_energy
+from stickslip.kernel import layout, motion
 
 from .blocks import mechanics_of
 
+# place of each coordinate in the kernel's picture of a moment
+STATE = {
+    "x": layout.X, "y": layout.Y, "phi": layout.PHI,
+    "vx": layout.VX, "vy": layout.VY, "omega": layout.OMEGA,
+}
+
 
 def block_energy(parameters: Parameters, row: xr.Dataset) -> float:
-    """Kinetic and elastic energy at one time, J."""
-    p = parameters.pack()
-    x, y, phi, vx, vy, omega = (
-        float(row[name]) for name in ("x", "y", "phi", "vx", "vy", "omega"))
-    kinetic = 0.5 * p[P_MASS] * (vx * vx + vy * vy) + 0.5 * p[P_INERTIA] * omega * omega
-    return kinetic + spring_energy(p, x, y, phi)
+    """Kinetic and elastic energy at one time, J, by the model's own laws."""
+    moment = [0.0] * layout.BLOCK
+    for name, place in STATE.items():
+        moment[place] = float(row[name])
+    return motion.block_energy(parameters.pack(), moment, 0)
 
 
 def surface_work(dataset: xr.Dataset) -> float:
-    """Work of the surface (and of external forces, if any) on the block, J.
+    """Work of the surface on the block, J; with external forces and damping, net of them.
 
     The ledger solved for it: gain of the block + friction heat - residual.
     """

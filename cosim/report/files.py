@@ -20,12 +20,14 @@ def write_atomically(path: Path, write: Callable[[Path], object]) -> Path:
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
     try:
+        partial.touch()  # says in plain words why a folder refuses; HDF5 does not
         write(partial)
         os.replace(partial, path)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
     finally:
-        partial.unlink(missing_ok=True)
+        if path.parent.is_dir():
+            partial.unlink(missing_ok=True)
     return path
 
 

@@ -72,6 +72,8 @@ def told(value: float | int | None, unit: str, share: bool = False) -> str:
         return NONE
     if share:
         return f"{100.0 * value:.2f} %".translate(MINUS)
+    if unit == "deg":
+        return f"{value:z.2f}°".translate(MINUS)
     if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:
         factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
         return f"{digits(factor * value)} {prefix}{unit}"

@@ -99,7 +99,7 @@ def _sheet(width: float, height: float, panels: int, stacked: bool) -> tuple[flo
     """Size of the figure, inches, that leaves little beside panels of equal scale."""
     across, down = (1, panels) if stacked else (panels, 1)
     # for labels and titles of two lines: left of a column, over a row, and once for the sheet
-    left, over, sheet = (0.9, 0.6, 0.9) if stacked else (0.75, 0.6, 0.95)
+    left, over, sheet = (0.9, 0.6, 0.7) if stacked else (0.75, 0.6, 0.95)
     scale = min(
         (SHEET_WIDTH - left * across) / (across * width),
         (SHEET_HEIGHT - over * down - sheet) / (down * height),

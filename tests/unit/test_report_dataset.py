@@ -1,0 +1,221 @@
+"""A run as dataset and files: units everywhere, and every number comes back as it was."""
+
+import csv
+import json
+from dataclasses import replace
+from functools import cache
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from stickslip import Trajectory, simulate
+from stickslip.trajectory import OUTPUTS
+
+from cosim.master import Connection, CoupledResult, EnergyFlow, Ledger
+from cosim.report import OutputError, run_dataset, trajectory_dataset, write_data
+from cosim.report.blocks import mechanics_of, thermal_of
+from cosim.report.variables import THERMAL
+from cosim.scenario import Scenario
+from thermal import BeltIceModel
+
+NOT_PORTS = {"surface_speed"}
+
+
+def scenario(surface: str = "belt") -> Scenario:
+    return made_scenario(surface)
+
+
+def trajectory(surface: str = "belt") -> Trajectory:
+    return made_trajectory(surface)
+
+
+def coupled(surface: str = "belt") -> tuple[CoupledResult, SimpleNamespace]:
+    return made_coupled(surface)
+
+
+@cache
+def made_scenario(surface: str) -> Scenario:
+    """Five seconds with a short run-up: a dozen stick-slip cycles on a coarse belt."""
+    return Scenario.from_tables({
+        "name": "short",
+        "rig": {"surface": surface},
+        "lateral_friction": {"ratio": 1.0},
+        "surface": {"speed": 0.08, "run_up_time": 1.0},
+        "run": {"duration": 6.0},
+        "belt": {"cell_length": 5e-3},
+    })
+
+
+@cache
+def made_trajectory(surface: str) -> Trajectory:
+    run = scenario(surface).run
+    return simulate(scenario(surface).mechanics, run.duration, run.output_interval)
+
+
+@cache
+def made_coupled(surface: str) -> tuple[CoupledResult, SimpleNamespace]:
+    """What a master returns for that run, heat to belt and ice, and pictures of the belt."""
+    run, model = trajectory(surface), BeltIceModel(scenario(surface).thermal)
+    way = run["surface_travel"] - run["x"]
+    rows, pictures = [model.outputs()], [(0.0, model.belt_profile()[1], model.contact_position)]
+    for i in range(1, run.time.size):
+        step = run.time[i] - run.time[i - 1]
+        model.step(step, run["heat"][i] - run["heat"][i - 1], way[i] - way[i - 1])
+        rows.append(model.outputs())
+        if i % 50 == 0:
+            pictures.append((run.time[i], model.belt_profile()[1], model.contact_position))
+    mechanical = {n: (u, run[n]) for n, u, _ in OUTPUTS if n not in NOT_PORTS}
+    thermal = {n: (u, np.array([row[n] for row in rows])) for n, (u, _) in THERMAL.items()}
+    ports = {f"mechanics.{name}": port for name, port in mechanical.items()}
+    # the master records inputs too; this one is what the step was made with, one step behind
+    stale = np.roll(thermal["interface_temperature"][1], 1)
+    ports["mechanics.interface_temperature"] = ("degC", stale)
+    ports |= {f"thermal.{name}": port for name, port in thermal.items()}
+    ports["thermal.x"] = ("m", np.roll(run["x"], 1))
+    connection = Connection("mechanics.heat", "thermal.heat", taken="heat_received")
+    ledger = Ledger(
+        (EnergyFlow(connection, run["heat"], thermal["heat_received"][1]),),
+        {"thermal.heat_residual": thermal["heat_residual"][1]},
+    )
+    result = CoupledResult(
+        run.time, {n: v for n, (_, v) in ports.items()}, {n: u for n, (u, _) in ports.items()},
+        ledger, "complete", "", None, 1.5, 2, run.time.size - 1,
+    )
+    times, profiles, contacts = zip(*pictures, strict=True)
+    return result, SimpleNamespace(
+        time=times, position=model.belt_profile()[0], temperature=profiles, contact=contacts)
+
+
+def coupled_dataset(surface: str = "belt") -> xr.Dataset:
+    result, pictures = coupled(surface)
+    case = scenario(surface)
+    return run_dataset(result, case, case.to_toml(), snapshots=pictures)
+
+
+def mechanics_dataset(surface: str = "belt") -> xr.Dataset:
+    case = scenario(surface)
+    return trajectory_dataset(trajectory(surface), case, case.to_toml(), wall_time=0.25)
+
+
+def table_of(path) -> dict[str, np.ndarray]:
+    """Columns of a CSV file, every cell read with all its digits; an empty one is NaN."""
+    header, *rows = csv.reader(path.read_text(encoding="utf-8").splitlines())
+    cells = [[float(cell) if cell else np.nan for cell in row] for row in rows]
+    return dict(zip(header, np.array(cells).T, strict=True))
+
+
+BOTH = pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
+
+
+@BOTH
+def test_every_variable_has_unit_and_description(make):
+    dataset = make()
+    for name, variable in dataset.variables.items():
+        assert variable.attrs["units"], name
+        assert variable.attrs["long_name"], name
+    assert dataset["phi"].attrs["units"] == "rad"
+
+
+def test_coupled_run_holds_what_the_contract_names():
+    dataset = coupled_dataset()
+    assert {name for name, _, _ in OUTPUTS} | set(THERMAL) <= set(dataset.data_vars)
+    assert dataset["belt_temperature"].dims == ("snapshot_time", "belt_position")
+    assert dataset.attrs["status"] == "complete"
+    assert dataset.attrs["scenario"] == scenario().to_toml()
+
+
+def test_outputs_are_taken_and_not_the_inputs_of_the_same_name():
+    result, _ = coupled()
+    dataset = coupled_dataset()
+    np.testing.assert_array_equal(
+        dataset["interface_temperature"], result["thermal.interface_temperature"])
+    np.testing.assert_array_equal(dataset["x"], result["mechanics.x"])
+
+
+def test_surface_speed_of_a_coupled_run_is_the_mechanics_own():
+    np.testing.assert_allclose(
+        coupled_dataset()["surface_speed"], trajectory()["surface_speed"], atol=1e-15)
+
+
+def test_events_of_the_mechanics_keep_their_exact_times():
+    np.testing.assert_array_equal(mechanics_dataset()["event_time"], trajectory().events[:, 0])
+    assert mechanics_dataset()["event_mode"].attrs["flag_meanings"] == "stick slip"
+
+
+@pytest.mark.parametrize("surface", ["belt", "slab"])
+def test_parameters_come_back_from_the_dataset(surface):
+    case = scenario(surface)
+    dataset = coupled_dataset(surface)
+    assert mechanics_of(dataset).flat() == case.mechanics.flat()
+    assert thermal_of(dataset).model_dump() == case.thermal.model_dump()
+    stored = json.loads(dataset.attrs["parameters"])
+    assert stored["springs"]["stiffness"]["unit"] == "N/m"
+
+
+def test_mechanics_alone_does_not_list_the_blocks_of_the_heat():
+    stored = json.loads(mechanics_dataset().attrs["parameters"])
+    assert "run" in stored and "rig" in stored
+    assert not {"belt", "ice", "coupling"} & set(stored)
+
+
+@BOTH
+def test_netcdf_round_trip_is_exact(make, tmp_path):
+    dataset = make()
+    write_data(dataset, tmp_path)
+    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as back:
+        xr.testing.assert_identical(back.load(), dataset)
+
+
+@BOTH
+def test_csv_round_trip_is_exact(make, tmp_path):
+    dataset = make()
+    write_data(dataset, tmp_path)
+    table = table_of(tmp_path / "result.csv")
+    over_time = [name for name in dataset.data_vars if dataset[name].dims == ("time",)]
+    assert list(table) == ["time", *over_time]
+    for name in table:
+        np.testing.assert_array_equal(table[name], dataset[name], err_msg=name)
+
+
+def test_missing_numbers_survive_both_files(tmp_path):
+    dataset = coupled_dataset().copy(deep=True)
+    dataset["x"][3] = np.nan
+    write_data(dataset, tmp_path)
+    table = table_of(tmp_path / "result.csv")
+    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as back:
+        assert np.isnan(back["x"][3]) and np.isnan(table["x"][3])
+
+
+@pytest.mark.parametrize(
+    ("reason", "status"),
+    [("", "complete"), ("stopped: KeyboardInterrupt", "interrupted"),
+     ("the integrator gave up at t = 1 s", "failed")],
+)
+def test_status_of_a_trajectory(reason, status):
+    dataset = trajectory_dataset(replace(trajectory(), reason=reason), scenario(), "")
+    assert dataset.attrs["status"] == status
+    assert bool(dataset.attrs["reason"]) == (status != "complete")
+
+
+def test_unwritable_folder_is_one_clear_line(tmp_path):
+    missing = tmp_path / "nowhere"
+    with pytest.raises(OutputError, match="result.nc: cannot be written: No such file") as caught:
+        write_data(mechanics_dataset(), missing)
+    assert "\n" not in str(caught.value)
+
+
+def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatch):
+    dataset = mechanics_dataset()
+    write_data(dataset, tmp_path)
+    before = (tmp_path / "result.csv").read_bytes()
+
+    def full_disk(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pd.DataFrame, "to_csv", full_disk)
+    with pytest.raises(OutputError, match="No space left"):
+        write_data(dataset, tmp_path)
+    assert (tmp_path / "result.csv").read_bytes() == before
+    assert {path.name for path in tmp_path.iterdir()} == {"result.nc", "result.csv"}

@@ -1,0 +1,138 @@
+"""Figures: every axis labelled with its unit, nothing hidden, whatever there is to draw."""
+
+import io
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.text import Text
+from test_report_dataset import coupled_dataset, mechanics_dataset, scenario
+
+from cosim.report.figures import PLATES, plates_of
+from cosim.report.figures.geometry import Pose, anchors, attachments
+from cosim.report.figures.top_view import extreme_poses
+from cosim.report.style import readable
+from cosim.report.zoom import last_cycles
+
+# the strip that shows only where the contact is has no quantity upwards
+WITHOUT_QUANTITY = {"contact"}
+SMALLEST_TYPE = 9.0
+
+
+def cut_short(make):
+    dataset = make()
+    chosen = {"time": slice(0, 1)}
+    if "snapshot_time" in dataset.dims:
+        chosen["snapshot_time"] = slice(0, 1)
+    dataset = dataset.isel(chosen)
+    dataset.attrs.update(status="failed", reason="the integrator gave up")
+    return dataset
+
+
+def with_gaps(make):
+    dataset = make().copy(deep=True)
+    for name in dataset.data_vars:
+        if dataset[name].dims == ("time",) and dataset[name].dtype.kind == "f":
+            dataset[name][100:110] = np.nan
+            dataset[name][-1] = np.nan
+    return dataset
+
+
+DATASETS = {
+    "coupled": coupled_dataset,
+    "mechanics": mechanics_dataset,
+    "slab": lambda: coupled_dataset("slab"),
+    "one row": lambda: cut_short(coupled_dataset),
+    "one row of mechanics": lambda: cut_short(mechanics_dataset),
+    "gaps": lambda: with_gaps(coupled_dataset),
+}
+CASES = [
+    pytest.param(make, plate, id=f"{name}-{plate.name}")
+    for name, make in DATASETS.items()
+    for plate in PLATES
+    if not (plate.name in ("temperatures", "belt_temperature") and "mechanics" in name)
+]
+
+
+def shown_label(axes, axis: str) -> str:
+    """The label of an axis, or that of the one it shares its ticks with."""
+    siblings = getattr(axes, f"get_shared_{axis}_axes")().get_siblings(axes)
+    labels = [getattr(other, f"get_{axis}label")() for other in siblings]
+    return next((label for label in labels if label), "")
+
+
+@pytest.mark.parametrize(("make", "plate"), CASES)
+def test_axes_are_labelled_with_units_and_drawn_in_full(make, plate):
+    figure = plate.draw(make())
+    figure.savefig(io.BytesIO(), format="png", dpi=40)
+    for axes in figure.axes:
+        for axis in ("x", "y"):
+            label = shown_label(axes, axis) or row_label(figure, axes)
+            assert label in WITHOUT_QUANTITY or label.rstrip().endswith("]"), (axis, label)
+            assert getattr(axes, f"{axis}axis").get_offset_text().get_text() == ""
+        assert np.all(np.isfinite([*axes.get_xlim(), *axes.get_ylim()]))
+    for text in figure.findobj(Text):
+        if text.get_text() and text.get_visible():
+            assert text.get_fontsize() >= SMALLEST_TYPE, text.get_text()
+
+
+def row_label(figure, axes) -> str:
+    """The label of the panel at the left of the same row, where panels have their own scales."""
+    spec = axes.get_subplotspec()
+    same_row = [
+        other for other in figure.axes
+        if other.get_subplotspec() and other.get_subplotspec().rowspan == spec.rowspan
+    ]
+    return same_row[0].get_ylabel()
+
+
+def test_thermal_figures_only_where_there_is_heat_to_show():
+    everything = {plate.name for plate in plates_of(coupled_dataset())}
+    assert everything == {plate.name for plate in PLATES}
+    alone = {plate.name for plate in plates_of(mechanics_dataset())}
+    assert everything - alone == {"temperatures", "belt_temperature"}
+    assert plates_of(mechanics_dataset().isel(time=slice(0, 0))) == []
+
+
+def test_house_style_whatever_the_users_settings():
+    with matplotlib.rc_context({"font.size": 30.0, "axes.formatter.useoffset": True}):
+        figure = PLATES[0].draw(mechanics_dataset())
+        assert figure.axes[0].yaxis.label.get_fontsize() == 10.0
+        assert matplotlib.rcParams["font.size"] == 30.0
+
+
+def test_zoom_holds_whole_cycles_of_the_end():
+    dataset = mechanics_dataset()
+    begin, end = last_cycles(dataset)
+    starts = dataset["event_time"].values[dataset["event_mode"].values == 1]
+    assert end == float(dataset["time"][-1])
+    assert 2 <= np.count_nonzero(starts > begin) <= 5
+    assert end - begin <= 0.3 * end
+
+
+@pytest.mark.parametrize(
+    ("largest", "unit", "expected"),
+    [(0.034, "m", (1e3, "mm")), (3.75, "m", (1.0, "m")), (0.055, "K", (1e3, "mK")),
+     (4e-5, "K", (1e6, "µK")), (1500.0, "W", (1e-3, "kW")), (0.0, "J", (1.0, "J")),
+     (0.2, "1", (1.0, "1"))],
+)
+def test_prefix_makes_one_to_a_thousand(largest, unit, expected):
+    scaled = readable(np.array([0.0, -largest, np.nan]), unit)
+    assert (pytest.approx(scaled.factor), scaled.unit) == expected
+
+
+def test_geometry_of_the_top_view_is_that_of_the_rig():
+    parameters = scenario().mechanics
+    fixed, at_rest = anchors(parameters), attachments(parameters, Pose(0.0, 0.0, 0.0))
+    np.testing.assert_allclose(np.hypot(*(fixed - at_rest).T), parameters.rig.spring_length)
+    np.testing.assert_allclose(np.hypot(*at_rest.T), parameters.rig.attachment_radius)
+    turned = attachments(parameters, Pose(0.01, -0.02, np.pi / 2.0))
+    expected = np.column_stack([0.01 - at_rest[:, 1], -0.02 + at_rest[:, 0]])
+    np.testing.assert_allclose(turned, expected, atol=1e-15)
+
+
+def test_extreme_positions_are_those_of_the_run():
+    dataset = coupled_dataset("slab")
+    poses = [pose for _, pose in extreme_poses(dataset)]
+    assert abs(poses[1].x) == pytest.approx(float(np.abs(dataset["x"]).max()))
+    assert abs(poses[-1].phi) == pytest.approx(float(np.abs(dataset["phi"]).max()))

@@ -1,0 +1,118 @@
+"""The page and the whole set of files of a run."""
+
+import json
+import re
+from html.parser import HTMLParser
+
+import pytest
+from test_report_dataset import coupled_dataset, mechanics_dataset
+from test_report_figures import cut_short, with_gaps
+
+from cosim.report import write_results
+from cosim.report.figures import plates_of
+from cosim.report.words import digits, told
+
+
+class References(HTMLParser):
+    """Everything that a page would load or link to, and that its tags are closed."""
+
+    VOID = {"meta", "img", "br", "link", "input", "hr"}
+
+    def __init__(self):
+        super().__init__()
+        self.loaded, self.linked, self.open = [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        attributes = dict(attrs)
+        if tag in ("script", "link", "iframe", "object"):
+            self.loaded.append(tag)
+        self.loaded += [attributes[key] for key in ("src", "srcset", "data") if key in attributes]
+        self.linked += [attributes["href"]] if "href" in attributes else []
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def read(path):
+    page = path.read_text(encoding="utf-8")
+    references = References()
+    references.feed(page)
+    assert references.open == []
+    return page, references
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    seen = []
+    paths = write_results(
+        coupled_dataset(), folder, command="stickslip run <case>.toml",
+        files={"fields/temperature.pvd": "temperature fields"}, progress=seen.append)
+    return folder, paths, seen
+
+
+def test_all_files_of_a_run_are_there_data_first(written):
+    folder, paths, seen = written
+    expected = [plate.name + ".png" for plate in plates_of(coupled_dataset())]
+    names = ["result.nc", "result.csv", "summary.json", *expected, "report.html"]
+    assert [path.name for path in paths] == names == seen
+    assert {path.name for path in folder.iterdir()} == set(names)
+
+
+def test_page_holds_everything_it_shows(written):
+    page, references = read(written[0] / "report.html")
+    assert len(references.loaded) == 7
+    assert all(source.startswith("data:image/png;base64,") for source in references.loaded)
+    assert not any(link.startswith(("http", "//", "file:")) for link in references.linked)
+    assert not re.search(r"https?://|url\(|@import", re.sub(r"base64,[^\"]*", "", page))
+
+
+def test_page_shows_scenario_ledger_numbers_and_versions(written):
+    page, references = read(written[0] / "report.html")
+    numbers = json.loads((written[0] / "summary.json").read_text(encoding="utf-8"))
+    for text in (
+        "stickslip run &lt;case&gt;.toml", "stiffness", "20.17 N/m", "run_up_time = 1.0",
+        told(numbers["ledger"]["heat"]["received"], "J"), "scikit-fem", "Energy ledger",
+        f"{100 * numbers['heat_shares']['ice']:.2f} %",
+    ):
+        assert text in page, text
+    assert "fields/temperature.pvd" in references.linked
+    assert {"result.nc", "result.csv", "summary.json"} <= set(references.linked)
+
+
+@pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
+@pytest.mark.parametrize("damage", [cut_short, with_gaps])
+def test_what_there_is_of_a_run_is_written_and_its_status_seen(make, damage, tmp_path):
+    dataset = damage(make)
+    dataset.attrs.update(status="interrupted", reason="interrupted at t = 0.5 s <now>")
+    write_results(dataset, tmp_path)
+    page, _ = read(tmp_path / "report.html")
+    assert 'class="status interrupted"' in page
+    assert "interrupted at t = 0.5 s &lt;now&gt;" in page
+    numbers = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert numbers["status"] == "interrupted" and numbers["reason"]
+
+
+def test_a_run_without_a_row_still_has_its_page(tmp_path):
+    dataset = mechanics_dataset().isel(time=slice(0, 0), event_time=slice(0, 0))
+    dataset.attrs.update(status="failed", reason="the integrator gave up at t = 0 s")
+    write_results(dataset, tmp_path)
+    page, _ = read(tmp_path / "report.html")
+    assert "the integrator gave up" in page
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(None, "m", "–"), (0.034, "m", "34 mm"), (3.75, "m", "3.75 m"), (0.0494134, "K", "49.413 mK"),
+     (-4.57e-12, "J", "−4.57 · 10⁻¹² J"), (14, "1", "14"), (-40.384, "deg", "−40.38°"),
+     (-8.0, "degC", "−8 °C"), (1e-9, "deg", "0.00°")],
+)
+def test_numbers_as_they_are_read(value, unit, text):
+    assert told(value, unit) == text
+
+
+def test_lists_and_words_of_parameters():
+    assert digits([160.0, 20.0]) == "160, 20" and digits("disc") == "disc"
+    assert told(0.947, "1", share=True) == "94.70 %"

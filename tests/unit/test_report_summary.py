@@ -1,0 +1,125 @@
+"""The summary against answers known beforehand."""
+
+import json
+
+import numpy as np
+import pytest
+from stickslip import Parameters, Surface, Trajectory
+from stickslip.trajectory import NAMES
+from test_report_dataset import coupled_dataset, mechanics_dataset, trajectory
+
+from cosim.report import summary, trajectory_dataset
+from cosim.report.phases import break_aways, slip_intervals
+
+RUN_UP, PERIOD, SLIP, CYCLES = 2.0, 0.5, 0.3, 8
+END = RUN_UP + CYCLES * PERIOD
+
+
+def made_up(parameters: Parameters | None = None) -> Trajectory:
+    """Eight cycles of 0.5 s after the run-up, each slipping in its last 0.3 s; numbers by hand."""
+    parameters = parameters or Parameters(surface=Surface(speed=0.1, run_up_time=RUN_UP))
+    time = np.arange(601) * END / 600
+    columns = {name: np.zeros(time.size) for name in NAMES}
+    starts = RUN_UP + PERIOD - SLIP + PERIOD * np.arange(CYCLES)
+    events = [[[t, 1.0, 0.01], [t + SLIP, 0.0, 0.0]] for t in starts]
+    events = np.array(events).reshape(-1, 3)[:-1]
+    after = np.searchsorted(events[:, 0], time, side="right") - 1
+    columns["mode"] = np.where(after < 0, 0.0, events[after, 1])
+    columns["slip_count"] = np.searchsorted(starts, time, side="right").astype(float)
+    columns["x"] = 0.01 * time / END
+    columns["phi"] = np.radians(-12.0) * np.sin(2.0 * np.pi * time / END)
+    columns["phi"][-1] = 0.0
+    columns["heat"] = 0.5 * time / END
+    columns["energy_residual"] = -1e-12 * time / END
+    return Trajectory(time, columns, events, parameters)
+
+
+def numbers(run: Trajectory) -> dict:
+    return summary(trajectory_dataset(run, run.parameters, "toml"))
+
+
+def test_stick_slip_numbers_of_a_known_run():
+    late = numbers(made_up())["after_run_up"]
+    assert late["begin"] == RUN_UP and late["duration"] == pytest.approx(END - RUN_UP)
+    assert late["break_aways"] == CYCLES
+    assert late["frequency"] == pytest.approx(1.0 / PERIOD)
+    assert late["mean_period"] == pytest.approx(PERIOD)
+    assert late["slip_share"] == pytest.approx(SLIP / PERIOD)
+    assert late["mean_x"] == pytest.approx(0.01 * (RUN_UP + END) / 2.0 / END)
+    assert (late["min_x"], late["max_x"]) == pytest.approx((0.01 * RUN_UP / END, 0.01))
+    assert late["max_rotation_deg"] == pytest.approx(12.0, rel=1e-4)
+    assert late["mean_heat_flow"] == pytest.approx(0.5 / END)
+
+
+def test_work_of_the_surface_from_spring_energy_heat_and_residual():
+    """Moved by x along their own lines, four springs hold 4 k x^2 / 2."""
+    ledger = numbers(made_up())["ledger"]["mechanics"]
+    elastic = 2.0 * 20.17 * 0.01**2
+    assert ledger["surface_work"] == pytest.approx(elastic + 0.5, rel=1e-12)
+    assert ledger["largest_residual"] == pytest.approx(1e-12)
+    assert ledger["relative_residual"] == pytest.approx(1e-12 / (elastic + 0.5))
+
+
+def test_without_events_the_modes_tell_to_one_interval():
+    dataset = trajectory_dataset(made_up(), made_up().parameters, "")
+    sampled = dataset.drop_dims("event_time")
+    exact, seen = slip_intervals(dataset), slip_intervals(sampled)
+    interval = END / 600
+    np.testing.assert_allclose(seen, exact, atol=0.5 * interval + 1e-12)
+    np.testing.assert_allclose(break_aways(sampled), break_aways(dataset),
+                               atol=0.5 * interval + 1e-12)
+
+
+def test_a_run_that_ends_in_the_run_up_has_no_stick_slip_numbers():
+    run = made_up(Parameters(surface=Surface(run_up_time=100.0)))
+    late = numbers(run)["after_run_up"]
+    assert late["frequency"] is None and late["slip_share"] is None and late["mean_x"] is None
+    assert late["break_aways"] == 0
+
+
+def test_real_run_agrees_with_the_trajectory():
+    found = summary(mechanics_dataset())
+    assert found["whole_run"]["slip_share"] == pytest.approx(trajectory().slip_share)
+    assert found["whole_run"]["break_aways"] == trajectory().slip_starts.size
+    assert found["ledger"]["mechanics"]["relative_residual"] < 1e-9
+
+
+def test_heat_and_coupling_ledgers_close():
+    found = summary(coupled_dataset())
+    heat, coupling = found["ledger"]["heat"], found["ledger"]["coupling"]
+    assert heat["relative_residual"] < 1e-10
+    assert heat["received"] == pytest.approx(
+        heat["belt"] + heat["ice"] + heat["air"] + heat["melting"], rel=1e-10)
+    assert coupling["handed_over"] == pytest.approx(coupling["taken_up"], rel=1e-12)
+    shares = found["heat_shares"]
+    assert sum(shares[name] for name in ("belt", "ice", "air", "melting")) == pytest.approx(1.0)
+    rise = found["temperatures"]["interface"]
+    assert 0.0 < rise["end_rise"] <= rise["max_rise"] < 1.0
+    assert rise["end_degC"] == pytest.approx(-8.0 + rise["end_rise"])
+
+
+@pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
+def test_every_number_has_a_unit(make):
+    found = summary(make())
+
+    def paths(node, path=""):
+        for key, value in node.items():
+            if isinstance(value, dict):
+                yield from paths(value, f"{path}{key}.")
+            elif not isinstance(value, str):
+                yield path + key
+
+    tree = {k: v for k, v in found.items() if k not in ("units", "versions", "parameters")}
+    assert set(paths(tree)) == set(found["units"])
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2])
+@pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
+def test_few_rows_and_missing_numbers_give_null_and_never_nan(make, rows):
+    dataset = make().isel(time=slice(0, rows))
+    dataset["x"] = dataset["x"] * np.nan
+    found = summary(dataset)
+    json.dumps(found, allow_nan=False)
+    assert found["rows"] == rows
+    if rows:
+        assert found["whole_run"]["max_x"] is None
