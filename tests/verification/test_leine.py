@@ -81,9 +81,9 @@ def test_disc_alternates_and_continues():
 def test_disc_energy():
     """Work of the friction on mass and rotation = what their energy gains, segment by segment."""
     for segment in DISC.simulate(20.0)[:6]:
+        side = np.sign(np.median(DISC.belt_speed - segment.state[1] - segment.state[3]))
         force = np.array([
-            DISC.sticking_force(s) if segment.mode == STICK
-            else DISC.sliding_force(s, np.sign(DISC.belt_speed - s[1] - s[3]))
+            DISC.sticking_force(s) if segment.mode == STICK else DISC.sliding_force(s, side)
             for s in segment.state.T
         ])
         power = force * (segment.state[1] + segment.state[3])

@@ -182,7 +182,7 @@ def _block(rig, faults, memory, t, until, to_the_end):
         step(prop, STEP, memory.q, memory.v, a0, a1, q1, v1)
         if not to_the_end and v1[0] >= rig.speed:
             share = _reach(rig, memory, w, a0, a1)
-            memory.load += share * (load1 - memory.load)
+            memory.load[:] = memory.load + share * (load1 - memory.load)
             t += share * STEP
             _record(memory, t, SLIP)
             return t, True
