@@ -17,7 +17,7 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
 from .phases import run_up_time, slip_intervals
-from .zoom import last_cycles
+from .zoom import Zoom, zoom_of
 
 Array = NDArray[np.float64]
 
@@ -137,6 +137,8 @@ def shade_slip(axes: Axes, intervals: Array) -> None:
         edgecolor="none",
         transform=axes.get_xaxis_transform(),
         zorder=0.1,
+        # phases narrower than a pixel then tint it by their share instead of all or nothing
+        snap=False,
     )
     axes.add_collection(bars, autolim=False)
 
@@ -149,11 +151,11 @@ def slip_patch() -> Patch:
 def time_panels(
     dataset: xr.Dataset, rows: int, height: float = 2.0, share_y: bool = True
 ) -> tuple[Figure, NDArray[np.object_]]:
-    """Panels (rows, columns) over time: the whole run and, if there are any, its last cycles.
+    """Panels (rows, columns) over time: the whole run and, if it is long, a part enlarged.
 
     Slip is shaded, the end of the run-up dotted. height: of a row, inches.
     """
-    zoom = last_cycles(dataset)
+    zoom = zoom_of(dataset)
     figure = Figure(figsize=(11.0, 0.9 + height * rows), layout="constrained")
     columns = 1 if zoom is None else 2
     axes = figure.subplots(
@@ -168,9 +170,7 @@ def time_panels(
     return figure, axes
 
 
-def _limits(
-    dataset: xr.Dataset, axes: NDArray[np.object_], zoom: tuple[float, float] | None
-) -> None:
+def _limits(dataset: xr.Dataset, axes: NDArray[np.object_], zoom: Zoom | None) -> None:
     time = dataset["time"].values
     begin, end = (time[0], time[-1]) if time.size else (0.0, 0.0)
     margin = 0.0 if end > begin else 0.5
@@ -188,5 +188,5 @@ def _limits(
         )
     if zoom is not None:
         for panel in axes[:, 1]:
-            panel.set_xlim(*zoom)
-        axes[0, 1].set_title("the last cycles")
+            panel.set_xlim(zoom.begin, zoom.end)
+        axes[0, 1].set_title(zoom.title)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
 import xarray as xr
 
+from .blocks import mechanics_of
 from .phases import break_aways
 
 MOST_CYCLES = 4
@@ -11,20 +15,45 @@ MOST_CYCLES = 4
 LARGEST_PART = 0.3
 # of a cycle, so that the first break-away does not stand on the frame
 MARGIN = 0.15
+# cycles shown behind the last break-away, where the run goes on without any
+AFTERWARDS = 2.0
 
 
-def last_cycles(dataset: xr.Dataset) -> tuple[float, float] | None:
-    """Begin and end (s) of the last stick-slip cycles; None where a zoom is of no use.
+class Zoom(NamedTuple):
+    """A part of the run, s, and what it is."""
 
-    As many cycles, up to `MOST_CYCLES`, as fit into `LARGEST_PART` of the run.
-    """
+    begin: float
+    end: float
+    title: str
+
+
+def zoom_of(dataset: xr.Dataset) -> Zoom | None:
+    """The last stick-slip cycles, else the last vibrations; None where a zoom is of no use."""
+    return _last_cycles(dataset) or _last_vibrations(dataset)
+
+
+def _last_cycles(dataset: xr.Dataset) -> Zoom | None:
+    """As many cycles, up to `MOST_CYCLES`, as fit into `LARGEST_PART` of the run."""
     starts = break_aways(dataset)
     if starts.size < MOST_CYCLES + 1:
         return None
-    begin, end = float(dataset["time"][0]), float(dataset["time"][-1])
+    time = dataset["time"].values
     for cycles in range(MOST_CYCLES, 0, -1):
-        first = starts[-cycles - 1]
-        first -= MARGIN * (starts[-1] - first) / cycles
-        if end - first <= LARGEST_PART * (end - begin):
-            return max(float(first), begin), end
+        period = (starts[-1] - starts[-cycles - 1]) / cycles
+        begin = max(starts[-cycles - 1] - MARGIN * period, time[0])
+        end = min(starts[-1] + AFTERWARDS * period, time[-1])
+        if 0.0 < end - begin <= LARGEST_PART * (time[-1] - time[0]):
+            return Zoom(float(begin), float(end), "the last stick-slip cycles")
     return None
+
+
+def _last_vibrations(dataset: xr.Dataset) -> Zoom | None:
+    """Some periods of the free vibration at the end, in a run too long to show single ones."""
+    time = dataset["time"].values
+    frequency = mechanics_of(dataset).natural_frequency
+    if time.size == 0 or frequency == 0.0:
+        return None
+    length = 2.0 * MOST_CYCLES / frequency
+    if length > 0.5 * LARGEST_PART * (time[-1] - time[0]) or np.sum(time > time[-1] - length) < 3:
+        return None
+    return Zoom(float(time[-1] - length), float(time[-1]), "the end of the run")

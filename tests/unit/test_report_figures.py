@@ -5,6 +5,7 @@ import io
 import matplotlib
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.text import Text
 from test_report_dataset import coupled_dataset, mechanics_dataset, scenario
 
@@ -12,7 +13,7 @@ from cosim.report.figures import PLATES, plates_of
 from cosim.report.figures.geometry import Pose, anchors, attachments
 from cosim.report.figures.top_view import extreme_poses
 from cosim.report.style import readable
-from cosim.report.zoom import last_cycles
+from cosim.report.zoom import zoom_of
 
 # the strip that shows only where the contact is has no quantity upwards
 WITHOUT_QUANTITY = {"contact"}
@@ -103,11 +104,25 @@ def test_house_style_whatever_the_users_settings():
 
 def test_zoom_holds_whole_cycles_of_the_end():
     dataset = mechanics_dataset()
-    begin, end = last_cycles(dataset)
+    zoom = zoom_of(dataset)
     starts = dataset["event_time"].values[dataset["event_mode"].values == 1]
-    assert end == float(dataset["time"][-1])
-    assert 2 <= np.count_nonzero(starts > begin) <= 5
-    assert end - begin <= 0.3 * end
+    assert zoom.end == float(dataset["time"][-1]) and "stick-slip" in zoom.title
+    assert 2 <= np.count_nonzero(starts > zoom.begin) <= 5
+    assert zoom.end - zoom.begin <= 0.3 * zoom.end
+
+
+def test_zoom_finds_cycles_that_ended_long_ago_and_vibrations_without_any():
+    dataset = mechanics_dataset()
+    rest = dataset.isel(time=[-1] * 1000).assign_coords(time=6.0 + 0.1 * np.arange(1, 1001))
+    rest["time"].attrs = dataset["time"].attrs
+    longer = xr.concat(
+        [dataset.drop_dims("event_time"), rest.drop_dims("event_time")], "time",
+        combine_attrs="override")
+    zoom = zoom_of(longer)
+    assert zoom.end < 10.0 and "stick-slip" in zoom.title
+    still = longer.assign(slip_count=0 * longer["slip_count"])
+    assert zoom_of(still).end == float(longer["time"][-1])
+    assert zoom_of(still.isel(time=slice(0, 1))) is None
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..blocks import mechanics_of
 from ..phases import run_up_time
 from ..style import BLUE, GREY, INK, RED, Scaled, line, plain_ticks, readable, styled, title
-from ..zoom import last_cycles
+from ..zoom import zoom_of
 from .motion import SMALLEST_ANGLE_DEG
 
 DEGREES = Scaled(180.0 / np.pi, "°")
@@ -49,24 +49,23 @@ def _path(
     upwards: tuple[str, Scaled],
 ) -> None:
     plain_ticks(axes)
-    time = dataset["time"].values
-    for text, chosen, colour, width in _parts(dataset, time):
+    values = [scaled(dataset[name].values) for name, scaled in (across, upwards)]
+    for text, chosen, colour, width in _parts(dataset):
         if chosen.any():
-            part = dataset.isel(time=chosen)
-            line(
-                axes, across[1](part[across[0]].values), upwards[1](part[upwards[0]].values),
-                color=colour, linewidth=width, label=text,
-            )
+            # left out rather than dropped: the line must not jump across what another part shows
+            x, y = (np.where(chosen, v, np.nan) if chosen.size > 1 else v for v in values)
+            line(axes, x, y, color=colour, linewidth=width, label=text)
 
 
-def _parts(
-    dataset: xr.Dataset, time: NDArray[np.float64]
-) -> list[tuple[str, NDArray[np.bool_], str, float]]:
-    run_up = run_up_time(dataset)
-    zoom = last_cycles(dataset)
-    last = zoom[0] if zoom else np.inf
+def _parts(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_], str, float]]:
+    """Name, rows (n,), colour and width of the parts of a run."""
+    time = dataset["time"].values
+    run_up, zoom = run_up_time(dataset), zoom_of(dataset)
+    rising = time <= run_up if run_up else np.zeros(time.size, bool)
+    late = (time >= zoom.begin) & (time <= zoom.end) if zoom else np.zeros(time.size, bool)
+    rest = "after the run-up" if run_up else "run"
     return [
-        ("run-up", time <= run_up if run_up else time < 0.0, GREY, 0.7),
-        ("after the run-up" if run_up else "run", (time >= run_up) & (time <= last), BLUE, 0.9),
-        ("last cycles", time >= last, RED, 1.3),
+        ("run-up", rising & ~late, GREY, 0.7),
+        (rest, ~rising & ~late, BLUE, 0.9),
+        (zoom.title if zoom else "", late, RED, 1.3),
     ]
