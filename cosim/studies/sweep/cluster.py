@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
@@ -12,6 +13,18 @@ from .errors import SweepError, SweepStopped, WorkersLost
 
 #: A scheduler that does not answer in this time (s) is not there; a far one needs a few.
 CONNECT_SECONDS = 10.0
+
+
+@contextmanager
+def _connected() -> Iterator[None]:
+    """SweepStopped for what breaks when the scheduler is gone."""
+    from distributed import CancelledError
+
+    try:
+        yield
+    except (OSError, CancelledError) as error:
+        said = " ".join(str(error).split())
+        raise SweepStopped(f"the connection to the Dask scheduler broke: {said}") from error
 
 
 class DaskWorkers:
@@ -40,7 +53,8 @@ class DaskWorkers:
     @property
     def count(self) -> int:
         """Threads that compute; at least one, for a cluster whose workers are yet to come."""
-        return max(sum(self._client.nthreads().values()), 1)
+        with _connected():
+            return max(sum(self._client.nthreads().values()), 1)
 
     def __enter__(self) -> Self:
         return self
@@ -54,22 +68,29 @@ class DaskWorkers:
         self._client.close()
 
     def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Iterator[list[Row]]:
-        """The rows of each chunk as it is finished; WorkersLost when Dask gave chunks up."""
+        """The rows of each chunk as it is finished; WorkersLost when Dask gave chunks up.
+
+        SweepStopped when the scheduler is gone. Without workers it waits for new ones.
+        """
+        with _connected():
+            yield from self._results(work, chunks)
+
+    def _results(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Iterator[list[Row]]:
         from distributed import KilledWorker, as_completed
 
-        common = self._client.scatter(work, broadcast=True, hash=False)
-        # a name for each call: a sweep started again must not be given cancelled ones
-        futures = self._client.map(compute_chunk, [common] * len(chunks), chunks, pure=False)
+        # the work travels with every chunk: data scattered to workers would die with them.
+        # not pure: work that is started again must not be given the futures of before
+        futures = self._client.map(compute_chunk, [work] * len(chunks), chunks, pure=False)
         lost = ""
         try:
-            for future in as_completed(futures):
+            for future in as_completed(futures, loop=self._client.loop):
                 if future.status == "finished":
                     yield future.result()
                     future.release()
+                elif future.status != "error":  # cancelled or lost
+                    lost = "the scheduler dropped work"
                 elif isinstance(error := future.exception(), (KilledWorker, OSError)):
                     lost = " ".join(str(error).split())
-                elif future.status == "cancelled":
-                    lost = "the scheduler dropped work"
                 else:
                     raise SweepStopped(f"a worker failed: {error}") from error
         finally:

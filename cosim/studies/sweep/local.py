@@ -13,6 +13,9 @@ from .chunk import Task, Work, compute_chunk
 from .combination import Row
 from .errors import SweepError, WorkersLost
 
+#: After this time (s) without work a process ends; also one whose parent was killed.
+IDLE_SECONDS = 20
+
 
 class LocalWorkers:
     """``jobs`` processes with one thread each; 1 is this process itself."""
@@ -39,7 +42,9 @@ class LocalWorkers:
             for chunk in chunks:
                 yield compute_chunk(work, chunk)
             return
-        with joblib.parallel_config("loky", n_jobs=self.count, inner_max_num_threads=1):
+        with joblib.parallel_config(
+            "loky", n_jobs=self.count, inner_max_num_threads=1, idle_worker_timeout=IDLE_SECONDS
+        ):
             parallel = joblib.Parallel(
                 return_as="generator_unordered", batch_size=1, pre_dispatch="2 * n_jobs"
             )

@@ -147,8 +147,7 @@ class _Sweeper:
                 lost = error
         raise SweepStopped(
             f"workers died {ATTEMPTS} times ({lost}); {len(self.missing())} of "
-            f"{len(self.tasks)} combinations are missing, the rest is kept: start the sweep again "
-            "with fewer jobs"
+            f"{len(self.tasks)} combinations are missing: try fewer jobs"
         ) from lost
 
     def _first(self) -> float:
