@@ -39,7 +39,16 @@ UNITS = {
 STARTS = {
     name: (f"initial.{name}",) for name in ("x", "y", "phi", "vx", "vy", "omega")
 } | dict.fromkeys(
-    ("heat", "heat_flow", "sliding_distance", "surface_travel", "slip_count", "energy_residual"), ()
+    (
+        "heat",
+        "heat_flow",
+        "damping_heat",
+        "sliding_distance",
+        "surface_travel",
+        "slip_count",
+        "energy_residual",
+    ),
+    (),
 )
 
 

@@ -51,5 +51,6 @@ OUTPUTS = (
     Port("mode", "O_MODE", None, None, "0 stick, 1 slip", min=0, max=1),
     Port("slip_count", "O_SLIPS", None, None, "Break-aways since the start", min=0),
     Port("energy_residual", "O_ENERGY_RESIDUAL", "J", 1.0, "Energy gained less energy supplied"),
+    Port("damping_heat", "O_DAMPED", "J", 1.0, "Heat in structural damping", min=0.0),
     Port("surface_speed_actual", "O_SURFACE_SPEED", "m/s", 0.1, "Speed of the surface, run-up in"),
 )

@@ -29,6 +29,7 @@ OUTPUTS = (
     ("energy_residual", "J", "energy gained less energy supplied: the integrator's error"),
     ("surface_travel", "m", "way of the surface since the start"),
     ("surface_speed", "m/s", "speed of the surface where the block rests"),
+    ("damping_heat", "J", "heat in the structural damping since the start"),
 )
 NAMES = tuple(name for name, _, _ in OUTPUTS)
 assert len(NAMES) == O_SIZE

@@ -26,6 +26,7 @@ from .layout import (
     P_RADIUS,
     P_RATE,
     P_RUN_UP,
+    P_SENSITIVITY,
     P_SHORTEST,
     SHOWN,
     SLIP,
@@ -35,6 +36,7 @@ from .layout import (
     STICK,
     TIME,
     U_SIZE,
+    U_TEMPERATURE,
     W_SLIDING,
     Z_ENERGY,
     Z_HAS_NEXT,
@@ -176,12 +178,15 @@ def internal_step(
 
 
 def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]") -> int:
-    """Start afresh from SHOWN where inputs have changed; 1 if they changed in mid-run."""
+    """Start afresh from SHOWN where inputs that matter have changed; 1 if so in mid-run.
+
+    A temperature that friction does not feel is no change.
+    """
     changed = 0
     for i in range(U_SIZE):
-        if z[Z_INPUTS + i] != u[i]:
+        if z[Z_INPUTS + i] != u[i] and (i != U_TEMPERATURE or p[P_SENSITIVITY] != 0.0):
             changed = 1
-            z[Z_INPUTS + i] = u[i]
+        z[Z_INPUTS + i] = u[i]
     if z[Z_STARTED] == 0.0:
         z[Z_STARTED] = 1.0
         settle(p, u, z, w, e, SHOWN)

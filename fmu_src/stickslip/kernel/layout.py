@@ -174,7 +174,8 @@ O_SLIPS = 14
 O_ENERGY_RESIDUAL = 15
 O_TRAVEL = 16
 O_SURFACE_SPEED = 17
-O_SIZE = 18
+O_DAMPED = 18
+O_SIZE = 19
 
 # --- what `advance` returns ---------------------------------------------------------------------
 DONE = 0

@@ -5,6 +5,7 @@ from .layout import (
     DISTANCE,
     HEAT,
     MODE,
+    O_DAMPED,
     O_DISTANCE,
     O_ENERGY_RESIDUAL,
     O_FRICTION_X,
@@ -67,4 +68,5 @@ def show(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", o: "float[:
     o[at + O_SLIPS] = z[SHOWN + SLIPS]
     o[at + O_ENERGY_RESIDUAL] = energy_residual(p, z)
     o[at + O_TRAVEL] = z[SHOWN + TRAVEL]
+    o[at + O_DAMPED] = z[SHOWN + DAMPED]
     o[at + O_SURFACE_SPEED] = surface_speed(p, u, w, z[SHOWN + TIME])
