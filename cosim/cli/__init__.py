@@ -9,11 +9,9 @@ from __future__ import annotations
 
 import os
 import sys
-import traceback
 from collections.abc import Sequence
 from importlib import import_module
 
-from cosim.cli.arguments import parser
 from cosim.cli.errors import BadInput, warnings_in_one_line
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
@@ -21,27 +19,28 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line (sys.argv when left out); the exit status."""
-    arguments = parser().parse_args(argv)
+    debug = "--debug" in (sys.argv[1:] if argv is None else argv)
     try:
+        arguments = import_module("cosim.cli.arguments").parser().parse_args(argv)
         with warnings_in_one_line():
             status = import_module(f"cosim.cli.{arguments.command}").main(arguments)
         sys.stdout.flush()
         return status
     except BadInput as error:
-        return _give_up(error, BAD_INPUT, arguments.debug)
+        return _give_up(error, BAD_INPUT, debug)
     except KeyboardInterrupt as error:
-        return _give_up(error, FAILED, arguments.debug, "interrupted before there was a result")
+        return _give_up(error, FAILED, debug, "interrupted before there was a result")
     except BrokenPipeError:
         # whoever read our output has gone; Python would complain again while it shuts down
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return FAILED
     except Exception as error:
         said = " ".join(str(error).split()) or type(error).__name__
-        return _give_up(error, FAILED, arguments.debug, f"{said} (--debug shows where)")
+        return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
 
 
 def _give_up(error: BaseException, status: int, debug: bool, message: str = "") -> int:
     if debug:
-        traceback.print_exception(error)
+        import_module("traceback").print_exception(error)
     print(f"error: {message or error}", file=sys.stderr)
     return status

@@ -11,30 +11,50 @@ from typing import Any
 
 import xarray as xr
 
+from cosim.cli.patience import Patience
 from cosim.cli.progress import progress_over_files
-from cosim.master.interrupt import deferred_interrupt
 from cosim.report import summary, write_results
 
 COMPLETE = "complete"
+#: Written after all other data and before the figures.
+LAST_OF_DATA = "summary.json"
 
 
 def finish(
-    dataset: xr.Dataset, folder: Path, began: float, files: Mapping[str, str] | None = None
+    dataset: xr.Dataset,
+    folder: Path,
+    began: float,
+    patience: Patience,
+    files: Mapping[str, str] | None = None,
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
-    began: of the command, on time.perf_counter, s. files: further ones to list on the page.
-    A Ctrl-C waits until everything is written; a second one does not.
+    began: of the command, on time.perf_counter, s. patience: released when the data are on
+    disk; a Ctrl-C then ends the drawing. files: further ones to list on the page.
     """
-    command = shlex.join(["stickslip", *sys.argv[1:]])
-    with deferred_interrupt(), progress_over_files() as progress:
-        write_results(dataset, folder, command=command, files=dict(files or {}), progress=progress)
+    try:
+        _write(dataset, folder, patience, files or {})
+    except KeyboardInterrupt:
+        print(f"error: interrupted while drawing; the data are in {folder}", file=sys.stderr)
+        return 1
     numbers = summary(dataset)
     if numbers["status"] != COMPLETE:
         print(f"error: {numbers['reason']}; what was computed is in {folder}", file=sys.stderr)
         return 1
     print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
     return 0
+
+
+def _write(dataset: xr.Dataset, folder: Path, patience: Patience, files: Mapping[str, str]) -> None:
+    command = shlex.join(["stickslip", *sys.argv[1:]])
+    with progress_over_files() as show:
+
+        def written(name: str) -> None:
+            show(name)
+            if name == LAST_OF_DATA:
+                patience.release()
+
+        write_results(dataset, folder, command=command, files=files, progress=written)
 
 
 def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import time
 from argparse import Namespace
+from pathlib import Path
 
 from cosim.cli.errors import BadInput, refusing
 from cosim.cli.files import results_folder, scenario_to_run, writable_folder
 from cosim.cli.finish import finish
+from cosim.cli.patience import patient_interrupts
 from cosim.cli.progress import progress_over
 from cosim.coupled import CoupledRun, run_scenario
 from cosim.master import CouplingError, FmuError, ParticipantError
@@ -25,14 +27,25 @@ def main(arguments: Namespace) -> int:
     scenario = scenario_to_run(arguments.scenario, coupled=True)
     folder = results_folder(arguments.output, scenario)
     fields = writable_folder(folder / FIELDS, ())
-    with progress_over(scenario.run.duration) as progress:
-        done = _coupled(scenario, fmu=arguments.fmu, fields=fields, progress=progress)
-    dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
-    files = {}
-    if done.snapshots.file is not None:
-        name = done.snapshots.file.relative_to(folder).as_posix()
-        files[name] = "temperature fields of belt and ice; opens in ParaView"
-    return finish(dataset, folder, began, files)
+    with patient_interrupts() as patience:
+        with progress_over(scenario.run.duration) as show:
+
+            def progress(reached: float) -> None:
+                patience.hold()
+                show(reached)
+
+            done = _coupled(scenario, fmu=arguments.fmu, fields=fields, progress=progress)
+        patience.hold()
+        dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
+        return finish(dataset, folder, began, patience, _field_files(done, folder))
+
+
+def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
+    """The temperature fields as the page lists them."""
+    if done.snapshots.file is None:
+        return {}
+    name = done.snapshots.file.relative_to(folder).as_posix()
+    return {name: "temperature fields of belt and ice; opens in ParaView"}
 
 
 def _coupled(scenario: Scenario, **arguments) -> CoupledRun:

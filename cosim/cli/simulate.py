@@ -9,8 +9,8 @@ from stickslip import Trajectory, simulate
 
 from cosim.cli.files import results_folder, scenario_to_run
 from cosim.cli.finish import finish
+from cosim.cli.patience import Patience, patient_interrupts
 from cosim.cli.progress import progress_over
-from cosim.master.interrupt import deferred_interrupt
 from cosim.report import trajectory_dataset
 from cosim.scenario import Scenario
 
@@ -20,32 +20,35 @@ def main(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario = scenario_to_run(arguments.scenario, coupled=False)
     folder = results_folder(arguments.output, scenario)
-    start = time.perf_counter()
-    trajectory = _simulated(scenario)
-    stepped = time.perf_counter() - start
-    dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
-    return finish(dataset, folder, began)
+    with patient_interrupts() as patience:
+        start = time.perf_counter()
+        trajectory = _simulated(scenario, patience)
+        stepped = time.perf_counter() - start
+        dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
+        return finish(dataset, folder, began, patience)
 
 
-def _simulated(scenario: Scenario) -> Trajectory:
+def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     """The trajectory, up to where a Ctrl-C stopped it.
 
-    The first Ctrl-C is looked at between two blocks of rows only, so that rows and events of a
-    block are both kept or both not there.
+    Ctrl-C is looked at between two blocks of rows only, so that rows and events of a block are
+    both kept or both not there.
     """
     run = scenario.run
-    with progress_over(run.duration) as progress, deferred_interrupt() as interrupt:
+    with progress_over(run.duration) as show:
 
-        def look(reached: float) -> None:
-            progress(reached)
-            if interrupt.requested:
+        def progress(reached: float) -> None:
+            patience.hold()
+            show(reached)
+            if patience.requested:
+                patience.requested = False  # served
                 raise KeyboardInterrupt
 
         try:
-            return simulate(scenario.mechanics, run.duration, run.output_interval, progress=look)
+            return simulate(
+                scenario.mechanics, run.duration, run.output_interval, progress=progress
+            )
         except KeyboardInterrupt as stop:
-            # none yet when it came while the kernel was being compiled
-            trajectory = getattr(stop, "trajectory", None)
-            if trajectory is None:
+            if not patience.holding:
                 raise
-            return trajectory
+            return stop.trajectory

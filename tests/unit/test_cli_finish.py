@@ -1,8 +1,12 @@
-"""The last lines of a run."""
+"""The end of a run: Ctrl-C that loses nothing, and the last lines."""
 
+import signal
 from pathlib import Path
 
+import pytest
+
 from cosim.cli.finish import closing_lines
+from cosim.cli.patience import patient_interrupts
 
 MECHANICS = {
     "name": "case",
@@ -43,3 +47,21 @@ def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency()
     short = MECHANICS | {"after_run_up": {"frequency": None, "slip_share": None}}
     lines = closing_lines(short, Path("out"), 6.0)
     assert len(lines) == 4 and "not known" in lines[1]
+
+
+def test_ctrl_c_works_at_once_while_there_is_nothing_to_lose():
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt), patient_interrupts():
+        signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_ctrl_c_waits_until_the_results_are_saved():
+    with patient_interrupts() as patience:
+        patience.hold()
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            patience.release()
+        with pytest.raises(KeyboardInterrupt):  # the figures can be had again
+            signal.raise_signal(signal.SIGINT)
