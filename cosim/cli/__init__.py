@@ -21,7 +21,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line (sys.argv when left out); the exit status."""
     debug = "--debug" in (sys.argv[1:] if argv is None else argv)
     try:
-        arguments = import_module("cosim.cli.arguments").parser().parse_args(argv)
+        from cosim.cli.arguments import parser
+
+        arguments = parser().parse_args(argv)
         with warnings_in_one_line():
             status = import_module(f"cosim.cli.{arguments.command}").main(arguments)
         sys.stdout.flush()
@@ -41,6 +43,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _give_up(error: BaseException, status: int, debug: bool, message: str = "") -> int:
     if debug:
-        import_module("traceback").print_exception(error)
+        import traceback
+
+        traceback.print_exception(error)
     print(f"error: {message or error}", file=sys.stderr)
     return status
