@@ -8,7 +8,7 @@ from importlib.metadata import version
 from typing import NoReturn
 
 SCENARIO_HELP = (
-    "TOML file, or the name of a packaged scenario: reference (default), slab, warm_friction"
+    "TOML file, or the name of a packaged scenario such as reference (default), slab, warm_friction"
 )
 OUTPUT_HELP = "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)"
 

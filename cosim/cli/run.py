@@ -17,7 +17,7 @@ from cosim.report import run_dataset
 from cosim.scenario import Scenario
 
 FIELDS = "fields"
-#: What the models' own code calls a step, a port, a file it refuses: not the user's run failing.
+#: Input that does not fit, as opposed to a run that fails.
 REFUSED = (CouplingError, FmuError)
 
 
