@@ -1,0 +1,40 @@
+"""Interpreted and compiled kernel: the same internal step, to 1e-12, for every effect.
+
+How: both take each internal step from the same memory ``z``, so that nothing accumulates, and the
+end of the step is compared number by number. The interpreted step is then the next start. A number
+counts relative to itself or to what it comes to in a run, whichever is larger.
+"""
+
+import random
+
+import numpy as np
+import pytest
+from effect_cases import IDS, draw_parameters
+from kernel_steps import largest_step_difference, memory_of
+from stickslip.compiled import compiled_kernel
+
+SETS, STEPS = 10, 60
+
+
+@pytest.mark.parametrize("effect", IDS)
+def test_interpreted_and_compiled_take_the_same_step(effect):
+    draw = random.Random(f"kernels {effect}")
+    for _ in range(SETS):
+        memory = memory_of(draw_parameters((effect,), draw), temperature=draw.uniform(-20.0, 2.0))
+        assert largest_step_difference(compiled_kernel(), memory, STEPS) < 1e-12
+
+
+def test_all_effects_at_once():
+    draw = random.Random("all")
+    for _ in range(SETS):
+        memory = memory_of(draw_parameters(IDS, draw), temperature=draw.uniform(-20.0, 2.0))
+        assert largest_step_difference(compiled_kernel(), memory, STEPS) < 1e-12
+
+
+def test_the_comparison_sees_a_difference():
+    """A parameter that is off by 1e-9 for one of the two shows."""
+    memory = memory_of(draw_parameters((), random.Random(1)))
+    other = memory_of(draw_parameters((), random.Random(1)))
+    other.p = [value * (1.0 + 1e-9) for value in memory.p]
+    found = largest_step_difference(compiled_kernel(), memory, STEPS, other_p=np.array(other.p))
+    assert found > 1e-11

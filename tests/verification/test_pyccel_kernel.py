@@ -1,0 +1,57 @@
+"""The kernel as C, made by pyccel: the same internal step as interpreted, to 1e-12.
+
+Skipped where pyccel (the extra `native`) or a C compiler is missing. The comparison is that of
+`test_effect_kernels`: step for step from the same memory.
+"""
+
+import importlib.util
+import random
+import shutil
+import subprocess
+import sys
+
+import pytest
+from effect_cases import IDS, draw_parameters
+from kernel_steps import largest_step_difference, memory_of
+from stickslip.compiled import kernel_source
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("pyccel") is None
+    or not any(shutil.which(name) for name in ("gcc", "cc", "clang")),
+    reason="no pyccel (pip install 'stickslip[native]') or no C compiler",
+)
+SETS, STEPS = 10, 60
+NAME = "kernel_in_c"
+
+
+@pytest.fixture(scope="module")
+def translated(tmp_path_factory):
+    """The flattened kernel, translated to C, compiled, imported."""
+    folder = tmp_path_factory.mktemp("pyccel")
+    (folder / f"{NAME}.py").write_text(kernel_source(), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "pyccel", "compile", f"{NAME}.py", "--language", "c"],
+        cwd=folder, capture_output=True, text=True,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (folder / "__pyccel__" / f"{NAME}.c").exists()
+    (library,) = folder.glob(f"{NAME}.*.so")
+    spec = importlib.util.spec_from_file_location(NAME, library)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("effect", IDS)
+def test_interpreted_and_translated_take_the_same_step(translated, effect):
+    draw = random.Random(f"kernels {effect}")
+    for _ in range(SETS):
+        memory = memory_of(draw_parameters((effect,), draw), temperature=draw.uniform(-20.0, 2.0))
+        assert largest_step_difference(translated, memory, STEPS) < 1e-12
+
+
+def test_all_effects_at_once(translated):
+    draw = random.Random("all")
+    for _ in range(SETS):
+        memory = memory_of(draw_parameters(IDS, draw), temperature=draw.uniform(-20.0, 2.0))
+        assert largest_step_difference(translated, memory, STEPS) < 1e-12
