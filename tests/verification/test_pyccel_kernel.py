@@ -22,6 +22,8 @@ pytestmark = pytest.mark.skipif(
 )
 SETS, STEPS = 10, 60
 NAME = "kernel_in_c"
+# the command `pyccel` of this very interpreter, wherever its script may be
+PYCCEL = "from pyccel.commands.console import pyccel_command; pyccel_command()"
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +32,7 @@ def translated(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pyccel")
     (folder / f"{NAME}.py").write_text(kernel_source(), encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "-m", "pyccel", "compile", f"{NAME}.py", "--language", "c"],
+        [sys.executable, "-c", PYCCEL, "compile", f"{NAME}.py", "--language", "c"],
         cwd=folder, capture_output=True, text=True,
     )
     assert done.returncode == 0, done.stdout + done.stderr

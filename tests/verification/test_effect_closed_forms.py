@@ -1,0 +1,188 @@
+"""Effects where a closed form, an equation in one unknown or a published figure says the answer."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
+from scipy.special import ellipj
+from stickslip import Parameters, simulate
+
+GRAVITY = 9.81
+# along x alone, springs so long that none is ever carried into its anchor
+UNIT = {
+    "rig": {
+        "mass": 1.0, "spring_length": 10.0, "spring_natural_length": 10.0,
+        "degrees_of_freedom": ("x",),
+    },
+    "springs": {"stiffness": 0.25},
+    "friction": {"mu_s": 1.0 / GRAVITY, "mu_k": 1.0 / GRAVITY},
+    "surface": {"speed": 0.2},
+    "initial": {"vx": 0.2},
+    "solver": {"tolerance": 1e-13},
+}
+FREE = {"friction": {"mu_s": 0.0, "mu_k": 0.0}}
+
+
+def unit(**blocks) -> Parameters:
+    """m = K = 1, F_s = F_k = 1 N, v = 0.2 m/s, from rest on the belt."""
+    return Parameters(**(UNIT | blocks))
+
+
+# Leine et al. (1998), |F| = F_s / (1 + 3 |v_rel|): computed independently to 1e-13
+LEINE = {"period": 12.0010312948, "slip": 4.2959995255, "from": 1.0, "to": -0.5410063539}
+# known to eight decimals
+LEINE_EXTREMES = {"x_max": 1.13394468, "x_min": -0.55543269, "v_min": -0.83990205}
+
+
+@pytest.fixture(scope="module")
+def leine():
+    return simulate(unit(velocity_weakening={"hyperbolic": 3.0}), 40.0, 1e-3)
+
+
+def test_leine_cycle(leine):
+    begins = leine.events[leine.events[:, 1] == 1]
+    ends = leine.events[leine.events[:, 1] == 0]
+    assert len(begins) == 3 and len(ends) == 3
+    np.testing.assert_allclose(np.diff(begins[:, 0]), LEINE["period"], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(ends[:, 0] - begins[:, 0], LEINE["slip"], rtol=0, atol=1e-9)
+    stick = begins[1:, 0] - ends[:-1, 0]
+    np.testing.assert_allclose(stick, LEINE["period"] - LEINE["slip"], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(begins[:, 2], LEINE["from"], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(ends[:, 2], LEINE["to"], rtol=0, atol=1e-9)
+
+
+def test_leine_extremes(leine):
+    """Between samples by cubics through value and slope: their error at 1 ms is below 1e-13."""
+    inside = (leine.time > leine.events[0, 0] + 1e-3) & (leine.time < leine.events[1, 0] - 1e-3)
+    t, x, v = leine.time[inside], leine["x"][inside], leine["vx"][inside]
+    force = leine["friction_force_x"][inside] - x
+    way, speed = CubicHermiteSpline(t, x, v), CubicHermiteSpline(t, v, force)
+    turns = way(way.derivative().roots(extrapolate=False))
+    slowest = speed(speed.derivative().roots(extrapolate=False))
+    found = {"x_max": turns.max(), "x_min": turns.min(), "v_min": slowest.min()}
+    assert found == pytest.approx(LEINE_EXTREMES, abs=5.1e-9)  # half the last digit known
+
+
+def test_strengthening_first_break_away():
+    """K v t = N (mu_s + beta log10(1 + t / t_0)) in the first stick, which begins at the start."""
+    beta, hold = 0.03, 0.02
+    run = simulate(unit(static_strengthening={"rate": beta, "hold_time": hold}), 10.0)
+
+    def balance(t):
+        return 0.2 * t - 1.0 - GRAVITY * beta * np.log10(1.0 + t / hold)
+
+    assert run.events[0, 0] == pytest.approx(brentq(balance, 1.0, 50.0, xtol=1e-13), abs=1e-11)
+
+
+def test_strengthening_counts_from_every_re_stick():
+    beta, hold = 0.03, 0.02
+    run = simulate(
+        unit(
+            static_strengthening={"rate": beta, "hold_time": hold},
+            friction={"mu_s": 1.0 / GRAVITY, "mu_k": 0.5 / GRAVITY},
+        ),
+        60.0,
+    )
+    ends = run.events[run.events[:, 1] == 0][:-1]
+    begins = run.events[run.events[:, 1] == 1][1:]
+    assert len(ends) >= 2
+    for (stop, _, x), (start, _, _) in zip(ends, begins, strict=False):
+        load = x + 0.2 * (start - stop)
+        limit = 1.0 + GRAVITY * beta * np.log10(1.0 + (start - stop) / hold)
+        assert load == pytest.approx(limit, abs=1e-10)
+
+
+def test_structural_damping_is_the_damped_oscillator():
+    c, start = 0.3, 0.5
+    run = simulate(
+        unit(structural_damping={"coefficient": c}, initial={"x": start}, **FREE), 20.0, 0.1
+    )
+    rate, decay = np.sqrt(1.0 - c * c / 4.0), c / 2.0
+    t = run.time
+    exact = start * np.exp(-decay * t) * (np.cos(rate * t) + decay / rate * np.sin(rate * t))
+    np.testing.assert_allclose(run["x"], exact, rtol=0, atol=1e-11)
+    stored = 0.5 * (run["x"] ** 2 + run["vx"] ** 2)
+    np.testing.assert_allclose(run["damping_heat"], 0.5 * start**2 - stored, rtol=0, atol=1e-11)
+
+
+def test_film_drag_is_the_oscillator_damped_against_the_belt():
+    """Rest position c v / K; heat c (v - x')^2, which the belt pays for."""
+    c, speed = 0.3, 0.2
+    run = simulate(unit(film_drag={"coefficient": c}, initial={}, **FREE), 20.0, 0.1)
+    rate, decay, t = np.sqrt(1.0 - c * c / 4.0), c / 2.0, run.time
+    swing = np.exp(-decay * t) * (np.cos(rate * t) + decay / rate * np.sin(rate * t))
+    np.testing.assert_allclose(run["x"], c * speed * (1.0 - swing), rtol=0, atol=1e-11)
+    late = simulate(unit(film_drag={"coefficient": c}, initial={}, **FREE), 300.0, 100.0)
+    assert late["heat_flow"][-1] == pytest.approx(c * speed**2, rel=1e-9)
+
+
+@pytest.mark.parametrize("block", ["structural_damping", "film_drag"])
+def test_a_spinning_block_comes_down_exponentially(block):
+    """No springs, no dry friction: J omega' = -c_r omega; the film's c_r is c a^2 / 2."""
+    radius, mass = 0.04, 0.67
+    size = {"rotational": 2e-4} if block == "structural_damping" else {"coefficient": 0.25}
+    run = simulate(
+        Parameters(
+            rig={"mass": mass, "contact_radius": radius}, springs={"stiffness": 0.0},
+            lateral_friction={"ratio": 1.0}, surface={"speed": 0.0},
+            initial={"omega": 3.0}, **FREE, **{block: size},
+        ),
+        5.0,
+    )
+    brake = size.get("rotational", 0.5 * size.get("coefficient", 0.0) * radius**2)
+    decay = brake / (0.5 * mass * radius**2)
+    np.testing.assert_allclose(run["omega"], 3.0 * np.exp(-decay * run.time), rtol=0, atol=1e-10)
+
+
+def test_hardening_is_the_duffing_oscillator():
+    """x = A cn(Omega t, n), Omega^2 = (K + K_3 A^2)/m, n = K_3 A^2 / (2 (K + K_3 A^2))."""
+    cubic, reach = 0.75, 0.8
+    run = simulate(
+        unit(spring_hardening={"cubic": cubic}, initial={"x": reach}, **FREE), 30.0, 0.1
+    )
+    hardening = 4.0 * cubic * reach**2
+    rate = np.sqrt(1.0 + hardening)
+    _, cn, _, _ = ellipj(rate * run.time, hardening / (2.0 * (1.0 + hardening)))
+    np.testing.assert_allclose(run["x"], reach * cn, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("exponent", [-0.5, 0.2, 1.0])
+@pytest.mark.parametrize("mass", [0.5, 2.0])
+def test_load_dependence_in_break_away_and_slip(exponent, mass):
+    """The block breaks away at mu_s N (N/N_0)^-n / K and slips under mu_k N (N/N_0)^-n."""
+    run = simulate(
+        unit(
+            rig=UNIT["rig"] | {"mass": mass},
+            friction={"mu_s": 0.1, "mu_k": 0.07},
+            load_dependence={"exponent": exponent, "reference_force": 8.0},
+        ),
+        30.0,
+    )
+    normal = mass * GRAVITY
+    factor = (normal / 8.0) ** -exponent
+    assert run.events[0, 2] == pytest.approx(0.1 * normal * factor, rel=1e-11)
+    slip = run["mode"] == 1
+    np.testing.assert_allclose(
+        np.abs(run["friction_force_x"][slip]), 0.07 * normal * factor, rtol=1e-12
+    )
+
+
+@pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0])
+def test_stick_by_a_part_of_the_springs_breaks_away_later(ratio):
+    """One spring counted of four: break-away at four times the displacement."""
+    run = simulate(unit(stick_stiffness={"ratio": ratio}), 30.0)
+    assert run.events[0, 2] == pytest.approx(1.0 / ratio, abs=1e-10)
+
+
+def test_run_in_follows_the_distance_slid():
+    run = simulate(
+        unit(
+            friction={"mu_s": 1.0 / GRAVITY, "mu_k": 0.5 / GRAVITY},
+            run_in={"change": 0.4, "distance": 3.0},
+        ),
+        60.0,
+    )
+    slip = run["mode"] == 1
+    worn = 1.0 + 0.4 * (1.0 - np.exp(-run["sliding_distance"][slip] / 3.0))
+    assert np.ptp(worn) > 0.2
+    np.testing.assert_allclose(np.abs(run["friction_force_x"][slip]), 0.5 * worn, rtol=1e-12)
