@@ -209,6 +209,33 @@ class TemperatureDependence(Block):
     )
 
 
+class RateAndState(Block):
+    """Friction follows the speed and the age of the contact (Dieterich's ageing law): slow belts.
+
+    mu_k + a ln(v / v*) + b ln(v* theta / D), theta' = 1 - v theta / D. The age also says what a
+    contact at rest holds; mu_s is then not used.
+    """
+
+    direct: float = quantity(0.0, "1", "a, direct effect of the speed", ge=0, typical=(0.005, 0.1))
+    evolution: float = quantity(0.0, "1", "b, effect of the age", ge=0, typical=(0.005, 0.15))
+    distance: float = quantity(
+        1e-5, "m", "D, way over which contacts are renewed", gt=0, typical=(1e-6, 1e-3)
+    )
+    reference_speed: float = quantity(
+        1e-4, "m/s", "v*, at which mu_k holds in steady sliding", gt=0, typical=(1e-5, 1e-2)
+    )
+    creep_speed: float = quantity(
+        1e-6,
+        "m/s",
+        "speed below which the contact counts as at rest",
+        ge=1e-9,
+        typical=(1e-7, 1e-5),
+    )
+    initial_age: float = quantity(
+        1.0, "s", "age of the contact at the start", gt=0, typical=(0.1, 100.0)
+    )
+
+
 class EffectBlocks(Block):
     """One block for each effect, all off."""
 
@@ -228,6 +255,7 @@ class EffectBlocks(Block):
     spring_misalignment: SpringMisalignment = SpringMisalignment()
     stick_stiffness: StickStiffness = StickStiffness()
     temperature_dependence: TemperatureDependence = TemperatureDependence()
+    rate_and_state: RateAndState = RateAndState()
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -261,7 +289,7 @@ class Effect:
     @property
     def sentence(self) -> str:
         """What it adds to the plain model."""
-        return self.block.__doc__
+        return self.block.__doc__.split("\n")[0]
 
 
 CATALOGUE = tuple(
@@ -351,6 +379,12 @@ CATALOGUE = tuple(
             ("ratio",),
             "contact",
             "a fault of the source study: one spring instead of four in stick",
+        ),
+        (
+            "rate_and_state",
+            ("evolution", "direct"),
+            "contact",
+            "Dieterich (1979); saline ice: Lishman et al. (2011)",
         ),
         (
             "temperature_dependence",

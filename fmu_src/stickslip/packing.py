@@ -67,6 +67,11 @@ SLOTS = {
     "surface_pattern.amplitude": "P_PATTERN",
     "surface_scatter.deviation": "P_SCATTER",
     "stick_stiffness.ratio": "P_STICK_RATIO",
+    "rate_and_state.direct": "P_DIRECT",
+    "rate_and_state.evolution": "P_EVOLUTION",
+    "rate_and_state.distance": "P_STATE_DISTANCE",
+    "rate_and_state.reference_speed": "P_STATE_SPEED",
+    "rate_and_state.initial_age": "P_INITIAL_AGE",
     "temperature_dependence.sensitivity": "P_SENSITIVITY",
     "temperature_dependence.reference_degC": "P_REFERENCE",
     "surface.run_up_time": "P_RUN_UP",
@@ -96,6 +101,8 @@ def pack(values: dict[str, float]) -> list[float]:
     p[P_MU_S] *= load ** -values["load_dependence.exponent"]
     p[P_MU_K] *= load ** -values["load_dependence.exponent"]
     p[P_LOCAL_LAW] = float(any(values[name] != 0.0 for name in LOCAL_LAWS))
+    if p[layout.P_DIRECT] != 0.0 or p[layout.P_EVOLUTION] != 0.0:
+        p[layout.P_CREEP_SPEED] = values["rate_and_state.creep_speed"]
     for i, name in enumerate(("x", "y", "phi", "vx", "vy", "omega")):
         p[P_INITIAL + i] = values[f"initial.{name}"]
     _place_springs(p, values)

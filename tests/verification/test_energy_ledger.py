@@ -77,7 +77,9 @@ def test_any_rig(p):
     if not run.complete:
         assert "spring" in run.reason  # soft springs and high friction: carried into an anchor
         return
-    scale = run["heat"][-1] + 0.5 * p.rig.mass * p.surface.speed**2
+    # a short run may have done little work yet: then against that of one stick, F_s^2 / (2 K)
+    one_stick = (p.friction.mu_s * p.rig.mass * 9.81) ** 2 / (8.0 * p.springs.stiffness)
+    scale = run["heat"][-1] + one_stick
     assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
     assert np.all(np.diff(run["heat"]) >= -1e-12 * scale)  # friction never drives the sliding
     assert np.all(np.diff(run["sliding_distance"]) >= -1e-15)

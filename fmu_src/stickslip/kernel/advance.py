@@ -10,6 +10,7 @@ from math import isfinite
 from .contact import scaled_sliding_speed
 from .events import break_away, look_at, set_direction, settle, time_to_rest
 from .layout import (
+    AGE,
     BLOCK,
     DIRECTION,
     DONE,
@@ -21,6 +22,7 @@ from .layout import (
     NEXT,
     NOT_FINITE,
     P_INITIAL,
+    P_INITIAL_AGE,
     P_LATERAL,
     P_LONGEST_STEP,
     P_RADIUS,
@@ -66,6 +68,7 @@ def initialise(p: "float[:]", z: "float[:]", time: float):
     z[Z_ENERGY] = block_energy(p, z, SHOWN)
     z[Z_TIME_BEFORE] = time
     z[SHOWN + HOLD_SINCE] = time
+    z[SHOWN + AGE] = p[P_INITIAL_AGE]
 
 
 def copy_block(z: "float[:]", source: int, target: int):

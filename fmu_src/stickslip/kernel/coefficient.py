@@ -1,11 +1,15 @@
 """Friction coefficients: how mu_s and mu_k depend on place, time, heat, distance and speed."""
 
-from math import cos, exp, log10, sqrt
+from math import cos, exp, log, log10, sqrt
 
 from .layout import (
+    AGE,
     DISTANCE,
     HOLD_SINCE,
     MODE,
+    P_CREEP_SPEED,
+    P_DIRECT,
+    P_EVOLUTION,
     P_FILM_ROOT,
     P_HOLD_TIME,
     P_HYPERBOLIC,
@@ -23,6 +27,8 @@ from .layout import (
     P_SCATTER,
     P_SCATTER_WAVES,
     P_SENSITIVITY,
+    P_STATE_DISTANCE,
+    P_STATE_SPEED,
     P_STRENGTHENING,
     P_STRIBECK,
     P_STRIBECK_SPEED,
@@ -74,6 +80,29 @@ def kinetic_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     return max(0.0, mu)
 
 
+def has_state_law(p: "float[:]") -> bool:
+    """Is rate_and_state on?"""
+    return p[P_DIRECT] != 0.0 or p[P_EVOLUTION] != 0.0
+
+
+def rate_and_state(p: "float[:]", age: float, speed: float) -> float:
+    """What speed and age of the contact add to mu_k: a ln(v / v*) + b ln(v* theta / D).
+
+    Dieterich (1979) with the ageing law theta' = 1 - v theta / D; below the creep speed the value
+    at the creep speed, which is also what a contact at rest holds.
+    """
+    v = max(speed, p[P_CREEP_SPEED]) / p[P_STATE_SPEED]
+    aged = max(age, 1e-12) * p[P_STATE_SPEED] / p[P_STATE_DISTANCE]
+    return p[P_DIRECT] * log(v) + p[P_EVOLUTION] * log(aged)
+
+
+def ageing_rate(p: "float[:]", age: float, speed: float) -> float:
+    """Rate of the contact's age: 1 at rest, 1 - v theta / D in sliding; 0 where the law is off."""
+    if not has_state_law(p):
+        return 0.0
+    return 1.0 - speed * age / p[P_STATE_DISTANCE]
+
+
 def local_coefficient(p: "float[:]", mu: float, speed: float) -> float:
     """mu_k at a local sliding speed (m/s), where ``mu`` is the value without that dependence.
 
@@ -91,15 +120,26 @@ def local_coefficient(p: "float[:]", mu: float, speed: float) -> float:
     return mu
 
 
+def onset_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """mu_k at the first instant of a slip."""
+    mu = local_coefficient(p, kinetic_coefficient(p, u, w), 0.0)
+    if has_state_law(p):
+        mu = max(0.0, mu + rate_and_state(p, w[W_STATE + AGE], 0.0))
+    return mu
+
+
 def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     """Coefficient that a contact at rest can hold: mu_s, or mu_k where that is larger.
 
     mu_s grows by a fixed amount per decade of the time at rest (static_strengthening). With
     mu_k > mu_s a block that breaks away at mu_s is stopped at once; at rest it therefore holds up
-    to mu_k.
+    to mu_k. With rate_and_state the age of the contact says what it holds, and mu_s is not used.
     """
+    onset = onset_coefficient(p, u, w)
+    if has_state_law(p):
+        return onset
     mu = p[P_MU_S] * surface_factor(p, w)
     if p[P_STRENGTHENING] != 0.0 and w[W_STATE + MODE] == STICK:
         hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
         mu += p[P_STRENGTHENING] * log10(1.0 + hold / p[P_HOLD_TIME])
-    return max(mu, local_coefficient(p, kinetic_coefficient(p, u, w), 0.0))
+    return max(mu, onset)

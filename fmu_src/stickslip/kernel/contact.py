@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from .coefficient import holding_coefficient, kinetic_coefficient, local_coefficient
+from .coefficient import holding_coefficient, onset_coefficient
 from .disc import disc_friction
 from .layout import (
     OMEGA,
@@ -116,7 +116,7 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
     in the spinning part, with the weights of the last iterate. For a load on the limit surface
     the iterates shrink, so their direction is what converges.
     """
-    limit = local_coefficient(p, kinetic_coefficient(p, u, w), 0.0) * p[P_NORMAL_FORCE]
+    limit = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE]
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
     tx = -w[W_FRICTION]

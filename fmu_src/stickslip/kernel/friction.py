@@ -9,9 +9,16 @@ motion for every kappa.
 
 from math import sqrt
 
-from .coefficient import kinetic_coefficient, local_coefficient
+from .coefficient import (
+    has_state_law,
+    kinetic_coefficient,
+    local_coefficient,
+    onset_coefficient,
+    rate_and_state,
+)
 from .disc import add_local_law, disc_friction
 from .layout import (
+    AGE,
     P_FILM,
     P_LATERAL,
     P_LOCAL_LAW,
@@ -20,6 +27,7 @@ from .layout import (
     W_FRICTION,
     W_MEAN_SPEED,
     W_PAIR,
+    W_STATE,
 )
 
 
@@ -45,7 +53,7 @@ def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
 
 def friction_at_onset(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
     """Friction against a slip that has a direction but no speed yet, into ``w[W_FRICTION:]``."""
-    mu = local_coefficient(p, kinetic_coefficient(p, u, w), 0.0)
+    mu = onset_coefficient(p, u, w)
     disc_friction(sqrt(sx * sx + sy * sy), abs(sr), w)
     w[W_PAIR] *= mu
     w[W_PAIR + 1] *= mu
@@ -57,7 +65,8 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
 
     Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local
     sliding speed to ``w[W_MEAN_SPEED]`` (m/s). Where mu_k depends on the local speed, the closed
-    form takes its value at the mean speed and a quadrature adds what differs from that.
+    form takes its value at the mean speed and a quadrature adds what differs from that. The age of
+    the contact (rate_and_state) belongs to the whole of it and goes with the mean speed.
     """
     mu = kinetic_coefficient(p, u, w)
     sliding = sqrt(sx * sx + sy * sy)
@@ -67,8 +76,11 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
     reference = mu
     if p[P_LOCAL_LAW] == 1.0:
         reference = local_coefficient(p, mu, mean_speed)
-    w[W_PAIR] *= reference
-    w[W_PAIR + 1] *= reference
+    whole = reference
+    if has_state_law(p):
+        whole = max(0.0, reference + rate_and_state(p, w[W_STATE + AGE], mean_speed))
+    w[W_PAIR] *= whole
+    w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
         add_local_law(p, mu, reference, sliding, abs(sr), w)
     set_friction(p, w, sx, sy, sr)

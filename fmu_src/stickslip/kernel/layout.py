@@ -35,27 +35,28 @@ WORK_SURFACE = 10  # work of the surface on the block, J
 WORK_EXTERNAL = 11  # work of the external forces, J
 DAMPED = 12  # work of the block on the structural damping, J
 WARMTH = 13  # recent friction heat, J (thermal_weakening)
-STATES = 13  # integrated numbers: X ... WARMTH
+AGE = 14  # age of the contact, s (rate_and_state)
+STATES = 14  # integrated numbers: X ... AGE
 
 # --- discrete state, offsets inside a block -----------------------------------------------------
-MODE = 14
-DIRECTION = 15  # unit vector of the scaled sliding velocity
-SLIPS = 18  # break-aways since the start
-HOLD_SINCE = 19  # when the present stick began, s
-BLOCK = 20
+MODE = 15
+DIRECTION = 16  # unit vector of the scaled sliding velocity
+SLIPS = 19  # break-aways since the start
+HOLD_SINCE = 20  # when the present stick began, s
+BLOCK = 21
 
 # --- z: memory of a run -------------------------------------------------------------------------
 HERE = 0
-NEXT = 20
-SHOWN = 40
-Z_STEP = 60  # size that the next internal step wants, s
-Z_HAS_NEXT = 61  # 1 while NEXT holds the end of the internal step that begins in HERE
-Z_ENERGY = 62  # kinetic and spring energy at the start, J
-Z_STARTED = 63
-Z_INPUTS = 64  # the inputs that HERE and NEXT were computed with
-Z_HEAT_BEFORE = 69  # friction heat at the communication point before, J
-Z_TIME_BEFORE = 70
-Z_SIZE = 71
+NEXT = 21
+SHOWN = 42
+Z_STEP = 63  # size that the next internal step wants, s
+Z_HAS_NEXT = 64  # 1 while NEXT holds the end of the internal step that begins in HERE
+Z_ENERGY = 65  # kinetic and spring energy at the start, J
+Z_STARTED = 66
+Z_INPUTS = 67  # the inputs that HERE and NEXT were computed with
+Z_HEAT_BEFORE = 72  # friction heat at the communication point before, J
+Z_TIME_BEFORE = 73
+Z_SIZE = 74
 
 # --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
@@ -103,23 +104,29 @@ P_PATTERN_WAVENUMBER = 110  # rad/m
 P_PATTERN_PHASE = 111  # rad
 P_SCATTER = 112  # standard deviation of the friction field, part of mu
 P_SCATTER_WAVES = 113  # wavenumber and phase of 16 waves
-P_SENSITIVITY = 145  # 1/K
-P_REFERENCE = 146  # temperature at which mu_k holds, degC
-P_CURVATURE = 147  # 1/R of the slab, 1/m; 0 is a belt
-P_RUN_UP = 148  # s
-P_RIPPLE = 149  # amplitude
-P_RIPPLE_RATE = 150  # rad/s
-P_RIPPLE_PHASE = 151  # rad
-P_STICK_RATIO = 152  # part of the spring force that stick is judged by (1; the study's fault: 1/4)
-P_TOLERANCE = 153
-P_RATE = 154  # characteristic rate of the motion, rad/s
-P_LONGEST_STEP = 155  # s
-P_SPEED_SCALE = 156  # speed that the motion reaches by itself, m/s; scales the error test
-P_SHORTEST = 157  # length below which a spring counts as collapsed, m
-P_INITIAL = 158  # x, y, phi, vx, vy, omega
-P_QUADRATURE = 164  # nodes and weights for friction that varies over the disc, see disc
-P_TABLEAU = 204  # the Runge-Kutta coefficients, see tableau
-P_SIZE = 396
+P_DIRECT = 145  # rate_and_state: a
+P_EVOLUTION = 146  # b
+P_STATE_DISTANCE = 147  # m
+P_STATE_SPEED = 148  # speed at which mu_k holds in steady sliding, m/s
+P_CREEP_SPEED = 149  # m/s
+P_INITIAL_AGE = 150  # s
+P_SENSITIVITY = 151  # 1/K
+P_REFERENCE = 152  # temperature at which mu_k holds, degC
+P_CURVATURE = 153  # 1/R of the slab, 1/m; 0 is a belt
+P_RUN_UP = 154  # s
+P_RIPPLE = 155  # amplitude
+P_RIPPLE_RATE = 156  # rad/s
+P_RIPPLE_PHASE = 157  # rad
+P_STICK_RATIO = 158  # part of the spring force that stick is judged by (1; the study's fault: 1/4)
+P_TOLERANCE = 159
+P_RATE = 160  # characteristic rate of the motion, rad/s
+P_LONGEST_STEP = 161  # s
+P_SPEED_SCALE = 162  # speed that the motion reaches by itself, m/s; scales the error test
+P_SHORTEST = 163  # length below which a spring counts as collapsed, m
+P_INITIAL = 164  # x, y, phi, vx, vy, omega
+P_QUADRATURE = 170  # nodes and weights for friction that varies over the disc, see disc
+P_TABLEAU = 210  # the Runge-Kutta coefficients, see tableau
+P_SIZE = 402
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
@@ -138,16 +145,16 @@ Q_DEPTH = 32  # Gauss-Legendre nodes, then weights, DEPTHS of each
 
 # --- w: scratch ---------------------------------------------------------------------------------
 W_STATE = 0  # a block: the moment at which the right-hand side is wanted
-W_SLOPES = 20  # STAGES rows of STATES slopes
-W_LOAD = 176  # springs, damping and external loads on the block: x, y, phi
-W_SLIDING = 179  # velocity of the block relative to the surface: x, y, phi
-W_FRICTION = 182  # friction on the block: x, y, phi
-W_MEAN_SPEED = 185  # local sliding speed, mean over the contact, m/s
-W_SURFACE = 186  # velocity and acceleration of the surface under the block
-W_PAIR = 192  # return values of functions with two results
-W_DIRECTION = 194  # direction of sliding where the sliding velocity is too small to tell
-W_RUNNING_UP = 197  # 1 while the internal step lies in the surface's run-up
-W_SIZE = 198
+W_SLOPES = 21  # STAGES rows of STATES slopes
+W_LOAD = 189  # springs, damping and external loads on the block: x, y, phi
+W_SLIDING = 192  # velocity of the block relative to the surface: x, y, phi
+W_FRICTION = 195  # friction on the block: x, y, phi
+W_MEAN_SPEED = 198  # local sliding speed, mean over the contact, m/s
+W_SURFACE = 199  # velocity and acceleration of the surface under the block
+W_PAIR = 205  # return values of functions with two results
+W_DIRECTION = 207  # direction of sliding where the sliding velocity is too small to tell
+W_RUNNING_UP = 210  # 1 while the internal step lies in the surface's run-up
+W_SIZE = 211
 
 # --- e: log of events ---------------------------------------------------------------------------
 E_COUNT = 0

@@ -1,12 +1,15 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
+from .coefficient import ageing_rate
 from .contact import scaled_sliding_speed, set_holding_load, set_sliding_velocity
 from .friction import friction_at_onset, friction_in_slip
 from .layout import (
+    AGE,
     DAMPED,
     DISTANCE,
     HEAT,
     OMEGA,
+    P_CREEP_SPEED,
     P_FREE_PHI,
     P_FREE_Y,
     P_INERTIA,
@@ -53,9 +56,10 @@ def rest_speed(p: "float[:]", u: "float[:]") -> float:
     Below it the direction of friction is frozen, and one smooth step lands the block on the
     surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m.
     It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
-    and passes rest at a distance never reaches it exactly, however small the distance.
+    and passes rest at a distance never reaches it exactly, however small the distance. With
+    rate_and_state it is the creep speed, at which that law ends.
     """
-    return 1e-6 * speed_scale(p, u)
+    return max(1e-6 * speed_scale(p, u), p[P_CREEP_SPEED])
 
 
 def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
@@ -111,7 +115,8 @@ def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
 
 
 def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
-    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works, warmth.
+    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works,
+    warmth, age.
 
     Friction heat is what friction takes out of the relative motion; the surface's work is what
     it puts into the block through friction. Their difference drives block and springs.
@@ -131,6 +136,7 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     w[out + WORK_SURFACE - 1] = work
     w[out + WORK_EXTERNAL - 1] = external
     w[out + DAMPED - 1] = damping_power(p, w, W_STATE)
+    w[out + AGE - 1] = ageing_rate(p, w[W_STATE + AGE], w[W_MEAN_SPEED])
     w[out + WARMTH - 1] = heat - w[W_STATE + WARMTH] / p[P_RELAXATION]
 
 

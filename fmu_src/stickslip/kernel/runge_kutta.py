@@ -4,6 +4,7 @@ from math import sqrt
 
 from .contact import set_sliding_velocity
 from .layout import (
+    AGE,
     BLOCK,
     DIRECTION,
     DISTANCE,
@@ -14,6 +15,7 @@ from .layout import (
     P_MASS,
     P_RADIUS,
     P_RATE,
+    P_STATE_DISTANCE,
     P_TABLEAU,
     P_TOLERANCE,
     PHI,
@@ -68,6 +70,8 @@ def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
         scale = speed
     elif i == OMEGA:
         scale = speed / p[P_RADIUS]
+    elif i == AGE:
+        scale = p[P_STATE_DISTANCE] / speed
     elif i == HEAT:
         return p[P_TOLERANCE] * scale  # it only grows, and the ledger counts every part
     return p[P_TOLERANCE] * (scale + abs(value))
