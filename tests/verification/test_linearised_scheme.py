@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy import signal
 from scipy.linalg import expm
+from stickslip import Parameters, simulate
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED, Faults
 from stickslip.reference.interpreted_scheme import (
@@ -207,3 +208,40 @@ def test_faults_by_name():
 def test_bad_numbers(key, value):
     with pytest.raises(ValueError, match=key):
         Scheme(**{key: value})
+
+
+def test_slides_through_where_friction_cannot_hold():
+    """Mended F6 at 0.37 m/s with weakening: no re-stick at the first meeting, as in the kernel.
+
+    The kernel runs the same law without linearising anything; along x the springs are linear.
+    """
+    weight = MASS * 9.81
+    slope, mu_rest = 0.03, 0.0545
+    run = Scheme(
+        speed=0.37, mu_s=0.065, mu_k=mu_rest, mu_k_speed=0.0, mu_slope=slope, scatter=0.0,
+        faults=MENDED,
+    ).run(cycles=4)
+    share = strips(0.05)[0].sum()
+    exact = simulate(
+        Parameters(
+            rig={"degrees_of_freedom": ("x",)},
+            friction={"mu_s": 0.065, "mu_k": share * mu_rest},
+            velocity_weakening={"linear": slope / mu_rest},
+            surface={"speed": 0.37},
+            initial={"vx": 0.37},
+        ),
+        3.0,
+    )
+    begins, ends = exact.events[0::2, 0], exact.events[1::2, 0]
+    slip_time = (ends - begins[: len(ends)])[0]
+    ours = run.slip_phases[:, 1] - run.slip_phases[:, 0]
+    np.testing.assert_allclose(ours, slip_time, atol=1e-6)
+    # the first meeting of the speeds is well before: there the springs pull harder than mu_s N
+    plain = Scheme(
+        speed=0.37, mu_s=0.065, mu_k=mu_rest, mu_k_speed=0.0, mu_slope=slope, scatter=0.0,
+        faults=MENDED.only("F6"),
+    ).run(cycles=4)
+    early = plain.slip_phases[:, 1] - plain.slip_phases[:, 0]
+    assert np.all(early < slip_time - 0.01)
+    restick = np.interp(plain.slip_phases[:, 1], plain.time, plain.q[:, 0])
+    assert np.all(4 * STIFFNESS * np.abs(restick) > 0.065 * weight)

@@ -12,7 +12,7 @@ DESCRIPTIONS = {
     "F1": "stick ends where k x, not 4 k x, reaches mu_s N",
     "F2": "the attachment radius is missing from the rise that sets the spring angles",
     "F5": "the scatter of friction is white per sample, so its effect depends on the time step",
-    "F6": "break-away and re-stick fall on the 10 ms grid",
+    "F6": "re-stick asks for x' alone, every 10 ms: not for its moment, nor whether friction holds",
     "F12": "after a stick, velocities and spring angles of before the last slip block come back",
     "F13": "springs on the +x side get the spring angle of the -x side instead of its mirror image",
     "F14": "a slip of more than 100 blocks (1 s) is cut: the block jumps to the belt's speed",

@@ -35,9 +35,7 @@ def load_strip_by_strip(samples: int, kinetic_force: float, scatter: float, rng)
         for j in range(STRIPS):
             low = -ATTACHMENT_RADIUS + j * width
             high = low + width
-            chords = [
-                2.0 * math.sqrt(max(ATTACHMENT_RADIUS**2 - y**2, 0.0)) for y in (low, high)
-            ]
+            chords = [2.0 * math.sqrt(max(ATTACHMENT_RADIUS**2 - y**2, 0.0)) for y in (low, high)]
             area = 0.5 * (chords[0] + chords[1]) * width
             pressure = (kinetic_force + scatter * rng.standard_normal()) / disc
             load[sample, 0] += pressure * area
@@ -63,9 +61,19 @@ def linear_system(mass: float, stiffness: float, alpha: np.ndarray) -> signal.St
 
 
 def interpreted_run(
-    duration: float, *, treatment: str = "updated", together: bool = False, mass: float = 0.67,
-    stiffness: float = 20.17, speed: float = 0.15, mu_s: float = 0.2815, mu_k: float = 0.2086,
-    scatter: float = 0.0, radius_in_rise: bool = True, stick_springs: int = 4, seed: int = 0,
+    duration: float,
+    *,
+    treatment: str = "updated",
+    together: bool = False,
+    mass: float = 0.67,
+    stiffness: float = 20.17,
+    speed: float = 0.15,
+    mu_s: float = 0.2815,
+    mu_k: float = 0.2086,
+    scatter: float = 0.0,
+    radius_in_rise: bool = True,
+    stick_springs: int = 4,
+    seed: int = 0,
 ) -> np.ndarray:
     """Time, x, y, phi at every block or sample, (n, 4); starts at rest on the surface.
 
@@ -94,9 +102,11 @@ def interpreted_run(
         system = linear_system(mass, stiffness, alpha)
         states = signal.lsim(system, forces, times, state)[2]
         last = samples - 1 if updated else _first_at(states[:, 3], speed)
-        rows += [[time + times[last], *states[last, :3]]] if updated else [
-            [time + times[i], *states[i, :3]] for i in range(1, last + 1)
-        ]
+        rows += (
+            [[time + times[last], *states[last, :3]]]
+            if updated
+            else [[time + times[i], *states[i, :3]] for i in range(1, last + 1)]
+        )
         state, time = states[last].copy(), time + times[last]
         sticking = state[3] >= speed
     return np.array(rows)

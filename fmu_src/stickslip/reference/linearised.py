@@ -138,8 +138,13 @@ class Scheme:
     def _faults(self) -> SchemeFaults:
         faults = self.faults
         return SchemeFaults(
-            one_spring=faults.F1, white=faults.F5, on_grid=faults.F6, stale=faults.F12,
-            mirrored=not faults.F13, cut=faults.F14, lagging=faults.F15,
+            one_spring=faults.F1,
+            white=faults.F5,
+            on_grid=faults.F6,
+            stale=faults.F12,
+            mirrored=not faults.F13,
+            cut=faults.F14,
+            lagging=faults.F15,
         )
 
     def _memory(self, duration: float) -> Memory:
@@ -148,11 +153,19 @@ class Scheme:
         steady = np.array([shares.sum() * self.mu_k * self.mass * GRAVITY, 0.0])
         rows = int(duration / (ROW_STEPS * STEP) + duration / STICK_STEP) + 4 * MOST_PHASES
         return Memory(
-            q=np.zeros(3), v=np.zeros(3), before=np.zeros(3),
-            alpha=fixed_angles(self.treatment), load=np.zeros(2), mean=steady,
-            attachment=attachments(self.radius), beta=ATTACHMENT_ANGLES.copy(),
-            shares=shares, middles=middles,
-            rows=np.empty((rows, ROW)), phases=np.empty((MOST_PHASES, PHASE)),
+            q=np.zeros(3),
+            v=np.zeros(3),
+            before=np.zeros(3),
+            alpha=fixed_angles(self.treatment),
+            load=np.zeros(2),
+            mean=steady,
+            side=np.ones(1),
+            attachment=attachments(self.radius),
+            beta=ATTACHMENT_ANGLES.copy(),
+            shares=shares,
+            middles=middles,
+            rows=np.empty((rows, ROW)),
+            phases=np.empty((MOST_PHASES, PHASE)),
             counts=np.zeros(2, dtype=np.int64),
         )
 
@@ -192,6 +205,10 @@ class SchemeRun:
 def _result(memory: Memory) -> SchemeRun:
     rows = memory.rows[: memory.counts[0]].copy()
     return SchemeRun(
-        time=rows[:, 0], q=rows[:, 1:4], velocity=rows[:, 4:7], load=rows[:, 7:9],
-        mode=rows[:, 9], phases=memory.phases[: memory.counts[1]].copy(),
+        time=rows[:, 0],
+        q=rows[:, 1:4],
+        velocity=rows[:, 4:7],
+        load=rows[:, 7:9],
+        mode=rows[:, 9],
+        phases=memory.phases[: memory.counts[1]].copy(),
     )

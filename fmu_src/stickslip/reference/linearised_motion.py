@@ -28,7 +28,7 @@ from .strip_friction import field_scatter, mean_load
 BISECTIONS = 50  # halves 0.1 ms to below the resolution of a double
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def run(rig, faults, memory, cycles, duration):
     """Stick and slip ``cycles`` times or until ``duration`` (s); rows and phases in ``memory``."""
     np.random.seed(rig.seed)
@@ -44,7 +44,7 @@ def run(rig, faults, memory, cycles, duration):
     return t
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def slide(rig, faults, memory, duration):
     """Slip alone for ``duration`` (s), never stopped by the surface's speed."""
     np.random.seed(rig.seed)
@@ -119,11 +119,17 @@ def _slip(rig, faults, memory, t, until):
     how = CUT
     blocks = 0
     memory.before[:] = memory.v
+    memory.side[0] = 1.0
     while True:
         if rig.updated and not faults.stale:
             _turn_springs(rig, faults, memory)
         t, reached = _block(rig, faults, memory, t, until, faults.on_grid)
-        if reached or (faults.on_grid and memory.v[0] >= rig.speed):
+        if faults.on_grid:
+            reached = memory.v[0] >= rig.speed
+        elif reached and 4.0 * rig.stiffness * abs(memory.q[0]) > rig.mu_s * rig.normal_force:
+            reached = False  # friction cannot hold it: the block slides through
+            memory.side[0] = -memory.side[0]
+        if reached:
             how = STUCK_AGAIN
             break
         if rig.updated and faults.stale:
@@ -180,7 +186,7 @@ def _block(rig, faults, memory, t, until, to_the_end):
         _scattered(rig, faults, memory, rig.speed * (t + STEP) - q1[0], load1)
         a1[0], a1[2] = load1[0] / rig.mass, load1[1] / rig.inertia
         step(prop, STEP, memory.q, memory.v, a0, a1, q1, v1)
-        if not to_the_end and v1[0] >= rig.speed:
+        if not to_the_end and memory.side[0] * (v1[0] - rig.speed) >= 0.0:
             share = _reach(rig, memory, w, a0, a1)
             memory.load[:] = memory.load + share * (load1 - memory.load)
             t += share * STEP
@@ -200,7 +206,7 @@ def _block(rig, faults, memory, t, until, to_the_end):
 @njit(cache=True)
 def _scattered(rig, faults, memory, place, load):
     """Write mean load and scatter at ``place`` (m) on the surface into ``load``."""
-    load[:] = memory.mean
+    load[:] = memory.side[0] * memory.mean
     if rig.force_scatter == 0.0:
         return
     normals = np.empty(2)
@@ -216,7 +222,9 @@ def _scattered(rig, faults, memory, place, load):
 @njit(cache=True)
 def _reach(rig, memory, w, a0, a1):
     """Advance ``memory`` to where x' meets the surface's speed within a step: share of it."""
-    if memory.v[0] >= rig.speed:  # friction would outrun the surface: the block stays with it
+    side = memory.side[0]
+    if side * (memory.v[0] - rig.speed) >= 0.0:
+        # friction would drag the block past the surface's speed: it stays with it
         memory.q[0] += rig.speed * STEP
         memory.v[:] = 0.0
         memory.v[0] = rig.speed
@@ -229,7 +237,7 @@ def _reach(rig, memory, w, a0, a1):
         propagator(w, middle * STEP, prop)
         a[:] = a0 + middle * (a1 - a0)
         step(prop, middle * STEP, memory.q, memory.v, a0, a, q1, v1)
-        if v1[0] >= rig.speed:
+        if side * (v1[0] - rig.speed) >= 0.0:
             late = middle
         else:
             early = middle

@@ -65,7 +65,8 @@ class Memory(NamedTuple):
     before: np.ndarray  # velocities before the last block
     alpha: np.ndarray
     load: np.ndarray  # force, moment
-    mean: np.ndarray  # of the load, without scatter
+    mean: np.ndarray  # of the load, without scatter, on a block slower than the surface
+    side: np.ndarray  # one number: 1 where the surface is faster than the block, else -1
     attachment: np.ndarray
     beta: np.ndarray
     shares: np.ndarray
