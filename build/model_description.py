@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from math import pi
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
 
-from ports import INPUTS, OUTPUTS, Port
+from stickslip.ports import INPUTS, OUTPUTS, Port
 
 # FMI 2 unit name -> exponents of its base units, factor and offset
 UNITS = {

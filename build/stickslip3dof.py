@@ -103,6 +103,7 @@ def content_hash(files: dict[str, bytes] | None = None, table: list[dict] | None
     files = sources() if files is None else files
     table = parameter_table() if table is None else table
     recipe = {f"recipe/{name}": (HERE / name).read_bytes() for name in RECIPE_FILES}
+    recipe["recipe/ports.py"] = (package_directory() / "ports.py").read_bytes()
     digest = hashlib.sha256()
     for name, content in sorted((files | recipe).items()):
         digest.update(f"{name}\0{len(content)}\0".encode())
@@ -131,7 +132,7 @@ SPECIAL = {
     },
 }
 DESCRIBED = ("name", "unit", "nominal", "min", "max", "description", "start")
-RECIPE_FILES = ("stickslip3dof.py", "ports.py", "model_description.py", "pythonfmu_library.py")
+RECIPE_FILES = ("stickslip3dof.py", "model_description.py", "pythonfmu_library.py")
 
 
 def built_hash(fmu: Path) -> str | None:
@@ -189,7 +190,7 @@ def _build_with_pythonfmu(
 
 
 def _variables_module(table: list[dict], content: str) -> bytes:
-    import ports
+    from stickslip import ports
 
     values = {
         "BUILD": content,
@@ -218,8 +219,8 @@ def _rename_imports(source: bytes, package: str) -> bytes:
 def _finish(raw: Path, table: list[dict]) -> bytes:
     """The FMU with its full description and library, entries in order and without a date."""
     import model_description
-    import ports
     import pythonfmu_library
+    from stickslip import ports
 
     parameters = [ports.Port(slot="", **{key: entry[key] for key in DESCRIBED}) for entry in table]
 

@@ -19,13 +19,14 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line (sys.argv when left out); the exit status."""
-    debug = "--debug" in (sys.argv[1:] if argv is None else argv)
+    argv = sys.argv[1:] if argv is None else argv
+    debug = "--debug" in argv
     try:
         from cosim.cli.arguments import parser
 
-        arguments = parser().parse_args(argv)
+        arguments = parser(argv).parse_args(argv)
         with warnings_in_one_line():
-            status = import_module(f"cosim.cli.{arguments.command}").main(arguments)
+            status = import_module(f"cosim.cli.{arguments.home}").main(arguments)
         sys.stdout.flush()
         return status
     except BadInput as error:

@@ -4,13 +4,25 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
+from importlib import import_module
 from importlib.metadata import version
+from types import ModuleType
 from typing import NoReturn
 
 SCENARIO_HELP = (
     "TOML file, or the name of a packaged scenario such as reference (default), slab, warm_friction"
 )
 OUTPUT_HELP = "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)"
+
+
+# command -> what it does, an example; its module is cosim.studies.COMMAND_command
+STUDIES = {
+    "sweep": (
+        "parameter sweep: every combination of some values",
+        "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82",
+    ),
+}
 
 
 class Parser(argparse.ArgumentParser):
@@ -22,8 +34,12 @@ class Parser(argparse.ArgumentParser):
         raise SystemExit(2)
 
 
-def parser() -> Parser:
-    """The parser of the whole command line; `command` names the module that carries it out."""
+def parser(arguments: Sequence[str]) -> Parser:
+    """The parser of the whole command line; `home` names the module that carries a command out.
+
+    A study declares its own arguments. It is imported only where ``arguments`` name it, so that
+    help and the other commands stay quick.
+    """
     top = Parser(
         prog="stickslip",
         description="Stick-slip of an ice block on a moving surface, coupled to the heat it makes.",
@@ -36,6 +52,8 @@ def parser() -> Parser:
     _add_run(commands)
     _add_simulate(commands)
     _add_build(commands)
+    for name in STUDIES:
+        _add_study(commands, name, chosen=name in arguments)
     return top
 
 
@@ -53,7 +71,21 @@ def _add_command(
     command.add_argument(
         "--debug", action="store_true", default=argparse.SUPPRESS, help="show tracebacks"
     )
+    command.set_defaults(home=name)
     return command
+
+
+def _add_study(commands: argparse._SubParsersAction, name: str, chosen: bool) -> None:
+    summary, example = STUDIES[name]
+    command = _add_command(commands, name, summary, example)
+    command.set_defaults(home="study")
+    if chosen:
+        study_module(name).add_arguments(command)
+
+
+def study_module(name: str) -> ModuleType:
+    """The module of a study: `add_arguments`, `execute` and the errors that are `REFUSED` input."""
+    return import_module(f"cosim.studies.{name}_command")
 
 
 def _add_run(commands: argparse._SubParsersAction) -> None:

@@ -12,12 +12,11 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
-from stickslip.kernel import layout, surface
 
 from cosim.master import CoupledResult
 
-from .blocks import blocks_of, mechanics_of
-from .variables import MECHANICAL, OUTPUTS, THERMAL, TIME, attributes
+from .blocks import blocks_of
+from .variables import MECHANICAL, THERMAL, TIME, attributes
 from .versions import versions
 
 Array = NDArray[np.float64]
@@ -64,8 +63,6 @@ def run_dataset(
         "mode and slip_count are sampled at the communication points: break-away and re-stick "
         "are known to one interval of time; the motion itself was computed with exact events"
     )
-    if "surface_speed" not in dataset:
-        dataset["surface_speed"] = "time", _surface_speed(dataset), attributes("surface_speed")
     return dataset if snapshots is None else dataset.merge(_snapshots(snapshots))
 
 
@@ -80,7 +77,7 @@ def trajectory_dataset(
 
     scenario: the model that ``toml`` was read into; wall_time: of the integration, s.
     """
-    units = {name: unit for name, unit, _ in OUTPUTS}
+    units = {name: unit for name, (unit, _) in MECHANICAL.items()}
     dataset = _dataset(trajectory.time, trajectory.columns, units)
     status, reason = _outcome(trajectory)
     _describe(dataset, scenario, toml, status, reason, wall_time)
@@ -137,19 +134,6 @@ def _describe(
     )
     if wall_time is not None:
         dataset.attrs["wall_time"] = float(wall_time)
-
-
-def _surface_speed(dataset: xr.Dataset) -> Array:
-    """Speed of the surface where the block rests, by the model's own law of the drive, m/s (n,)."""
-    parameters = mechanics_of(dataset)
-    p, u, w = parameters.pack(), [0.0] * layout.U_SIZE, [0.0] * layout.W_SIZE
-    u[layout.U_SPEED] = parameters.surface.speed
-
-    def speed(time: float) -> float:
-        surface.set_surface_phase(p, w, time)
-        return surface.surface_speed(p, u, w, time)
-
-    return np.array([speed(time) for time in dataset["time"].values.tolist()])
 
 
 def _outcome(trajectory: Trajectory) -> tuple[str, str]:

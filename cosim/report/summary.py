@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .energy import surface_work
 from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, temperatures
 from .motion_numbers import after_run_up, whole_run
 from .quantities import Quantity, ratio, split_units
@@ -57,18 +56,23 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def mechanics_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
-    """Work of the surface, friction heat, and what does not add up."""
-    work = surface_work(dataset)
-    heat = dataset["heat"].values
+    """Works and heats since the start, and what does not add up."""
     residual = dataset["energy_residual"].values
     largest = float(np.nanmax(np.abs(residual), initial=0.0))
+    work = _last(dataset, "surface_work")
     return {
         "surface_work": Quantity(work, "J"),
-        "friction_heat": Quantity(float(heat[-1] - heat[0]), "J"),
+        "external_work": Quantity(_last(dataset, "external_work"), "J"),
+        "friction_heat": Quantity(_last(dataset, "heat"), "J"),
+        "damping_heat": Quantity(_last(dataset, "damping_heat"), "J"),
         "residual": Quantity(float(residual[-1]), "J"),
         "largest_residual": Quantity(largest, "J"),
         "relative_residual": Quantity(ratio(largest, abs(work)), "1"),
     }
+
+
+def _last(dataset: xr.Dataset, name: str) -> float:
+    return float(dataset[name].values[-1])
 
 
 def _plain(blocks: dict[str, Any]) -> dict[str, Any]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from stickslip.trajectory import OUTPUTS
+from stickslip.ports import OUTPUTS
 
 # name -> (unit, long name); the mechanical ones as the model itself describes them
-MECHANICAL = {name: (unit, text) for name, unit, text in OUTPUTS}
+MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUTS}
 
 THERMAL = {
     "interface_temperature": ("degC", "temperature between block and belt, mean of both faces"),

@@ -24,6 +24,8 @@ WORDS = {
     "surface_travel": "way of the surface",
     "sliding_distance": "way slid",
     "surface_work": "work of the surface",
+    "external_work": "work of the external forces",
+    "damping_heat": "heat in the structural damping",
     "friction_heat": "friction heat",
     "residual": "residual at the end",
     "largest_residual": "largest residual",

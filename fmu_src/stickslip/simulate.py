@@ -23,7 +23,8 @@ from .kernel.layout import (
 )
 from .kernel.status import WHY_NOT
 from .parameters import Parameters
-from .trajectory import NAMES, Trajectory
+from .ports import OUTPUTS
+from .trajectory import Trajectory
 
 EVENTS_PER_BLOCK = 4096
 ROWS_PER_BLOCK = 1000
@@ -135,6 +136,6 @@ class _Run:
 
     def trajectory(self, reason: str) -> Trajectory:
         table = np.array(self.o).reshape(-1, O_SIZE)[: self.rows]
-        columns = {name: table[:, i].copy() for i, name in enumerate(NAMES)}
+        columns = {port.name: table[:, getattr(layout, port.slot)].copy() for port in OUTPUTS}
         events = np.concatenate([np.empty((0, E_WIDTH)), *self.events])
         return Trajectory(self.times[: self.rows], columns, events, self.parameters, reason)

@@ -6,33 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .kernel.layout import O_SIZE
 from .parameters import Parameters
-
-# outputs in the kernel's order: name, unit, description
-OUTPUTS = (
-    ("x", "m", "position of the block along the motion of the surface"),
-    ("y", "m", "position of the block across it"),
-    ("phi", "rad", "rotation of the block, counter-clockwise"),
-    ("vx", "m/s", "velocity of the block along x"),
-    ("vy", "m/s", "velocity of the block along y"),
-    ("omega", "rad/s", "angular velocity of the block"),
-    ("friction_force_x", "N", "friction on the block along x"),
-    ("friction_force_y", "N", "friction on the block along y"),
-    ("friction_moment", "N.m", "moment of friction on the block about its centre"),
-    ("sliding_speed", "m/s", "local sliding speed, mean over the contact"),
-    ("heat_flow", "W", "friction heat, mean over the last output interval"),
-    ("heat", "J", "friction heat since the start"),
-    ("sliding_distance", "m", "local sliding distance since the start, mean over the contact"),
-    ("mode", "1", "0 stick, 1 slip"),
-    ("slip_count", "1", "break-aways since the start"),
-    ("energy_residual", "J", "energy gained less energy supplied: the integrator's error"),
-    ("surface_travel", "m", "way of the surface since the start"),
-    ("surface_speed", "m/s", "speed of the surface where the block rests"),
-    ("damping_heat", "J", "heat in the structural damping since the start"),
-)
-NAMES = tuple(name for name, _, _ in OUTPUTS)
-assert len(NAMES) == O_SIZE
 
 
 @dataclass(frozen=True)
@@ -42,7 +16,7 @@ class Trajectory:
     Attributes
     ----------
     time : (n,) array, s
-    columns : dict of (n,) arrays, one for each of `OUTPUTS`
+    columns : dict of (n,) arrays, one for each of `ports.OUTPUTS`
     events : (k, 3) array: time (s), mode after the event (0 stick, 1 slip), x (m)
     parameters : what was run
     reason : empty, or why the run ended early

@@ -1,19 +1,10 @@
 """The FMU under a master beside the model alone: the same motion, whatever the macro step."""
 
-import sys
-
 import numpy as np
 import pytest
 from stickslip import Parameters, simulate
-from stickslip.kernel import layout
-from stickslip.trajectory import OUTPUTS
 
-from cosim.fmu_build import recipe_file
 from cosim.master import CoupledSystem, FmuParticipant, GaussSeidel, run
-
-sys.path.insert(0, str(recipe_file().parent))
-
-import ports  # noqa: E402  (the recipe's folder is no package)
 
 CASES = {
     "reference": {},
@@ -70,11 +61,3 @@ def test_any_macro_step_gives_the_same_thirty_seconds(fmu):
         np.testing.assert_allclose(coupled["block.x"], alone["x"], rtol=0, atol=1e-8)
         residual = np.abs(coupled["block.energy_residual"]).max()
         assert residual < 1e-9 * coupled["block.heat"][-1]
-
-
-def test_the_fmu_s_ports_are_the_model_s_outputs():
-    """Same names, units and places in the kernel; only the belt's speed is also an input."""
-    of_model = {name: (unit, slot) for slot, (name, unit, _) in enumerate(OUTPUTS)}
-    of_model["surface_speed_actual"] = of_model.pop("surface_speed")
-    of_fmu = {port.name: (port.unit or "1", getattr(layout, port.slot)) for port in ports.OUTPUTS}
-    assert of_fmu == of_model

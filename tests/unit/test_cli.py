@@ -140,4 +140,4 @@ def test_our_warnings_are_one_line_each_and_come_once(capsys):
 
 def test_every_command_has_a_module():
     for command in ("run", "simulate", "build"):
-        assert arguments.parser().parse_args([command]).command == command
+        assert arguments.parser([command]).parse_args([command]).command == command

@@ -182,7 +182,9 @@ O_ENERGY_RESIDUAL = 15
 O_TRAVEL = 16
 O_SURFACE_SPEED = 17
 O_DAMPED = 18
-O_SIZE = 19
+O_SURFACE_WORK = 19
+O_EXTERNAL_WORK = 20
+O_SIZE = 21
 
 # --- what `advance` returns ---------------------------------------------------------------------
 DONE = 0

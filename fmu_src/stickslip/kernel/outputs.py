@@ -8,6 +8,7 @@ from .layout import (
     O_DAMPED,
     O_DISTANCE,
     O_ENERGY_RESIDUAL,
+    O_EXTERNAL_WORK,
     O_FRICTION_X,
     O_HEAT,
     O_HEAT_FLOW,
@@ -15,6 +16,7 @@ from .layout import (
     O_SLIDING_SPEED,
     O_SLIPS,
     O_SURFACE_SPEED,
+    O_SURFACE_WORK,
     O_TRAVEL,
     O_X,
     SHOWN,
@@ -69,4 +71,6 @@ def show(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", o: "float[:
     o[at + O_ENERGY_RESIDUAL] = energy_residual(p, z)
     o[at + O_TRAVEL] = z[SHOWN + TRAVEL]
     o[at + O_DAMPED] = z[SHOWN + DAMPED]
+    o[at + O_SURFACE_WORK] = z[SHOWN + WORK_SURFACE]
+    o[at + O_EXTERNAL_WORK] = z[SHOWN + WORK_EXTERNAL]
     o[at + O_SURFACE_SPEED] = surface_speed(p, u, w, z[SHOWN + TIME])

@@ -1,11 +1,15 @@
-"""The inputs and outputs of StickSlip3DOF: where the kernel keeps each, and what is known of it."""
+"""Inputs and outputs of the mechanical model: where the kernel keeps each, what is known of it."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Port:
-    """slot: name of its place in the kernel's layout. start: of an input. No unit: an integer."""
+    """An input or an output.
+
+    slot: name of its place in the kernel's layout; unit: SI, None for an integer; start: of an
+    input.
+    """
 
     name: str
     slot: str
@@ -51,6 +55,8 @@ OUTPUTS = (
     Port("mode", "O_MODE", None, None, "0 stick, 1 slip", min=0, max=1),
     Port("slip_count", "O_SLIPS", None, None, "Break-aways since the start", min=0),
     Port("energy_residual", "O_ENERGY_RESIDUAL", "J", 1.0, "Energy gained less energy supplied"),
+    Port("surface_work", "O_SURFACE_WORK", "J", 1.0, "Work of the surface on the block"),
+    Port("external_work", "O_EXTERNAL_WORK", "J", 1.0, "Work of the external forces"),
     Port("damping_heat", "O_DAMPED", "J", 1.0, "Heat in structural damping", min=0.0),
     Port("surface_speed_actual", "O_SURFACE_SPEED", "m/s", 0.1, "Speed of the surface, run-up in"),
 )
