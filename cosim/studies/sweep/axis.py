@@ -81,14 +81,14 @@ def _check_key(key: str) -> None:
     near = next(iter(namesakes), None) or nearest(key, KEYS)
     block = key.partition(".")[0]
     siblings = [known for known in KEYS if known.partition(".")[0] == block]
-    hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings or KEYS)}"
-    raise SweepError(f"{key}: no such key of the mechanics, {hint}")
+    blocks = f"a key of {', '.join(dict.fromkeys(known.partition('.')[0] for known in KEYS))}"
+    hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings) or blocks}"
+    raise SweepError(f"{key}: no such key of the mechanics, which a sweep runs alone, {hint}")
 
 
 def _listed(name: str, values: Any) -> list[Any]:
-    if isinstance(values, (str, bytes, Mapping)) or np.ndim(values) == 0 and not hasattr(
-        values, "__iter__"
-    ):
+    scalar = isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__")
+    if scalar or isinstance(values, np.ndarray) and values.ndim == 0:
         raise SweepError(f"{name}: not a list ({values!r}), allowed is a list of values")
     return list(values)
 
@@ -122,14 +122,15 @@ def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
         field = KEYS[key]
         unit = (field.json_schema_extra or {}).get("unit", "1")
         attributes = {"units": unit, "long_name": field.description or key}
-        coordinates[key] = (_column(values), attributes)
+        kind = int if field.annotation is int else float
+        coordinates[key] = (_column(values, kind), attributes)
     return coordinates
 
 
-def _column(values: Sequence[Any]) -> np.ndarray:
+def _column(values: Sequence[Any], kind: type = float) -> np.ndarray:
     """Numbers as they are, anything else by its label."""
     if all(_is_number(value) for value in values):
-        return np.array(values, dtype=float)
+        return np.array(values, dtype=kind)
     return np.array([_label(value) for value in values], dtype=object)
 
 

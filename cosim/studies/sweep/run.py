@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import xarray as xr
-from stickslip import Parameters, simulate
+from stickslip import Parameters
 
 from .chunk import Task, Work, compute_chunk
 from .cluster import DaskWorkers
-from .combination import Row, Run, model_version, with_changes
+from .combination import Row, Run, model_version
 from .dataset import sweep_dataset
 from .errors import SweepError, SweepStopped, WorkersLost
 from .grid import Grid, product_grid
@@ -22,6 +22,8 @@ from .store import Store
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
 CHUNK_SECONDS = 0.5
+#: The first combination tells how many fit into that time; it may have failed at once.
+MOST_IN_CHUNK = 256
 #: Chunks per worker at least, so that none waits long for the last one.
 SHARES = 4
 #: Work shorter than this (s) is done before other processes have even been started.
@@ -117,16 +119,18 @@ class _Sweeper:
         progress: Progress | None,
     ):
         self.work, self.tasks, self.rows, self.store = work, tasks, rows, store
+        self.done = len(tasks) - len(self.missing())
         self.progress = progress or (lambda done, total: None)
+        self.progress(self.done, len(tasks))
 
     def missing(self) -> list[Task]:
-        missing = [task for key, task in self.tasks.items() if key not in self.rows]
-        self.progress(len(self.tasks) - len(missing), len(self.tasks))
-        return missing
+        return [task for key, task in self.tasks.items() if key not in self.rows]
 
     def keep(self, rows: list[Row]) -> None:
         self.store.write(rows)
         self.rows |= {row.key: row for row in rows}
+        self.done += len(rows)
+        self.progress(self.done, len(self.tasks))
 
     def finish(self, workers: Workers) -> None:
         """Compute what is missing, with fresh workers when some were lost."""
@@ -136,31 +140,31 @@ class _Sweeper:
             if len(missing) * seconds < NOT_WORTH_PROCESSES and isinstance(workers, LocalWorkers):
                 workers = LocalWorkers(1)
             # shorter chunks after a loss: what is lost with a worker is less
-            size = max(math.ceil(_chunk_size(missing, seconds, workers.count) / 4**attempt), 1)
+            size = max(_chunk_size(missing, seconds, workers.count) // 4**attempt, 1)
             chunks = [missing[i : i + size] for i in range(0, len(missing), size)]
             try:
                 for rows in workers.run(self.work, chunks):
                     self.keep(rows)
-                    self.missing()
                 return
             except WorkersLost as error:
                 lost = error
         raise SweepStopped(
-            f"workers died {ATTEMPTS} times ({lost}); {len(self.missing())} of "
+            f"workers died {ATTEMPTS} times ({lost}), {len(self.missing())} of "
             f"{len(self.tasks)} combinations are missing: try fewer jobs"
         ) from lost
 
     def _first(self) -> float:
         """Run the first combination here: how long one takes, s, the kernel's loading aside."""
-        task = self.missing()[0]
-        # compiles the kernel before the workers would, all at the same time
-        simulate(with_changes(self.work.base, task.changes), self.work.run.output_interval)
+        task = self.missing()[:1]
+        # one row of it: compiles the kernel before the workers would, all at the same time
+        interval = self.work.run.output_interval
+        compute_chunk(self.work._replace(run=Run(interval, interval)), task)
         start = time.perf_counter()
-        self.keep(compute_chunk(self.work, [task]))
+        self.keep(compute_chunk(self.work, task))
         return time.perf_counter() - start
 
 
 def _chunk_size(missing: Sequence[Task], seconds: float, workers: int) -> int:
     """Combinations in a chunk."""
     most = math.ceil(len(missing) / (SHARES * workers))
-    return max(min(round(CHUNK_SECONDS / seconds), most), 1)
+    return max(min(round(CHUNK_SECONDS / seconds), most, MOST_IN_CHUNK), 1)

@@ -11,12 +11,13 @@ import hashlib
 import json
 import math
 import os
+import tempfile
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .combination import ERROR, Row, model_version
-from .errors import SweepError
+from .errors import SweepError, SweepStopped
 
 FOLDER = "chunks"
 VERSION_DIGITS = 12
@@ -30,8 +31,13 @@ class Store:
         if self.folder is not None:
             try:
                 self.folder.mkdir(parents=True, exist_ok=True)
+                with tempfile.TemporaryFile(dir=self.folder):
+                    pass  # the only sure test: permissions do not bind everybody
             except OSError as error:
-                raise SweepError(f"{self.folder}: cannot be made: {error.strerror}") from error
+                raise SweepError(
+                    f"{folder}: cannot be written to ({error.strerror}), allowed is a folder that "
+                    "can"
+                ) from error
 
     def read(self) -> dict[str, Row]:
         """Key -> row of everything that is kept."""
@@ -47,10 +53,13 @@ class Store:
             return
         name = hashlib.sha256("".join(row.key for row in kept).encode()).hexdigest()[:24]
         text = json.dumps([_plain(row) for row in kept], allow_nan=False)
-        write_atomically(self.folder / f"{name}.json", lambda path: path.write_text(text))
+        try:
+            write_atomically(self.folder / f"{name}.json", lambda path: path.write_text(text))
+        except OSError as error:
+            raise SweepStopped(f"{self.folder}: cannot be written: {error.strerror}") from error
 
 
-def write_atomically(path: Path, write) -> None:
+def write_atomically(path: Path, write: Callable[[Path], object]) -> None:
     """Let ``write`` fill a partial file beside ``path``, bring it to the disk, put it in place."""
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
     try:

@@ -1,7 +1,8 @@
 """The full test plan: every priority of every parameter, 1306 combinations.
 
 2 temperatures x 9 belts x 6 masses x 6 speeds x 2 kinds of guides = 1296, and 10 repeats of one
-combination for its statistics. Masses, speeds, temperatures and belts are the plan's.
+combination for its statistics: over a surface whose friction scatters, each with another seed.
+Masses, speeds, temperatures and belts are the plan's.
 
 The plan gives no friction coefficients of its belts, nor of the colder room: those here are
 assumptions, levels that span what ice shows on such surfaces, so that the sweep has the plan's
@@ -14,10 +15,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
 from stickslip import Parameters
 
 from .axis import axis, labelled_axis
+from .combination import with_changes
 from .grid import Grid, mechanics_of
 
 ICE = 0.461  # kg, the sample without added mass
@@ -36,8 +37,8 @@ BELTS = {
 STATIC_RATIO = 0.2815 / 0.2086
 #: part by which friction grows for each kelvin below -8 degC
 PER_KELVIN = 0.02
-#: relative scatter of friction from sample to sample in the repeats, and its seed
-SCATTER, SEED = 0.05, 1
+#: scatter of friction over the surface in the repeats, where the case has none of its own
+SCATTER = 0.05
 
 
 def plan_grid(
@@ -63,16 +64,10 @@ def plan_grid(
 
 
 def repeats_grid(parameters: Parameters) -> Grid:
-    """Ten runs of ``parameters`` as they are, each with a sample of its own friction."""
-    friction = parameters.friction
-    scatter = 1.0 + SCATTER * np.random.default_rng(SEED).standard_normal(REPEATS)
-    settings = [
-        {"friction.mu_s": friction.mu_s * factor, "friction.mu_k": friction.mu_k * factor}
-        for factor in scatter.tolist()
-    ]
-    numbers = [float(number) for number in range(1, REPEATS + 1)]
-    repeats = labelled_axis("repeat", "number of the repeat", "1", numbers, settings)
-    return Grid(mechanics_of(parameters), (repeats,))
+    """Ten runs of ``parameters``, each over another place of a surface whose friction scatters."""
+    deviation = parameters.surface_scatter.deviation or SCATTER
+    base = with_changes(mechanics_of(parameters), {"surface_scatter.deviation": deviation})
+    return Grid(base, (axis("surface_scatter.seed", range(1, REPEATS + 1)),))
 
 
 def _with_friction(settings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

@@ -1,0 +1,128 @@
+"""`stickslip sweep`: text to values, files, last lines, the test plan."""
+
+import argparse
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from cosim import read_scenario
+from cosim.studies import sweep_command
+from cosim.studies.sweep import Run, SweepError
+from cosim.studies.sweep.arguments import parse_vary
+from cosim.studies.sweep.test_plan import BELTS, plan_grid, repeats_grid
+
+
+def call(*argv):
+    parser = argparse.ArgumentParser()
+    sweep_command.add_arguments(parser)
+    return sweep_command.execute(parser.parse_args([str(word) for word in argv]))
+
+
+@pytest.fixture
+def case(tmp_path):
+    file = tmp_path / "short.toml"
+    file.write_text("[run]\nduration = 1.0\noutput_interval = 0.05\n")
+    return file
+
+
+@pytest.mark.parametrize(
+    "text, keys, values",
+    [
+        ("rig.mass=0.67,2", ("rig.mass",), [0.67, 2]),
+        ("rig.mass = 1e-1 , .5", ("rig.mass",), [0.1, 0.5]),
+        ("surface.speed=-0.1", ("surface.speed",), [-0.1]),
+        ("rig.inertia=disc,'ring',0.1", ("rig.inertia",), ["disc", "ring", 0.1]),
+        ("rig.degrees_of_freedom=[x],[\"x\", phi]", ("rig.degrees_of_freedom",),
+         [("x",), ("x", "phi")]),
+        ("friction.mu_s+friction.mu_k=0.2:0.1,0.3:0.2", ("friction.mu_s", "friction.mu_k"),
+         [(0.2, 0.1), (0.3, 0.2)]),
+        ("springs.force_curve_extension=[],[0,1]", ("springs.force_curve_extension",),
+         [(), (0, 1)]),
+    ],
+)
+def test_text_to_values(text, keys, values):
+    assert parse_vary([text]) == {keys: values}
+
+
+@pytest.mark.parametrize(
+    "texts, line",
+    [
+        (["rig.mass"], "--vary rig.mass: not a key with values, allowed is key=v1,v2"),
+        (["=1"], "--vary =1: not a key with values"),
+        (["rig.mass="], "--vary rig.mass=: no values"),
+        (["rig.mass=1,,2"], "an empty value is not a value"),
+        (["a+b=1:2,3"], "--vary a.b=1:2,3: 3 is not 2 values for the linked keys"),
+        (["a=[1,2"], "a bracket or a quotation mark is not closed"),
+        (["rig.mass=1", "rig.mass=2"], "--vary rig.mass: varied twice"),
+    ],
+)
+def test_text_that_is_refused(texts, line):
+    with pytest.raises(SweepError, match=line):
+        parse_vary(texts)
+
+
+def test_files_and_last_lines(case, tmp_path, capsys):
+    out = tmp_path / "out"
+    varied = ("--vary", "rig.mass=0.5,0.7", "--vary", "friction.mu_s+friction.mu_k=0.28:0.2,9:9")
+    assert call(case, *varied, "--jobs", 1, "-o", out) == 0
+    printed = capsys.readouterr()
+    assert printed.err == "" and "4 combinations in " in printed.out
+    assert {file.name for file in out.iterdir()} == {"sweep.nc", "sweep.png", "chunks"}
+    with xr.open_dataset(out / "sweep.nc") as done:
+        assert done.x_mean.dims == ("rig.mass", "friction.mu_s+friction.mu_k")
+        assert done["rig.mass"].attrs["units"] == "kg"
+        assert 'name = "short"' in done.attrs["scenario"]
+        assert done.attrs["duration"] == 1.0
+
+
+def test_a_sweep_without_any_result_fails(case, tmp_path, capsys):
+    case.write_text("[friction]\nmu_s = 9.0\nmu_k = 9.0\n[run]\nduration = 9.0\n")
+    assert call(case, "--vary", "rig.mass=0.5,0.7", "-o", tmp_path / "out") == 1
+    printed = capsys.readouterr().out
+    assert "0 of them complete" in printed and "failed     2, the first: the run ended" in printed
+    assert (tmp_path / "out" / "sweep.png").stat().st_size > 0
+
+
+def test_bad_input_leaves_nothing(case, tmp_path):
+    for argv in (["--vary", "rig.mas=1"], ["--vary", "rig.mass=-1"], ["--vary", "rig.mass=a"]):
+        with pytest.raises(sweep_command.REFUSED) as refusal:
+            call(case, *argv, "-o", tmp_path / "out")
+        assert "\n" not in str(refusal.value)
+    with pytest.raises(sweep_command.REFUSED, match="no such file"):
+        call(tmp_path / "none.toml", "--vary", "rig.mass=1")
+    with pytest.raises(sweep_command.REFUSED, match="cannot be written to"):
+        call(case, "--vary", "rig.mass=1", "-o", case)
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_interrupted_sweep_says_how_to_go_on(case, tmp_path, monkeypatch, capsys):
+    def interrupted(*arguments, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sweep_command, "run_grid", interrupted)
+    assert call(case, "--vary", "rig.mass=1", "-o", tmp_path / "out") == 1
+    line = capsys.readouterr().err
+    assert line.startswith("error: interrupted; what is finished is kept in ")
+    assert line.count("\n") == 1
+
+
+def test_the_plan_has_1306_different_combinations():
+    scenario = read_scenario("test_plan")
+    run = Run(30.0, 0.01)
+    plan, repeats = plan_grid(scenario), repeats_grid(scenario)
+    assert plan.shape == (2, 9, 6, 6, 2) and repeats.shape == (10,)
+    assert len({*plan.keys(run), *repeats.keys(run)}) == 1306
+    first, cold = plan.changes[0], plan.changes[len(plan) // 2]
+    assert first["friction.mu_k"] == BELTS["K40"]
+    assert cold["friction.mu_k"] == pytest.approx(1.16 * BELTS["K40"])
+    assert cold["friction.mu_s"] / cold["friction.mu_k"] == pytest.approx(0.2815 / 0.2086)
+    masses = plan.axes[2].coordinates["rig.mass"][0]
+    assert np.allclose(masses - 0.461, [0.0, 0.2, 0.4, 0.45, 0.65, 0.91])
+
+
+def test_measured_friction_takes_the_place_of_the_assumed():
+    measured = {"K100": 0.2, "steel": 0.05}
+    plan = plan_grid(read_scenario("test_plan"), belts=measured, per_kelvin=0.0)
+    assert plan.shape == (2, 2, 6, 6, 2)
+    assert {changes["friction.mu_k"] for changes in plan.changes} == {0.2, 0.05}

@@ -1,0 +1,101 @@
+"""Features of runs whose motion is known in closed form."""
+
+import math
+
+import numpy as np
+import pytest
+from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
+from stickslip.packing import GRAVITY
+
+from cosim.studies.sweep import FEATURES, features
+from cosim.studies.sweep.features import _extremes, _mean
+
+MASS, STIFFNESS, SPEED = 0.67, 20.17, 0.15
+MU_S, MU_K = 0.2815, 0.2086
+RATE = math.sqrt(4.0 * STIFFNESS / MASS)
+# elongation lost in a jump from mu_s to mu_k, and the closed form of the slip phase
+JUMP = (MU_S - MU_K) * GRAVITY / RATE**2
+SLIP = 2.0 / RATE * (math.pi - math.atan(JUMP * RATE / SPEED))
+STICK = 2.0 * JUMP / SPEED
+MIDDLE = MU_K * GRAVITY / RATE**2
+SWING = math.hypot(JUMP, SPEED / RATE)
+
+
+@pytest.fixture(scope="module")
+def coulomb():
+    """The Coulomb oscillator, begun where it re-sticks: in its cycle from the start."""
+    straight = Rig(mass=MASS, degrees_of_freedom=("x",), spring_length=0.2)
+    case = Parameters(rig=straight, springs=Springs(stiffness=STIFFNESS),
+                      friction=Friction(mu_s=MU_S, mu_k=MU_K),
+                      surface=Surface(speed=SPEED),
+                      initial=Initial(x=MIDDLE - JUMP, vx=SPEED))
+    return features(simulate(case, 60.0, 0.01))
+
+
+def test_every_feature_is_there_with_unit_and_words(coulomb):
+    assert list(coulomb) == list(FEATURES)
+    assert all(math.isfinite(value) for value in coulomb.values())
+    assert all(unit and words for unit, words in FEATURES.values())
+
+
+@pytest.mark.parametrize(
+    "name, value, error",
+    [
+        # located events and cubics through positions and velocities: far below a row's distance
+        ("slip_time", SLIP, 1e-9),
+        ("x_max", MIDDLE + SWING, 1e-7),
+        ("x_min", MIDDLE - SWING, 1e-7),
+        # the window cuts the first and the last cycle
+        ("frequency", 1.0 / (SLIP + STICK), 1.0 / 60.0),
+        ("slip_share", SLIP / (SLIP + STICK), 0.5 / 60.0),
+        ("x_mean", MIDDLE, 2e-4),
+        # the force jumps at re-stick: a row's mean is first order
+        ("kinetic_coefficient", MU_K, 1e-12),
+        ("friction_coefficient", MU_K, 2e-3),
+        ("phi_max", 0.0, 0.0),
+        ("y_mean", 0.0, 0.0),
+        ("energy_residual", 0.0, 1e-9),
+    ],
+)
+def test_coulomb_oscillator(coulomb, name, value, error):
+    assert coulomb[name] == pytest.approx(value, abs=error, rel=0.0)
+
+
+def test_heat_is_force_times_way(coulomb):
+    heat = MU_K * MASS * GRAVITY * coulomb["sliding_distance"]
+    assert coulomb["heat"] == pytest.approx(heat, rel=1e-9)
+
+
+def test_a_run_without_constant_speed_has_totals_only():
+    run = simulate(Parameters(surface=Surface(run_up_time=10.0)), 5.0, 0.1)
+    numbers = features(run)
+    assert math.isnan(numbers["x_mean"]) and math.isnan(numbers["frequency"])
+    assert numbers["heat"] >= 0.0
+
+
+def test_a_block_that_rests_has_no_slip_time():
+    held = Parameters(surface=Surface(speed=0.001), initial=Initial(vx=0.001))
+    numbers = features(simulate(held, 2.0, 0.1))
+    assert numbers["frequency"] == numbers["slip_share"] == 0.0
+    assert math.isnan(numbers["slip_time"]) and math.isnan(numbers["kinetic_coefficient"])
+
+
+def test_the_cubics_are_of_fourth_order():
+    """Mean of sin over a part of its period; its largest value between two rows.
+
+    The error at the largest value hangs on where it lies between the rows: at least the order.
+    """
+
+    def errors(count):
+        time = np.linspace(0.0, 2.0, count + 1)
+        mean = _mean(time, np.sin(time), np.cos(time)) - 0.5 * (1.0 - math.cos(2.0))
+        return abs(mean), abs(_extremes(time, np.sin(time), np.cos(time))[1] - 1.0)
+
+    for coarse, fine in zip(errors(40), errors(80), strict=True):
+        assert math.log2(coarse / fine) > 3.7
+
+
+def test_extremes_of_straight_and_flat_lines():
+    time = np.arange(4.0)
+    assert _extremes(time, 2.0 * time, np.full(4, 2.0)) == (0.0, 6.0)
+    assert _extremes(time, np.ones(4), np.zeros(4)) == (1.0, 1.0)
