@@ -203,11 +203,12 @@ class Parameters(EffectBlocks):
         return values
 
     def _curve_values(self) -> dict[str, float]:
-        """The curve at its full length: unused places repeat zero, which does not grow."""
+        """The curve at its full length: unused places repeat the last value, which ends it."""
         values = {}
         for key in ("force_curve_extension", "force_curve_force"):
             curve = getattr(self.springs, key)
-            padded = [*curve, *[0.0] * (CURVE_LIMIT - len(curve))]
+            rest = curve[-1] if curve else 0.0
+            padded = [*curve, *[rest] * (CURVE_LIMIT - len(curve))]
             values |= {f"springs.{key}[{i + 1}]": value for i, value in enumerate(padded)}
         return values
 
