@@ -55,7 +55,7 @@ def check_readable(folder, status):
     """Data in all forms, of the same rows; the dataset."""
     with xr.open_dataset(folder / "result.nc") as dataset:
         dataset.load()
-    table = pd.read_csv(folder / "result.csv")
+    table = pd.read_csv(folder / "result.csv", float_precision="round_trip")
     assert dataset.attrs["status"] == summary_in(folder)["status"] == status
     np.testing.assert_array_equal(table["time"], dataset["time"])
     np.testing.assert_array_equal(table["x"], dataset["x"])
