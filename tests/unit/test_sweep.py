@@ -265,8 +265,8 @@ def test_workers_use_one_thread_each(monkeypatch):
     """Else two processes of numba or BLAS on two cores would be four."""
     names = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"]
     monkeypatch.setattr(
-        "cosim.studies.sweep.local.compute_chunk",
-        lambda work, names: [os.getenv(name) for name in names],
+        "cosim.studies.sweep.local.compute_in_process",
+        lambda parent, work, names: [os.getenv(name) for name in names],
     )
     assert list(LocalWorkers(2).run(None, [names, names])) == [["1", "1", "1"]] * 2
     assert LocalWorkers().count == joblib.cpu_count()

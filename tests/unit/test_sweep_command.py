@@ -1,6 +1,11 @@
 """`stickslip sweep`: text to values, files, last lines, the test plan."""
 
 import argparse
+import os
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -10,6 +15,7 @@ from cosim import read_scenario
 from cosim.studies import sweep_command
 from cosim.studies.sweep import Run, SweepError
 from cosim.studies.sweep.arguments import parse_vary
+from cosim.studies.sweep.store import Store
 from cosim.studies.sweep.test_plan import BELTS, plan_grid, repeats_grid
 
 
@@ -105,6 +111,27 @@ def test_an_interrupted_sweep_says_how_to_go_on(case, tmp_path, monkeypatch, cap
     line = capsys.readouterr().err
     assert line.startswith("error: interrupted; what is finished is kept in ")
     assert line.count("\n") == 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C reaches a process group on POSIX only")
+def test_ctrl_c_reaches_all_processes_and_loses_nothing(tmp_path):
+    """As a terminal sends it: to this command and to its workers at once."""
+    command = [sys.executable, "-m", "cosim", "sweep", "test_plan", "--test-plan", "--jobs", "2"]
+    with subprocess.Popen(
+        [*command, "-o", tmp_path], start_new_session=True, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    ) as process:
+        while process.poll() is None and len(list(tmp_path.glob("chunks/*/*.json"))) < 3:
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+    assert (process.returncode, out) == (1, "")
+    assert err.startswith("error: interrupted; what is finished is kept in ")
+    assert err.count("\n") == 1
+    kept = Store(tmp_path).read()
+    plan = plan_grid(read_scenario("test_plan")).keys(Run(30.0, 0.01))
+    assert 3 <= len(kept) < 1306 and kept.keys() <= set(plan)
+    assert not list(tmp_path.rglob("*.partial"))
 
 
 def test_the_plan_has_1306_different_combinations():

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import threading
+import time
 from collections.abc import Iterator, Sequence
+from functools import cache
 from types import TracebackType
 from typing import Self
 
@@ -13,8 +17,8 @@ from .chunk import Task, Work, compute_chunk
 from .combination import Row
 from .errors import SweepError, WorkersLost
 
-#: After this time (s) without work a process ends; also one whose parent was killed.
-IDLE_SECONDS = 20
+#: How often (s) a process looks whether the one that started it is still there.
+LOOK_SECONDS = 1.0
 
 
 class LocalWorkers:
@@ -42,16 +46,36 @@ class LocalWorkers:
             for chunk in chunks:
                 yield compute_chunk(work, chunk)
             return
-        with joblib.parallel_config(
-            "loky", n_jobs=self.count, inner_max_num_threads=1, idle_worker_timeout=IDLE_SECONDS
-        ):
+        with joblib.parallel_config("loky", n_jobs=self.count, inner_max_num_threads=1):
             parallel = joblib.Parallel(
                 return_as="generator_unordered", batch_size=1, pre_dispatch="2 * n_jobs"
             )
-            results = parallel(joblib.delayed(compute_chunk)(work, chunk) for chunk in chunks)
+            here = os.getpid()
+            results = parallel(
+                joblib.delayed(compute_in_process)(here, work, chunk) for chunk in chunks
+            )
         try:
             yield from results
         except TerminatedWorkerError as error:
             raise WorkersLost(" ".join(str(error).split())) from error
         finally:
             results.close()
+
+
+def compute_in_process(parent: int, work: Work, chunk: Sequence[Task]) -> list[Row]:
+    """`compute_chunk` in a process that ends with its parent."""
+    _end_with(parent)
+    return compute_chunk(work, chunk)
+
+
+@cache
+def _end_with(parent: int) -> None:
+    """End this process when its parent, killed, can no longer do so: joblib's wait for ever."""
+
+    def look() -> None:
+        while os.getppid() == parent:
+            time.sleep(LOOK_SECONDS)
+        os._exit(1)
+
+    if os.getppid() == parent:
+        threading.Thread(target=look, daemon=True).start()
