@@ -30,25 +30,34 @@ def set_surface_phase(p: "float[:]", w: "float[:]", t: float):
         w[W_RUNNING_UP] = 1.0
 
 
+def steady_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
+    """Speed of the surface without ripple, m/s: a linear run-up, then constant."""
+    if w[W_RUNNING_UP] == 1.0:
+        return u[U_SPEED] * t / p[P_RUN_UP]
+    return u[U_SPEED]
+
+
 def surface_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
     """Speed of the surface where the block rests, m/s.
 
-    A linear run-up, then constant, times 1 + A sin(2 pi f t + phase) (speed_ripple).
+    The steady speed times 1 + A sin(2 pi f t + phase) (speed_ripple).
     """
-    ripple = 1.0 + p[P_RIPPLE] * sin(p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE])
-    if w[W_RUNNING_UP] == 1.0:
-        return ripple * u[U_SPEED] * t / p[P_RUN_UP]
-    return ripple * u[U_SPEED]
+    speed = steady_speed(p, u, w, t)
+    if p[P_RIPPLE] != 0.0:
+        speed *= 1.0 + p[P_RIPPLE] * sin(p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE])
+    return speed
 
 
 def surface_acceleration(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
     """Rate of `surface_speed`, m/s^2."""
-    angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
-    swing = p[P_RIPPLE] * p[P_RIPPLE_RATE] * cos(angle)
+    rate = 0.0
     if w[W_RUNNING_UP] == 1.0:
-        ripple = 1.0 + p[P_RIPPLE] * sin(angle)
-        return u[U_SPEED] / p[P_RUN_UP] * (ripple + swing * t)
-    return u[U_SPEED] * swing
+        rate = u[U_SPEED] / p[P_RUN_UP]
+    if p[P_RIPPLE] != 0.0:
+        angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
+        rate *= 1.0 + p[P_RIPPLE] * sin(angle)
+        rate += steady_speed(p, u, w, t) * p[P_RIPPLE] * p[P_RIPPLE_RATE] * cos(angle)
+    return rate
 
 
 def surface_motion(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
