@@ -128,6 +128,7 @@ class Scheme:
             force_scatter=scatter * float(np.sqrt(np.sum(shares**2))),
             moment_scatter=scatter * float(np.sqrt(np.sum((shares * middles) ** 2))),
             correlation_length=self.correlation_length,
+            covered=float(shares.sum()),
             reach=1.0 if self.faults.F2 else self.radius,
             spring_length=self.spring_length,
             updated=self.treatment == "updated",

@@ -23,7 +23,7 @@ from .scheme_types import (
     STUCK_AGAIN,
 )
 from .spring_angles import stiffness_over_k, updated_angles
-from .strip_friction import field_scatter, mean_load
+from .strip_friction import even_load, field_scatter, mean_load
 
 BISECTIONS = 50  # halves 0.1 ms to below the resolution of a double
 
@@ -182,7 +182,7 @@ def _block(rig, faults, memory, t, until, to_the_end):
         a0[0], a0[2] = memory.load[0] / rig.mass, memory.load[1] / rig.inertia
         step(prop, STEP, memory.q, memory.v, a0, a0, q1, v1)  # foresees where the load is taken
         if rig.strip_wise and not faults.lagging:
-            mean_load(rig, v1, memory.shares, memory.middles, memory.mean)
+            even_load(rig, v1, memory.shares, memory.middles, memory.mean)
         _scattered(rig, faults, memory, rig.speed * (t + STEP) - q1[0], load1)
         a1[0], a1[2] = load1[0] / rig.mass, load1[1] / rig.inertia
         step(prop, STEP, memory.q, memory.v, a0, a1, q1, v1)

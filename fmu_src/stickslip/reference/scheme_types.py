@@ -38,6 +38,7 @@ class SchemeRig(NamedTuple):
     force_scatter: float
     moment_scatter: float
     correlation_length: float
+    covered: float  # share of the disc's area that the strips have together
     reach: float
     spring_length: float
     updated: bool

@@ -47,6 +47,23 @@ def mean_load(rig, velocity, shares, middles, load):
 
 
 @njit(cache=True)
+def even_load(rig, velocity, shares, middles, load):
+    """As `mean_load`, at the price of one strip where all of them slide alike.
+
+    Alike: a rim speed of less than 1e-12 of the sliding speed moves no digit of the force that
+    matters here.
+    """
+    sliding = abs(rig.speed - velocity[0])
+    rim = abs(velocity[2]) * middles[-1]
+    if rig.curvature != 0.0 or rim > 1e-12 * sliding:
+        mean_load(rig, velocity, shares, middles, load)
+        return
+    mu = max(rig.mu_k - rig.mu_slope * (sliding - rig.mu_k_speed), 0.0)
+    load[0] = mu * rig.covered * rig.normal_force
+    load[1] = 0.0
+
+
+@njit(cache=True)
 def _hash(seed, place, channel):
     """A number in (0, 1) that belongs to (seed, place, channel): splitmix64."""
     z = np.uint64(seed) * np.uint64(0x9E3779B97F4A7C15)

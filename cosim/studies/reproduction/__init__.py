@@ -1,0 +1,44 @@
+"""The source study's claims C1 to C15, each computed anew and judged.
+
+>>> from cosim.studies.reproduction import reproduce
+>>> reproduce(["C1"])[0].verdict
+'holds'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from .claim import CANNOT_BE_CHECKED, DOES_NOT_HOLD, HOLDS, ONLY_WITH_FAULT, Check, Claim, Row
+from .names import CLAIM_IDS, UnknownClaim, claim_ids
+
+__all__ = [
+    "CANNOT_BE_CHECKED",
+    "CLAIM_IDS",
+    "DOES_NOT_HOLD",
+    "HOLDS",
+    "ONLY_WITH_FAULT",
+    "Check",
+    "Claim",
+    "Row",
+    "UnknownClaim",
+    "claim_ids",
+    "reproduce",
+]
+
+
+def reproduce(
+    ids: Sequence[str] = (), progress: Callable[[str], None] = lambda _id: None
+) -> list[Claim]:
+    """Compute and judge the claims (all of them for no ids), in the study's order.
+
+    ``progress`` is called with each id when its claim is judged. Raises `UnknownClaim`.
+    """
+    wanted = claim_ids(ids)
+    from .claims import CLAIMS  # matplotlib and the thermal model: only when there is work
+
+    judged = []
+    for one in wanted:
+        judged.append(CLAIMS[one]())
+        progress(one)
+    return judged

@@ -1,0 +1,39 @@
+"""The claims C1 to C15 of the source study, one function each that returns the judged claim."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..claim import Claim
+from . import (
+    belt_length,
+    friction_level,
+    friction_ratio,
+    jumps_to_stick,
+    kinetic_coefficient,
+    mean_displacement,
+    rotation,
+    run_times,
+    slip_time,
+    spring_angles,
+    stiffness_matrices,
+    verification_runs,
+)
+
+CLAIMS: dict[str, Callable[[], Claim]] = {
+    "C1": stiffness_matrices.judge,
+    "C2": verification_runs.judge_no_stiffness,
+    "C3": verification_runs.judge_stiff,
+    "C4": verification_runs.judge_no_friction,
+    "C5": spring_angles.judge,
+    "C6": friction_level.judge,
+    "C7": rotation.judge,
+    "C8": mean_displacement.judge,
+    "C9": slip_time.judge,
+    "C10": kinetic_coefficient.judge,
+    "C11": friction_ratio.judge,
+    "C12": run_times.judge,
+    "C13": belt_length.judge_length,
+    "C14": jumps_to_stick.judge,
+    "C15": belt_length.judge_table,
+}

@@ -1,0 +1,112 @@
+"""C11: oscillations counted for mu_k/mu_s of 0.5, 0.77 and 1.0."""
+
+from __future__ import annotations
+
+from stickslip.reference.faults import MENDED, PRINTED
+
+from ..cases import (
+    DATASET_2,
+    RIG_ASSUMED,
+    SCATTER_ASSUMED,
+    Case,
+    exact_figures,
+    exact_motion,
+    exact_parameters,
+    scheme_figures,
+    scheme_motion,
+)
+from ..claim import Check, Claim, Row
+from ..drawing import COLOURS, LABELS, panels, picture
+from ..motion import MotionFigures
+
+RATIOS = (0.5, 0.77, 1.0)
+STUDY = {0.5: "28 to 30", 0.77: "30 or 31", 1.0: 29}
+MEASURED = 34
+# "one or two more" and "29" are counts: half an oscillation either way rounds to them
+MORE = (0.5, 2.5)
+NEAR = 1.0
+
+
+def _case(ratio: float) -> Case:
+    return DATASET_2.changed(mu_k=ratio * DATASET_2.mu_s)
+
+
+def _figures(ratio: float) -> dict[str, MotionFigures]:
+    case = _case(ratio)
+    return {
+        "printed": scheme_figures(case, PRINTED),
+        "mended": scheme_figures(case, MENDED),
+        "exact": exact_figures(case),
+    }
+
+
+def _more(counts: dict[float, float]) -> bool:
+    gaps = (counts[0.77] - counts[0.5], counts[0.77] - counts[1.0])
+    return all(MORE[0] <= gap <= MORE[1] for gap in gaps)
+
+
+def judge() -> Claim:
+    """Counts in 20 s by model."""
+    by_ratio = {ratio: _figures(ratio) for ratio in RATIOS}
+    counts = {
+        model: {ratio: by_ratio[ratio][model].oscillations for ratio in RATIOS}
+        for model in ("printed", "mended", "exact")
+    }
+    rows = [
+        Row(f"oscillations in 20 s, µ_k/µ_s = {ratio:g}", "1", STUDY[ratio],
+            *(counts[model][ratio] for model in counts))
+        for ratio in RATIOS
+    ]
+    rows += [
+        Row(f"half the range of x, µ_k/µ_s = {ratio:g}", "m", None,
+            *(by_ratio[ratio][model].half_range_x for model in counts))
+        for ratio in RATIOS
+    ]
+    straight = {
+        ratio: scheme_figures(_case(ratio), PRINTED.without("F2")).oscillations for ratio in RATIOS
+    }
+    nearest = min(
+        ((model, ratio) for model in counts for ratio in RATIOS),
+        key=lambda key: abs(counts[key[0]][key[1]] - MEASURED),
+    )
+    return Claim(
+        "C11", "µ_k/µ_s = 0.77 counts one or two oscillations more than 0.5 and 1.0", tuple(rows),
+        (
+            Check("0.77 counts one or two more than 0.5 and than 1.0",
+                  *(_more(counts[model]) for model in counts)),
+            Check("1.0 counts 29",
+                  *(abs(counts[model][1.0] - STUDY[1.0]) <= NEAR for model in counts)),
+        ),
+        remarks=(
+            "As printed without the rotation (F2 mended): "
+            + ", ".join(f"{straight[ratio]:.1f} at {ratio:g}" for ratio in RATIOS) + ".",
+            f"Measured: {MEASURED}. Nearest: {LABELS[nearest[0]]} at {nearest[1]:g} with "
+            f"{counts[nearest[0]][nearest[1]]:.1f}.",
+        ),
+        assumed=("constant µ_s = 0.065; µ_k = ratio × 0.065; window 20 s", SCATTER_ASSUMED,
+                 RIG_ASSUMED),
+        pictures=(_draw(),),
+    )
+
+
+@picture("C11_ratio", "x(t), steady, for µ_k/µ_s = 0.5, 0.77, 1.0 (m 0.67 kg, k 20.17 N/m, v 0.15 "
+         "m/s). Study: figure 5.11.")
+def _draw():
+    figure, axes = panels(len(RATIOS), 1, height=1.7, sharex=True, sharey=True)
+    for ax, ratio in zip(axes[:, 0], RATIOS, strict=True):
+        case = _case(ratio)
+        runs = {
+            "printed": scheme_motion(case, PRINTED), "mended": scheme_motion(case, MENDED),
+            "exact": exact_motion(exact_parameters(case)),
+        }
+        for model, run in runs.items():
+            start = 0.4 * run.time[-1]
+            keep = run.time >= start
+            ax.plot(run.time[keep] - start, 100 * run.x[keep], color=COLOURS[model],
+                    label=LABELS[model], lw=1.0)
+        ax.set_title(f"µ_k/µ_s = {ratio:g}")
+        ax.set_ylabel("x, cm")
+        ax.set_xlim(0.0, 12.0)
+    axes[-1, 0].set_xlabel("time, s")
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=3, loc="outside upper center")
+    return figure

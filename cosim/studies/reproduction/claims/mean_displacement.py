@@ -1,0 +1,118 @@
+"""C8: the mean of x is linear in the mass, and falls with stiffness and with speed."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from ..cases import (
+    DATASET_2,
+    GUIDED_ASSUMED,
+    LAW_ASSUMED,
+    MASSES,
+    MASSES_ASSUMED,
+    SPEEDS,
+    STIFFNESS_ASSUMED,
+    STIFFNESSES,
+    WEAKENING,
+    three_models,
+)
+from ..claim import Check, Claim, Row
+from ..drawing import LABELS, MODELS, SERIES, by_model, panels, picture
+
+CASE = DATASET_2.changed(weakening=WEAKENING)
+LINE = CASE.changed(stiffness=38.50, speed=0.37)
+LINE_MASSES = tuple(0.1 + 0.2 * i for i in range(16))
+# a straight line "holds" where it leaves less than a hundredth of the variance
+STRAIGHT = 0.99
+
+Grid = dict[str, np.ndarray]  # model -> mean x (stiffness, mass, speed), m
+
+
+def grid() -> Grid:
+    """Mean of x for every stiffness, mass and speed of the study."""
+    keys = list(product(STIFFNESSES, MASSES, SPEEDS))
+    cases = [CASE.changed(stiffness=k, mass=m, speed=v) for k, m, v in keys]
+    shape = len(STIFFNESSES), len(MASSES), len(SPEEDS)
+    return {
+        model: np.reshape([one.mean_x for one in figures], shape)
+        for model, figures in three_models(cases).items()
+    }
+
+
+def straightness(x: np.ndarray, y: np.ndarray) -> float:
+    """R2 of a straight line."""
+    residual = y - np.polyval(np.polyfit(x, y, 1), x)
+    return 1.0 - float(np.sum(residual**2) / np.sum((y - y.mean()) ** 2))
+
+
+def _falls(values: np.ndarray) -> bool:
+    return bool(np.all(np.diff(values) < 0.0))
+
+
+def judge() -> Claim:
+    """Means over the grid and along the finer line in mass."""
+    line = {
+        model: np.array([one.mean_x for one in figures])
+        for model, figures in three_models([LINE.changed(mass=m) for m in LINE_MASSES]).items()
+    }
+    means = grid()
+    r2 = [straightness(np.array(LINE_MASSES), line[model]) for model in MODELS]
+    by_stiffness = {model: means[model].mean(axis=(1, 2)) for model in MODELS}
+    by_speed = {model: means[model].mean(axis=(0, 1)) for model in MODELS}
+    rows = [Row("R² of the line in mass, k 38.50, v 0.37", "1", "linear", *r2)]
+    rows += [
+        Row(f"mean of x at k {k:.2f} N/m, all m and v", "m", "falls with k",
+            *(float(by_stiffness[model][i]) for model in MODELS))
+        for i, k in enumerate(STIFFNESSES)
+    ]
+    rows += [
+        Row(f"mean of x at v {v:.2f} m/s, all m and k", "m", "falls with v",
+            *(float(by_speed[model][i]) for model in MODELS))
+        for i, v in enumerate(SPEEDS)
+    ]
+    return Claim(
+        "C8", "the mean of x is linear in mass and falls with stiffness and speed", tuple(rows),
+        (
+            Check(f"linear in mass, R² above {STRAIGHT}", *(value > STRAIGHT for value in r2)),
+            Check("falls with stiffness", *(_falls(by_stiffness[model]) for model in MODELS)),
+            Check("falls with speed", *(_falls(by_speed[model]) for model in MODELS)),
+        ),
+        remarks=(
+            "With a constant µ_k the mean of x is µ_k m g/(4k) whatever the speed: it falls with "
+            "speed only as far as µ_k does.",
+        ),
+        assumed=(LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED, GUIDED_ASSUMED),
+        pictures=(_draw_grid(means), _draw_line(line)),
+    )
+
+
+@picture("C8_mean_x", "Mean of x over mass for the study's stiffnesses (columns) and speeds "
+         "(lines), by model (rows). Study: figures 5.2a to d.")
+def _draw_grid(means: Grid):
+    figure, axes = panels(len(MODELS), len(STIFFNESSES), height=2.2, sharex=True, sharey="row")
+    for row, model in enumerate(MODELS):
+        for column, k in enumerate(STIFFNESSES):
+            ax = axes[row, column]
+            for i, v in enumerate(SPEEDS):
+                ax.plot(MASSES, 100 * means[model][column, :, i], "o-", ms=2.5,
+                        color=SERIES[i], label=f"v {v:.2f} m/s")
+            if row == 0:
+                ax.set_title(f"k {k:.2f} N/m")
+        axes[row, 0].set_ylabel(f"{LABELS[model]}\nmean x, cm")
+    for ax in axes[-1]:
+        ax.set_xlabel("mass, kg")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=6, loc="outside upper center")
+    return figure
+
+
+@picture("C8_mass", "Mean of x over mass at k 38.50 N/m, v 0.37 m/s. Study: figure 5.3.")
+def _draw_line(line: dict[str, np.ndarray]):
+    figure, axes = panels(1, 1, height=2.8, width=5.5)
+    by_model(axes[0, 0], LINE_MASSES, line, 100.0)
+    axes[0, 0].set_xlabel("mass, kg")
+    axes[0, 0].set_ylabel("mean x, cm")
+    axes[0, 0].legend()
+    return figure

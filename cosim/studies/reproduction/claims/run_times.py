@@ -1,0 +1,72 @@
+"""C12: what updating the spring angles costs, as a ratio measured here."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable
+
+from stickslip import simulate
+from stickslip.reference.faults import PRINTED
+from stickslip.reference.interpreted_scheme import interpreted_run
+
+from ..cases import DATASET_1, exact_parameters, scheme
+from ..claim import Check, Claim, Row
+
+# one stick and one slip, then the next ones begin: what a script needs grows with the slips
+DURATION = 0.7
+WHOLE = 20.0
+STUDY = (5 * 60 / 30, 8 * 60 / 20)  # the least and the most that its minutes allow
+# machines and numpy versions differ; a ratio within a factor of 3 of the range is the same finding
+LEEWAY = 3.0
+
+
+def seconds(call: Callable[[], object], repeats: int) -> float:
+    """Median time of a call."""
+    taken = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        call()
+        taken.append(time.perf_counter() - start)
+    return statistics.median(taken)
+
+
+def judge() -> Claim:
+    """Script with strips in Python, script with strips in numpy, compiled scheme, exact model."""
+    python = [
+        seconds(lambda kind=kind: interpreted_run(DURATION, treatment=kind), 1)
+        for kind in ("updated", "zero")
+    ]
+    numpy = [
+        seconds(lambda kind=kind: interpreted_run(DURATION, treatment=kind, together=True), 3)
+        for kind in ("updated", "zero")
+    ]
+    schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in ("updated", "zero")]
+    compiled = [seconds(lambda one=one: one.run(duration=WHOLE), 5) for one in schemes]
+    parameters = exact_parameters(DATASET_1)
+    exact = seconds(lambda: simulate(parameters, WHOLE), 5)
+    ratio = python[0] / python[1]
+    per_second = python[0] / DURATION * WHOLE
+    return Claim(
+        "C12", "updating the spring angles takes 5 to 8 min, other treatments 20 to 30 s",
+        (
+            Row("run time, updated / zero, strips in Python", "1",
+                f"{STUDY[0]:.0f} to {STUDY[1]:.0f}", ratio),
+            Row("run time, updated / zero, strips in numpy", "1", None, numpy[0] / numpy[1]),
+            Row("run time, updated / zero, compiled", "1", None, None, compiled[0] / compiled[1]),
+            Row("script (strips in Python) / compiled scheme, 20 s, updated", "1", None,
+                None, per_second / compiled[0]),
+            Row("script (strips in Python) / exact model, 20 s", "1", None, None, None,
+                per_second / exact),
+        ),
+        (
+            Check("`updated` takes 10 to 24 times as long as the others, within a factor of "
+                  f"{LEEWAY:.0f}", STUDY[0] / LEEWAY <= ratio <= LEEWAY * STUDY[1], None, None),
+        ),
+        remarks=(
+            "The cost is not the stiffness matrix: `updated` samples friction a hundred times in "
+            "every 10 ms, a fixed matrix a hundred times in a second. Compiled, the exact model "
+            f"takes {1e3 * exact:.0f} ms for {WHOLE:.0f} s here.",
+        ),
+        assumed=("a fixed matrix is solved once a slip, over 2 s at 100 samples a second",),
+    )

@@ -1,0 +1,141 @@
+"""Figures of a stick-slip motion, read the same way off the scheme and the exact model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from stickslip import Trajectory
+from stickslip.reference.linearised import SchemeRun
+
+WINDOW = 20.0  # s, the study's run at constant speed: oscillations are counted over as much
+# an oscillation counts once it has left a band of this part of the range about the mean
+BAND = 0.1
+
+
+@dataclass(frozen=True)
+class Motion:
+    """time s, x m, y m, phi rad, omega rad/s, friction N (along x): (n,) each.
+
+    phases (k, 3): begin s, end s, mode (1 slip); jumps (k,): jump of x' at each phase's end, m/s.
+    """
+
+    time: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    phi: np.ndarray
+    omega: np.ndarray
+    friction: np.ndarray
+    mode: np.ndarray
+    phases: np.ndarray
+    jumps: np.ndarray
+
+    @classmethod
+    def of_scheme(cls, run: SchemeRun) -> Motion:
+        """The motion of a run of the study's scheme."""
+        return cls(
+            run.time, run.q[:, 0], run.q[:, 1], run.q[:, 2], run.velocity[:, 2], run.load[:, 0],
+            run.mode, run.phases[:, :3], run.phases[:, 4],
+        )
+
+    @classmethod
+    def of_trajectory(cls, run: Trajectory) -> Motion:
+        """The motion of a run of the exact model; re-stick is an event there, without a jump."""
+        times, modes = run.events[:, 0], run.events[:, 1]
+        edges = np.concatenate([[run.time[0]], times, [run.time[-1]]])
+        phases = np.stack(
+            [edges[:-1], edges[1:], np.concatenate([[run["mode"][0]], modes])], axis=1
+        )
+        return cls(
+            run.time, run["x"], run["y"], run["phi"], run["omega"], run["friction_force_x"],
+            run["mode"], phases, np.zeros(len(phases)),
+        )
+
+    def last(self, share: float) -> Motion:
+        """The last ``share`` of the time."""
+        start = self.time[-1] - share * (self.time[-1] - self.time[0])
+        return self.since(start)
+
+    def since(self, start: float) -> Motion:
+        """From ``start`` (s) on."""
+        keep, phases = self.time >= start, self.phases[:, 1] > start
+        cut = self.phases[phases].copy()
+        cut[:, 0] = np.maximum(cut[:, 0], start)
+        return Motion(
+            self.time[keep], self.x[keep], self.y[keep], self.phi[keep], self.omega[keep],
+            self.friction[keep], self.mode[keep], cut, self.jumps[phases],
+        )
+
+
+@dataclass(frozen=True)
+class MotionFigures:
+    """What the study reads off a run; m, s, deg, 1. A figure that a run does not have is NaN."""
+
+    mean_x: float
+    half_range_x: float
+    oscillations: float  # in 20 s
+    slip_share: float
+    slip_time: float  # mean duration of a slip
+    max_rotation: float  # deg
+    max_rotation_rate: float  # deg/s
+    mean_y: float
+    range_y: float
+    mean_friction: float  # size of the force along x, in slip, N
+
+
+def figures(motion: Motion) -> MotionFigures:
+    """Figures of all of ``motion``; cut it to the steady part first."""
+    return MotionFigures(
+        mean_x=time_mean(motion.x, motion.time),
+        half_range_x=0.5 * float(np.ptp(motion.x)),
+        oscillations=WINDOW * oscillation_rate(motion.time, motion.x),
+        slip_share=_slip_share(motion.phases),
+        slip_time=_slip_time(motion.phases),
+        max_rotation=float(np.degrees(np.abs(motion.phi).max())),
+        max_rotation_rate=float(np.degrees(np.abs(motion.omega).max())),
+        mean_y=time_mean(motion.y, motion.time),
+        range_y=float(np.ptp(motion.y)),
+        mean_friction=_mean_friction(motion),
+    )
+
+
+def average(many: list[MotionFigures]) -> MotionFigures:
+    """Mean of each figure over several runs."""
+    table = np.array([list(vars(one).values()) for one in many])
+    known = np.isfinite(table).sum(axis=0)
+    mean = np.where(known, np.nansum(table, axis=0) / np.maximum(known, 1), np.nan)
+    return MotionFigures(*mean.tolist())
+
+
+def time_mean(values: np.ndarray, time: np.ndarray) -> float:
+    """Mean over time, samples at uneven times."""
+    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+
+
+def oscillation_rate(time: np.ndarray, x: np.ndarray) -> float:
+    """Oscillations of x about its mean per second, from the first upward crossing to the last."""
+    away = x - time_mean(x, time)
+    band = BAND * float(np.ptp(x))
+    side = np.where(away > band, 1, np.where(away < -band, -1, 0))
+    seen = np.flatnonzero(side)
+    upward = seen[1:][(side[seen[1:]] == 1) & (side[seen[:-1]] == -1)]
+    if len(upward) < 2:
+        return float("nan")
+    return float((len(upward) - 1) / (time[upward[-1]] - time[upward[0]]))
+
+
+def _slip_share(phases: np.ndarray) -> float:
+    lasting = phases[:, 1] - phases[:, 0]
+    return float(lasting[phases[:, 2] == 1].sum() / lasting.sum())
+
+
+def _slip_time(phases: np.ndarray) -> float:
+    """Mean duration of the slips that lie wholly inside, s."""
+    inner = phases[1:-1]
+    slips = inner[inner[:, 2] == 1]
+    return float(np.mean(slips[:, 1] - slips[:, 0])) if len(slips) else float("nan")
+
+
+def _mean_friction(motion: Motion) -> float:
+    slip = motion.mode == 1
+    return float(np.abs(motion.friction[slip]).mean()) if slip.any() else float("nan")

@@ -1,0 +1,56 @@
+"""The reproduction as one self-contained HTML page: verdicts first, then each claim."""
+
+from __future__ import annotations
+
+import base64
+import math
+from importlib import resources
+
+from jinja2 import Environment, StrictUndefined
+from markupsafe import Markup
+
+from .claim import CANNOT_BE_CHECKED, DOES_NOT_HOLD, HOLDS, ONLY_WITH_FAULT, Claim, Row
+from .result import OTHER_FAULTS
+
+CLASSES = {
+    HOLDS: "holds", ONLY_WITH_FAULT: "fault", DOES_NOT_HOLD: "fails", CANNOT_BE_CHECKED: "unknown"
+}
+MODELS = ("printed", "mended", "exact")
+
+
+def page(claims: list[Claim], faults: dict[str, str]) -> str:
+    """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+                              lstrip_blocks=True)
+    environment.filters |= {"number": number, "inline": inline}
+    source = resources.files(__package__).joinpath("report.html.j2").read_text(encoding="utf-8")
+    counts = {word: sum(claim.word == word for claim in claims) for word in CLASSES}
+    return environment.from_string(source).render(
+        claims=claims, classes=CLASSES, models=MODELS, faults=faults | OTHER_FAULTS, counts=counts,
+        leading=leading,
+    )
+
+
+def number(value: float | str | None) -> str:
+    """Four significant digits, plain text as it is, a dash for none."""
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return "–"
+    if isinstance(value, str):
+        return value
+    if value == 0.0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e5:
+        digits = max(0, 4 - 1 - math.floor(math.log10(abs(value))))
+        return f"{value:.{min(digits, 5)}f}".replace("-", "−")
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return f"{mantissa}·10^{int(exponent)}".replace("-", "−")
+
+
+def leading(claim: Claim) -> Row:
+    """The row that stands for a claim in the first table: its first one."""
+    return claim.rows[0]
+
+
+def inline(png: bytes) -> Markup:
+    """A picture as a data address."""
+    return Markup("data:image/png;base64," + base64.b64encode(png).decode("ascii"))

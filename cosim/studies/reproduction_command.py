@@ -1,0 +1,82 @@
+"""`stickslip reproduce`: its arguments, what it runs, what it leaves behind.
+
+What `execute` raises of `REFUSED` is bad input, in one line.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from tqdm import tqdm
+
+from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
+
+SUMMARY = "the source study's claims C1 to C15, each computed anew, with a verdict"
+EXAMPLE = "stickslip reproduce C6 C14 -o reproduction"
+DONE = 0
+RESULT, PAGE = "reproduction.json", "report.html"
+
+
+class OutputRefused(ValueError):
+    """A file or folder that cannot be written; the message is one line."""
+
+
+REFUSED = (UnknownClaim, OutputRefused)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("claims", metavar="CLAIM", nargs="*", help="C1 to C15 (default: all)")
+    parser.add_argument(
+        "--json", metavar="FILE", help=f"write {RESULT} there instead of the output folder"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", default="results/reproduction",
+        help="folder of report, figures and numbers (default: results/reproduction)",
+    )
+
+
+def execute(arguments: Namespace) -> int:
+    """Judge, write, print a line a claim; 0. Raises what is in `REFUSED`."""
+    began = time.perf_counter()
+    wanted = claim_ids(arguments.claims)
+    folder = Path(arguments.output)
+    result = Path(arguments.json) if arguments.json else folder / RESULT
+    _writable(folder)
+    _writable(result.parent)
+    with tqdm(total=len(wanted), disable=None, unit="claim", leave=False) as bar:
+        claims = reproduce(wanted, lambda _id: bar.update())
+    wall_time = time.perf_counter() - began
+    _write(claims, folder, result, wall_time)
+    for claim in claims:
+        print(f"{claim.id:<4} {claim.verdict:<30} {claim.title}")
+        print(f"     {claim.reason}")
+    print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {result}")
+    return DONE
+
+
+def _writable(folder: Path) -> None:
+    """Create ``folder``; OutputRefused, before anything is computed, where that cannot be."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputRefused(f"{folder}: cannot be made a folder: {error.strerror}") from error
+    if not os.access(folder, os.W_OK):
+        raise OutputRefused(f"{folder}: is not writable; give another folder with -o or --json")
+
+
+def _write(claims: list[Claim], folder: Path, result: Path, wall_time: float) -> None:
+    """Numbers first, then figures, then the page."""
+    from stickslip.reference.faults import DESCRIPTIONS
+
+    from cosim.studies.reproduction.page import page
+    from cosim.studies.reproduction.result import as_json
+
+    result.write_text(as_json(claims, wall_time), encoding="utf-8")
+    for claim in claims:
+        for picture in claim.pictures:
+            (folder / f"{picture.name}.png").write_bytes(picture.png)
+    (folder / PAGE).write_text(page(claims, DESCRIPTIONS), encoding="utf-8")
