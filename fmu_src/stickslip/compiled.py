@@ -1,6 +1,6 @@
 """The kernel compiled by numba: the same source, function for function.
 
-The kernel's files are joined into one module, whose name carries a hash of the text, and that
+The kernel's files are joined into one module, whose name carries a hash of its text, and that
 module is written to the user's cache folder and imported from there: numba keeps its machine code
 beside a real file, and a changed kernel is a new module, so no run ever meets stale code.
 """
@@ -20,8 +20,15 @@ from types import FunctionType, ModuleType
 
 import numba
 import platformdirs
+from numba.core.cpu import CPUTargetOptions
 
 from .kernel import MODULES
+
+# The kernel makes no arrays, so nobody need count who holds one: without the counting a call costs
+# a third. The option has no public name; where a version of numba drops it, only speed is lost.
+OPTIONS = {"cache": True, "error_model": "numpy"}
+if hasattr(CPUTargetOptions, "_nrt"):
+    OPTIONS["_nrt"] = False
 
 
 def kernel_source() -> str:
@@ -41,14 +48,15 @@ def kernel_source() -> str:
 def compiled_kernel() -> ModuleType:
     """The kernel as a module of numba functions; machine code is cached between processes."""
     source = kernel_source()
-    name = "stickslip_kernel_" + hashlib.sha256(source.encode()).hexdigest()[:16]
+    key = f"{source}{OPTIONS}"  # numba's cache does not know with which options it was filled
+    name = "stickslip_kernel_" + hashlib.sha256(key.encode()).hexdigest()[:16]
     spec = importlib.util.spec_from_file_location(name, _write_module(name, source))
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # numba's cache finds the functions again by this name
     spec.loader.exec_module(module)
     for key, value in list(vars(module).items()):
         if isinstance(value, FunctionType) and value.__module__ == name:
-            setattr(module, key, numba.njit(value, cache=True, error_model="numpy"))
+            setattr(module, key, numba.njit(value, **OPTIONS))
     return module
 
 
