@@ -69,7 +69,8 @@ class Picture:
 class Claim:
     """A claim of the study, judged.
 
-    remarks: what was found on the way; assumed: what the study does not print and was assumed.
+    remarks: what was found on the way; assumed: what the study does not print and was assumed;
+    leading: place of the row that stands for the claim.
     """
 
     id: str
@@ -79,6 +80,7 @@ class Claim:
     remarks: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
+    leading: int = 0
 
     @property
     def word(self) -> str:

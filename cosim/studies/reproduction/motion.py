@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -86,7 +87,7 @@ class MotionFigures:
 def figures(motion: Motion) -> MotionFigures:
     """Figures of all of ``motion``; cut it to the steady part first."""
     return MotionFigures(
-        mean_x=time_mean(motion.x, motion.time),
+        mean_x=cycle_mean(motion.time, motion.x),
         half_range_x=0.5 * float(np.ptp(motion.x)),
         oscillations=WINDOW * oscillation_rate(motion.time, motion.x),
         slip_share=_slip_share(motion.phases),
@@ -112,16 +113,29 @@ def time_mean(values: np.ndarray, time: np.ndarray) -> float:
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
-def oscillation_rate(time: np.ndarray, x: np.ndarray) -> float:
-    """Oscillations of x about its mean per second, from the first upward crossing to the last."""
+def upward_crossings(time: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Times at which x has risen through a band about its mean, one an oscillation."""
     away = x - time_mean(x, time)
     band = BAND * float(np.ptp(x))
     side = np.where(away > band, 1, np.where(away < -band, -1, 0))
     seen = np.flatnonzero(side)
     upward = seen[1:][(side[seen[1:]] == 1) & (side[seen[:-1]] == -1)]
+    return time[upward]
+
+
+def oscillation_rate(time: np.ndarray, x: np.ndarray) -> float:
+    """Oscillations of x about its mean per second, from the first upward crossing to the last."""
+    upward = upward_crossings(time, x)
+    return float((len(upward) - 1) / (upward[-1] - upward[0])) if len(upward) > 1 else math.nan
+
+
+def cycle_mean(time: np.ndarray, x: np.ndarray) -> float:
+    """Mean over whole oscillations, so that a cut one does not tilt it; else over all the time."""
+    upward = upward_crossings(time, x)
     if len(upward) < 2:
-        return float("nan")
-    return float((len(upward) - 1) / (time[upward[-1]] - time[upward[0]]))
+        return time_mean(x, time)
+    whole = (time >= upward[0]) & (time <= upward[-1])
+    return time_mean(x[whole], time[whole])
 
 
 def _slip_share(phases: np.ndarray) -> float:

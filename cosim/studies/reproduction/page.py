@@ -15,6 +15,11 @@ from .result import OTHER_FAULTS
 CLASSES = {
     HOLDS: "holds", ONLY_WITH_FAULT: "fault", DOES_NOT_HOLD: "fails", CANNOT_BE_CHECKED: "unknown"
 }
+#: The verdicts after a number of claims.
+COUNTED = {
+    HOLDS: "hold", ONLY_WITH_FAULT: "hold only with a fault", DOES_NOT_HOLD: "do not hold",
+    CANNOT_BE_CHECKED: "cannot be checked",
+}
 MODELS = ("printed", "mended", "exact")
 
 
@@ -24,7 +29,7 @@ def page(claims: list[Claim], faults: dict[str, str]) -> str:
                               lstrip_blocks=True)
     environment.filters |= {"number": number, "inline": inline}
     source = resources.files(__package__).joinpath("report.html.j2").read_text(encoding="utf-8")
-    counts = {word: sum(claim.word == word for claim in claims) for word in CLASSES}
+    counts = {COUNTED[word]: sum(claim.word == word for claim in claims) for word in CLASSES}
     return environment.from_string(source).render(
         claims=claims, classes=CLASSES, models=MODELS, faults=faults | OTHER_FAULTS, counts=counts,
         leading=leading,
@@ -32,23 +37,23 @@ def page(claims: list[Claim], faults: dict[str, str]) -> str:
 
 
 def number(value: float | str | None) -> str:
-    """Four significant digits, plain text as it is, a dash for none."""
+    """At least four significant digits, plain text as it is, a dash for none."""
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"
     if isinstance(value, str):
         return value
     if value == 0.0:
         return "0"
-    if 1e-3 <= abs(value) < 1e5:
-        digits = max(0, 4 - 1 - math.floor(math.log10(abs(value))))
-        return f"{value:.{min(digits, 5)}f}".replace("-", "−")
-    mantissa, exponent = f"{value:.2e}".split("e")
-    return f"{mantissa}·10^{int(exponent)}".replace("-", "−")
+    if not 1e-3 <= abs(value) < 1e5:
+        return f"{value:.3g}".replace("-", "−")
+    # five decimals show the study's matrices and temperatures to their last digit
+    digits = 5 if abs(value) < 10.0 else max(0, 3 - math.floor(math.log10(abs(value))))
+    return f"{value:.{digits}f}".replace("-", "−")
 
 
 def leading(claim: Claim) -> Row:
-    """The row that stands for a claim in the first table: its first one."""
-    return claim.rows[0]
+    """The row that stands for a claim in the first table."""
+    return claim.rows[claim.leading]
 
 
 def inline(png: bytes) -> Markup:

@@ -88,6 +88,7 @@ def judge() -> Claim:
         ),
         assumed=(LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED),
         pictures=(_draw(jumping[-1] if jumping else NAMED[0]),),
+        leading=len(NAMED),
     )
 
 

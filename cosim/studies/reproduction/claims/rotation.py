@@ -16,7 +16,7 @@ from ..cases import (
     scheme_motion,
 )
 from ..claim import Check, Claim, Row, responsible
-from ..drawing import COLOURS, panels, picture, study_line
+from ..drawing import COLOURS, LABELS, panels, picture, study_line
 from ..motion import Motion, MotionFigures, figures
 
 SEEDS = tuple(range(8))
@@ -85,12 +85,13 @@ def _draw():
             "exact": exact_motion(exact_parameters(case)),
         }
         for model, run in runs.items():
-            ax.plot(run.time, np.degrees(run.phi), color=COLOURS[model], label=model, lw=1.0)
+            style = {"color": COLOURS[model], "label": LABELS[model], "lw": 1.0}
+            ax.plot(run.time, np.degrees(run.phi), **style)
         for sign in (1, -1):
             study_line(ax, sign * STUDY[name][0], "study's largest" if sign == 1 else "_")
         ax.set_title(f"dataset {name}")
         ax.set_xlabel("time, s")
         ax.set_ylabel("φ, °")
         ax.set_xlim(0.0, 30.0)
-    axes[0, 1].legend(ncols=2, loc="upper right")
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=4, loc="outside upper center")
     return figure
