@@ -1,4 +1,4 @@
-"""Speed of the mechanics alone: 20 s, exact geometry, planar friction, against the linearised scheme.
+"""Speed of the mechanics alone: 20 s, exact, planar friction, against the linearised scheme.
 
     python tests/benchmarks/mechanics.py
 

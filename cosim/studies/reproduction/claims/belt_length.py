@@ -112,9 +112,10 @@ def _draw(rises: dict[float, tuple[float | None, ...]]):
     names = ("one pass, as printed", "all passes, same check", "finite elements")
     for i, (model, name) in enumerate(zip(LABELS, names, strict=True)):
         known = {length: one[i] for length, one in rises.items() if one[i] is not None}
-        ax.semilogy(list(known), list(known.values()), "o-", color=COLOURS[model], label=name)
+        ax.plot(list(known), list(known.values()), "o-", color=COLOURS[model], label=name)
     study_line(ax, SENSITIVITY, "camera's sensitivity")
     ax.set_xlabel("length of the belt, m")
     ax.set_ylabel("rise, K")
-    ax.legend()
+    ax.set_ylim(bottom=0.0)
+    figure.legend(*ax.get_legend_handles_labels(), ncols=2, loc="outside upper center")
     return figure
