@@ -17,7 +17,10 @@ ORDER = (HOLDS, ONLY_WITH_FAULT, DOES_NOT_HOLD)
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: the study's figure as it stands there, and ours; None: there is none."""
+    """One quantity: the study's figure as it stands there, and ours; None: there is none.
+
+    digits: significant ones that are shown of ours.
+    """
 
     quantity: str
     unit: str
@@ -25,6 +28,7 @@ class Row:
     printed: float | None = None
     mended: float | None = None
     exact: float | None = None
+    digits: int = 4
 
 
 @dataclass(frozen=True)

@@ -36,19 +36,13 @@ def page(claims: list[Claim], faults: dict[str, str]) -> str:
     )
 
 
-def number(value: float | str | None) -> str:
-    """At least four significant digits, plain text as it is, a dash for none."""
+def number(value: float | str | None, digits: int = 4) -> str:
+    """So many significant digits, plain text as it is, a dash for none."""
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"
     if isinstance(value, str):
         return value
-    if value == 0.0:
-        return "0"
-    if not 1e-3 <= abs(value) < 1e5:
-        return f"{value:.3g}".replace("-", "−")
-    # five decimals show the study's matrices and temperatures to their last digit
-    digits = 5 if abs(value) < 10.0 else max(0, 3 - math.floor(math.log10(abs(value))))
-    return f"{value:.{digits}f}".replace("-", "−")
+    return f"{value:.{digits}g}".replace("-", "−")
 
 
 def leading(claim: Claim) -> Row:

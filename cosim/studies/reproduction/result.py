@@ -46,7 +46,8 @@ def _claim(claim: Claim) -> dict[str, Any]:
             asdict(check) | {"verdict": check.verdict, "faults": list(check.faults)}
             for check in claim.checks
         ],
-        "numbers": [{key: _plain(value) for key, value in asdict(row).items()}
+        "numbers": [{key: _plain(value) for key, value in asdict(row).items()
+                     if key != "digits"}
                     for row in claim.rows],
         "remarks": list(claim.remarks),
         "assumed": list(claim.assumed),

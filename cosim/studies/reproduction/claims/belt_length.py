@@ -84,10 +84,11 @@ def judge_table() -> Claim:
     for length, printed in TABLE.items():
         ours = PRINTED.temperature_degC(length)
         mended = FROM_FACTORS.temperature_degC(length)
-        rows.append(Row(f"belt after one pass, {length:.0f} m", "degC", printed, ours, mended))
+        rows.append(Row(f"belt after one pass, {length:.0f} m", "degC", printed, ours, mended,
+                        digits=6))
         checks.append((abs(ours - printed) < DIGIT, abs(mended - printed) < DIGIT))
     rows.append(Row("friction force", "N", 4.1261, PRINTED.friction_force,
-                    FROM_FACTORS.friction_force))
+                    FROM_FACTORS.friction_force, digits=5))
     rows.append(Row("rise in the pass", "K", 0.0748, PRINTED.rise, FROM_FACTORS.rise))
     passes = {length: repeated(FROM_FACTORS, length) for length in TABLE}
     return Claim(

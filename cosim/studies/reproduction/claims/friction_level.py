@@ -29,6 +29,7 @@ from ..drawing import COLOURS, GREY, panels, picture, study_line
 from ..motion import MotionFigures
 
 Y_STIFFNESS = 38.50  # the mean of y is known for these springs
+ENOUGH = 1.5  # one fault explains by itself what others do not lessen by a third
 # pretension is not printed: the exact model is laid beside the observations with each of these, m
 PRETENSIONS = tuple(0.001 * mm for mm in range(13))
 
@@ -42,6 +43,11 @@ class Observation:
     value: float
     spread: float
     figure: str  # of `MotionFigures`
+    mirrored: bool = False  # its sign is a matter of chance: the rig is its own mirror image
+
+    def distance(self, value: float) -> float:
+        """How far ``value`` is from the observation, in spreads."""
+        return abs((abs(value) if self.mirrored else value) - self.value) / self.spread
 
 
 OBSERVATIONS = (
@@ -49,7 +55,7 @@ OBSERVATIONS = (
     Observation("mean of x", "m", 0.02, 0.005, "mean_x"),
     Observation("share of time in slip", "1", 0.925, 0.025, "slip_share"),
     Observation("largest rotation", "deg", 20.0, 10.0, "max_rotation"),
-    Observation(f"mean of y, k {Y_STIFFNESS:.2f} N/m", "m", 0.01, 0.005, "mean_y"),
+    Observation(f"mean of y, k {Y_STIFFNESS:.2f} N/m", "m", 0.01, 0.005, "mean_y", mirrored=True),
 )
 
 
@@ -63,10 +69,7 @@ class Variant:
     @property
     def distances(self) -> tuple[float, ...]:
         """Of each observation, in spreads."""
-        return tuple(
-            abs(abs(value) - o.value) / o.spread
-            for value, o in zip(self.values, OBSERVATIONS, strict=True)
-        )
+        return tuple(o.distance(v) for v, o in zip(self.values, OBSERVATIONS, strict=True))
 
     @property
     def misfit(self) -> float:
@@ -79,8 +82,8 @@ class Variant:
 
     @property
     def met(self) -> int:
-        """Observations met within two spreads."""
-        return sum(distance <= 2.0 for distance in self.distances)
+        """Observations met within their spread."""
+        return sum(distance <= 1.0 for distance in self.distances)
 
 
 def _variant(name: str, ours: MotionFigures, stiffer: MotionFigures) -> Variant:
@@ -174,11 +177,13 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     alone, with_12, with_2 = of["full_F1"], of["full_F1_F12"], of["full_F1_F2"]
     cut = of["printed_cut"]
     share = [f"{one.misfit:.1f}" for one in (cut, alone, with_12, with_2)]
-    survives = alone.misfit < cut.misfit
+    better = alone.misfit < cut.misfit
+    enough = alone.misfit < ENOUGH * min(with_12.misfit, with_2.misfit)
+    answer = ("yes" if enough else "in part") if better else "no"
     best = min(of.values(), key=lambda variant: variant.misfit)
     return (
-        f"Does the one-spring fault F1 alone explain the factor of four? "
-        f"{'Yes' if survives else 'No'}: misfit {share[0]} with µ cut to a quarter, {share[1]} "
+        f"Does the one-spring fault F1 alone explain the factor of four? {answer.capitalize()}: "
+        f"misfit {share[0]} with µ cut to a quarter, {share[1]} "
         f"with µ full and F1 mended, {share[2]} with F12 mended too, {share[3]} with F2 too.",
         "Faults with which, mended alone, µ full fits better than the study's dataset #2: "
         f"{', '.join(faults) or 'none'}.",
@@ -187,8 +192,8 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     )
 
 
-@picture("C6_observations", "Distance of every variant from the five known observations, in "
-         "spreads; 1 is as close as the wording of the observation tells.")
+@picture("C6_observations", "Every variant beside the five known observations; grey: as close as "
+         "the wording of the observation tells.")
 def _draw_observations(of: dict[str, Variant]):
     figure, axes = panels(1, len(OBSERVATIONS), height=3.9, sharey=True)
     names = [variant.name for variant in of.values()]

@@ -80,9 +80,9 @@ def judge() -> Claim:
         ),
         remarks=(
             f"Faults whose mending alone ends the jumps of {len(witnesses)} runs that have them: "
-            f"{', '.join(faults) or 'none'}. Of {before} jumps in these runs, {left['F6']} are "
-            f"there with events located (F6 mended), {left['F14']} with slips never cut (F14 "
-            "mended).",
+            f"{', '.join(faults) or 'none'}. Jumps in these runs: {before} as printed, "
+            f"{left['F6']} with events located (F6 mended), {left['F14']} with slips never cut "
+            "(F14 mended).",
             "Which runs jump is a matter of chance: the rotation that keeps x' below the "
             "surface's speed for a second grows from rounding.",
         ),

@@ -28,7 +28,7 @@ def judge() -> Claim:
             expected[i, j] = expected[j, i] = value
             rows.append(Row(
                 f"K_{NAMES[i]}{NAMES[j]}/k, {treatment}", UNITS[(i == 2) + (j == 2)], value,
-                float(ours[i, j]), float(ours[i, j]),
+                float(ours[i, j]), float(ours[i, j]), digits=6,
             ))
         same = bool(np.array_equal(np.round(ours, DIGITS), expected))
         says = f"{treatment}: all nine entries to {DIGITS} decimals"
