@@ -3,10 +3,10 @@
     python tests/benchmarks/against_solve_ivp.py
 
 Both run 20 s of planar stick-slip on a belt. scipy calls the kernel's own right-hand side, once as
-Python and once compiled, so that the second ratio is scipy's stepping alone. Its DOP853 is given the tolerance at which its
-last break-away is as exact as ours (against a run of ours at the tightest tolerance), stick and
-slip alternate by its event location, and it is spared what the kernel does besides: outputs at 100
-Hz come from its own dense output.
+Python and once compiled, so that the second ratio is scipy's stepping alone. Its DOP853 is given
+the tolerance at which its last break-away is as exact as ours (against a run of ours at the
+tightest tolerance), stick and slip alternate by its event location, and it is spared what the
+kernel does besides: outputs at 100 Hz come from its own dense output.
 """
 
 import time
