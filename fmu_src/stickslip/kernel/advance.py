@@ -35,8 +35,11 @@ from .layout import (
     SLIPS,
     SPRING_COLLAPSED,
     STEP_VANISHED,
+    STEPS_AT_LEAST,
+    STEPS_PER_SECOND,
     STICK,
     TIME,
+    TOO_STIFF,
     U_SIZE,
     U_TEMPERATURE,
     W_SLIDING,
@@ -141,8 +144,16 @@ def finish_slip_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]",
 
 
 def land(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", rest: float):
-    """Last step of a slip: the time to rest in one go, then stick or a new slip."""
+    """Last step of a slip: the time to rest in one go, then stick or a new slip.
+
+    Where what is left of the sliding has turned away from the frozen friction, the landing misses;
+    then the block is stopped where it is.
+    """
+    speed = scaled_sliding_speed(p, w)
     take_step(p, u, z, w, HERE, NEXT, rest)
+    look_at(p, u, z, w, NEXT)
+    if scaled_sliding_speed(p, w) > 0.1 * speed:
+        copy_block(z, HERE, NEXT)
     settle(p, u, z, w, e, NEXT)
 
 
@@ -214,6 +225,7 @@ def advance(
     """
     z[Z_TIME_BEFORE] = z[SHOWN + TIME]
     z[Z_HEAT_BEFORE] = z[SHOWN + HEAT]
+    budget = STEPS_AT_LEAST + STEPS_PER_SECOND * (end - z[SHOWN + TIME])
     changed = take_inputs(p, u, z, w, e)
     while z[SHOWN + TIME] < end:
         if z[Z_HAS_NEXT] == 0.0:
@@ -221,6 +233,9 @@ def advance(
             if changed == 1:
                 cap = end - z[HERE + TIME]
             status = internal_step(p, u, z, w, e, cap)
+            budget -= 1.0
+            if budget < 0.0:
+                status = TOO_STIFF
             if status != DONE:
                 copy_block(z, HERE, SHOWN)
                 return status

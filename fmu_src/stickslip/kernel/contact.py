@@ -53,26 +53,27 @@ def set_holding_load(p: "float[:]", w: "float[:]"):
         w[W_FRICTION + 2] = p[P_FREE_PHI] * (p[P_INERTIA] * w[W_SURFACE + 5] - w[W_LOAD + 2])
 
 
-def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
-    """How far a load reaches towards the limit surface: 1 on it, below 1 inside.
+def spin_under_load(force: float, moment: float, w: "float[:]") -> float:
+    """Part of spin, 0 ... 1, in the motion to which a load at the limit gives way.
 
-    ``force`` is per mu N, ``moment`` per mu N a, both >= 0. The ratio is the gauge of the convex
-    set that the curve (f, m) of `disc_friction` bounds. Where the load and the point of the curve
-    are parallel, the ratio is max over n of load.n / support(n), so an error in the parameter
-    enters squared.
+    ``force`` is per mu N, ``moment`` per mu N a, both >= 0, not both zero. Slide and spin in the
+    proportion 1 - t : t are answered by friction parallel to the load; that motion is normal to the
+    limit surface where the load meets it. Leaves force and moment of friction in ``w[W_PAIR:]``.
     """
     if moment == 0.0:
-        return force
+        disc_friction(1.0, 0.0, w)
+        return 0.0
     if force == 0.0:
-        return 1.5 * moment
+        disc_friction(0.0, 1.0, w)
+        return 1.0
     low = 0.0
     high = 1.0
-    cross_low = -moment  # cross product of load and point; pure sliding is the point (1, 0)
+    cross_low = -moment  # cross product of load and friction; pure sliding is (1, 0)
     cross_high = force * 2.0 / 3.0  # pure spinning is (0, 2/3)
     t = 0.5
     before = 2.0
     sweep = 0
-    while abs(t - before) > 1e-9 and sweep < 100:
+    while abs(t - before) > 1e-12 and sweep < 100:
         before = t
         t = high - cross_high * (high - low) / (cross_high - cross_low)
         disc_friction(1.0 - t, t, w)
@@ -86,6 +87,18 @@ def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
             cross_high = cross
             cross_low = 0.5 * cross_low
         sweep += 1
+    return t
+
+
+def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
+    """How far a load reaches towards the limit surface: 1 on it, below 1 inside.
+
+    The gauge of the convex set that `disc_friction` bounds: the largest load.n / support(n) over
+    all motions n, taken at the motion of `spin_under_load`, so that an error there enters squared.
+    """
+    if force == 0.0 and moment == 0.0:
+        return 0.0
+    t = spin_under_load(force, moment, w)
     support = (1.0 - t) * w[W_PAIR] + t * w[W_PAIR + 1]
     return ((1.0 - t) * force + t * moment) / support
 
@@ -112,9 +125,9 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
 
     The scaled relative acceleration s satisfies m s = T - mu_k N grad P(s), where -T is the
     holding load of `set_holding_load` and P the mean local sliding speed: the minimum of a
-    strictly convex function. Found by lagged weights: grad P(s) = weight * s in the sliding and
-    in the spinning part, with the weights of the last iterate. For a load on the limit surface
-    the iterates shrink, so their direction is what converges.
+    strictly convex function. It is found by lagged weights, grad P(s) = weight * s in the sliding
+    and in the spinning part with the weights of the last iterate, from the motion to which a load
+    on the limit surface gives way: the nearer the load is to that, the better the start.
     """
     limit = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE]
     kappa = p[P_LATERAL]
@@ -122,29 +135,68 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
     tx = -w[W_FRICTION]
     ty = -kappa * w[W_FRICTION + 1]
     tr = -arm * w[W_FRICTION + 2]
-    w[W_DIRECTION] = 1.0
-    w[W_DIRECTION + 1] = 0.0
-    w[W_DIRECTION + 2] = 0.0
-    slide = 0.0
-    spin = 0.0
+    speed = set_yielding_motion(p, limit, w)
     change = 1.0
     sweep = 0
-    while change > 1e-13 and sweep < 500:
+    while speed > 0.0 and change > 1e-13 and sweep < 500:
+        sliding = sqrt(w[W_DIRECTION] * w[W_DIRECTION] + w[W_DIRECTION + 1] * w[W_DIRECTION + 1])
+        spinning = abs(w[W_DIRECTION + 2])
+        disc_friction(sliding, spinning, w)
+        slide = 0.0
+        spin = 0.0
+        if sliding > 0.0:
+            slide = limit * w[W_PAIR] / (speed * sliding)
+        if spinning > 0.0:
+            spin = limit * w[W_PAIR + 1] / (speed * spinning)
         sx = tx / (p[P_MASS] + slide)
         sy = ty / (p[P_MASS] + kappa * kappa * slide)
         sr = tr / (p[P_INERTIA] + arm * arm * spin)
-        size = sqrt(sx * sx + sy * sy + sr * sr)
-        if size == 0.0:
-            break
-        change = abs(sx / size - w[W_DIRECTION]) + abs(sy / size - w[W_DIRECTION + 1])
-        change += abs(sr / size - w[W_DIRECTION + 2])
-        w[W_DIRECTION] = sx / size
-        w[W_DIRECTION + 1] = sy / size
-        w[W_DIRECTION + 2] = sr / size
-        sliding = sqrt(sx * sx + sy * sy)
-        disc_friction(sliding, abs(sr), w)
-        if sliding > 0.0:
-            slide = limit * w[W_PAIR] / sliding
-        if sr != 0.0:
-            spin = limit * w[W_PAIR + 1] / abs(sr)
+        speed = sqrt(sx * sx + sy * sy + sr * sr)
+        if speed > 0.0:
+            change = abs(sx / speed - w[W_DIRECTION]) + abs(sy / speed - w[W_DIRECTION + 1])
+            change += abs(sr / speed - w[W_DIRECTION + 2])
+            w[W_DIRECTION] = sx / speed
+            w[W_DIRECTION + 1] = sy / speed
+            w[W_DIRECTION + 2] = sr / speed
         sweep += 1
+
+
+def set_yielding_motion(p: "float[:]", limit: float, w: "float[:]") -> float:
+    """Motion normal to the limit surface at the holding load, into ``w[W_DIRECTION:]``.
+
+    Returns the scaled relative acceleration along it, m/s^2: what the load leaves over friction; 0
+    or less where it leaves nothing.
+    """
+    kappa = p[P_LATERAL]
+    tx = -w[W_FRICTION]
+    ty = 0.0
+    tr = 0.0
+    if kappa > 0.0:
+        ty = -w[W_FRICTION + 1] / kappa
+        tr = -w[W_FRICTION + 2] / (kappa * p[P_RADIUS])
+    force = sqrt(tx * tx + ty * ty)
+    w[W_DIRECTION] = 1.0
+    w[W_DIRECTION + 1] = 0.0
+    w[W_DIRECTION + 2] = 0.0
+    if force == 0.0 and tr == 0.0:
+        return 0.0
+    t = spin_under_load(force, abs(tr), w)
+    size = sqrt((1.0 - t) * (1.0 - t) + t * t)
+    nx = 0.0
+    ny = 0.0
+    nr = 0.0
+    if force > 0.0:
+        nx = (1.0 - t) / size * tx / force
+        ny = (1.0 - t) / size * ty / force
+    if tr != 0.0:
+        nr = t / size * tr / abs(tr)
+    w[W_DIRECTION] = nx
+    w[W_DIRECTION + 1] = ny
+    w[W_DIRECTION + 2] = nr
+    drive = nx * tx + ny * ty + nr * tr
+    drive -= limit * ((1.0 - t) * w[W_PAIR] + t * w[W_PAIR + 1]) / size
+    mass = p[P_MASS] * nx * nx
+    if kappa > 0.0:
+        arm = kappa * p[P_RADIUS]
+        mass += p[P_MASS] * ny * ny / (kappa * kappa) + p[P_INERTIA] * nr * nr / (arm * arm)
+    return drive / mass

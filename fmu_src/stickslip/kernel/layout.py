@@ -191,3 +191,6 @@ DONE = 0
 STEP_VANISHED = 1  # the error test asks for a step below the resolution of time
 NOT_FINITE = 2
 SPRING_COLLAPSED = 3  # the block has been carried into the anchor of a spring
+TOO_STIFF = 4  # more internal steps than anybody would wait for
+STEPS_AT_LEAST = 20000  # internal steps that a call of `advance` may always take, and beyond them
+STEPS_PER_SECOND = 200000.0  # so many for each second of motion
