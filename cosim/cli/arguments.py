@@ -16,12 +16,21 @@ SCENARIO_HELP = (
 OUTPUT_HELP = "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)"
 
 
-# command -> what it does, an example; its module is cosim.studies.COMMAND_command
+# command -> what it does, an example
 STUDIES = {
+    "reproduce": (
+        "the source study's claims C1 to C15, each with its number, ours, and a verdict",
+        "stickslip reproduce C6 C13 -o results/claims",
+    ),
     "sweep": (
         "parameter sweep: every combination of some values",
         "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82",
     ),
+}
+
+STUDY_MODULES = {
+    "reproduce": "cosim.studies.reproduction_command",
+    "sweep": "cosim.studies.sweep_command",
 }
 
 
@@ -85,7 +94,7 @@ def _add_study(commands: argparse._SubParsersAction, name: str, chosen: bool) ->
 
 def study_module(name: str) -> ModuleType:
     """The module of a study: `add_arguments`, `execute` and the errors that are `REFUSED` input."""
-    return import_module(f"cosim.studies.{name}_command")
+    return import_module(STUDY_MODULES[name])
 
 
 def _add_run(commands: argparse._SubParsersAction) -> None:

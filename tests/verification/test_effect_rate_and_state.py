@@ -2,7 +2,7 @@
 
 Steady sliding at v has theta = D/v and mu = mu_k + (a - b) ln(v/v*). Under a spring of stiffness K
 it is stable for K above N (b - a)/D and stick-slips below (Ruina, J. Geophys. Res. 88, 1983;
-quasi-static). At rest the age grows with time and with it what the contact holds, b ln(10) a decade.
+quasi-static). At rest the age grows and with it what the contact holds, b ln(10) a decade.
 """
 
 import numpy as np

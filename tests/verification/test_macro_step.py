@@ -10,6 +10,7 @@ has the order of Gauss-Seidel, 1, once the step resolves the stick-slip cycle.
 
 import numpy as np
 import pytest
+
 from cosim import read_scenario, run_scenario
 
 DURATION, COMMON = 2.56, 0.16

@@ -1,0 +1,71 @@
+"""A coefficient that depends on the local speed, over the disc: quadrature against adaptive.
+
+The kernel integrates over 8 x 4 points what the law's variation over the contact changes. The error
+is relative to mu_k, the largest over motions from pure sliding to pure spinning; a bound is about
+twice what was found. Steep laws cost accuracy where the centre of rotation nears the rim.
+"""
+
+import numpy as np
+import pytest
+from disc_integral import law_over_disc
+from stickslip import Parameters
+from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.layout import (
+    U_SIZE,
+    U_TEMPERATURE,
+    W_FRICTION,
+    W_SIZE,
+)
+
+MU, RADIUS, NORMAL = 0.2, 0.04, 0.67 * 9.81
+FAST = 0.3  # m/s
+# sliding and spinning (rim) speed, m/s
+MOTIONS = ((0.3, 0.0), (0.3, 0.1), (0.3, 0.25), (0.3, 0.3), (0.25, 0.3), (0.1, 0.3), (0.0, 0.3))
+# law -> (parameters, the law, bound on the error relative to mu_k)
+LAWS = {
+    "linear": ({"linear": 1.2}, lambda u: MU * (1.0 - 1.2 * u), 1.2e-5),
+    "linear, used up": ({"linear": 4.0}, lambda u: MU * max(0.0, 1.0 - 4.0 * u), 1.5e-2),
+    "hyperbolic": ({"hyperbolic": 3.0}, lambda u: MU / (1.0 + 3.0 * u), 5e-5),
+    "inverse root": ({"inverse_root": 50.0}, lambda u: MU / np.sqrt(1.0 + 50.0 * u), 7e-4),
+    "Stribeck": (
+        {"stribeck": 0.5, "stribeck_speed": 0.05},
+        lambda u: MU * (1.0 + 0.5 * np.exp(-u / 0.05)),
+        8e-4,
+    ),
+    "root of the speed": (
+        {"root_coefficient": 0.5},
+        lambda u: MU + 0.5 / NORMAL * np.sqrt(u),
+        6e-5,
+    ),
+}
+
+
+def kernel_law(parameters: dict[str, float], sliding: float, spinning: float) -> tuple:
+    """Force and moment of the kernel per normal force (and radius)."""
+    block = "film_drag" if "root_coefficient" in parameters else "velocity_weakening"
+    p = Parameters(
+        friction={"mu_k": MU}, lateral_friction={"ratio": 1.0}, **{block: parameters}
+    ).pack()
+    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
+    u[U_TEMPERATURE] = -8.0
+    friction_in_slip(p, u, w, sliding, 0.0, spinning)
+    return -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * RADIUS)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_quadrature_over_the_disc(name):
+    parameters, law, bound = LAWS[name]
+    errors = [
+        np.subtract(kernel_law(parameters, *motion), law_over_disc(law, *motion, 0.01 * bound * MU))
+        for motion in MOTIONS
+    ]
+    assert np.max(np.abs(errors)) / MU < bound
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_pure_sliding_is_the_law_itself(name):
+    parameters, law, _ = LAWS[name]
+    for speed in (0.001, 0.1, FAST):
+        force, moment = kernel_law(parameters, speed, 0.0)
+        assert force == pytest.approx(law(speed), rel=1e-13)
+        assert moment == 0.0

@@ -1,0 +1,160 @@
+"""Effects of a block that slides and turns in the plane, against an independent model.
+
+The other side (`planar_model`) sums friction over points of the contact and takes the springs from
+their energy. In all cases the centre of rotation stays off the contact, where its sum is exact.
+"""
+
+import numpy as np
+import pytest
+from planar_model import CORNERS, OUTWARD, STATE, Slider
+from scipy.optimize import minimize
+from stickslip import Parameters, Solver, simulate
+
+START = (0.02, 0.005, 0.05, -0.1, 0.01, -0.3)
+MU_K, NORMAL = 0.2086, 0.67 * 9.81
+
+
+def turned_anchors(angle_deg: float, offset: float) -> np.ndarray:
+    turn = np.radians(angle_deg)
+    return CORNERS + 0.2 * OUTWARD * [[np.cos(turn)], [np.sin(turn)]] + np.array([[0.0], [offset]])
+
+
+# case -> (parameters, the other model's laws)
+CASES = {
+    "plain": ({}, {}),
+    "lateral_friction": ({"lateral_friction": {"ratio": 0.4}}, {"ratio": 0.4}),
+    "turning_surface": ({"turning_surface": {"curvature": -2.5}}, {"curvature": -2.5}),
+    "film_drag": ({"film_drag": {"coefficient": 1.5}}, {"film": 1.5}),
+    "structural_damping": (
+        {"structural_damping": {"coefficient": 1.5, "rotational": 2e-3}},
+        {"damping": 1.5, "damping_rotation": 2e-3},
+    ),
+    "spring_hardening": (
+        {"spring_hardening": {"cubic": 8e3}},
+        {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * e**4},
+    ),
+    "spring_misalignment": (
+        {"spring_misalignment": {"angle_deg": 8.0, "lateral_offset": 0.02}},
+        {"anchors": turned_anchors(8.0, 0.02)},
+    ),
+    # laws of the local speed go through the kernel's quadrature, 8 x 4 points over the contact,
+    # which is that exact where the speed varies little over it (see test_effect_local_law)
+    "velocity_weakening, linear": (
+        {"velocity_weakening": {"linear": 1.2}},
+        {"law": lambda u: MU_K * (1.0 - 1.2 * u)},
+    ),
+    "velocity_weakening, hyperbolic": (
+        {"velocity_weakening": {"hyperbolic": 3.0}},
+        {"law": lambda u: MU_K / (1.0 + 3.0 * u)},
+    ),
+    "velocity_weakening, inverse root": (
+        {"velocity_weakening": {"inverse_root": 10.0}},
+        {"law": lambda u: MU_K / np.sqrt(1.0 + 10.0 * u)},
+    ),
+    "velocity_weakening, Stribeck": (
+        {"velocity_weakening": {"stribeck": 0.5, "stribeck_speed": 0.1}},
+        {"law": lambda u: MU_K * (1.0 + 0.5 * np.exp(-u / 0.1))},
+    ),
+    "film_drag, root": (
+        {"film_drag": {"root_coefficient": 0.5}},
+        {"law": lambda u: MU_K + 0.5 / NORMAL * np.sqrt(u)},
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_slip_in_the_plane(case):
+    blocks, laws = CASES[case]
+    run = simulate(
+        Parameters(
+            rig={"spring_natural_length": 0.17},
+            initial=dict(zip(STATE[:6], START, strict=True)),
+            solver=Solver(tolerance=1e-13),
+            **({"lateral_friction": {"ratio": 1.0}} | blocks),
+        ),
+        0.2,
+        0.2,
+    )
+    assert not len(run.events) or run.events[-1, 0] == 0.0  # it slides all the time
+    expected = Slider(**laws).run(START, 0.2)
+    np.testing.assert_allclose(
+        [run[name][-1] for name in STATE], expected, rtol=0, atol=1e-9
+    )
+
+
+def test_a_slide_without_springs_is_straight():
+    """mu_k g against the motion, whatever its direction; across it kappa^2 as much."""
+    start = {"vx": 0.3, "vy": 0.4}
+    bare = {"springs": {"stiffness": 0.0}, "surface": {"speed": 0.0}, "initial": start}
+    run = simulate(Parameters(lateral_friction={"ratio": 1.0}, **bare), 0.1)
+    speed = 0.5 - MU_K * 9.81 * run.time
+    np.testing.assert_allclose(run["vx"], 0.6 * speed, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(run["vy"], 0.8 * speed, rtol=0, atol=1e-13)
+    first = simulate(Parameters(lateral_friction={"ratio": 0.5}, **bare), 0.1)
+    share = np.hypot(0.3, 0.5 * 0.4)
+    assert first["friction_force_x"][0] == pytest.approx(-MU_K * NORMAL * 0.3 / share, rel=1e-13)
+    assert first["friction_force_y"][0] == pytest.approx(
+        -MU_K * NORMAL * 0.25 * 0.4 / share, rel=1e-13
+    )
+
+
+def test_a_spin_without_springs_stops_at_its_time():
+    """J omega' = -2/3 mu_k N a: the spinning disc's moment under uniform pressure."""
+    omega = 5.0
+    run = simulate(
+        Parameters(
+            lateral_friction={"ratio": 1.0}, springs={"stiffness": 0.0}, surface={"speed": 0.0},
+            initial={"omega": omega},
+        ),
+        0.2,
+    )
+    inertia = 0.5 * 0.67 * 0.04**2
+    stop = inertia * omega / (2.0 / 3.0 * MU_K * NORMAL * 0.04)
+    assert run.events[-1, 0] == pytest.approx(stop, abs=1e-11)
+    assert run.events[-1, 1] == 0
+
+
+def test_a_block_at_rest_on_a_slab_goes_round_with_it():
+    """Stick on a turning surface: phi = v t/R, x = R sin phi, y = R (1 - cos phi)."""
+    radius, speed = 0.5, 0.15
+    run = simulate(
+        Parameters(
+            rig={"spring_length": 2.0, "spring_natural_length": 2.0},
+            springs={"stiffness": 1.0}, friction={"mu_s": 0.9, "mu_k": 0.5},
+            lateral_friction={"ratio": 1.0}, turning_surface={"curvature": 1.0 / radius},
+            initial={"vx": speed, "omega": speed / radius},
+        ),
+        2.0,
+    )
+    assert not len(run.events)  # never left the surface
+    phi = speed * run.time / radius
+    np.testing.assert_allclose(run["phi"], phi, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(run["x"], radius * np.sin(phi), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(run["y"], radius * (1.0 - np.cos(phi)), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("angle, offset", [(8.0, 0.0), (0.0, 0.02), (-5.0, 0.03)])
+def test_misaligned_springs_rest_where_their_energy_is_least(angle, offset):
+    """Damped to rest on a frictionless surface."""
+    run = simulate(
+        Parameters(
+            rig={"spring_natural_length": 0.15}, springs={"stiffness": 100.0},
+            friction={"mu_s": 0.0, "mu_k": 0.0}, surface={"speed": 0.0},
+            initial={"x": 0.01, "y": 0.003, "phi": 0.1},
+            structural_damping={"coefficient": 6.0, "rotational": 8e-3},
+            spring_misalignment={"angle_deg": angle, "lateral_offset": offset},
+        ),
+        60.0,
+        60.0,
+    )
+    model = Slider(
+        natural=0.15, anchors=turned_anchors(angle, offset),
+        spring_energy=lambda e: 50.0 * e**2,
+    )
+    least = minimize(
+        lambda q: model._elastic(q).real, np.zeros(3), jac=lambda q: -model._springs(q),
+        method="BFGS", options={"gtol": 1e-10},
+    )
+    place = [run[name][-1] for name in ("x", "y", "phi")]
+    np.testing.assert_allclose(place, least.x, rtol=0, atol=1e-8)
+    assert abs(place[1]) > 1e-3 or offset == 0.0

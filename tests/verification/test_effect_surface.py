@@ -1,0 +1,142 @@
+"""Effects that belong to the surface: ripple of its speed, pattern and scatter of its friction."""
+
+import numpy as np
+import pytest
+from stickslip import Parameters, simulate
+from stickslip.kernel.coefficient import surface_factor
+from stickslip.kernel.layout import W_SIZE, W_STATE, X
+
+PLANAR = {"lateral_friction": {"ratio": 1.0}}
+X_ONLY = {"rig": {"degrees_of_freedom": ("x",)}}
+MU_K, NORMAL = 0.2086, 0.67 * 9.81
+
+
+def field(parameters: Parameters, places: np.ndarray) -> np.ndarray:
+    """Friction relative to its mean at places on the surface (m)."""
+    p, w = parameters.pack(), [0.0] * W_SIZE
+    found = []
+    for place in places:
+        w[W_STATE + X] = place
+        found.append(surface_factor(p, w))
+    return np.array(found)
+
+
+def scattered(**changes) -> Parameters:
+    size = {"deviation": 0.1, "correlation_length": 0.02, "seed": 1}
+    return Parameters(surface_scatter=size | changes, **X_ONLY)
+
+
+@pytest.mark.parametrize("run_up", [0.0, 1.5])
+def test_ripple_of_the_speed(run_up):
+    """v_s = v (1 + A sin(2 pi f t + phase)), times t/T in a run-up; its integral is the way."""
+    v, a, f, phase = 0.15, 0.2, 1.7, np.radians(50.0)
+    run = simulate(
+        Parameters(
+            speed_ripple={"amplitude": a, "frequency": f, "phase_deg": 50.0},
+            surface={"speed": v, "run_up_time": run_up}, **X_ONLY,
+        ),
+        4.0,
+    )
+    t, rate = run.time, 2.0 * np.pi * f
+    ramp = np.minimum(1.0, t / run_up) if run_up else np.ones_like(t)
+    speed = v * ramp * (1.0 + a * np.sin(rate * t + phase))
+    np.testing.assert_allclose(run["surface_speed_actual"], speed, rtol=0, atol=1e-15)
+
+    def way(t):
+        return t + a / rate * (np.cos(phase) - np.cos(rate * t + phase))
+
+    def way_in_run_up(t):
+        swing = np.sin(rate * t + phase) - np.sin(phase) - rate * t * np.cos(rate * t + phase)
+        return (0.5 * t**2 + a / rate**2 * swing) / run_up
+
+    exact = v * way(t)
+    if run_up:
+        after = way_in_run_up(run_up) + way(t) - way(run_up)
+        exact = v * np.where(t < run_up, way_in_run_up(np.minimum(t, run_up)), after)
+    np.testing.assert_allclose(run["surface_travel"], exact, rtol=0, atol=1e-12)
+    stick = run["mode"] == 0
+    np.testing.assert_array_equal(run["vx"][stick], run["surface_speed_actual"][stick])
+
+
+def test_pattern_belongs_to_the_place_on_the_surface():
+    wavelength, amplitude = 0.03, 0.25
+    run = simulate(
+        Parameters(
+            surface_pattern={"amplitude": amplitude, "wavelength": wavelength, "phase_deg": 70.0},
+            **X_ONLY,
+        ),
+        4.0,
+    )
+    slip = run["mode"] == 1
+    place = (run["x"] - run["surface_travel"])[slip]
+    wave = 1.0 + amplitude * np.cos(2.0 * np.pi * place / wavelength + np.radians(70.0))
+    np.testing.assert_allclose(
+        np.abs(run["friction_force_x"][slip]), MU_K * NORMAL * wave, rtol=1e-12
+    )
+
+
+def test_scatter_belongs_to_the_place_on_the_surface():
+    parameters = scattered()
+    run = simulate(parameters, 4.0)
+    slip = run["mode"] == 1
+    expected = MU_K * NORMAL * field(parameters, (run["x"] - run["surface_travel"])[slip])
+    np.testing.assert_allclose(np.abs(run["friction_force_x"][slip]), expected, rtol=1e-12)
+
+
+def test_scatter_has_its_mean_deviation_and_correlation():
+    """Over 4000 seeds; what is left is the sampling error, asked to stay below four deviations."""
+    deviation, length, seeds = 0.1, 0.02, 4000
+    places = 0.3 + length * np.array([0.0, 0.5, 1.0, 2.0, 4.0])
+    fields = np.array([
+        field(scattered(deviation=deviation, correlation_length=length, seed=seed), places)
+        for seed in range(seeds)
+    ]) - 1.0
+    noise = 1.0 / np.sqrt(seeds)
+    assert np.max(np.abs(fields.mean(axis=0))) < 4.0 * noise * deviation
+    # the variance of a square is below 2 for a sum of waves, as for the normal distribution
+    np.testing.assert_allclose(fields.std(axis=0) / deviation, 1.0, atol=4.0 * noise)
+    correlation = np.mean(fields[:, :1] * fields, axis=0) / deviation**2
+    gap = (places - places[0]) / length
+    np.testing.assert_allclose(correlation, np.exp(-0.5 * gap**2), atol=4.0 * np.sqrt(2.0) * noise)
+
+
+def test_scatter_along_one_surface():
+    """One seed over a long way: waves of one field have the mean, and about the deviation, too."""
+    along = field(scattered(seed=3), np.linspace(0.0, 400.0, 20001)) - 1.0
+    assert abs(along.mean()) < 0.003
+    assert along.std() == pytest.approx(0.1, rel=0.01)
+
+
+def test_seeds_repeat_and_differ():
+    places = np.linspace(0.0, 0.2, 21)
+    first, again, other = (field(scattered(seed=seed), places) for seed in (7, 7, 8))
+    np.testing.assert_array_equal(first, again)
+    assert np.max(np.abs(first - other)) > 0.05
+
+
+@pytest.mark.parametrize("plane", [X_ONLY, PLANAR], ids=["along x", "in the plane"])
+def test_scatter_does_not_depend_on_who_looks(plane):
+    """Bit for bit the same, whatever the output interval."""
+    parameters = Parameters(
+        surface_scatter={"deviation": 0.15, "correlation_length": 0.01, "seed": 5}, **plane
+    )
+    coarse, fine = simulate(parameters, 6.0, 0.25), simulate(parameters, 6.0, 0.001)
+    np.testing.assert_array_equal(coarse.events, fine.events)
+    for name in ("x", "y", "phi", "heat"):
+        np.testing.assert_array_equal(coarse[name], fine[name][::250])
+
+
+def test_scatter_does_not_depend_on_the_step():
+    """Cycles are those of a hundred times the tolerance: it is a field, not a throw per step."""
+    runs = [
+        simulate(
+            Parameters(
+                surface_scatter={"deviation": 0.1, "correlation_length": 0.02},
+                solver={"tolerance": tolerance}, **X_ONLY,
+            ),
+            6.0,
+        )
+        for tolerance in (1e-11, 1e-13)
+    ]
+    assert len(runs[0].events) > 10
+    np.testing.assert_allclose(runs[0].events, runs[1].events, rtol=0, atol=1e-9)
