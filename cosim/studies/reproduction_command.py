@@ -14,8 +14,6 @@ from tqdm import tqdm
 
 from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
 
-SUMMARY = "the source study's claims C1 to C15, each computed anew, with a verdict"
-EXAMPLE = "stickslip reproduce C6 C14 -o reproduction"
 DONE = 0
 RESULT, PAGE = "reproduction.json", "report.html"
 

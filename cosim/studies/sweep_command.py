@@ -32,8 +32,6 @@ from cosim.studies.sweep.figure import draw_sweep
 from cosim.studies.sweep.store import write_atomically
 from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
 
-SUMMARY = "parameter sweep: every combination of some values"
-EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
 REFUSED = (SweepError, ScenarioError)
 DONE, FAILED = 0, 1
 RESULT, FIGURE = "sweep.nc", "sweep.png"
