@@ -131,9 +131,15 @@ class Scenario(Parameters):
 
     @property
     def record_every(self) -> int:
-        """Macro steps from one row of the results to the next; ScenarioError when not whole."""
+        """Macro steps from one row of the results to the next.
+
+        An interval that was not given gives way to the macro step where the two do not fit; for one
+        that was, ScenarioError.
+        """
         ratio = self.run.output_interval / self.coupling.macro_step
         if round(ratio) < 1 or abs(ratio - round(ratio)) > ROUNDING * ratio:
+            if "output_interval" not in self.run.model_fields_set:
+                return 1
             raise ScenarioError(
                 f"run.output_interval: {self.run.output_interval:g} s does not fall on the macro "
                 "steps of a coupled run, allowed is a whole multiple of coupling.macro_step = "
@@ -162,8 +168,12 @@ class Scenario(Parameters):
             raise ScenarioError(describe_faults(report, cls)) from None
 
     def to_tables(self) -> dict[str, Any]:
-        """All keys that a file can hold, with their values."""
-        follows = {"belt": {"length"}} if self.rig.surface == "slab" else None
+        """All keys that a file can hold, with their values, less those that follow from others."""
+        follows = {}
+        if self.rig.surface == "slab":
+            follows["belt"] = {"length"}
+        if "output_interval" not in self.run.model_fields_set:
+            follows["run"] = {"output_interval"}
         tables = self.model_dump(exclude=follows)
         return {"name": tables.pop("name")} | tables
 

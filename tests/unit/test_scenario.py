@@ -44,6 +44,7 @@ def test_what_the_reference_leaves_out_or_states_is_the_default():
     plain = Scenario().to_tables()
     plain["name"], plain["lateral_friction"]["ratio"] = "reference", 1.0
     plain["surface"]["run_up_time"] = 10.0
+    plain["run"]["output_interval"] = Scenario().run.output_interval
     assert read_scenario("reference").to_tables() == plain
 
 
@@ -182,6 +183,11 @@ def test_the_mechanical_checks_hold_for_the_whole(tmp_path):
 
 def test_a_belt_may_run_backwards(tmp_path):
     assert read_scenario(written(tmp_path, "[surface]\nspeed = -0.15")).surface.speed == -0.15
+
+
+def test_an_output_interval_not_given_gives_way_to_the_macro_step():
+    for macro_step, every in ((0.01, 1), (0.005, 2), (0.007, 1), (0.02, 1)):
+        assert Scenario().changed({"coupling.macro_step": macro_step}).record_every == every
 
 
 def test_rows_of_a_coupled_run_fall_on_macro_steps():
