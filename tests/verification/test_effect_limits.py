@@ -1,0 +1,129 @@
+"""Every effect tends to the plain model as its parameter tends to off, and with which order.
+
+Seen where the effect acts: in the position after 0.2 s of a slip without events, or in the moment
+of the first break-away for what acts through stick. A parameter is halved three times; the order is
+that of the last halving, so it also says that nothing is left over at off.
+"""
+
+import numpy as np
+import pytest
+from stickslip import CATALOGUE, Parameters, simulate
+from stickslip.compiled import compiled_kernel
+from stickslip.kernel.layout import (
+    E_COUNT,
+    E_FIRST,
+    MODE,
+    PHI,
+    SHOWN,
+    SLIP,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    W_SIZE,
+    Z_SIZE,
+    X,
+)
+
+RADIUS = 0.04
+IN_SLIP = {
+    "rig": {"spring_natural_length": 0.17, "contact_radius": RADIUS},
+    "lateral_friction": {"ratio": 1.0},
+    "initial": {"x": 0.02, "y": 0.005, "phi": 0.05, "vx": -0.1, "vy": 0.01, "omega": -0.3},
+}
+AT_REST = {
+    "rig": {"degrees_of_freedom": ("x",), "spring_length": 1.0, "spring_natural_length": 1.0},
+    "initial": {"vx": 0.15},
+}
+# parameter -> (distance from off at first, what else the block needs, order)
+SLIDING = {
+    "lateral_friction.ratio": (0.4, {}, 2),
+    "turning_surface.curvature": (1.0, {}, 1),
+    "velocity_weakening.linear": (0.4, {}, 1),
+    "velocity_weakening.hyperbolic": (0.4, {}, 1),
+    "velocity_weakening.inverse_root": (0.4, {}, 1),
+    "velocity_weakening.stribeck": (0.4, {}, 1),
+    "film_drag.coefficient": (0.5, {}, 1),
+    "film_drag.root_coefficient": (0.2, {}, 1),
+    "thermal_weakening.per_joule": (0.5, {}, 1),
+    "run_in.change": (0.2, {"distance": 0.1}, 1),
+    "spring_hardening.cubic": (1e3, {}, 1),
+    "structural_damping.coefficient": (0.4, {}, 1),
+    "structural_damping.rotational": (4e-4, {}, 1),
+    "speed_ripple.amplitude": (0.1, {"frequency": 3.0}, 1),
+    "surface_pattern.amplitude": (0.2, {}, 1),
+    "surface_scatter.deviation": (0.1, {}, 1),
+    "load_dependence.exponent": (0.2, {"reference_force": 3.0}, 1),
+    "spring_misalignment.angle_deg": (4.0, {}, 1),
+    "spring_misalignment.lateral_offset": (0.01, {}, 1),
+    "temperature_dependence.sensitivity": (0.02, {}, 1),
+    "rate_and_state.direct": (0.01, {}, 1),
+    "rate_and_state.evolution": (0.01, {"distance": 1e-3}, 1),
+}
+STICKING = {
+    "static_strengthening.rate": (0.04, {}, 1),
+    "stick_stiffness.ratio": (-0.1, {}, 1),
+    "rate_and_state.direct": (4e-3, {}, 1),
+    "rate_and_state.evolution": (4e-3, {}, 1),
+}
+
+
+def with_effect(base: dict, name: str, share: float, size: float, other: dict) -> Parameters:
+    """The rig with one parameter at ``share`` of ``size`` away from off."""
+    block, key = name.split(".")
+    entry = next(effect for effect in CATALOGUE if effect.id == block)
+    off = entry.block.model_fields[key].default
+    return Parameters(**(base | {block: other | {key: off + share * size}}))
+
+
+def position_in_slip(parameters: Parameters) -> np.ndarray:
+    """(x, y, a phi) in m after 0.2 s at an interface 2 K warmer than the reference."""
+    kernel = compiled_kernel()
+    p, u, z = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(Z_SIZE)
+    w, e = np.zeros(W_SIZE), np.zeros(E_FIRST)
+    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, -6.0
+    kernel.initialise(p, z, 0.0)
+    kernel.advance(p, u, z, w, e, 0.2)
+    assert e[E_COUNT] == 0.0 and z[SHOWN + MODE] == SLIP
+    place = z[SHOWN + X : SHOWN + PHI + 1].copy()
+    place[2] *= RADIUS
+    return place
+
+
+def order(value_at, plain) -> float:
+    """Order at which the distance from the plain model falls in the last of three halvings."""
+    sizes = [np.linalg.norm(value_at(0.5**k) - plain) for k in range(4)]
+    assert sizes[3] < sizes[2] < sizes[1] < sizes[0]
+    return np.log2(sizes[2] / sizes[3])
+
+
+@pytest.mark.parametrize("name", SLIDING)
+def test_slip_tends_to_the_plain_one(name):
+    size, other, expected = SLIDING[name]
+
+    def place(share):
+        return position_in_slip(with_effect(IN_SLIP, name, share, size, other))
+
+    block = name.split(".")[0]
+    plain = position_in_slip(Parameters(**(IN_SLIP | {block: {}})))
+    # the next order still shows at an eighth of the first size: 0.02 at most was found
+    assert order(place, plain) == pytest.approx(expected, abs=0.03)
+
+
+@pytest.mark.parametrize("name", STICKING)
+def test_break_away_tends_to_the_plain_one(name):
+    """With rate_and_state mu_s is not used: its plain model is the one with mu_s = mu_k."""
+    size, other, expected = STICKING[name]
+    friction = {"mu_s": 0.2086, "mu_k": 0.2086} if name.startswith("rate_and_state") else {}
+    base = AT_REST | {"friction": friction}
+
+    def first_slip(parameters):
+        return simulate(parameters, 3.0, 1.0).slip_starts[0]
+
+    plain = first_slip(Parameters(**base))
+    found = order(lambda share: first_slip(with_effect(base, name, share, size, other)), plain)
+    assert found == pytest.approx(expected, abs=0.03)
+
+
+def test_every_switch_of_every_effect_is_tried():
+    switches = {f"{effect.id}.{key}" for effect in CATALOGUE for key in effect.switch}
+    assert switches == set(SLIDING) | set(STICKING)
