@@ -18,6 +18,10 @@ OUTPUT_HELP = "folder of the results; made when missing (default: results/NAME O
 
 # command -> what it does, an example
 STUDIES = {
+    "effects": (
+        "the catalogue of effects: what each adds, its parameters, and a figure",
+        "stickslip effects -o results/effects",
+    ),
     "reproduce": (
         "the source study's claims C1 to C15, each with its number, ours, and a verdict",
         "stickslip reproduce C6 C13 -o results/claims",
@@ -29,6 +33,7 @@ STUDIES = {
 }
 
 STUDY_MODULES = {
+    "effects": "cosim.studies.effects_command",
     "reproduce": "cosim.studies.reproduction_command",
     "sweep": "cosim.studies.sweep_command",
 }

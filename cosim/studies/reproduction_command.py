@@ -5,21 +5,17 @@ What `execute` raises of `REFUSED` is bad input, in one line.
 
 from __future__ import annotations
 
-import os
 import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from tqdm import tqdm
 
+from cosim.studies.drawing import OutputRefused, writable
 from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
 
 DONE = 0
 RESULT, PAGE = "reproduction.json", "report.html"
-
-
-class OutputRefused(ValueError):
-    """A file or folder that cannot be written; the message is one line."""
 
 
 REFUSED = (UnknownClaim, OutputRefused)
@@ -43,8 +39,8 @@ def execute(arguments: Namespace) -> int:
     wanted = claim_ids(arguments.claims)
     folder = Path(arguments.output)
     result = Path(arguments.json) if arguments.json else folder / RESULT
-    _writable(folder)
-    _writable(result.parent)
+    writable(folder)
+    writable(result.parent)
     with tqdm(total=len(wanted), disable=None, unit="claim", leave=False) as bar:
         claims = reproduce(wanted, lambda _id: bar.update())
     wall_time = time.perf_counter() - began
@@ -54,16 +50,6 @@ def execute(arguments: Namespace) -> int:
         print(f"     {claim.reason}")
     print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {result}")
     return DONE
-
-
-def _writable(folder: Path) -> None:
-    """Create ``folder``; OutputRefused, before anything is computed, where that cannot be."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputRefused(f"{folder}: cannot be made a folder: {error.strerror}") from error
-    if not os.access(folder, os.W_OK):
-        raise OutputRefused(f"{folder}: is not writable; give another folder with -o or --json")
 
 
 def _write(claims: list[Claim], folder: Path, result: Path, wall_time: float) -> None:

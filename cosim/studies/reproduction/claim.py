@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
+
+from cosim.studies.drawing import Picture
 
 HOLDS = "holds"
 ONLY_WITH_FAULT = "holds only with fault"
@@ -58,15 +60,6 @@ class Check:
         if self.sound:
             return HOLDS
         return ONLY_WITH_FAULT if self.printed else DOES_NOT_HOLD
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A PNG that belongs to a claim."""
-
-    name: str
-    caption: str
-    png: bytes = field(repr=False)
 
 
 @dataclass(frozen=True)

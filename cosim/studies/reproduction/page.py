@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import math
 from importlib import resources
 
 from jinja2 import Environment, StrictUndefined
-from markupsafe import Markup
+
+from cosim.studies.drawing import inline
 
 from .claim import CANNOT_BE_CHECKED, DOES_NOT_HOLD, HOLDS, ONLY_WITH_FAULT, Claim, Row
 from .result import OTHER_FAULTS
@@ -48,8 +48,3 @@ def number(value: float | str | None, digits: int = 4) -> str:
 def leading(claim: Claim) -> Row:
     """The row that stands for a claim in the first table."""
     return claim.rows[claim.leading]
-
-
-def inline(png: bytes) -> Markup:
-    """A picture as a data address."""
-    return Markup("data:image/png;base64," + base64.b64encode(png).decode("ascii"))

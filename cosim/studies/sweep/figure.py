@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cosim.studies.drawing import BLUE, RC
+
 Array = NDArray[np.float64]
 
 # feature -> label and factor to the unit in it
@@ -26,18 +28,7 @@ SHOWN = {
 }
 # more lines than this in a panel are a tangle: their median and their range instead
 MOST_LINES = 7
-RC = {
-    "font.family": "DejaVu Sans",
-    "font.size": 9.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.axisbelow": True,
-    "axes.grid": True,
-    "grid.color": "#D9D9D9",
-    "grid.linewidth": 0.6,
-    "legend.frameon": False,
-}
-BLUE, HALF, BAND = "#0072B2", "#8FBFDD", "#D3E5F0"
+HALF, BAND = "#8FBFDD", "#D3E5F0"
 COLOURS = matplotlib.colormaps["viridis"]
 PANEL = (2.9, 1.75)  # inches
 SMALLEST_SPAN = 0.05

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from functools import cache
 
+from cosim.studies.drawing import panels, picture
 from thermal import Belt, BeltIceModel, ThermalParameters
 from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
 from ..claim import Check, Claim, Row
-from ..drawing import COLOURS, LABELS, panels, picture, study_line
+from ..drawing import COLOURS, LABELS, study_line
 
 #: Temperature of the belt after one pass, degC, as printed; length in m
 TABLE = {1.0: -7.9435, 2.0: -7.9583, 3.0: -7.9693, 4.0: -7.9774}

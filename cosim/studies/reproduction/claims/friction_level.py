@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
+from cosim.studies.drawing import GREY, panels, picture
+
 from ..cases import (
     DATASET_1,
     DATASET_2,
@@ -25,7 +27,7 @@ from ..cases import (
     scheme_motion,
 )
 from ..claim import Check, Claim, Row, responsible
-from ..drawing import COLOURS, GREY, panels, picture, study_line
+from ..drawing import COLOURS, study_line
 from ..motion import MotionFigures
 
 Y_STIFFNESS = 38.50  # the mean of y is known for these springs

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from stickslip.reference.faults import MENDED, PRINTED
 
+from cosim.studies.drawing import panels, picture
+
 from ..cases import (
     DATASET_2,
     RIG_ASSUMED,
@@ -16,7 +18,7 @@ from ..cases import (
     scheme_motion,
 )
 from ..claim import Check, Claim, Row
-from ..drawing import COLOURS, LABELS, panels, picture
+from ..drawing import COLOURS, LABELS
 from ..motion import MotionFigures
 
 RATIOS = (0.5, 0.77, 1.0)

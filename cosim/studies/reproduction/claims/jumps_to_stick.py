@@ -8,6 +8,8 @@ from itertools import product
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
+from cosim.studies.drawing import panels, picture
+
 from ..cases import (
     CYCLES,
     DATASET_2,
@@ -26,7 +28,7 @@ from ..cases import (
     scheme,
 )
 from ..claim import Check, Claim, Row, responsible
-from ..drawing import COLOURS, panels, picture
+from ..drawing import COLOURS
 
 CASE = DATASET_2.changed(weakening=WEAKENING)
 NAMED = tuple(CASE.changed(stiffness=68.22, mass=2.03, speed=v) for v in (0.50, 0.63, 0.82))

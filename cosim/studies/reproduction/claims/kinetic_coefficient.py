@@ -6,6 +6,8 @@ from itertools import product
 
 import numpy as np
 
+from cosim.studies.drawing import SERIES, panels, picture
+
 from ..cases import (
     DATASET_2,
     EXTRA_STIFFNESS,
@@ -20,7 +22,7 @@ from ..cases import (
     three_models,
 )
 from ..claim import Check, Claim, Row
-from ..drawing import LABELS, MODELS, SERIES, panels, picture
+from ..drawing import LABELS, MODELS
 
 CASE = DATASET_2.changed(weakening=WEAKENING)
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)

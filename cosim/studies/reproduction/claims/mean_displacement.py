@@ -6,6 +6,8 @@ from itertools import product
 
 import numpy as np
 
+from cosim.studies.drawing import SERIES, panels, picture
+
 from ..cases import (
     DATASET_2,
     GUIDED_ASSUMED,
@@ -19,7 +21,7 @@ from ..cases import (
     three_models,
 )
 from ..claim import Check, Claim, Row
-from ..drawing import LABELS, MODELS, SERIES, by_model, panels, picture
+from ..drawing import LABELS, MODELS, by_model
 
 CASE = DATASET_2.changed(weakening=WEAKENING)
 LINE = CASE.changed(stiffness=38.50, speed=0.37)

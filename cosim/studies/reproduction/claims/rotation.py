@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
+from cosim.studies.drawing import panels, picture
+
 from ..cases import (
     DATASET_1,
     DATASET_2,
@@ -16,7 +18,7 @@ from ..cases import (
     scheme_motion,
 )
 from ..claim import Check, Claim, Row, responsible
-from ..drawing import COLOURS, LABELS, panels, picture, study_line
+from ..drawing import COLOURS, LABELS, study_line
 from ..motion import Motion, MotionFigures, figures
 
 SEEDS = tuple(range(8))

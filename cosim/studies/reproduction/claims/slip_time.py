@@ -6,6 +6,8 @@ import numpy as np
 from scipy.stats import spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
+from cosim.studies.drawing import INK, panels, picture
+
 from ..cases import (
     DATASET_2,
     GUIDED_ASSUMED,
@@ -14,7 +16,7 @@ from ..cases import (
     three_models,
 )
 from ..claim import Check, Claim, Row
-from ..drawing import INK, MODELS, by_model, panels, picture
+from ..drawing import MODELS, by_model
 
 CASE = DATASET_2.changed(weakening=WEAKENING)
 SPEEDS = (0.01, 0.02, 0.04, 0.07, 0.10, 0.15, 0.20, 0.25, 0.31, 0.37, 0.44, 0.50, 0.57, 0.63,

@@ -6,9 +6,10 @@ import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
+from cosim.studies.drawing import SERIES, panels, picture
+
 from ..cases import DATASET_1, RIG_ASSUMED, SCATTER_ASSUMED, exact_motion, exact_parameters, scheme
 from ..claim import Check, Claim, Row, responsible
-from ..drawing import SERIES, panels, picture
 from ..motion import Motion
 
 CYCLES = 40

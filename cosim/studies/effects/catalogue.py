@@ -1,0 +1,54 @@
+"""What the catalogue says of an effect: plain data for table, JSON and page."""
+
+from __future__ import annotations
+
+import difflib
+from typing import Any
+
+from stickslip import CATALOGUE
+from stickslip.effects import Effect
+
+
+class UnknownEffect(ValueError):
+    """An id that the catalogue does not have; the message is one line."""
+
+
+def chosen(ids: list[str]) -> list[Effect]:
+    """Entries by their ids in the catalogue's order, all of them for none."""
+    known = [entry.id for entry in CATALOGUE]
+    for name in ids:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
+    return [entry for entry in CATALOGUE if not ids or entry.id in ids]
+
+
+def described(entry: Effect) -> dict[str, Any]:
+    """An entry of the catalogue with its parameters: unit, default (off), bounds, typical range."""
+    return {
+        "id": entry.id,
+        "sentence": entry.sentence,
+        "enters": entry.enters,
+        "source": entry.source,
+        "parameters": [
+            {
+                "key": f"{entry.id}.{name}",
+                "unit": field.json_schema_extra["unit"],
+                "default": field.default,
+                "typical": field.json_schema_extra.get("typical"),
+                "switches_on": name in entry.switch,
+                "description": field.description,
+                **_bounds(field.metadata),
+            }
+            for name, field in entry.block.model_fields.items()
+        ],
+    }
+
+
+def _bounds(metadata: list[Any]) -> dict[str, float]:
+    return {
+        kind: getattr(bound, kind)
+        for bound in metadata
+        for kind in ("gt", "ge", "lt", "le")
+        if getattr(bound, kind, None) is not None
+    }

@@ -1,0 +1,44 @@
+"""The catalogue printed, as JSON and as a page: every effect is there, and shows."""
+
+import json
+
+import numpy as np
+import pytest
+from stickslip import CATALOGUE, simulate
+
+from cosim.cli import main
+from cosim.studies.effects.cases import CASES
+
+IDS = [entry.id for entry in CATALOGUE]
+FELT_ONLY_WHEN_WARM = "temperature_dependence"
+
+
+def test_every_effect_has_a_case():
+    assert set(CASES) == set(IDS)
+
+
+@pytest.mark.parametrize("effect", [name for name in IDS if name != FELT_ONLY_WHEN_WARM])
+def test_the_case_shows(effect):
+    """The motion differs by more than a tenth of its swing: the figure has something to say."""
+    end = CASES[effect].window[1]
+    plain, shown = (simulate(CASES[effect].parameters(name), end) for name in (None, effect))
+    assert plain.complete and shown.complete
+    assert np.max(np.abs(plain["x"] - shown["x"])) > 0.1 * np.ptp(plain["x"])
+
+
+def test_command(tmp_path, capsys):
+    folder = tmp_path / "out"
+    assert main(["effects", "run_in", FELT_ONLY_WHEN_WARM, "-o", str(folder)]) == 0
+    assert "run_in.change [1] = 0" in capsys.readouterr().out
+    html = (folder / "effects.html").read_text(encoding="utf-8")
+    assert html.count("data:image/png;base64,") == 2 and "http" not in html
+    assert (folder / "run_in.png").read_bytes().startswith(b"\x89PNG")
+    assert main(["effects", "--json"]) == 0
+    entries = json.loads(capsys.readouterr().out)
+    assert [entry["id"] for entry in entries] == IDS
+    assert all(parameter["unit"] for entry in entries for parameter in entry["parameters"])
+
+
+def test_unknown_effect(capsys):
+    assert main(["effects", "velocity_weakning"]) == 2
+    assert "nearest known: velocity_weakening" in capsys.readouterr().err
