@@ -49,7 +49,7 @@ CASES = {
     "run_in": Case({"change": -0.5}, window=(0.0, 8.0)),
     "spring_hardening": Case({"cubic": 3e4}),
     "structural_damping": Case({"coefficient": 0.5}, window=(0.0, 8.0)),
-    "speed_ripple": Case({"amplitude": 0.15, "frequency": 0.5}),
+    "speed_ripple": Case({"amplitude": 0.3, "frequency": 0.7}),
     "surface_pattern": Case({"amplitude": 0.15, "wavelength": 0.3}),
     "surface_scatter": Case({"deviation": 0.08}),
     "load_dependence": Case({"exponent": 0.3}, {"rig": {"mass": 1.2}}),
