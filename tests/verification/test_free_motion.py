@@ -17,9 +17,20 @@ GRAVITY = 9.81
 FRICTIONLESS = Friction(mu_s=0.0, mu_k=0.0)
 
 
-def test_free_vibration():
+@pytest.mark.parametrize("ratio", [0.0, 1.0])
+@pytest.mark.parametrize("speed", [0.0, 0.15])
+def test_free_vibration(ratio, speed):
     """x = x0 cos(omega t), omega = sqrt(4 k / m): along x the exact geometry is linear too."""
-    run = simulate(Parameters(friction=FRICTIONLESS, initial=Initial(x=0.03)), 20.0)
+    run = simulate(
+        Parameters(
+            friction=FRICTIONLESS,
+            lateral_friction=LateralFriction(ratio=ratio),
+            surface=Surface(speed=speed),
+            initial=Initial(x=0.03),
+        ),
+        20.0,
+    )
+    assert run.complete
     omega = np.sqrt(4.0 * 20.17 / 0.67)
     assert np.max(np.abs(run["x"] - 0.03 * np.cos(omega * run.time))) < 1e-9 * 0.03
     assert np.all(run["mode"] == 1)  # a block without friction slides

@@ -7,6 +7,7 @@ change, the trajectory therefore does not depend on when anybody looks at it.
 
 from math import isfinite
 
+from .coefficient import holding_coefficient
 from .contact import scaled_sliding_speed
 from .events import break_away, look_at, set_direction, settle, time_to_rest
 from .layout import (
@@ -108,11 +109,13 @@ def has_turned(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]") -> fl
     return along
 
 
-def try_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", bound: float) -> float:
+def try_step(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", bound: float, grip: float
+) -> float:
     """Step from HERE to NEXT that passes the error test; returns its error, or -1 on failure.
 
     A slip that would come out reversed is stepped over its end: the step is halved until it
-    stops short of it, or is too short to tell.
+    stops short of it, or is too short to tell. ``grip`` is what the contact can hold, per load.
     """
     h = min(z[Z_STEP], bound)
     finest = 1e-15 * max(1.0, abs(z[HERE + TIME]))
@@ -125,7 +128,7 @@ def try_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", bound: 
             error = 1e8
         if error > 1.0:
             h *= max(0.1, 0.9 * error ** (-0.125))
-        elif z[HERE + MODE] == SLIP and h > 16.0 * finest:
+        elif z[HERE + MODE] == SLIP and grip > 0.0 and h > 16.0 * finest:
             if has_turned(p, u, z, w) < 0.0 and scaled_sliding_speed(p, w) > rest_speed(p, u):
                 error = 2.0
                 h *= 0.5
@@ -163,7 +166,8 @@ def internal_step(
     """One step of the integrator's own grid: fills NEXT, events at its end included."""
     begin_step(p, u, z, w, HERE)
     rest = -1.0
-    if z[HERE + MODE] == SLIP:
+    grip = holding_coefficient(p, u, w)  # without it there is no coming to rest
+    if z[HERE + MODE] == SLIP and grip > 0.0:
         rest = time_to_rest(p, w)
     slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)
     if slow and 0.0 < rest and rest * p[P_RATE] < 1e-3:  # a landing that takes longer is no landing
@@ -173,7 +177,7 @@ def internal_step(
         if cap > 0.0:
             bound = min(bound, cap)
         to_run_up = p[P_RUN_UP] - z[HERE + TIME]
-        error = try_step(p, u, z, w, bound)
+        error = try_step(p, u, z, w, bound, grip)
         if error < 0.0:
             return STEP_VANISHED
         h = z[NEXT + TIME] - z[HERE + TIME]
