@@ -115,3 +115,12 @@ def test_coulomb_spinning_disc_stops():
     slowing = 0.2086 * 0.67 * GRAVITY * (2.0 / 3.0) * 0.04 / inertia
     assert run.events[-1, 0] == pytest.approx(10.0 / slowing, rel=1e-12)
     assert run["phi"][-1] == pytest.approx(0.5 * 10.0**2 / slowing, rel=1e-11)
+
+
+def test_a_run_that_cannot_go_on_says_why():
+    """Soft springs and much friction: the block is carried into an anchor; what it had is kept."""
+    run = simulate(
+        Parameters(springs=Springs(stiffness=5.0), friction=Friction(mu_s=1.5, mu_k=1.0)), 10.0
+    )
+    assert "anchor of a spring" in run.reason
+    assert 0.0 < run.time[-1] < 10.0 and len(run["x"]) == len(run.time)

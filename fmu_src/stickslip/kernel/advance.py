@@ -50,6 +50,7 @@ from .layout import (
     Z_INPUTS,
     Z_SIZE,
     Z_STARTED,
+    Z_STATUS,
     Z_STEP,
     Z_TIME_BEFORE,
     X,
@@ -240,6 +241,7 @@ def advance(
             budget -= 1.0
             if budget < 0.0:
                 status = TOO_STIFF
+            z[Z_STATUS] = status
             if status != DONE:
                 copy_block(z, HERE, SHOWN)
                 return status
@@ -258,5 +260,6 @@ def advance(
             z[SHOWN + TIME] = end
     for i in range(BLOCK):
         if not isfinite(z[SHOWN + i]):
+            z[Z_STATUS] = NOT_FINITE
             return NOT_FINITE
     return DONE

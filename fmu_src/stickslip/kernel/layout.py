@@ -56,7 +56,8 @@ Z_STARTED = 66
 Z_INPUTS = 67  # the inputs that HERE and NEXT were computed with
 Z_HEAT_BEFORE = 72  # friction heat at the communication point before, J
 Z_TIME_BEFORE = 73
-Z_SIZE = 74
+Z_STATUS = 74  # what the last call of `advance` returned
+Z_SIZE = 75
 
 # --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
