@@ -1,0 +1,140 @@
+"""Every bad input is refused by a ValueError that names the key and what is allowed."""
+
+import math
+import warnings
+
+import pytest
+from pydantic import ValidationError
+from stickslip import CATALOGUE, Parameters
+from stickslip.packing import CURVE_LIMIT
+
+# block, its values, what the message says
+REFUSED = {
+    "no mass": ("rig", {"mass": 0.0}, ["rig.mass", "greater than 0"]),
+    "negative mass": ("rig", {"mass": -1.0}, ["rig.mass", "greater than 0"]),
+    "mass in words": ("rig", {"mass": "heavy"}, ["rig.mass", "valid number"]),
+    "mass not a number": ("rig", {"mass": math.nan}, ["rig.mass", "finite number"]),
+    "infinite mass": ("rig", {"mass": math.inf}, ["rig.mass", "finite number"]),
+    "no inertia": ("rig", {"inertia": 0.0}, ["rig.inertia", "'disc' or 'ring'", "greater than 0"]),
+    "inertia by a wrong word": ("rig", {"inertia": "sphere"}, ["rig.inertia", "'disc' or 'ring'"]),
+    "no contact": ("rig", {"contact_radius": 0.0}, ["rig.contact_radius", "greater than 0"]),
+    "three attachments": (
+        "rig", {"attachment_angles_deg": [0.0, 90.0, 180.0]},
+        ["rig.attachment_angles_deg.3", "required"],
+    ),
+    "natural length": (
+        "rig", {"spring_natural_length": 0.41},
+        ["spring_natural_length = 0.41", "allowed is at most 0.4 m"],
+    ),
+    "unknown surface": ("rig", {"surface": "ice"}, ["rig.surface", "'belt' or 'slab'"]),
+    "centre under the block": (
+        "rig", {"surface": "slab", "slab_radius": -0.04},
+        ["slab_radius = -0.04", "above contact_radius = 0.04 m"],
+    ),
+    "guided along x": ("rig", {"degrees_of_freedom": ["y"]}, ['must contain "x"']),
+    "no such freedom": (
+        "rig", {"degrees_of_freedom": ["x", "z"]}, ["degrees_of_freedom.1", "'x', 'y' or 'phi'"],
+    ),
+    "negative stiffness": ("springs", {"stiffness": -1.0}, ["springs.stiffness", "equal to 0"]),
+    "curve without forces": (
+        "springs", {"force_curve_extension": [0.0, 0.1]},
+        ["force_curve_extension has 2", "force_curve_force has 0", "same number"],
+    ),
+    "curve of one point": (
+        "springs", {"force_curve_extension": [0.0], "force_curve_force": [0.0]},
+        ["force curve of one point", "none or 2 to 16"],
+    ),
+    "curve that goes back": (
+        "springs", {"force_curve_extension": [0.0, 0.0], "force_curve_force": [0.0, 1.0]},
+        ["force_curve_extension must grow"],
+    ),
+    "curve that falls": (
+        "springs", {"force_curve_extension": [0.0, 0.1], "force_curve_force": [0.0, -1.0]},
+        ["force_curve_force must not fall"],
+    ),
+    "curve too long": (
+        "springs",
+        {
+            "force_curve_extension": [0.01 * i for i in range(CURVE_LIMIT + 1)],
+            "force_curve_force": [0.1 * i for i in range(CURVE_LIMIT + 1)],
+        },
+        ["springs.force_curve_extension", "at most 16"],
+    ),
+    "curve with a gap": (
+        "springs", {"force_curve_extension": [0.0, math.nan], "force_curve_force": [0.0, 1.0]},
+        ["force_curve_extension.1", "finite number"],
+    ),
+    "negative friction": ("friction", {"mu_k": -0.1}, ["friction.mu_k", "equal to 0"]),
+    "speed not a number": ("surface", {"speed": math.nan}, ["surface.speed", "finite number"]),
+    "run-up into the past": ("surface", {"run_up_time": -1.0}, ["run_up_time", "equal to 0"]),
+    "start not a number": ("initial", {"x": math.nan}, ["initial.x", "finite number"]),
+    "loose solver": ("solver", {"tolerance": 0.1}, ["solver.tolerance", "0.001"]),
+    "solver beyond rounding": ("solver", {"tolerance": 1e-16}, ["solver.tolerance", "0.0000000000001"]),
+    "unknown key": ("rig", {"weight": 1.0}, ["rig.weight", "not permitted"]),
+    "full ripple, too fast": (
+        "speed_ripple", {"amplitude": 1.0, "frequency": 500.0}, ["speed_ripple", "100 Hz"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refused(case):
+    block, values, said = REFUSED[case]
+    with pytest.raises(ValueError) as refusal:
+        Parameters(**{block: values})
+    for words in said:
+        assert words in str(refusal.value)
+
+
+def test_unknown_block():
+    with pytest.raises(ValueError, match=r"frictions\s+Extra inputs are not permitted"):
+        Parameters(frictions={"mu_s": 0.2})
+
+
+def test_slab_and_curvature_are_one_thing():
+    with pytest.raises(ValueError, match="give one of the two"):
+        Parameters(rig={"surface": "slab"}, turning_surface={"curvature": 2.0})
+
+
+@pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
+def test_every_bound_of_every_effect_is_kept(effect):
+    """Beyond a bound is refused with the key and the bound, and so is what is not a number."""
+    for name, field in effect.block.model_fields.items():
+        bad = [(math.nan, None)]
+        for bound in field.metadata:
+            for kind, step in (("gt", 0), ("ge", -1), ("lt", 0), ("le", 1)):
+                limit = getattr(bound, kind, None)
+                if limit is not None:
+                    bad.append((limit + step, {kind: limit}))
+        for value, allowed in bad:
+            with pytest.raises(ValidationError) as refusal:
+                Parameters(**{effect.id: {name: value}})
+            (error,) = refusal.value.errors()
+            assert error["loc"] == (effect.id, name)
+            assert allowed is None or error["ctx"] == allowed
+
+
+def test_friction_that_grows_on_sliding_is_told_but_taken():
+    with pytest.warns(UserWarning, match="holds up to mu_k"):
+        Parameters(friction={"mu_s": 0.1, "mu_k": 0.2})
+
+
+def test_springs_that_push_are_told_where_the_block_can_swerve():
+    with pytest.warns(UserWarning, match="unstable sideways"):
+        Parameters(rig={"spring_natural_length": 0.22})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Parameters(rig={"spring_natural_length": 0.22, "degrees_of_freedom": ["x"]})
+
+
+def test_a_curve_of_compressions_alone_ends_where_its_table_ends():
+    curve = {"force_curve_extension": (-0.1, -0.07), "force_curve_force": (-1.0, 0.5)}
+    flat = Parameters(springs=curve).flat()
+    assert [flat[f"springs.force_curve_extension[{i}]"] for i in (1, 2, 3)] == [-0.1, -0.07, -0.07]
+
+
+def test_taken_as_toml_gives_it():
+    """Lists for tuples; whole numbers for floats are refused nowhere that TOML writes them."""
+    taken = Parameters(rig={"mass": 1, "degrees_of_freedom": ["x"]}, springs={"stiffness": 20})
+    assert taken.rig.mass == 1.0
+    assert taken.flat()["rig.free_y"] == 0.0
