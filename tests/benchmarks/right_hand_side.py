@@ -1,0 +1,125 @@
+"""Cost of one compiled right-hand side, and what the quadrature over the contact errs.
+
+    python tests/benchmarks/right_hand_side.py
+
+prints ns for each kind of friction (median of several loops, each inside compiled code, so that no
+call from Python is in it), then the quadrature's error against adaptive integration, relative to
+mu_k, the larger of force and moment.
+"""
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numba
+import numpy as np
+from mechanics import median_seconds
+from stickslip import Parameters
+from stickslip.compiled import OPTIONS, compiled_kernel
+from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.layout import (
+    DEPTHS,
+    OMEGA,
+    PHI,
+    RAYS,
+    SLIP,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    VX,
+    VY,
+    W_FRICTION,
+    W_SIZE,
+    W_SLOPES,
+    W_STATE,
+    X,
+    Y,
+)
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+from disc_integral import law_over_disc  # noqa: E402
+
+LOOPS = 200_000
+MU, RADIUS, NORMAL, TOP = 0.2, 0.04, 0.67 * 9.81, 0.3
+PLANE = {"lateral_friction": {"ratio": 1.0}}
+HYPERBOLIC = {"velocity_weakening": {"hyperbolic": 3.0}}
+INVERSE_ROOT = {"velocity_weakening": {"inverse_root": 50.0}}
+STRIBECK = {"velocity_weakening": {"stribeck": 0.5, "stribeck_speed": 0.05}}
+# kind -> (blocks, turning of the block, rad/s)
+KINDS = {
+    "x only": ({"rig": {"degrees_of_freedom": ("x",)}}, 0.0),
+    "planar, no spin": (PLANE, 0.0),
+    "planar, spin outside": (PLANE, 2.0),
+    "planar, spin inside": (PLANE, 10.0),
+    "spin, hyperbolic law": (PLANE | HYPERBOLIC, 2.0),
+    "spin, inverse root": (PLANE | INVERSE_ROOT, 2.0),
+    "spin, Stribeck": (PLANE | STRIBECK, 2.0),
+}
+LAWS = {
+    "hyperbolic 3 s/m": (HYPERBOLIC, lambda u: MU / (1.0 + 3.0 * u)),
+    "inverse root 50 s/m": (INVERSE_ROOT, lambda u: MU / np.sqrt(1.0 + 50.0 * u)),
+    "Stribeck 0.5, 0.05 m/s": (STRIBECK, lambda u: MU * (1.0 + 0.5 * np.exp(-u / 0.05))),
+    "root of the speed 0.5 N": (
+        {"film_drag": {"root_coefficient": 0.5}},
+        lambda u: MU + 0.5 / NORMAL * np.sqrt(u),
+    ),
+}
+RATIOS = (0.1, 0.5, 0.9, 1.0, 1.1, 2.0, 10.0)  # rim speed over sliding speed
+ACCURACY = 1e-10  # of the adaptive integration; no error below it is shown
+
+
+@numba.njit(**{**OPTIONS, "cache": False})
+def repeat(slopes, p, u, w, loops):
+    """Sum of what depends on every call, so that none is left out."""
+    total = 0.0
+    for i in range(loops):
+        w[W_STATE + X] = 0.02 + 1e-9 * i
+        slopes(p, u, w, 1.0 * SLIP, W_SLOPES)
+        total += w[W_SLOPES + VX - 1]
+    return total
+
+
+def moving(blocks: dict, turning: float) -> SimpleNamespace:
+    """The kernel's arrays with the block sliding at 0.26 m/s against the belt."""
+    parameters = Parameters(**blocks)
+    u, w = np.zeros(U_SIZE), np.zeros(W_SIZE)
+    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, -8.0
+    across = 0.0 if parameters.rig.degrees_of_freedom == ("x",) else 0.01
+    start = {X: 0.02, Y: across, PHI: across, VX: -0.1, VY: 5.0 * across, OMEGA: turning}
+    for place, value in start.items():
+        w[W_STATE + place] = value
+    return SimpleNamespace(p=np.array(parameters.pack()), u=u, w=w)
+
+
+def nanoseconds(kind: str) -> float:
+    at = moving(*KINDS[kind])
+    slopes = compiled_kernel().set_slopes
+    repeat(slopes, at.p, at.u, at.w, 10)  # compiles
+    return 1e9 / LOOPS * median_seconds(lambda: repeat(slopes, at.p, at.u, at.w, LOOPS), 7)
+
+
+def quadrature_error(law: str, ratio: float) -> float:
+    """Of the kernel's force and moment; the faster of sliding and rim speed is TOP."""
+    blocks, exact = LAWS[law]
+    sliding, spinning = TOP * min(1.0, 1.0 / ratio), TOP * min(1.0, ratio)
+    p = Parameters(friction={"mu_k": MU}, **(PLANE | blocks)).pack()
+    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
+    u[U_TEMPERATURE] = -8.0
+    friction_in_slip(p, u, w, sliding, 0.0, spinning)
+    force, moment = law_over_disc(exact, sliding, spinning, ACCURACY)
+    errors = -w[W_FRICTION] / NORMAL - force, -w[W_FRICTION + 2] / (NORMAL * RADIUS) - moment
+    return max(*map(abs, errors), ACCURACY) / MU
+
+
+def main() -> None:
+    print("one right-hand side, compiled            ns")
+    for kind in KINDS:
+        print(f"{kind:<34}{nanoseconds(kind):9.0f}")
+    print(f"\nerror of {RAYS} x {DEPTHS} points ({ACCURACY / MU:.0e} or less); spinning / sliding:")
+    print(f"{'':<26}" + "".join(f"{ratio:>10g}" for ratio in RATIOS))
+    for law in LAWS:
+        print(f"{law:<26}" + "".join(f"{quadrature_error(law, r):10.1e}" for r in RATIOS))
+
+
+if __name__ == "__main__":
+    main()
