@@ -1,0 +1,52 @@
+"""The catalogue says of every effect what it is, where it enters, and what its parameters are."""
+
+import numpy as np
+import pytest
+from stickslip import CATALOGUE, Parameters, simulate
+from stickslip.effects import EffectBlocks
+
+EACH = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
+
+
+def test_one_entry_for_each_block():
+    assert sorted(effect.id for effect in CATALOGUE) == sorted(EffectBlocks.model_fields)
+
+
+@EACH
+def test_an_entry_is_complete(effect):
+    assert effect.sentence.endswith(".") and len(effect.sentence) < 120
+    assert effect.enters in {"friction", "surface", "springs", "contact"}
+    assert effect.source
+    assert effect.switch and set(effect.switch) <= set(effect.block.model_fields)
+
+
+@EACH
+def test_a_parameter_has_unit_words_default_and_range(effect):
+    for name, field in effect.block.model_fields.items():
+        extra = field.json_schema_extra
+        assert extra["unit"] and field.description and field.default is not None
+        if name in effect.switch:
+            low, high = extra["typical"]
+            assert low < high
+            effect.block(**{name: low}), effect.block(**{name: high})  # typical is allowed
+
+
+@EACH
+def test_off_is_the_plain_model(effect):
+    """Whatever the parameters that only say how an effect acts, its switches at their defaults.
+
+    To a part of the tolerance: a memory that nothing reads is still in the test of a step's error.
+    """
+    others = {
+        name: 2.0 * field.default if isinstance(field.default, float) else field.default + 1
+        for name, field in effect.block.model_fields.items()
+        if name not in effect.switch
+    }
+    if effect.id == "rate_and_state":
+        others["initial_age"] = 3.0
+    planar = {"lateral_friction": {"ratio": 1.0}, "initial": {"vx": 0.15, "y": 0.005}}
+    start = {} if effect.id == "lateral_friction" else planar
+    plain = simulate(Parameters(**start), 2.0)
+    off = simulate(Parameters(**(start | {effect.id: others})), 2.0)
+    for name in ("x", "y", "phi", "heat"):
+        np.testing.assert_allclose(off[name], plain[name], rtol=0, atol=1e-12)
