@@ -69,7 +69,9 @@ REFUSED = {
     "run-up into the past": ("surface", {"run_up_time": -1.0}, ["run_up_time", "equal to 0"]),
     "start not a number": ("initial", {"x": math.nan}, ["initial.x", "finite number"]),
     "loose solver": ("solver", {"tolerance": 0.1}, ["solver.tolerance", "0.001"]),
-    "solver beyond rounding": ("solver", {"tolerance": 1e-16}, ["solver.tolerance", "0.0000000000001"]),
+    "solver beyond rounding": (
+        "solver", {"tolerance": 1e-16}, ["solver.tolerance", "0.0000000000001"],
+    ),
     "unknown key": ("rig", {"weight": 1.0}, ["rig.weight", "not permitted"]),
     "full ripple, too fast": (
         "speed_ripple", {"amplitude": 1.0, "frequency": 500.0}, ["speed_ripple", "100 Hz"],
