@@ -1,25 +1,26 @@
-"""Cost of the kernel's right-hand side, and the error that its quadrature over the contact leaves.
+"""Cost of one compiled right-hand side, and what the quadrature over the contact errs.
 
     python tests/benchmarks/right_hand_side.py
 
-Where mu_k does not depend on the sliding speed, friction in the plane is a closed form: no points.
-Where it does, 8 strips or rays of 4 points each take up what its variation over the contact
-changes; the error is against adaptive quadrature, the largest of force and moment (per radius) over
-motions from pure sliding to pure spinning, relative to mu_k N.
+prints ns for each kind of friction (median of several loops, each inside compiled code, so that no
+call from Python is in it), then the quadrature's error against adaptive integration, relative to
+mu_k, the larger of force and moment.
 """
 
-import statistics
 import sys
-import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numba
 import numpy as np
+from mechanics import median_seconds
 from stickslip import Parameters
-from stickslip.compiled import compiled_kernel
+from stickslip.compiled import OPTIONS, compiled_kernel
+from stickslip.kernel.friction import friction_in_slip
 from stickslip.kernel.layout import (
     DEPTHS,
     OMEGA,
+    PHI,
     RAYS,
     SLIP,
     U_SIZE,
@@ -27,76 +28,97 @@ from stickslip.kernel.layout import (
     U_TEMPERATURE,
     VX,
     VY,
+    W_FRICTION,
     W_SIZE,
     W_SLOPES,
     W_STATE,
     X,
+    Y,
 )
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+from disc_integral import law_over_disc  # noqa: E402
 
-from test_effect_local_law import LAWS, MOTIONS, MU, kernel_law, law_over_disc  # noqa: E402
-
-CALLS, REPEATS = 100_000, 9
-PLANAR = {"lateral_friction": {"ratio": 1.0}, "rig": {"spring_natural_length": 0.17}}
-WEAKENING = {"velocity_weakening": {"hyperbolic": 3.0}}
-SCATTER = {"surface_scatter": {"deviation": 0.1}}
-SLIDING, SPINNING = (-0.1, 0.02, 1.0), (0.149, 0.001, -5.0)  # vx, vy, omega
-# what is on, how the block moves, points over the contact
-CASES = {
-    "along x": ({}, SLIDING, 0),
-    "planar, mostly sliding": (PLANAR, SLIDING, 0),
-    "planar, mostly spinning": (PLANAR, SPINNING, 0),
-    "planar, weakening, sliding": (PLANAR | WEAKENING, SLIDING, RAYS * DEPTHS),
-    "planar, weakening, spinning": (PLANAR | WEAKENING, SPINNING, RAYS * DEPTHS),
-    "planar, random field": (PLANAR | SCATTER, SLIDING, 0),
+LOOPS = 200_000
+MU, RADIUS, NORMAL, TOP = 0.2, 0.04, 0.67 * 9.81, 0.3
+PLANE = {"lateral_friction": {"ratio": 1.0}}
+HYPERBOLIC = {"velocity_weakening": {"hyperbolic": 3.0}}
+INVERSE_ROOT = {"velocity_weakening": {"inverse_root": 50.0}}
+STRIBECK = {"velocity_weakening": {"stribeck": 0.5, "stribeck_speed": 0.05}}
+# kind -> (blocks, turning of the block, rad/s)
+KINDS = {
+    "x only": ({"rig": {"degrees_of_freedom": ("x",)}}, 0.0),
+    "planar, no spin": (PLANE, 0.0),
+    "planar, spin outside": (PLANE, 2.0),
+    "planar, spin inside": (PLANE, 10.0),
+    "spin, hyperbolic law": (PLANE | HYPERBOLIC, 2.0),
+    "spin, inverse root": (PLANE | INVERSE_ROOT, 2.0),
+    "spin, Stribeck": (PLANE | STRIBECK, 2.0),
 }
+LAWS = {
+    "hyperbolic 3 s/m": (HYPERBOLIC, lambda u: MU / (1.0 + 3.0 * u)),
+    "inverse root 50 s/m": (INVERSE_ROOT, lambda u: MU / np.sqrt(1.0 + 50.0 * u)),
+    "Stribeck 0.5, 0.05 m/s": (STRIBECK, lambda u: MU * (1.0 + 0.5 * np.exp(-u / 0.05))),
+    "root of the speed 0.5 N": (
+        {"film_drag": {"root_coefficient": 0.5}},
+        lambda u: MU + 0.5 / NORMAL * np.sqrt(u),
+    ),
+}
+RATIOS = (0.1, 0.5, 0.9, 1.0, 1.1, 2.0, 10.0)  # rim speed over sliding speed
+ACCURACY = 1e-10  # of the adaptive integration; no error below it is shown
 
 
-def right_hand_side(blocks: dict, velocity: tuple[float, float, float]) -> float:
-    """Seconds for all slopes of a slip, compiled; the median of some loops of many calls."""
-    set_slopes = compiled_kernel().set_slopes
-
-    @numba.njit
-    def loop(p, u, w, calls):
-        for i in range(calls):
-            w[W_STATE + X] = 0.01 + 1e-9 * i  # no call is the one before
-            set_slopes(p, u, w, float(SLIP), W_SLOPES)
-
-    p, u, w = np.array(Parameters(**blocks).pack()), np.zeros(U_SIZE), np.zeros(W_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE] = 0.15, -8.0
-    for slot, value in zip((VX, VY, OMEGA), velocity, strict=True):
-        w[W_STATE + slot] = value
-    loop(p, u, w, 1)
-    seconds = []
-    for _ in range(REPEATS):
-        start = time.perf_counter()
-        loop(p, u, w, CALLS)
-        seconds.append((time.perf_counter() - start) / CALLS)
-    return statistics.median(seconds)
+@numba.njit(**{**OPTIONS, "cache": False})
+def repeat(slopes, p, u, w, loops):
+    """Sum of what depends on every call, so that none is left out."""
+    total = 0.0
+    for i in range(loops):
+        w[W_STATE + X] = 0.02 + 1e-9 * i
+        slopes(p, u, w, 1.0 * SLIP, W_SLOPES)
+        total += w[W_SLOPES + VX - 1]
+    return total
 
 
-def quadrature_error(name: str) -> tuple[float, tuple[float, float]]:
-    """Largest error relative to mu_k, and the motion (sliding, spinning) where it is."""
-    parameters, law, bound = LAWS[name]
-    errors = {
-        motion: np.max(np.abs(np.subtract(
-            kernel_law(parameters, *motion), law_over_disc(law, *motion, 0.01 * bound * MU)
-        ))) / MU
-        for motion in MOTIONS
-    }
-    worst = max(errors, key=errors.get)
-    return errors[worst], worst
+def moving(blocks: dict, turning: float) -> SimpleNamespace:
+    """The kernel's arrays with the block sliding at 0.26 m/s against the belt."""
+    parameters = Parameters(**blocks)
+    u, w = np.zeros(U_SIZE), np.zeros(W_SIZE)
+    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, -8.0
+    across = 0.0 if parameters.rig.degrees_of_freedom == ("x",) else 0.01
+    start = {X: 0.02, Y: across, PHI: across, VX: -0.1, VY: 5.0 * across, OMEGA: turning}
+    for place, value in start.items():
+        w[W_STATE + place] = value
+    return SimpleNamespace(p=np.array(parameters.pack()), u=u, w=w)
+
+
+def nanoseconds(kind: str) -> float:
+    at = moving(*KINDS[kind])
+    slopes = compiled_kernel().set_slopes
+    repeat(slopes, at.p, at.u, at.w, 10)  # compiles
+    return 1e9 / LOOPS * median_seconds(lambda: repeat(slopes, at.p, at.u, at.w, LOOPS), 7)
+
+
+def quadrature_error(law: str, ratio: float) -> float:
+    """Of the kernel's force and moment; the faster of sliding and rim speed is TOP."""
+    blocks, exact = LAWS[law]
+    sliding, spinning = TOP * min(1.0, 1.0 / ratio), TOP * min(1.0, ratio)
+    p = Parameters(friction={"mu_k": MU}, **(PLANE | blocks)).pack()
+    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
+    u[U_TEMPERATURE] = -8.0
+    friction_in_slip(p, u, w, sliding, 0.0, spinning)
+    force, moment = law_over_disc(exact, sliding, spinning, ACCURACY)
+    errors = -w[W_FRICTION] / NORMAL - force, -w[W_FRICTION + 2] / (NORMAL * RADIUS) - moment
+    return max(*map(abs, errors), ACCURACY) / MU
 
 
 def main() -> None:
-    print(f"{'right-hand side':30s} {'points':>6s} {'ns':>7s}")
-    for name, (blocks, velocity, points) in CASES.items():
-        print(f"{name:30s} {points:6d} {1e9 * right_hand_side(blocks, velocity):7.0f}")
-    print(f"\n{'law of the local speed':30s} {'error / mu_k':>12s}   worst at sliding, rim speed")
-    for name in LAWS:
-        error, (sliding, spinning) = quadrature_error(name)
-        print(f"{name:30s} {error:12.1e}   {sliding:g}, {spinning:g} m/s")
+    print("one right-hand side, compiled            ns")
+    for kind in KINDS:
+        print(f"{kind:<34}{nanoseconds(kind):9.0f}")
+    print(f"\nerror of {RAYS} x {DEPTHS} points ({ACCURACY / MU:.0e} or less); spinning / sliding:")
+    print(f"{'':<26}" + "".join(f"{ratio:>10g}" for ratio in RATIOS))
+    for law in LAWS:
+        print(f"{law:<26}" + "".join(f"{quadrature_error(law, r):10.1e}" for r in RATIOS))
 
 
 if __name__ == "__main__":
