@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -104,11 +105,13 @@ def _with_last_picture(
 
 
 def _own_fmu() -> Path:
-    """The FMU in `build`, or in the user's cache where `build` cannot be written."""
-    try:
-        return ensure_fmu(BUILD_FOLDER)
-    except FmuBuildError as first:
+    """The FMU in `build`; where that cannot be written, in the user's cache or a scratch folder."""
+    for place in (Path(BUILD_FOLDER), platformdirs.user_cache_path("stickslip")):
         try:
-            return ensure_fmu(platformdirs.user_cache_path("stickslip"))
-        except FmuBuildError:
-            raise first from None
+            return ensure_fmu(place)
+        except FmuBuildError as error:
+            refused = error  # the last is told
+    try:
+        return ensure_fmu(tempfile.mkdtemp(prefix="stickslip-"))
+    except (FmuBuildError, OSError):
+        raise refused from None

@@ -97,7 +97,7 @@ class Contact(Block):
     conductance: float = quantity(
         1e4, "W/(m2.K)", "contact conductance between the two faces", gt=0.0, le=1e12)
     strips: int = Field(
-        8, ge=1, le=64,
+        16, ge=1, le=64,
         description="strips across the belt in each of which the flux is uniform; 1 makes the"
                     " flux uniform over the contact")
 

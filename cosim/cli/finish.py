@@ -72,7 +72,9 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
             f"{interface['end_rise']:+.4f} K over the air",
             f"  heat         {ledgers['heat']['received']:.4g} J, in "
             + ", ".join(
-                f"{sink} {_number(shares[sink], '.3f')}" for sink in ("belt", "ice", "air")
+                f"{sink} {_number(shares[sink], '.3f')}"
+                for sink in ("belt", "ice", "air", "melting")
+                if sink != "melting" or shares[sink]
             ),
         ]
     lines.append(f"  ledgers      {_ledger_line(ledgers)}")

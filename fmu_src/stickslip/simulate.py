@@ -27,7 +27,10 @@ from .ports import OUTPUTS
 from .trajectory import Trajectory
 
 EVENTS_PER_BLOCK = 4096
+# rows between two calls of ``progress``, and the motion that they may span: a caller that wants to
+# stop need not wait for more
 ROWS_PER_BLOCK = 1000
+SECONDS_PER_BLOCK = 20.0
 
 # the kernel as it stands, for whoever wants to step through it
 INTERPRETED = SimpleNamespace(
@@ -108,7 +111,9 @@ class _Run:
 
     def next_rows(self) -> None:
         """Advance by some rows; set ``reason`` where the run is over."""
-        wanted = min(ROWS_PER_BLOCK, len(self.times) - self.rows)
+        within = self.time_reached + SECONDS_PER_BLOCK
+        span = int(np.searchsorted(self.times, within, side="right")) - self.rows
+        wanted = min(max(span, 1), ROWS_PER_BLOCK, len(self.times) - self.rows)
         done = self.kernel.record(
             self.p, self.u, self.z, self.w, self.e, self.t, self.o, self.rows, wanted
         )

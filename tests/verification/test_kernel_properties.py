@@ -82,11 +82,6 @@ def test_friction_never_drives_the_sliding(seed, on):
     assert np.all(np.diff(run["heat"]) >= -1e-12 * max(run["heat"][-1], 1e-3))
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="where rate_and_state uses up all friction, what a local law changes over the contact "
-    "is still added",
-)
 def test_friction_used_up_by_age_and_speed():
     law = {"friction": {"mu_k": 0.2}, "lateral_friction": {"ratio": 1.0}}
     law |= {"velocity_weakening": {"hyperbolic": 3.0}, "rate_and_state": {"evolution": 0.1}}
@@ -130,10 +125,6 @@ def test_stick_stays_inside_the_limit_surface(seed, on):
     assert max(ratios, default=0.0) <= 1.0 + 1e-9
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="the step that ends with the run-up is judged by the load after it, without m v / T",
-)
 def test_break_away_shortly_before_the_run_up_ends():
     """K x + m v / T = mu_s N with x = v t^2 / (2 T)."""
     stiffness, mass, mu_s, speed = 80.68, 0.67, 0.2815, 0.15

@@ -94,23 +94,36 @@ def disc_friction(sliding: float, spinning: float, w: "float[:]"):
 
 
 def add_local_law(
-    p: "float[:]", mu: float, reference: float, sliding: float, spinning: float, w: "float[:]"
+    p: "float[:]",
+    mu: float,
+    aged: float,
+    reference: float,
+    sliding: float,
+    spinning: float,
+    w: "float[:]",
 ):
     """Add to ``w[W_PAIR:]`` what a coefficient that varies with the local speed changes.
 
-    Integrates mu(|u|) - reference over the disc, in coordinates centred on the centre of rotation:
-    the local speed is the distance from it, the direction of sliding the angle, and nothing is
-    singular. Outside the disc the angles are those of strips along the sliding (midpoint rule in
-    psi, y = a sin psi: Gauss-Chebyshev), inside those of rays; along them Gauss-Legendre.
+    Integrates mu(|u|) + aged - reference over the disc (``aged``: the part of the contact's age),
+    in coordinates centred on the centre of rotation: the local speed is the distance from it, the
+    direction of sliding the angle, and nothing is singular. Outside the disc the angles are those
+    of strips along the sliding (midpoint rule in psi, y = a sin psi: Gauss-Chebyshev), inside those
+    of rays; along them Gauss-Legendre.
     """
     if sliding >= spinning:
-        add_law_over_strips(p, mu, reference, sliding, spinning / sliding, w)
+        add_law_over_strips(p, mu, aged, reference, sliding, spinning / sliding, w)
     else:
-        add_law_over_rays(p, mu, reference, spinning, sliding / spinning, w)
+        add_law_over_rays(p, mu, aged, reference, spinning, sliding / spinning, w)
 
 
 def add_law_over_strips(
-    p: "float[:]", mu: float, reference: float, sliding: float, k: float, w: "float[:]"
+    p: "float[:]",
+    mu: float,
+    aged: float,
+    reference: float,
+    sliding: float,
+    k: float,
+    w: "float[:]",
 ):
     """The centre of rotation lies outside: |u| = U (cos theta + k tau cos psi)."""
     force = 0.0
@@ -121,7 +134,7 @@ def add_law_over_strips(
         for i in range(DEPTHS):
             tau = p[P_QUADRATURE + Q_DEPTH + i]
             q = along + k * tau * c
-            excess = local_coefficient(p, mu, sliding * q) - reference
+            excess = max(0.0, local_coefficient(p, mu, sliding * q) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * c * c * excess / RAYS
             force += share * q
             moment += share * c * tau * q / along
@@ -130,7 +143,13 @@ def add_law_over_strips(
 
 
 def add_law_over_rays(
-    p: "float[:]", mu: float, reference: float, spinning: float, k: float, w: "float[:]"
+    p: "float[:]",
+    mu: float,
+    aged: float,
+    reference: float,
+    spinning: float,
+    k: float,
+    w: "float[:]",
 ):
     """The centre of rotation lies inside, k radii from the centre of the disc."""
     force = 0.0
@@ -140,7 +159,7 @@ def add_law_over_rays(
         reach = k * c + sqrt(1.0 - k * k * p[P_QUADRATURE + Q_RAY + RAYS + j])
         for i in range(DEPTHS):
             s = 0.5 * reach * (1.0 + p[P_QUADRATURE + Q_DEPTH + i])
-            excess = local_coefficient(p, mu, spinning * s) - reference
+            excess = max(0.0, local_coefficient(p, mu, spinning * s) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * reach * s * excess / RAYS
             force += share * c
             moment += share * (s - k * c)

@@ -44,6 +44,7 @@ from .layout import (
 )
 from .motion import rest_speed, set_contact
 from .runge_kutta import follow_surface, load_block, take_step
+from .surface import set_surface_phase
 
 
 def look_at(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
@@ -52,12 +53,18 @@ def look_at(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: i
     set_contact(p, u, w, W_STATE)
 
 
-def excess_load(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
+def excess_load(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int, phase: float
+) -> float:
     """Load over holding capacity, less 1: the function whose zero is the break-away.
 
+    ``phase`` is a time in the phase of the surface that counts: the end of the run-up belongs to
+    the step that ends there as well as to the one that begins there, and the load differs.
     A stick ratio below 1 judges stick by a part of the load (stick_stiffness, the study's fault).
     """
-    look_at(p, u, z, w, block)
+    load_block(p, z, w, block)
+    set_surface_phase(p, w, phase)
+    set_contact(p, u, w, W_STATE)
     set_holding_load(p, w)
     for i in range(3):
         w[W_FRICTION + i] *= p[P_STICK_RATIO]
@@ -122,7 +129,7 @@ def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float
         z[block + MODE] = SLIP
     else:
         stop_sliding(p, u, z, w, block)
-        if excess_load(p, u, z, w, block) < 0.0:
+        if excess_load(p, u, z, w, block, z[block + TIME]) < 0.0:
             z[block + MODE] = STICK
         else:
             release(p, u, z, w, block)
@@ -141,13 +148,13 @@ def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "f
     trial is a step of full order from HERE, so the event is as exact as the motion. NEXT ends at
     the side where the load has reached the limit.
     """
-    excess = excess_load(p, u, z, w, NEXT)
+    excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
     if excess < 0.0:
         return
     load_block(p, z, w, HERE)  # the trials belong to the surface phase of HERE
     low = 0.0
     high = z[NEXT + TIME] - z[HERE + TIME]
-    excess_low = excess_load(p, u, z, w, HERE)
+    excess_low = excess_load(p, u, z, w, HERE, z[HERE + TIME])
     excess_high = excess
     finest = 4e-16 * max(abs(z[NEXT + TIME]), high)
     side = 0
@@ -158,7 +165,7 @@ def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "f
             h = high - excess_high * (high - low) / (excess_high - excess_low)
         load_block(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, h)
-        excess = excess_load(p, u, z, w, NEXT)
+        excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
         if excess < 0.0:
             low = h
             excess_low = excess
@@ -175,7 +182,7 @@ def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "f
     if excess < 0.0:
         load_block(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, high)
-        excess_load(p, u, z, w, NEXT)
+        excess_load(p, u, z, w, NEXT, z[HERE + TIME])
     release(p, u, z, w, NEXT)
     z[NEXT + SLIPS] += 1.0
     log_event(z, e, NEXT)
