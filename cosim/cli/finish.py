@@ -74,7 +74,7 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
             + ", ".join(
                 f"{sink} {_number(shares[sink], '.3f')}"
                 for sink in ("belt", "ice", "air", "melting")
-                if sink != "melting" or shares[sink]
+                if sink != "melting" or shares.get(sink)
             ),
         ]
     lines.append(f"  ledgers      {_ledger_line(ledgers)}")
