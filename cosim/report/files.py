@@ -3,31 +3,28 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
+from cosim import atomic
+
 from .errors import OutputError
 
 
 def write_atomically(path: Path, write: Callable[[Path], object]) -> Path:
-    """Let ``write`` fill a partial file beside ``path``, then put it in place.
+    """`atomic.write_atomically`, with OutputError when the disk refuses."""
 
-    An earlier file of that name stays as it was until then. OutputError when the disk refuses.
-    """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
+    def touch_and_write(partial: Path) -> None:
         partial.touch()  # says in plain words why a folder refuses; HDF5 does not
         write(partial)
-        os.replace(partial, path)
+
+    try:
+        atomic.write_atomically(path, touch_and_write)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
-    finally:
-        if path.parent.is_dir():
-            partial.unlink(missing_ok=True)
     return path
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 import xarray as xr
 from tqdm import tqdm
 
+from cosim.atomic import write_atomically
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario_faults import ScenarioError
 from cosim.studies.sweep import (
@@ -29,7 +30,6 @@ from cosim.studies.sweep import (
 from cosim.studies.sweep.arguments import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
 from cosim.studies.sweep.figure import draw_sweep
-from cosim.studies.sweep.store import write_atomically
 from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
 
 REFUSED = (SweepError, ScenarioError)

@@ -11,10 +11,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from cosim.atomic import write_atomically
+
 from .combination import COMPLETE, STATUS_MEANINGS, Row, Run, model_version
 from .features import FEATURES
 from .grid import Grid
-from .store import write_atomically
 
 CODES = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
 import tempfile
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+
+from cosim.atomic import write_atomically
 
 from .combination import ERROR, Row, model_version
 from .errors import SweepError, SweepStopped
@@ -57,18 +58,6 @@ class Store:
             write_atomically(self.folder / f"{name}.json", lambda path: path.write_text(text))
         except OSError as error:
             raise SweepStopped(f"{self.folder}: cannot be written: {error.strerror}") from error
-
-
-def write_atomically(path: Path, write: Callable[[Path], object]) -> None:
-    """Let ``write`` fill a partial file beside ``path``, bring it to the disk, put it in place."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        write(partial)
-        with partial.open("rb+") as file:
-            os.fsync(file.fileno())  # else a power cut may leave the name without the contents
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _plain(row: Row) -> list:
