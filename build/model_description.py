@@ -6,7 +6,8 @@ from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostr
 
 from stickslip.ports import INPUTS, OUTPUTS, Port
 
-# FMI 2 unit name -> exponents of its base units, factor and offset
+# FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
+# whole numbers, which FMI cannot state
 UNITS = {
     "1": {},
     "m": {"m": 1},
@@ -21,6 +22,10 @@ UNITS = {
     "N.m": {"kg": 1, "m": 2, "s": -2},
     "N/m": {"kg": 1, "s": -2},
     "J": {"kg": 1, "m": 2, "s": -2},
+    "J/m3": {"kg": 1, "m": -1, "s": -2},
+    "Pa": {"kg": 1, "m": -1, "s": -2},
+    "Pa.s": {"kg": 1, "m": -1, "s": -1},
+    "W.s0.5/(m2.K)": None,
     "W": {"kg": 1, "m": 2, "s": -3},
     "degC": {"K": 1, "offset": 273.15},
     "1/K": {"K": -1},
@@ -85,7 +90,8 @@ def _unit_definitions(used: set[str]) -> Element:
     definitions = Element("UnitDefinitions")
     for name in sorted(used):
         unit = SubElement(definitions, "Unit", name=name)
-        SubElement(unit, "BaseUnit", {key: repr(value) for key, value in UNITS[name].items()})
+        if UNITS[name] is not None:
+            SubElement(unit, "BaseUnit", {key: repr(value) for key, value in UNITS[name].items()})
     return definitions
 
 

@@ -199,13 +199,99 @@ class StickStiffness(Block):
 
 
 class TemperatureDependence(Block):
-    """Kinetic friction falls as the interface warms, up to the melting point (0 degC)."""
+    """Friction falls linearly as the interface warms, up to the melting point (0 degC).
+
+    Ice on rock, 0.52 at -20 degC to 0.02 at melting: mu_k = 0.52, reference_degC = -20,
+    sensitivity = (1 - 0.02 / 0.52) / 20.
+    """
 
     sensitivity: float = quantity(
         0.0, "1/K", "part of mu_k lost per kelvin above reference_degC", ge=0, typical=(0.01, 0.12)
     )
+    static_sensitivity: float = quantity(
+        0.0, "1/K", "part of mu_s lost per kelvin above reference_degC", ge=0, typical=(0.01, 0.12)
+    )
     reference_degC: float = quantity(
-        -8.0, "degC", "interface temperature at which mu_k holds", ge=-273.15, le=0
+        -8.0, "degC", "interface temperature at which mu_k and mu_s hold", ge=-273.15, le=0
+    )
+
+
+class AsperityMelting(Block):
+    """Asperities warmed to melting as they pass cap mu_k: (T_m - T) / sqrt(v), boundary friction.
+
+    mu_a = C e (T_m - T) / (H sqrt(l v)): the heat mu_a H v of a contact of length l that slides for
+    l / v warms ice of effusivity e from the interface temperature T to melting, 0 degC. mu_k is
+    what is left as v -> 0, so mu_s >= mu_k stays the static value.
+    """
+
+    length: float = quantity(
+        0.0,
+        "m",
+        "l, length of an asperity's contact along the sliding: that of a grain; 0 is off",
+        ge=0,
+        le=1,
+        typical=(1e-5, 1e-2),
+    )
+    hardness: float = quantity(
+        1e7,
+        "Pa",
+        "H, pressure that an asperity of ice bears; some 1e7 at -10 degC",
+        gt=0,
+        le=1e10,
+        typical=(3e6, 3e7),
+    )
+    effusivity: float = quantity(
+        2034.0,
+        "W.s0.5/(m2.K)",
+        "e of the ice, sqrt(k rho c)",
+        gt=0,
+        le=1e6,
+        typical=(1900.0, 2200.0),
+    )
+    constant: float = quantity(
+        1.128,
+        "1",
+        "C: 1.128 isothermal contact, 1.329 uniform heat flux and melting in the mean, 0.886 "
+        "uniform flux and melting at the trailing edge",
+        gt=0,
+        le=10,
+        typical=(0.886, 1.329),
+    )
+
+
+class MeltFilm(Block):
+    """A film of melt that its own shear melts: friction with the root of the speed, hydrodynamic.
+
+    mu_f = sqrt(2 eta v rho L / l) / p, where the pressure p is the load on the wetted part of the
+    contact.
+    """
+
+    wetted_share: float = quantity(
+        0.0,
+        "1",
+        "part of the contact's area that the film fills; p is the mean pressure over it; 0 is off",
+        ge=0,
+        le=1,
+        typical=(1e-4, 1e-1),
+    )
+    length: float = quantity(
+        1e-3,
+        "m",
+        "l, way along the sliding over which a film grows: that of a wetted patch",
+        gt=0,
+        le=10,
+        typical=(1e-4, 1e-2),
+    )
+    viscosity: float = quantity(
+        1.79e-3, "Pa.s", "eta of water at 0 degC", gt=0, le=1e3, typical=(1.79e-3, 3e-3)
+    )
+    latent_heat: float = quantity(
+        3.06e8,
+        "J/m3",
+        "rho L, heat that melts a volume of ice",
+        gt=0,
+        le=1e10,
+        typical=(3.0e8, 3.1e8),
     )
 
 
@@ -255,6 +341,8 @@ class EffectBlocks(Block):
     spring_misalignment: SpringMisalignment = SpringMisalignment()
     stick_stiffness: StickStiffness = StickStiffness()
     temperature_dependence: TemperatureDependence = TemperatureDependence()
+    asperity_melting: AsperityMelting = AsperityMelting()
+    melt_film: MeltFilm = MeltFilm()
     rate_and_state: RateAndState = RateAndState()
 
     @model_validator(mode="after")
@@ -388,9 +476,21 @@ CATALOGUE = tuple(
         ),
         (
             "temperature_dependence",
-            ("sensitivity",),
+            ("sensitivity", "static_sensitivity"),
             "friction",
             "ice on rock, linear to the melting point: McCarthy et al. (2017)",
+        ),
+        (
+            "asperity_melting",
+            ("length",),
+            "friction",
+            "derived here from conduction into an asperity; the source study reports 1/sqrt(v)",
+        ),
+        (
+            "melt_film",
+            ("wetted_share",),
+            "friction",
+            "derived here from Couette shear and latent heat; the source study reports sqrt(v)",
         ),
     )
 )

@@ -6,6 +6,7 @@ from random import Random
 from .kernel import layout
 from .kernel.layout import (
     P_ANCHOR,
+    P_ASPERITY,
     P_ATTACH,
     P_CURVE,
     P_CURVE_POINTS,
@@ -14,6 +15,7 @@ from .kernel.layout import (
     P_LOCAL_LAW,
     P_LONGEST_STEP,
     P_MASS,
+    P_MELT_FILM,
     P_MU_K,
     P_MU_S,
     P_NORMAL_FORCE,
@@ -73,16 +75,21 @@ SLOTS = {
     "rate_and_state.reference_speed": "P_STATE_SPEED",
     "rate_and_state.initial_age": "P_INITIAL_AGE",
     "temperature_dependence.sensitivity": "P_SENSITIVITY",
+    "temperature_dependence.static_sensitivity": "P_STATIC_SENSITIVITY",
     "temperature_dependence.reference_degC": "P_REFERENCE",
     "surface.run_up_time": "P_RUN_UP",
     "solver.tolerance": "P_TOLERANCE",
 }
+ASPERITY = ("length", "hardness", "effusivity", "constant")
+FILM = ("wetted_share", "length", "viscosity", "latent_heat")
 LOCAL_LAWS = (
     "velocity_weakening.linear",
     "velocity_weakening.hyperbolic",
     "velocity_weakening.inverse_root",
     "velocity_weakening.stribeck",
     "film_drag.root_coefficient",
+    "asperity_melting.length",
+    "melt_film.wetted_share",
 )
 
 
@@ -100,6 +107,7 @@ def pack(values: dict[str, float]) -> list[float]:
     load = p[P_NORMAL_FORCE] / values["load_dependence.reference_force"]
     p[P_MU_S] *= load ** -values["load_dependence.exponent"]
     p[P_MU_K] *= load ** -values["load_dependence.exponent"]
+    _set_melting(p, values)
     p[P_LOCAL_LAW] = float(any(values[name] != 0.0 for name in LOCAL_LAWS))
     if p[layout.P_DIRECT] != 0.0 or p[layout.P_EVOLUTION] != 0.0:
         p[layout.P_CREEP_SPEED] = values["rate_and_state.creep_speed"]
@@ -112,6 +120,17 @@ def pack(values: dict[str, float]) -> list[float]:
     p[P_QUADRATURE:P_TABLEAU] = quadrature_tables()
     p[P_TABLEAU:] = flat_tableau()
     return p
+
+
+def _set_melting(p: list[float], values: dict[str, float]) -> None:
+    """Both laws as kernel's `melting_coefficient` wants them: l (H / (C e))^2 and (mu_f)^2 / v."""
+    asperity = {name: values[f"asperity_melting.{name}"] for name in ASPERITY}
+    warming = asperity["constant"] * asperity["effusivity"]
+    p[P_ASPERITY] = asperity["length"] * (asperity["hardness"] / warming) ** 2
+    film = {name: values[f"melt_film.{name}"] for name in FILM}
+    area = film["wetted_share"] * pi * p[P_RADIUS] ** 2
+    shear = 2.0 * film["viscosity"] * film["latent_heat"] / film["length"]  # (Pa)^2 s/m
+    p[P_MELT_FILM] = shear * (area / p[P_NORMAL_FORCE]) ** 2
 
 
 def _place_springs(p: list[float], values: dict[str, float]) -> None:

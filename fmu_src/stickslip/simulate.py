@@ -46,15 +46,16 @@ def simulate(
     duration: float = 30.0,
     output_interval: float = 0.01,
     *,
+    interface_temperature: float | None = None,
     interpreted: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Trajectory:
     """Run the mechanical model from 0 to ``duration`` (s), sampled every ``output_interval`` (s).
 
     The samples are the model's own accuracy, not interpolated, and have no influence on it. The
-    interface stays at the reference temperature of ``temperature_dependence``. ``progress`` is
-    called with the time reached, and may raise: what was computed until then is in the
-    exception's ``trajectory``.
+    interface stays at ``interface_temperature`` (degC; left out, at the reference temperature of
+    ``temperature_dependence``). ``progress`` is called with the time reached, and may raise: what
+    was computed until then is in the exception's ``trajectory``.
 
     Raises ValueError for a duration or an interval that is not positive.
     """
@@ -62,7 +63,10 @@ def simulate(
         raise ValueError(f"duration = {duration!r}: must be above 0 s")
     if not 0.0 < output_interval:
         raise ValueError(f"output_interval = {output_interval!r}: must be above 0 s")
-    run = _Run(parameters, sample_times(duration, output_interval), interpreted)
+    if interface_temperature is None:
+        interface_temperature = parameters.temperature_dependence.reference_degC
+    times = sample_times(duration, output_interval)
+    run = _Run(parameters, times, interface_temperature, interpreted)
     try:
         while run.reason is None:
             run.next_rows()
@@ -87,13 +91,15 @@ def sample_times(duration: float, interval: float) -> np.ndarray:
 class _Run:
     """The kernel's arrays for one run, filled block of rows by block of rows."""
 
-    def __init__(self, parameters: Parameters, times: np.ndarray, interpreted: bool):
+    def __init__(
+        self, parameters: Parameters, times: np.ndarray, temperature: float, interpreted: bool
+    ):
         self.parameters = parameters
         self.kernel = INTERPRETED if interpreted else compiled_kernel()
         array = list if interpreted else np.array
         u = np.zeros(U_SIZE)
         u[U_SPEED] = parameters.surface.speed
-        u[U_TEMPERATURE] = parameters.temperature_dependence.reference_degC
+        u[U_TEMPERATURE] = temperature
         self.p, self.u = array(parameters.pack()), array(u)
         self.z, self.w = array(np.zeros(Z_SIZE)), array(np.zeros(W_SIZE))
         self.e = array(np.zeros(E_FIRST + E_WIDTH * EVENTS_PER_BLOCK))

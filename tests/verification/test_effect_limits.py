@@ -25,6 +25,7 @@ from stickslip.kernel.layout import (
 )
 
 RADIUS = 0.04
+WARMER = -6.0  # interface, degC; the reference is -8
 IN_SLIP = {
     "rig": {"spring_natural_length": 0.17, "contact_radius": RADIUS},
     "lateral_friction": {"ratio": 1.0},
@@ -56,12 +57,15 @@ SLIDING = {
     "spring_misalignment.angle_deg": (4.0, {}, 1),
     "spring_misalignment.lateral_offset": (0.01, {}, 1),
     "temperature_dependence.sensitivity": (0.02, {}, 1),
+    "asperity_melting.length": (5e-6, {}, 1),
+    "melt_film.wetted_share": (2e-3, {}, 2),
     "rate_and_state.direct": (0.01, {}, 1),
     "rate_and_state.evolution": (0.01, {"distance": 1e-3}, 1),
 }
 STICKING = {
     "static_strengthening.rate": (0.04, {}, 1),
     "stick_stiffness.ratio": (-0.1, {}, 1),
+    "temperature_dependence.static_sensitivity": (0.02, {}, 1),
     "rate_and_state.direct": (4e-3, {}, 1),
     "rate_and_state.evolution": (4e-3, {}, 1),
 }
@@ -80,7 +84,7 @@ def position_in_slip(parameters: Parameters) -> np.ndarray:
     kernel = compiled_kernel()
     p, u, z = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(Z_SIZE)
     w, e = np.zeros(W_SIZE), np.zeros(E_FIRST)
-    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, -6.0
+    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, WARMER
     kernel.initialise(p, z, 0.0)
     kernel.advance(p, u, z, w, e, 0.2)
     assert e[E_COUNT] == 0.0 and z[SHOWN + MODE] == SLIP
@@ -117,7 +121,7 @@ def test_break_away_tends_to_the_plain_one(name):
     base = AT_REST | {"friction": friction}
 
     def first_slip(parameters):
-        return simulate(parameters, 3.0, 1.0).slip_starts[0]
+        return simulate(parameters, 3.0, 1.0, interface_temperature=WARMER).slip_starts[0]
 
     plain = first_slip(Parameters(**base))
     found = order(lambda share: first_slip(with_effect(base, name, share, size, other)), plain)

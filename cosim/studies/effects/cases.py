@@ -57,4 +57,6 @@ CASES = {
     "stick_stiffness": Case({"ratio": 0.25}),
     "rate_and_state": Case({"direct": 0.01, "evolution": 0.03, "distance": 1e-5}, SLOW),
     "temperature_dependence": Case({"sensitivity": 0.125, "reference_degC": -8.0}),
+    "asperity_melting": Case({"length": 1e-3}),
+    "melt_film": Case({"wetted_share": 0.03}),
 }

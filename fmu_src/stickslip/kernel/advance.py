@@ -7,7 +7,7 @@ change, the trajectory therefore does not depend on when anybody looks at it.
 
 from math import isfinite
 
-from .coefficient import holding_coefficient
+from .coefficient import feels_temperature, holding_coefficient
 from .contact import scaled_sliding_speed
 from .events import break_away, look_at, set_direction, settle, time_to_rest
 from .layout import (
@@ -29,7 +29,6 @@ from .layout import (
     P_RADIUS,
     P_RATE,
     P_RUN_UP,
-    P_SENSITIVITY,
     P_SHORTEST,
     SHOWN,
     SLIP,
@@ -203,7 +202,7 @@ def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "
     """
     changed = 0
     for i in range(U_SIZE):
-        if z[Z_INPUTS + i] != u[i] and (i != U_TEMPERATURE or p[P_SENSITIVITY] != 0.0):
+        if z[Z_INPUTS + i] != u[i] and (i != U_TEMPERATURE or feels_temperature(p)):
             changed = 1
         z[Z_INPUTS + i] = u[i]
     if z[Z_STARTED] == 0.0:

@@ -7,6 +7,7 @@ from .layout import (
     DISTANCE,
     HOLD_SINCE,
     MODE,
+    P_ASPERITY,
     P_CREEP_SPEED,
     P_DIRECT,
     P_EVOLUTION,
@@ -15,6 +16,7 @@ from .layout import (
     P_HYPERBOLIC,
     P_INVERSE_ROOT,
     P_LINEAR,
+    P_MELT_FILM,
     P_MU_K,
     P_MU_S,
     P_NORMAL_FORCE,
@@ -29,6 +31,7 @@ from .layout import (
     P_SENSITIVITY,
     P_STATE_DISTANCE,
     P_STATE_SPEED,
+    P_STATIC_SENSITIVITY,
     P_STRENGTHENING,
     P_STRIBECK,
     P_STRIBECK_SPEED,
@@ -42,6 +45,8 @@ from .layout import (
     WAVES,
     X,
 )
+
+MELTING_POINT = 0.0  # of ice, degC
 
 
 def surface_factor(p: "float[:]", w: "float[:]") -> float:
@@ -64,6 +69,17 @@ def surface_factor(p: "float[:]", w: "float[:]") -> float:
     return max(0.0, factor)
 
 
+def ice_temperature(u: "float[:]") -> float:
+    """Interface temperature, degC, at most that of melting ice."""
+    return min(u[U_TEMPERATURE], MELTING_POINT)
+
+
+def feels_temperature(p: "float[:]") -> bool:
+    """Does the interface temperature matter to friction?"""
+    linear = p[P_SENSITIVITY] != 0.0 or p[P_STATIC_SENSITIVITY] != 0.0
+    return linear or p[P_ASPERITY] != 0.0
+
+
 def kinetic_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     """mu_k before any dependence on the sliding speed, at the moment in ``w[W_STATE:]``.
 
@@ -72,8 +88,7 @@ def kinetic_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     (run_in).
     """
     mu = p[P_MU_K] * surface_factor(p, w)
-    temperature = min(u[U_TEMPERATURE], 0.0)
-    mu *= 1.0 - p[P_SENSITIVITY] * (temperature - p[P_REFERENCE])
+    mu *= 1.0 - p[P_SENSITIVITY] * (ice_temperature(u) - p[P_REFERENCE])
     mu *= max(0.0, 1.0 - p[P_WEAKENING] * w[W_STATE + WARMTH])
     if p[P_RUN_IN] != 0.0:
         mu *= 1.0 + p[P_RUN_IN] * (1.0 - exp(-w[W_STATE + DISTANCE] / p[P_RUN_IN_DISTANCE]))
@@ -103,18 +118,40 @@ def ageing_rate(p: "float[:]", age: float, speed: float) -> float:
     return 1.0 - speed * age / p[P_STATE_DISTANCE]
 
 
-def local_coefficient(p: "float[:]", mu: float, speed: float) -> float:
+def melting_coefficient(p: "float[:]", u: "float[:]", dry: float, speed: float) -> float:
+    """Friction that melts asperities and shears a film of melt; the dry value at speed 0.
+
+    The path dry -> boundary -> mixed -> hydrodynamic as the speed v grows. Boundary: an asperity of
+    length l and hardness H is warmed to melting as it passes, so it takes no more than
+    mu_a = C e (T_m - T) / (H sqrt(l v)) (asperity_melting). Hydrodynamic: the whole load on a
+    film that the shear itself melts, mu_f = sqrt(2 eta v rho L / l) / p (melt_film). The regimes
+    blend as in Churchill & Usagi, AIChE J. 18 (1972), exponent 2, which is smooth down to v = 0:
+    1 / mu_b^2 = 1 / mu_dry^2 + 1 / mu_a^2, mu^2 = mu_b^2 + mu_f^2.
+    """
+    mu = dry
+    if p[P_ASPERITY] != 0.0:
+        cold = MELTING_POINT - ice_temperature(u)
+        mu = 0.0  # melting ice has no dry friction, not even at rest
+        if cold * cold > 0.0:
+            mu = dry * cold / sqrt(cold * cold + p[P_ASPERITY] * dry * dry * speed)
+    if p[P_MELT_FILM] != 0.0:
+        mu = sqrt(mu * mu + p[P_MELT_FILM] * speed)
+    return mu
+
+
+def local_coefficient(p: "float[:]", u: "float[:]", mu: float, speed: float) -> float:
     """mu_k at a local sliding speed (m/s), where ``mu`` is the value without that dependence.
 
     velocity_weakening: linear, hyperbolic 1/(1 + delta v), inverse root 1/sqrt(1 + c v), Stribeck
-    peak; film_drag: a film whose shear grows with the root of the speed.
+    peak; then asperity_melting and melt_film (`melting_coefficient`); film_drag: a film whose shear
+    grows with the root of the speed.
     """
     factor = max(0.0, 1.0 - p[P_LINEAR] * speed) / (1.0 + p[P_HYPERBOLIC] * speed)
     if p[P_INVERSE_ROOT] != 0.0:
         factor /= sqrt(1.0 + p[P_INVERSE_ROOT] * speed)
     if p[P_STRIBECK] != 0.0:
         factor += p[P_STRIBECK] * exp(-speed / p[P_STRIBECK_SPEED])
-    mu *= factor
+    mu = melting_coefficient(p, u, mu * factor, speed)
     if p[P_FILM_ROOT] != 0.0:
         mu += p[P_FILM_ROOT] * sqrt(speed) / p[P_NORMAL_FORCE]
     return mu
@@ -122,7 +159,7 @@ def local_coefficient(p: "float[:]", mu: float, speed: float) -> float:
 
 def onset_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     """mu_k at the first instant of a slip."""
-    mu = local_coefficient(p, kinetic_coefficient(p, u, w), 0.0)
+    mu = local_coefficient(p, u, kinetic_coefficient(p, u, w), 0.0)
     if has_state_law(p):
         mu = max(0.0, mu + rate_and_state(p, w[W_STATE + AGE], 0.0))
     return mu
@@ -139,6 +176,7 @@ def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     if has_state_law(p):
         return onset
     mu = p[P_MU_S] * surface_factor(p, w)
+    mu *= max(0.0, 1.0 - p[P_STATIC_SENSITIVITY] * (ice_temperature(u) - p[P_REFERENCE]))
     if p[P_STRENGTHENING] != 0.0 and w[W_STATE + MODE] == STICK:
         hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
         mu += p[P_STRENGTHENING] * log10(1.0 + hold / p[P_HOLD_TIME])

@@ -95,6 +95,7 @@ def disc_friction(sliding: float, spinning: float, w: "float[:]"):
 
 def add_local_law(
     p: "float[:]",
+    u: "float[:]",
     mu: float,
     aged: float,
     reference: float,
@@ -111,13 +112,14 @@ def add_local_law(
     of rays; along them Gauss-Legendre.
     """
     if sliding >= spinning:
-        add_law_over_strips(p, mu, aged, reference, sliding, spinning / sliding, w)
+        add_law_over_strips(p, u, mu, aged, reference, sliding, spinning / sliding, w)
     else:
-        add_law_over_rays(p, mu, aged, reference, spinning, sliding / spinning, w)
+        add_law_over_rays(p, u, mu, aged, reference, spinning, sliding / spinning, w)
 
 
 def add_law_over_strips(
     p: "float[:]",
+    u: "float[:]",
     mu: float,
     aged: float,
     reference: float,
@@ -134,7 +136,7 @@ def add_law_over_strips(
         for i in range(DEPTHS):
             tau = p[P_QUADRATURE + Q_DEPTH + i]
             q = along + k * tau * c
-            excess = max(0.0, local_coefficient(p, mu, sliding * q) + aged) - reference
+            excess = max(0.0, local_coefficient(p, u, mu, sliding * q) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * c * c * excess / RAYS
             force += share * q
             moment += share * c * tau * q / along
@@ -144,6 +146,7 @@ def add_law_over_strips(
 
 def add_law_over_rays(
     p: "float[:]",
+    u: "float[:]",
     mu: float,
     aged: float,
     reference: float,
@@ -159,7 +162,7 @@ def add_law_over_rays(
         reach = k * c + sqrt(1.0 - k * k * p[P_QUADRATURE + Q_RAY + RAYS + j])
         for i in range(DEPTHS):
             s = 0.5 * reach * (1.0 + p[P_QUADRATURE + Q_DEPTH + i])
-            excess = max(0.0, local_coefficient(p, mu, spinning * s) + aged) - reference
+            excess = max(0.0, local_coefficient(p, u, mu, spinning * s) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * reach * s * excess / RAYS
             force += share * c
             moment += share * (s - k * c)

@@ -75,7 +75,7 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
     w[W_MEAN_SPEED] = mean_speed
     reference = mu
     if p[P_LOCAL_LAW] == 1.0:
-        reference = local_coefficient(p, mu, mean_speed)
+        reference = local_coefficient(p, u, mu, mean_speed)
     aged = 0.0
     if has_state_law(p):
         aged = rate_and_state(p, w[W_STATE + AGE], mean_speed)
@@ -83,7 +83,7 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
-        add_local_law(p, mu, aged, whole, sliding, abs(sr), w)
+        add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
     set_friction(p, w, sx, sy, sr)
     if p[P_FILM] != 0.0:
         kappa = p[P_LATERAL]

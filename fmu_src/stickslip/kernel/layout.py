@@ -125,9 +125,12 @@ P_LONGEST_STEP = 161  # s
 P_SPEED_SCALE = 162  # speed that the motion reaches by itself, m/s; scales the error test
 P_SHORTEST = 163  # length below which a spring counts as collapsed, m
 P_INITIAL = 164  # x, y, phi, vx, vy, omega
-P_QUADRATURE = 170  # nodes and weights for friction that varies over the disc, see disc
-P_TABLEAU = 210  # the Runge-Kutta coefficients, see tableau
-P_SIZE = 402
+P_STATIC_SENSITIVITY = 170  # of mu_s, 1/K
+P_ASPERITY = 171  # asperity_melting, K^2 s/m
+P_MELT_FILM = 172  # melt_film, s/m
+P_QUADRATURE = 173  # nodes and weights for friction that varies over the disc, see disc
+P_TABLEAU = 213  # the Runge-Kutta coefficients, see tableau
+P_SIZE = 405
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
