@@ -119,6 +119,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         ]
         number = "a number" if kind is float else "a whole number"
         return f"{number} {' and '.join(bounds)}".rstrip() + unit
+    if kind is bool:
+        return "true or false"
     if kind is str:
         return 'a text of 1 to 100 characters without /\\:*?"<>|, a dot or a space not first'
     if get_origin(kind) is Literal:

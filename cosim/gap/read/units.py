@@ -1,0 +1,78 @@
+"""Whether numbers can be in SI units, by what the rig can do."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from cosim.gap.errors import CampaignError
+from cosim.gap.read.measured import MeasuredRun, Track
+from cosim.gap.read.tables import Rig
+
+GRAVITY = 9.81
+#: Swing of the spring force over weight that no contact without glue gives.
+MOST_FRICTION = 5.0
+#: Swing of the spring force over weight below which mass or stiffness are doubtful.
+LEAST_FRICTION = 1e-4
+LENGTHS = {"centimetres": 1e2, "millimetres": 1e3, "micrometres": 1e6}
+TIMES = {"milliseconds": 1e3, "microseconds": 1e6}
+#: Part of a free vibration's period that two samples may at most be apart.
+COARSEST = 0.5
+
+
+def check_units(file: Path, run: MeasuredRun, track: Track, rig: Rig) -> list[str]:
+    """Remarks on one run; CampaignError where the numbers are in another unit."""
+    period = 2.0 * math.pi / run.natural_frequency
+    _check_time(file, track.interval, period)
+    swing = _swing(track.x)
+    if swing == 0.0:
+        raise CampaignError(f"{file}: column x: does not change, allowed is a measured motion")
+    friction = run.total_stiffness * swing / (run.mass * GRAVITY)
+    if friction > MOST_FRICTION:
+        raise CampaignError(
+            f"{file}: column x: swings by {swing:.4g} m, a spring force of {friction:.3g} times "
+            f"the weight; allowed is metres ({_length_hint(friction / MOST_FRICTION)}check mass "
+            "and stiffness)"
+        )
+    if track.y is not None and _swing(track.y) > rig.spring_length:
+        raise CampaignError(
+            f"{file}: column y: swings by {_swing(track.y):.4g} m, more than rig.spring_length = "
+            f"{rig.spring_length:g} m; allowed is metres "
+            f"({_length_hint(_swing(track.y) / rig.spring_length)}check the rig)"
+        )
+    if track.phi is not None and np.nanmax(np.abs(track.phi)) > 2.0 * math.pi:
+        raise CampaignError(
+            f"{file}: column phi: reaches {np.nanmax(np.abs(track.phi)):.4g} rad, more than a turn "
+            "on four springs; allowed is radians (are these degrees?)"
+        )
+    if friction < LEAST_FRICTION:
+        return [
+            f"{file.name}: the spring force swings by only {friction:.1e} of the weight; check "
+            "mass, stiffness and the unit of x"
+        ]
+    return []
+
+
+def _check_time(file: Path, interval: float, period: float) -> None:
+    if interval <= COARSEST * period:
+        return
+    units = [name for name, factor in TIMES.items() if interval / factor <= COARSEST * period / 5]
+    hint = f" (are these {units[0]}?)" if units and interval > 5 * period else ""
+    raise CampaignError(
+        f"{file}: column t: {interval:.4g} s between samples, the block's free vibration takes "
+        f"{period:.3g} s; allowed is at most half of it, in seconds{hint}"
+    )
+
+
+def _swing(values: np.ndarray) -> float:
+    """Range of a channel without its most extreme samples."""
+    low, high = np.nanquantile(values, (0.01, 0.99))
+    return float(high - low)
+
+
+def _length_hint(excess: float) -> str:
+    """The smallest unit that explains an excess."""
+    units = [name for name, factor in LENGTHS.items() if 1.0 < excess <= factor]
+    return f"are these {units[0]}?, " if units else ""
