@@ -25,6 +25,7 @@ import numpy as np
 
 from . import linearised_motion
 from .faults import PRINTED, Faults
+from .scheme_effects import NO_EFFECTS, SchemeEffects
 from .scheme_types import (
     CUT,
     PHASE,
@@ -58,8 +59,8 @@ class Scheme:
     stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip) and
     of mu_s (per cycle). mu_slope: loss of mu_k per m/s of sliding speed above mu_k_speed, at
     which mu_k holds. correlation_length: of the scatter on the surface once F5 is mended.
-    curvature: 1/R of a turning slab, whose speed falls across the block. x0, v0: start, in slip if
-    ``start_in_slip``.
+    curvature: 1/R of a turning slab, whose speed falls across the block. effects: of the catalogue,
+    none by default.
     """
 
     mass: float = 0.67
@@ -77,6 +78,7 @@ class Scheme:
     radius: float = ATTACHMENT_RADIUS
     spring_length: float = 0.20
     faults: Faults = field(default=PRINTED)
+    effects: SchemeEffects = field(default=NO_EFFECTS)
 
     def __post_init__(self) -> None:
         treatment_number(self.treatment)
@@ -97,7 +99,9 @@ class Scheme:
     def run(self, *, cycles: int = 1_000_000, duration: float = 300.0, seed: int = 0) -> SchemeRun:
         """Stick-slip from rest at the springs' middle, until ``cycles`` or ``duration`` (s)."""
         memory = self._memory(duration)
-        linearised_motion.run(self._rig(seed), self._faults(), memory, cycles, float(duration))
+        linearised_motion.run(
+            self._rig(seed), self._faults(), self.effects, memory, cycles, float(duration)
+        )
         return _result(memory)
 
     def slide(
@@ -106,7 +110,9 @@ class Scheme:
         """Slip alone, whatever the block's speed, as the study's verification runs do."""
         memory = self._memory(duration)
         memory.q[0], memory.v[0] = x0, v0
-        linearised_motion.slide(self._rig(seed), self._faults(), memory, float(duration))
+        linearised_motion.slide(
+            self._rig(seed), self._faults(), self.effects, memory, float(duration)
+        )
         return _result(memory)
 
     def _rig(self, seed: int) -> SchemeRig:
@@ -158,9 +164,10 @@ class Scheme:
             v=np.zeros(3),
             before=np.zeros(3),
             alpha=fixed_angles(self.treatment),
-            load=np.zeros(2),
+            load=np.zeros(3),
             mean=steady,
             side=np.ones(1),
+            past=np.zeros(3),
             attachment=attachments(self.radius),
             beta=ATTACHMENT_ANGLES.copy(),
             shares=shares,

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numba import njit
 
 from .linear_step import propagator, step
+from .linearised_stick import BISECTIONS, close, record, stick
+from .scheme_effects import (
+    add_spring_and_damping_load,
+    friction_load,
+    held_in_stick,
+    load_in_stick,
+    remember,
+    surface_speed,
+    turn_springs,
+)
 from .scheme_types import (
     BLOCK,
-    BROKE_AWAY,
     CUT,
     LONGEST_SLIP_BLOCKS,
     OUT_OF_TIME,
@@ -18,26 +25,22 @@ from .scheme_types import (
     SLIP,
     STEP,
     STEPS,
-    STICK,
-    STICK_STEP,
     STUCK_AGAIN,
 )
 from .spring_angles import stiffness_over_k, updated_angles
 from .strip_friction import even_load, field_scatter, mean_load
 
-BISECTIONS = 50  # halves 0.1 ms to below the resolution of a double
-
 
 @njit(cache=True, nogil=True)
-def run(rig, faults, memory, cycles, duration):
+def run(rig, faults, effects, memory, cycles, duration):
     """Stick and slip ``cycles`` times or until ``duration`` (s); rows and phases in ``memory``."""
     np.random.seed(rig.seed)
     t = 0.0
     memory.before[0] = rig.speed
     for _ in range(cycles):
-        t = _stick(rig, faults, memory, t, duration)
+        t = stick(rig, faults, effects, memory, t, duration)
         if t < duration:
-            t = _slip(rig, faults, memory, t, duration)
+            t = _slip(rig, faults, effects, memory, t, duration)
         full = memory.counts[1] + 2 > memory.phases.shape[0]
         if t >= duration or full:
             break
@@ -45,75 +48,21 @@ def run(rig, faults, memory, cycles, duration):
 
 
 @njit(cache=True, nogil=True)
-def slide(rig, faults, memory, duration):
+def slide(rig, faults, effects, memory, duration):
     """Slip alone for ``duration`` (s), never stopped by the surface's speed."""
     np.random.seed(rig.seed)
     t = 0.0
-    _record(memory, t, SLIP)
+    record(memory, t, SLIP)
     while t < duration:
         if rig.updated:
-            _turn_springs(rig, faults, memory)
-        t, _ = _block(rig, faults, memory, t, duration, True)
-    _close(memory, 0.0, t, SLIP, OUT_OF_TIME, 0.0)
+            _turn_springs(rig, faults, effects, memory)
+        t, _ = _block(rig, faults, effects, memory, t, duration, True)
+    close(memory, 0.0, t, SLIP, OUT_OF_TIME, 0.0)
     return t
 
 
 @njit(cache=True)
-def _record(memory, t, mode):
-    n = memory.counts[0]
-    if n >= memory.rows.shape[0]:
-        return
-    row = memory.rows[n]
-    row[0] = t
-    row[1:4] = memory.q
-    row[4:7] = memory.v
-    row[7:9] = memory.load
-    row[9] = mode
-    memory.counts[0] = n + 1
-
-
-@njit(cache=True)
-def _close(memory, begin, end, mode, how, jump):
-    phase = memory.phases[memory.counts[1]]
-    phase[0] = begin
-    phase[1] = end
-    phase[2] = mode
-    phase[3] = how
-    phase[4] = jump
-    memory.counts[1] += 1
-
-
-@njit(cache=True)
-def _stick(rig, faults, memory, t, until):
-    """Carry the block with the surface until the springs break it away; returns the time."""
-    springs = rig.stiffness if faults.one_spring else 4.0 * rig.stiffness
-    mu = rig.mu_s
-    if rig.static_scatter > 0.0:
-        mu += rig.static_scatter * np.random.standard_normal()
-    begin = t
-    x0 = memory.q[0]
-    threshold = mu * rig.normal_force / springs if springs > 0.0 else math.inf
-    stay = max((threshold - x0) / rig.speed, 0.0)
-    if faults.on_grid and stay < math.inf:  # the last sample before the springs reach the limit
-        stay = max(math.ceil(stay / STICK_STEP) - 1, 0) * STICK_STEP
-    end = min(begin + stay, until)
-    memory.v[:] = 0.0
-    memory.v[0] = rig.speed
-    memory.load[1] = 0.0
-    samples = int((end - begin) / STICK_STEP)
-    for i in range(samples + 2):
-        t = min(begin + i * STICK_STEP, end)
-        memory.q[0] = x0 + rig.speed * (t - begin)
-        memory.load[0] = springs * memory.q[0]
-        _record(memory, t, STICK)
-    _close(memory, begin, end, STICK, BROKE_AWAY if end < until else OUT_OF_TIME, 0.0)
-    if faults.stale:
-        memory.v[:] = memory.before
-    return end
-
-
-@njit(cache=True)
-def _slip(rig, faults, memory, t, until):
+def _slip(rig, faults, effects, memory, t, until):
     """Slide in blocks until the surface's speed is reached; returns the time."""
     begin = t
     how = CUT
@@ -122,18 +71,18 @@ def _slip(rig, faults, memory, t, until):
     memory.side[0] = 1.0
     while True:
         if rig.updated and not faults.stale:
-            _turn_springs(rig, faults, memory)
-        t, reached = _block(rig, faults, memory, t, until, faults.on_grid)
+            _turn_springs(rig, faults, effects, memory)
+        t, reached = _block(rig, faults, effects, memory, t, until, faults.on_grid)
         if faults.on_grid:
-            reached = memory.v[0] >= rig.speed
-        elif reached and 4.0 * rig.stiffness * abs(memory.q[0]) > rig.mu_s * rig.normal_force:
-            reached = False  # friction cannot hold it: the block slides through
+            reached = memory.v[0] >= surface_speed(rig, effects, t)
+        elif reached and not _holds(rig, effects, memory, t):
+            reached = False  # the block slides through
             memory.side[0] = -memory.side[0]
         if reached:
             how = STUCK_AGAIN
             break
         if rig.updated and faults.stale:
-            _turn_springs(rig, faults, memory)
+            _turn_springs(rig, faults, effects, memory)
         blocks += 1
         # not reached by the block that ends a slip: its own beginning is what stays
         memory.before[:] = memory.v
@@ -142,12 +91,19 @@ def _slip(rig, faults, memory, t, until):
         if t >= until:
             how = OUT_OF_TIME
             break
-    _close(memory, begin, t, SLIP, how, rig.speed - memory.v[0])
+    close(memory, begin, t, SLIP, how, surface_speed(rig, effects, t) - memory.v[0])
     return t
 
 
 @njit(cache=True)
-def _turn_springs(rig, faults, memory):
+def _holds(rig, effects, memory, t):
+    """Can friction keep the block on the surface, along x?"""
+    load = load_in_stick(rig, effects, t, memory.q[0])
+    return abs(load) <= held_in_stick(rig, effects, t, 0.0, memory.q[0])
+
+
+@njit(cache=True)
+def _turn_springs(rig, faults, effects, memory):
     updated_angles(
         memory.q[2],
         memory.attachment,
@@ -157,10 +113,12 @@ def _turn_springs(rig, faults, memory):
         faults.mirrored,
         memory.alpha,
     )
+    if effects.on:
+        turn_springs(effects, memory.attachment, rig.spring_length, memory.alpha)
 
 
 @njit(cache=True)
-def _block(rig, faults, memory, t, until, to_the_end):
+def _block(rig, faults, effects, memory, t, until, to_the_end):
     """One block of slip under constant spring angles; returns time and whether it re-stuck.
 
     Unless it goes ``to_the_end``, the block stops where the surface's speed is reached.
@@ -172,43 +130,79 @@ def _block(rig, faults, memory, t, until, to_the_end):
     prop = np.empty((5, 3, 3))
     propagator(w, STEP, prop)
     q1, v1 = np.empty(3), np.empty(3)
-    load1 = np.empty(2)
-    a0, a1 = np.zeros(3), np.zeros(3)
+    load1 = np.empty(3)
+    a0, a1 = np.empty(3), np.empty(3)
     begin = t
     if rig.strip_wise:
         mean_load(rig, memory.v, memory.shares, memory.middles, memory.mean)
-    _scattered(rig, faults, memory, rig.speed * t - memory.q[0], memory.load)
+    # only a load that depends on the state needs a look ahead to where it is taken
+    ahead = effects.on or not faults.white or (rig.strip_wise and not faults.lagging)
+    if effects.on:
+        _effect_load(rig, effects, memory, t, memory.q, memory.v, memory.load)
+    else:
+        _plain_load(memory, memory.load)
+    if rig.force_scatter > 0.0:
+        _add_scatter(rig, faults, rig.speed * t - memory.q[0], memory.load)
     for i in range(STEPS):
-        a0[0], a0[2] = memory.load[0] / rig.mass, memory.load[1] / rig.inertia
-        step(prop, STEP, memory.q, memory.v, a0, a0, q1, v1)  # foresees where the load is taken
+        _accelerate(rig, memory.load, a0)
+        if ahead:
+            step(prop, STEP, memory.q, memory.v, a0, a0, q1, v1)
         if rig.strip_wise and not faults.lagging:
             even_load(rig, v1, memory.shares, memory.middles, memory.mean)
-        _scattered(rig, faults, memory, rig.speed * (t + STEP) - q1[0], load1)
-        a1[0], a1[2] = load1[0] / rig.mass, load1[1] / rig.inertia
+        if effects.on:
+            _effect_load(rig, effects, memory, t + STEP, q1, v1, load1)
+        else:
+            _plain_load(memory, load1)
+        if rig.force_scatter > 0.0:
+            _add_scatter(rig, faults, rig.speed * (t + STEP) - q1[0], load1)
+        _accelerate(rig, load1, a1)
         step(prop, STEP, memory.q, memory.v, a0, a1, q1, v1)
-        if not to_the_end and memory.side[0] * (v1[0] - rig.speed) >= 0.0:
-            share = _reach(rig, memory, w, a0, a1)
+        speed = rig.speed
+        if effects.on:
+            speed = surface_speed(rig, effects, t + STEP)
+        if not to_the_end and memory.side[0] * (v1[0] - speed) >= 0.0:
+            share = _reach(rig, effects, memory, t, w, a0, a1)
             memory.load[:] = memory.load + share * (load1 - memory.load)
             t += share * STEP
-            _record(memory, t, SLIP)
+            record(memory, t, SLIP)
             return t, True
         memory.q[:] = q1
         memory.v[:] = v1
         memory.load[:] = load1
         t = begin + (i + 1) * STEP
+        if effects.on:
+            remember(rig, effects, memory, t, v1, STEP)
         if (i + 1) % ROW_STEPS == 0:
-            _record(memory, t, SLIP)
+            record(memory, t, SLIP)
         if t >= until:
             return t, False
     return begin + BLOCK, False
 
 
 @njit(cache=True)
-def _scattered(rig, faults, memory, place, load):
-    """Write mean load and scatter at ``place`` (m) on the surface into ``load``."""
-    load[:] = memory.side[0] * memory.mean
-    if rig.force_scatter == 0.0:
-        return
+def _accelerate(rig, load, a):
+    a[0] = load[0] / rig.mass
+    a[1] = load[2] / rig.mass
+    a[2] = load[1] / rig.inertia
+
+
+@njit(cache=True)
+def _effect_load(rig, effects, memory, t, q, v, load):
+    """Write force, moment and lateral force of all but the scatter into ``load`` (3,)."""
+    friction_load(rig, effects, memory, t, q, v, load)
+    add_spring_and_damping_load(rig, effects, memory, q, v, load)
+
+
+@njit(cache=True)
+def _plain_load(memory, load):
+    load[0] = memory.side[0] * memory.mean[0]
+    load[1] = memory.side[0] * memory.mean[1]
+    load[2] = 0.0
+
+
+@njit(cache=True)
+def _add_scatter(rig, faults, place, load):
+    """Add the scatter of friction at ``place`` (m) on the surface to ``load``."""
     normals = np.empty(2)
     if faults.white:
         normals[0] = np.random.standard_normal()
@@ -220,14 +214,15 @@ def _scattered(rig, faults, memory, place, load):
 
 
 @njit(cache=True)
-def _reach(rig, memory, w, a0, a1):
+def _reach(rig, effects, memory, t, w, a0, a1):
     """Advance ``memory`` to where x' meets the surface's speed within a step: share of it."""
     side = memory.side[0]
-    if side * (memory.v[0] - rig.speed) >= 0.0:
+    speed = surface_speed(rig, effects, t)
+    if side * (memory.v[0] - speed) >= 0.0:
         # friction would drag the block past the surface's speed: it stays with it
-        memory.q[0] += rig.speed * STEP
+        memory.q[0] += speed * STEP
         memory.v[:] = 0.0
-        memory.v[0] = rig.speed
+        memory.v[0] = speed
         return 1.0
     early, late = 0.0, 1.0
     prop = np.empty((5, 3, 3))
@@ -237,7 +232,7 @@ def _reach(rig, memory, w, a0, a1):
         propagator(w, middle * STEP, prop)
         a[:] = a0 + middle * (a1 - a0)
         step(prop, middle * STEP, memory.q, memory.v, a0, a, q1, v1)
-        if side * (v1[0] - rig.speed) >= 0.0:
+        if side * (v1[0] - surface_speed(rig, effects, t + middle * STEP)) >= 0.0:
             late = middle
         else:
             early = middle

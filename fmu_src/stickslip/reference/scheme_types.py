@@ -65,9 +65,10 @@ class Memory(NamedTuple):
     v: np.ndarray
     before: np.ndarray  # velocities before the last block
     alpha: np.ndarray
-    load: np.ndarray  # force, moment
+    load: np.ndarray  # force, moment, lateral force
     mean: np.ndarray  # of the load, without scatter, on a block slower than the surface
     side: np.ndarray  # one number: 1 where the surface is faster than the block, else -1
+    past: np.ndarray  # recent heat J, distance slid m, friction along x N
     attachment: np.ndarray
     beta: np.ndarray
     shares: np.ndarray

@@ -1,0 +1,189 @@
+"""Effects of the catalogue in the study's scheme: added to its loads, all off by default.
+
+What each effect is stands in `stickslip.effects`; here it takes the form that the scheme's own
+elements allow: springs linear in x, y and phi, a disc of strips along y, stick judged along x.
+With all faults mended and the block guided along x it is the kernel's (the tests hold it to that).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+NO_WAVES = np.zeros((0, 2))
+
+
+class SchemeEffects(NamedTuple):
+    """Numbers of the effects; SI units, rad. `on` says whether there are any.
+
+    stick_springs: springs counted in stick, 0 for what fault F1 says. waves (n, 2): wavenumber and
+    phase of a random friction field of standard deviation ``scatter``.
+    """
+
+    on: bool = False
+    stick_springs: float = 0.0
+    lateral: float = 0.0
+    strengthening: float = 0.0
+    hold_time: float = 0.01
+    film: float = 0.0
+    weakening_per_joule: float = 0.0
+    relaxation: float = 5.0
+    run_in: float = 0.0
+    run_in_distance: float = 1.0
+    cubic: float = 0.0
+    damping: float = 0.0
+    damping_rotation: float = 0.0
+    ripple: float = 0.0
+    ripple_rate: float = 1.0
+    ripple_phase: float = 0.0
+    pattern: float = 0.0
+    pattern_wavenumber: float = 1.0
+    pattern_phase: float = 0.0
+    scatter: float = 0.0
+    waves: np.ndarray = NO_WAVES
+    spring_angle: float = 0.0
+    anchor_offset: float = 0.0
+
+
+NO_EFFECTS = SchemeEffects()
+
+WARMTH, DISTANCE, FRICTION = 0, 1, 2  # places in the memory of what has been
+SMALLEST_SLIDING = 1e-9  # m/s, below which a strip's sliding has no direction
+
+
+@njit(cache=True)
+def surface_speed(rig, effects, t):
+    """Speed of the surface, m/s (speed_ripple)."""
+    return rig.speed * (
+        1.0 + effects.ripple * math.sin(effects.ripple_rate * t + effects.ripple_phase)
+    )
+
+
+@njit(cache=True)
+def surface_travel(rig, effects, t):
+    """Way of the surface since the start, m."""
+    way = rig.speed * t
+    if effects.ripple != 0.0:
+        start, now = effects.ripple_phase, effects.ripple_rate * t + effects.ripple_phase
+        way += rig.speed * effects.ripple / effects.ripple_rate * (math.cos(start) - math.cos(now))
+    return way
+
+
+@njit(cache=True)
+def place_factor(effects, place):
+    """Friction of a place on the surface over its mean (surface_pattern, surface_scatter)."""
+    factor = 1.0
+    if effects.pattern != 0.0:
+        angle = effects.pattern_wavenumber * place + effects.pattern_phase
+        factor += effects.pattern * math.cos(angle)
+    if effects.scatter != 0.0:
+        total = 0.0
+        for i in range(effects.waves.shape[0]):
+            total += math.cos(effects.waves[i, 0] * place + effects.waves[i, 1])
+        factor += effects.scatter * math.sqrt(2.0 / effects.waves.shape[0]) * total
+    return max(0.0, factor)
+
+
+@njit(cache=True)
+def kinetic_factor(effects, past, place):
+    """mu_k over its value at the start: place, recent heat and distance slid."""
+    factor = place_factor(effects, place)
+    factor *= max(0.0, 1.0 - effects.weakening_per_joule * past[WARMTH])
+    if effects.run_in != 0.0:
+        drift = 1.0 - math.exp(-past[DISTANCE] / effects.run_in_distance)
+        factor *= max(0.0, 1.0 + effects.run_in * drift)
+    return factor
+
+
+@njit(cache=True)
+def load_in_stick(rig, effects, t, x):
+    """Load on the contact along -x, N: springs, damping and the block's own inertia."""
+    angle = effects.ripple_rate * t + effects.ripple_phase
+    acceleration = rig.speed * effects.ripple * effects.ripple_rate * math.cos(angle)
+    load = 4.0 * (rig.stiffness * x + effects.cubic * x**3)
+    return load + effects.damping * surface_speed(rig, effects, t) + rig.mass * acceleration
+
+
+@njit(cache=True)
+def held_in_stick(rig, effects, t, hold, x):
+    """What the contact holds after ``hold`` (s) of stick, N."""
+    mu = rig.mu_s * place_factor(effects, x - surface_travel(rig, effects, t))
+    if effects.strengthening != 0.0:
+        mu += effects.strengthening * math.log10(1.0 + hold / effects.hold_time)
+    return mu * rig.normal_force
+
+
+@njit(cache=True)
+def friction_load(rig, effects, memory, t, q, v, load):
+    """Write friction (force, moment, lateral force) under the effects into ``load`` (3,)."""
+    factor = kinetic_factor(effects, memory.past, q[0] - surface_travel(rig, effects, t))
+    if effects.lateral > 0.0:
+        _planar_load(rig, effects, memory, factor, t, q, v, load)
+    else:
+        load[0] = memory.side[0] * factor * memory.mean[0]
+        load[1] = memory.side[0] * factor * memory.mean[1]
+        load[2] = 0.0
+    load[0] += effects.film * (surface_speed(rig, effects, t) - v[0])
+    memory.past[FRICTION] = load[0]
+
+
+@njit(cache=True)
+def _planar_load(rig, effects, memory, factor, t, q, v, load):
+    """Friction of every strip against its own sliding velocity (lateral_friction).
+
+    The strips lie along y, so a lateral force has no arm. The surface under a strip moves with
+    v (1 - Y/R, x/R): with a curvature it carries the block sideways.
+    """
+    kappa = effects.lateral
+    speed = surface_speed(rig, effects, t)
+    across = kappa * (speed * rig.curvature * q[0] - v[1])
+    load[:] = 0.0
+    for j in range(memory.shares.size):
+        y = memory.middles[j]
+        along = speed * (1.0 - rig.curvature * q[1]) - v[0]
+        along += kappa * y * (v[2] - speed * rig.curvature)
+        sliding = max(math.hypot(along, across), SMALLEST_SLIDING)
+        mu = max(rig.mu_k - rig.mu_slope * (sliding - rig.mu_k_speed), 0.0)
+        force = factor * mu * memory.shares[j] * rig.normal_force / sliding
+        load[0] += force * along
+        load[1] -= kappa * force * along * y
+        load[2] += kappa * force * across
+
+
+@njit(cache=True)
+def add_spring_and_damping_load(rig, effects, memory, q, v, load):
+    """Add what the cubic term of the springs and the damping put on the block to ``load`` (3,)."""
+    load[0] -= effects.damping * v[0]
+    load[2] -= effects.damping * v[1]
+    load[1] -= effects.damping_rotation * v[2]
+    if effects.cubic == 0.0:
+        return
+    for i in range(4):
+        c, d = math.cos(memory.alpha[i]), math.sin(memory.alpha[i])
+        arm = d * memory.attachment[i, 0] - c * memory.attachment[i, 1]
+        extension = c * q[0] + d * q[1] + arm * q[2]
+        pull = effects.cubic * extension**3
+        load[0] -= pull * c
+        load[1] -= pull * arm
+        load[2] -= pull * d
+
+
+@njit(cache=True)
+def turn_springs(effects, attachment, length, alpha):
+    """Add the misalignment to the spring angles (4,); springs of either side lean opposite ways
+    where the anchors are shifted."""
+    for i in range(4):
+        lean = math.atan2(effects.anchor_offset, length)
+        alpha[i] += effects.spring_angle + (lean if attachment[i, 0] > 0.0 else -lean)
+
+
+@njit(cache=True)
+def remember(rig, effects, memory, t, v, h):
+    """Carry warmth and distance over a step ``h`` (s) of slip or stick."""
+    sliding = abs(surface_speed(rig, effects, t) - v[0])
+    heat = abs(memory.past[FRICTION]) * sliding
+    memory.past[WARMTH] += h * (heat - memory.past[WARMTH] / effects.relaxation)
+    memory.past[DISTANCE] += h * sliding
