@@ -1,24 +1,29 @@
 """Samples that are no part of the motion, taken out without harm to corners.
 
-A sample is an outlier where everything that its neighbours say of it is wrong by the same jump:
-the line through the two samples before, the line through the two after, the chord between and the
-cubic through all four. At a corner (re-stick, break-away) one side still predicts the sample.
+A sample is an outlier where everything that its neighbours say of it is wrong to the same side: the
+chord between the nearest two and the cubic through two on either side by more than noise can do,
+and the lines through the two before and the two after as well. At a corner (re-stick, break-away)
+one of these lines still holds. The clearest outlier of a neighbourhood goes first: the good samples
+beside it are then judged without it.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from cosim.gap.read.noise import difference_noise
 
-#: Deviation from every prediction, in its own standard deviations, that noise does not reach: four
-#: predictions at once, each beyond 5, is less than one sample in 1e7.
+#: Deviation from chord and cubic, in their own standard deviations, that noise does not reach:
+#: together with the lines' less than one sample in 1e6.
 THRESHOLD = 5.0
+#: The same for the lines, which only have to protect corners.
+ONE_SIDED = 2.0
 #: The jump stands out from the disagreement of the neighbours among themselves by this factor.
 CLEAR = 3.0
 #: Losing a mark spoils up to this many samples in a row.
 LONGEST = 3
-PASSES = 5
+PASSES = 30
 
 
 def without_outliers(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, int]:
@@ -32,10 +37,9 @@ def without_outliers(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, 
     kept = values.copy()
     for _ in range(PASSES):
         noise = difference_noise(time, kept)
-        bad = np.zeros(len(kept), dtype=bool)
-        for width in range(1, LONGEST + 1):
-            bad |= _outlying(time, kept, noise, width)
-        if not bad.any():
+        found = [_outlying(time, kept, noise, width) for width in range(1, LONGEST + 1)]
+        bad = next((rows for rows in found if rows.any()), None)
+        if bad is None:
             break
         kept[bad] = np.nan
     return kept, int(np.count_nonzero(np.isfinite(values) & np.isnan(kept)))
@@ -50,37 +54,35 @@ def _outlying(time: np.ndarray, values: np.ndarray, noise: float, width: int) ->
     t, v = time[there], values[there]
     starts = np.arange(2, len(there) - width - 1)
     around = np.stack([starts - 2, starts - 1, starts + width, starts + width + 1])
-    clear = np.ones(len(starts), dtype=bool)
-    sign = np.zeros(len(starts))
+    score = np.min(
+        [_contradiction(t, v, around, starts + place, noise) for place in range(width)], axis=0
+    )
+    clearest = (score > THRESHOLD) & (score == maximum_filter1d(score, 2 * LONGEST + 1))
     for place in range(width):
-        deviation, allowance = _contradiction(t, v, around, starts + place, noise)
-        clear &= np.abs(deviation) > allowance
-        sign += np.sign(deviation)
-    for place in range(width):
-        found[there[starts[clear] + place]] = True
+        found[there[starts[clearest] + place]] = True
     return found
 
 
 def _contradiction(
     t: np.ndarray, v: np.ndarray, around: np.ndarray, target: np.ndarray, noise: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Smallest deviation of the targets from the predictions, and what would be no outlier."""
-    weights = [
-        _lagrange(t, around[:2], target),
-        _lagrange(t, around[2:], target),
-        _lagrange(t, around[1:3], target),
-        _lagrange(t, around, target),
-    ]
-    rows = (around[:2], around[2:], around[1:3], around)
-    predicted = np.stack([np.sum(w * v[r], axis=0) for w, r in zip(weights, rows, strict=True)])
-    sd = np.stack([np.sqrt(1.0 + np.sum(w * w, axis=0)) for w in weights]) * noise
-    middle = np.median(predicted, axis=0)
-    spread = np.median(np.abs(predicted - middle), axis=0)
+) -> np.ndarray:
+    """How far targets are from what neighbours say, in standard deviations; 0 for no outlier."""
+    predictions = (around[1:3], around, around[:2], around[2:])  # chord, cubic, before, after
+    weights = [_lagrange(t, nodes, target) for nodes in predictions]
+    predicted = np.stack(
+        [np.sum(w * v[nodes], axis=0) for w, nodes in zip(weights, predictions, strict=True)]
+    )
+    sd = noise * np.stack([np.sqrt(1.0 + np.sum(w * w, axis=0)) for w in weights])
     deviation = v[target] - predicted
-    least = np.min(np.abs(deviation) / sd, axis=0)
-    same_side = np.abs(np.sum(np.sign(deviation), axis=0)) == len(deviation)
-    size = np.where(same_side & (least > THRESHOLD), np.abs(v[target] - middle), 0.0)
-    return size, CLEAR * spread
+    score = np.abs(deviation) / sd
+    middle = np.median(predicted, axis=0)
+    disagreement = np.median(np.abs(predicted - middle), axis=0)
+    contradicted = (
+        (np.abs(np.sum(np.sign(deviation), axis=0)) == len(predictions))
+        & (np.min(score[2:], axis=0) > ONE_SIDED)
+        & (np.abs(v[target] - middle) > CLEAR * disagreement)
+    )
+    return np.where(contradicted, np.min(score[:2], axis=0), 0.0)
 
 
 def _lagrange(t: np.ndarray, nodes: np.ndarray, target: np.ndarray) -> np.ndarray:
