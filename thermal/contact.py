@@ -20,7 +20,8 @@ The belt's modes lose heat over the whole contact face; under the ice the face i
 p_j = q_j + h_air T_j gives that back (T a rise above the air).
 
 Melting: when the ice face would end the step above the melting point, g is what takes it there
-exactly, and m is what remains.
+exactly, and m is what remains. A film of water on the face freezes before the face gets colder: m
+is then negative, down to what the film holds.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ class BeltFace:
 class IceFace:
     """Face temperature without flux (K above the air) and its response (K m2/W).
 
-    Each as mean over the step and at its end; melting: the melting point, K above the air.
+    Each as mean over the step and at its end; melting: the melting point, K above the air;
+    refreezing: flux with which the film on the face would freeze within the step, W/m2.
     """
 
     free_mean: float
@@ -53,11 +55,15 @@ class IceFace:
     response_mean: float
     response_end: float
     melting: float
+    refreezing: float = 0.0
 
 
 @dataclass(frozen=True)
 class Fluxes:
-    """W/m2: into the belt's strips, of that from the contact, into the ice, into melting."""
+    """W/m2: into the belt's strips, of that from the contact, into the ice, into melting.
+
+    melting is negative when water freezes to the ice.
+    """
 
     belt: Array
     from_contact: Array
@@ -86,12 +92,13 @@ def exchange(belt: BeltFace, ice: IceFace, conductance: float, free_face_h: floa
     friction: W/m2.
     """
     resistance = 1.0 / conductance
+    given = friction + ice.refreezing
     into_belt, from_contact = _belt_fluxes(
         belt, resistance, free_face_h,
-        ice.free_mean + ice.response_mean * friction, ice.response_mean, friction)
-    into_ice = friction - float(from_contact.mean())
+        ice.free_mean + ice.response_mean * given, ice.response_mean, friction)
+    into_ice = given - float(from_contact.mean())
     if ice.free_end + ice.response_end * into_ice <= ice.melting:
-        return Fluxes(into_belt, from_contact, into_ice, 0.0)
+        return Fluxes(into_belt, from_contact, into_ice, -ice.refreezing)
     into_ice = (ice.melting - ice.free_end) / ice.response_end
     into_belt, from_contact = _belt_fluxes(
         belt, resistance, free_face_h,
