@@ -46,7 +46,11 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
 
         try:
             return simulate(
-                scenario.mechanics, run.duration, run.output_interval, progress=progress
+                scenario.mechanics,
+                run.duration,
+                run.output_interval,
+                interface_temperature=scenario.ambient.temperature_degC,
+                progress=progress,
             )
         except KeyboardInterrupt as stop:
             if not patience.holding:

@@ -8,9 +8,11 @@
 
 from .effects import (
     CATALOGUE,
+    AsperityMelting,
     FilmDrag,
     LateralFriction,
     LoadDependence,
+    MeltFilm,
     RateAndState,
     RunIn,
     SpeedRipple,
@@ -26,17 +28,20 @@ from .effects import (
     TurningSurface,
     VelocityWeakening,
 )
+from .friction_law import friction_coefficient
 from .parameters import Friction, Initial, Parameters, Rig, Solver, Springs, Surface
 from .simulate import simulate
 from .trajectory import Trajectory
 
 __all__ = [
+    "AsperityMelting",
     "CATALOGUE",
     "FilmDrag",
     "Friction",
     "Initial",
     "LateralFriction",
     "LoadDependence",
+    "MeltFilm",
     "Parameters",
     "RateAndState",
     "Rig",
@@ -57,5 +62,6 @@ __all__ = [
     "Trajectory",
     "TurningSurface",
     "VelocityWeakening",
+    "friction_coefficient",
     "simulate",
 ]

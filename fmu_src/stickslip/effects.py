@@ -230,12 +230,12 @@ class AsperityMelting(Block):
         "l, length of an asperity's contact along the sliding: that of a grain; 0 is off",
         ge=0,
         le=1,
-        typical=(1e-5, 1e-2),
+        typical=(1e-4, 1e-2),
     )
     hardness: float = quantity(
-        1e7,
+        2e7,
         "Pa",
-        "H, pressure that an asperity of ice bears; some 1e7 at -10 degC",
+        "H, pressure that an asperity of ice bears: some 1e7 near melting to 3e7 in the cold",
         gt=0,
         le=1e10,
         typical=(3e6, 3e7),
@@ -484,13 +484,13 @@ CATALOGUE = tuple(
             "asperity_melting",
             ("length",),
             "friction",
-            "derived here from conduction into an asperity; the source study reports 1/sqrt(v)",
+            "Evans, Nye & Cheeseman, Proc. R. Soc. A (1976): 1/sqrt(v) well below melting",
         ),
         (
             "melt_film",
             ("wetted_share",),
             "friction",
-            "derived here from Couette shear and latent heat; the source study reports sqrt(v)",
+            "Oksanen & Keinonen, Wear 78 (1982): sqrt(v) near melting",
         ),
     )
 )

@@ -1,0 +1,37 @@
+"""The friction law by itself: what a contact that slides steadily is braked by."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .compiled import compiled_kernel
+from .kernel.layout import P_NORMAL_FORCE, U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
+from .parameters import Parameters
+
+
+def friction_coefficient(
+    parameters: Parameters, speed: ArrayLike, interface_temperature: float | None = None
+) -> NDArray[np.float64]:
+    """Friction over normal force of a contact that slides along x without turning, speeds (n,) m/s.
+
+    Every effect of friction that is on has its say, with its memory as at the start of a run: no
+    recent heat, no way slid. interface_temperature: degC; left out, the reference temperature of
+    ``temperature_dependence``. Raises ValueError for a speed that is not positive.
+
+    >>> friction_coefficient(Parameters(), [0.1])
+    array([0.2086])
+    """
+    speeds = np.atleast_1d(np.asarray(speed, dtype=float))
+    if not np.all(speeds > 0.0):
+        raise ValueError(f"speed = {speeds.min():g} m/s: must be above 0")
+    if interface_temperature is None:
+        interface_temperature = parameters.temperature_dependence.reference_degC
+    kernel = compiled_kernel()
+    p, u, w = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(W_SIZE)
+    u[U_TEMPERATURE] = interface_temperature
+    coefficients = np.empty(speeds.size)
+    for i, value in enumerate(speeds):
+        kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)
+        coefficients[i] = -w[W_FRICTION] / p[P_NORMAL_FORCE]
+    return coefficients
