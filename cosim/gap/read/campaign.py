@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
@@ -18,6 +19,7 @@ from cosim.gap.read.hold_out import choose_hold_outs
 from cosim.gap.read.measured import CHANNELS, Campaign, MeasuredRun, Track
 from cosim.gap.read.noise import agree, difference_noise
 from cosim.gap.read.outliers import without_outliers
+from cosim.gap.read.sticks import find_sticks
 from cosim.gap.read.tables import RunTable
 from cosim.gap.read.toml_file import FILE_NAME, read_tables
 from cosim.gap.read.units import check_units
@@ -25,6 +27,8 @@ from cosim.scenario_faults import describe_faults
 
 #: Fewer samples of x than this hold neither a cycle nor its noise.
 FEWEST = 20
+#: Part of a track in stick from which on there is no slip in it.
+ALL_STICK = 0.95
 
 
 def read_campaign(path: str | Path) -> Campaign:
@@ -49,10 +53,12 @@ def read_campaign(path: str | Path) -> Campaign:
     kept, notes = _with_hold_outs(kept, path)
     remarks += notes
     kept, noise, estimated, notes = _with_noise(kept, table.noise.given)
+    remarks += notes
+    kept, notes = _with_sticks(kept)
+    remarks += notes
     return replace(
-        campaign, noise=noise, noise_estimated=estimated, runs=kept,
-        remarks=tuple(remarks + notes),
-    )  # fmt: skip
+        campaign, noise=noise, noise_estimated=estimated, runs=kept, remarks=tuple(remarks)
+    )
 
 
 def _read_run(
@@ -196,3 +202,20 @@ def _estimated(
     span = f"{min(values):.2g} to {max(values):.2g}"
     remark = f"noise of {channel} differs from run to run ({span}): each run has its own"
     return values, middle, [remark]
+
+
+def _with_sticks(runs: tuple[MeasuredRun, ...]) -> tuple[tuple[MeasuredRun, ...], list[str]]:
+    """Runs with the sticks of their tracks, and remarks on those that only stick or only slip."""
+    found, remarks = [], []
+    for run in runs:
+        if run.track is None:
+            found.append(run)
+            continue
+        sticks = find_sticks(run.track, run.surface_speed, run.natural_frequency, run.noise["x"])
+        found.append(replace(run, sticks=sticks))
+        if not any(math.isfinite(stick.start_sd) for stick in sticks):
+            if sum(stick.duration for stick in sticks) > ALL_STICK * run.track.duration:
+                remarks.append(f"{run.name}: no slip is seen, it says nothing of kinetic friction")
+            else:
+                remarks.append(f"{run.name}: no stick is seen after the start")
+    return tuple(found), remarks

@@ -69,14 +69,16 @@ class Stick:
     start, end : re-stick and break-away, s on the track's clock; finer than the samples where the
         noise allows
     first, last : indices of the first and the last sample inside
-    cut : the stick reaches beyond the track: "" whole, "start", "end" or "both"
+    start_sd, end_sd : their standard deviations, s; infinite where the track (or what lies between
+        two gaps) begins or ends in the stick, and re-stick or break-away was not seen
     """
 
     start: float
     end: float
     first: int
     last: int
-    cut: str = ""
+    start_sd: float = math.inf
+    end_sd: float = math.inf
 
     @property
     def duration(self) -> float:
