@@ -1,0 +1,35 @@
+"""An effect as it is offered to a fit: its knobs, where they start, what else it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cosim.gap.shooting.knob import Knob
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One way to add one effect.
+
+    Attributes
+    ----------
+    effect : id in the catalogue
+    form : which of its laws, in a word
+    knobs : what is fitted beside the plain parameters
+    settings : parameters of the model that are set, not fitted
+    lateral : it moves the block across the surface, or turns it
+    periodic : key of the knob that needs a scan before a fit can start, or ""
+    """
+
+    effect: str
+    form: str
+    knobs: tuple[Knob, ...]
+    settings: Mapping[str, float] = field(default_factory=dict)
+    lateral: bool = False
+    periodic: str = ""
+
+    @property
+    def size(self) -> int:
+        """Parameters of the campaign that it adds."""
+        return sum(not knob.per_run for knob in self.knobs)

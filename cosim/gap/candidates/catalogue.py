@@ -1,0 +1,151 @@
+"""Every effect of the catalogue with its laws and the places from which a fit sets out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cosim.gap.shooting.knob import Knob
+
+from .candidate import Candidate
+
+
+@dataclass(frozen=True)
+class Scales:
+    """What is typical of a campaign.
+
+    speed : sliding speed, m/s; distance : slid in a run, m; heat : made in a run, J;
+    duration : of a run, s; stiffness : of one spring, N/m; travel : stroke of the block, m;
+    mass, kg; force : normal force, N
+    """
+
+    speed: float
+    distance: float
+    heat: float
+    duration: float
+    stiffness: float
+    travel: float
+    mass: float
+    force: float
+
+
+def candidates(scales: Scales) -> tuple[Candidate, ...]:
+    """All laws of all effects, in the catalogue's order; several starts of one law are several."""
+    makers = (
+        _lateral_friction, _turning_surface, _static_strengthening, _velocity_weakening, _film_drag,
+        _thermal_weakening, _run_in, _spring_hardening, _structural_damping, _speed_ripple,
+        _surface_pattern, _load_dependence, _spring_misalignment, _stick_stiffness,
+    )
+    return tuple(candidate for maker in makers for candidate in maker(scales))
+
+
+#: Friction across the motion is part of what turning surfaces and crooked springs show.
+_ACROSS = {"lateral_friction.ratio": 1.0}
+
+
+def _lateral_friction(s: Scales):
+    yield Candidate("lateral_friction", "isotropic", (), _ACROSS, lateral=True)
+
+
+def _turning_surface(s: Scales):
+    for across in (_ACROSS, {}):
+        for sign in (0.5, -0.5):
+            knob = Knob("turning_surface.curvature", sign, 0.2, -20.0, 20.0)
+            form = "disc friction" if across else "friction along x"
+            yield Candidate("turning_surface", form, (knob,), across, lateral=True)
+
+
+def _static_strengthening(s: Scales):
+    rate = Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
+    yield Candidate("static_strengthening", "logarithmic", (rate,),
+                    {"static_strengthening.hold_time": 0.01})
+    onset = Knob("static_strengthening.hold_time", 0.3, 0.5, 1e-4, 30.0, log=True)
+    yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset))
+
+
+def _velocity_weakening(s: Scales):
+    part = 0.15
+    for name in ("linear", "hyperbolic", "inverse_root"):
+        knob = Knob(f"velocity_weakening.{name}", part / s.speed, 0.1 / s.speed, 0.0,
+                    {"linear": 10.0 / s.speed}.get(name, 1e3 / s.speed))
+        yield Candidate("velocity_weakening", name, (knob,))
+    peak = Knob("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
+    for share in (0.3, 1.0):
+        speed = Knob("velocity_weakening.stribeck_speed", share * s.speed, 0.4, 1e-4 * s.speed,
+                     1e2 * s.speed, log=True)
+        yield Candidate("velocity_weakening", "stribeck", (peak, speed))
+
+
+def _film_drag(s: Scales):
+    drag = 0.02 * s.force / s.speed
+    yield Candidate("film_drag", "linear", (
+        Knob("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag),))
+    root = 0.02 * s.force / s.speed**0.5
+    yield Candidate("film_drag", "root", (
+        Knob("film_drag.root_coefficient", root, root, 0.0, 1e3 * root),))
+
+
+def _thermal_weakening(s: Scales):
+    for time in (0.5, 5.0, 50.0):
+        # the heat that is remembered, of what a run makes
+        heat = s.heat * min(1.0, time / s.duration)
+        weak = Knob("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
+        memory = Knob("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True)
+        yield Candidate("thermal_weakening", "relaxing", (weak, memory))
+
+
+def _run_in(s: Scales):
+    for share in (0.1, 0.5):
+        for change in (0.1, -0.1):
+            yield Candidate("run_in", "exponential", (
+                Knob("run_in.change", change, 0.1, -0.95, 5.0),
+                Knob("run_in.distance", share * s.distance, 0.5, 1e-3 * s.distance,
+                     1e2 * s.distance, log=True)))
+
+
+def _spring_hardening(s: Scales):
+    cubic = 0.1 * s.stiffness / s.travel**2
+    yield Candidate("spring_hardening", "cubic", (
+        Knob("spring_hardening.cubic", cubic, cubic, 0.0, 1e4 * cubic),))
+
+
+def _structural_damping(s: Scales):
+    drag = 0.02 * (4.0 * s.stiffness * s.mass) ** 0.5
+    yield Candidate("structural_damping", "viscous", (
+        Knob("structural_damping.coefficient", drag, drag, 0.0, 100.0 * drag),))
+
+
+def _speed_ripple(s: Scales):
+    yield Candidate("speed_ripple", "sine", (
+        Knob("speed_ripple.amplitude", 0.05, 0.05, 0.0, 1.0),
+        Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0),
+        Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)), periodic="speed_ripple.frequency")
+
+
+def _surface_pattern(s: Scales):
+    yield Candidate("surface_pattern", "sine", (
+        Knob("surface_pattern.amplitude", 0.05, 0.05, 0.0, 1.0),
+        Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
+        Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True)),
+        periodic="surface_pattern.wavelength")
+
+
+def _load_dependence(s: Scales):
+    for sign in (0.1, -0.1):
+        yield Candidate("load_dependence", "power law", (
+            Knob("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
+            {"load_dependence.reference_force": s.force})
+
+
+def _spring_misalignment(s: Scales):
+    for across in (_ACROSS, {}):
+        for sign in (3.0, -3.0):
+            yield Candidate("spring_misalignment", "angle", (
+                Knob("spring_misalignment.angle_deg", sign, 2.0, -60.0, 60.0),), across, True)
+        for sign in (0.005, -0.005):
+            yield Candidate("spring_misalignment", "offset", (
+                Knob("spring_misalignment.lateral_offset", sign, 0.003, -1.0, 1.0),), across, True)
+
+
+def _stick_stiffness(s: Scales):
+    yield Candidate("stick_stiffness", "part of the springs", (
+        Knob("stick_stiffness.ratio", 0.8, 0.15, 0.05, 1.0),))

@@ -1,0 +1,269 @@
+"""Least squares over parameters, with the windows' states and the runs' phases eliminated.
+
+Levenberg-Marquardt on the parameters of the campaign. What belongs to one run alone is linear
+enough near its guess: its part of every step follows from the rest by a QR factorisation of that
+run's own columns (variable projection, Golub & Pereyra 1973).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .flight import Flight
+from .knob import OFFSETS, Knob
+
+#: Differences are taken over this part of a knob's step.
+_PART = 1e-2
+#: Steps of the windows' states: positions m (and rad), velocities m/s (and rad/s).
+_STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
+#: Converged when a step promises to lower the sum of squares by less than this.
+_ENOUGH = 0.02
+_MOST_ROUNDS = 25
+#: A window whose sum of squares grows by more than this was thrown off course by its own step.
+_GROWTH, _GROWTH_SLACK = 1.5, 10.0
+
+
+@dataclass(frozen=True)
+class Point:
+    """Where a fit stands.
+
+    Attributes
+    ----------
+    shared : (g,) knobs of the campaign, scaled
+    own : per run (k,) knobs of the run, scaled
+    states : per run (windows, 6)
+    """
+
+    shared: np.ndarray
+    own: tuple[np.ndarray, ...]
+    states: tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Of one run: residuals (r,), by the campaign's knobs (r, g), basis of its own (r, l)."""
+
+    residuals: np.ndarray
+    shared: np.ndarray
+    basis: np.ndarray
+    solve: np.ndarray
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A fit.
+
+    Attributes
+    ----------
+    knobs : what was turned
+    point : where it ended
+    residuals : per run (rows,) in units of the noise
+    columns : per run, derivatives at the end (None unless asked for)
+    """
+
+    knobs: tuple[Knob, ...]
+    point: Point
+    residuals: tuple[np.ndarray, ...]
+    columns: tuple[Columns, ...] | None = None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Fitted parameters of the campaign."""
+        return _named(self.knobs, self.point.shared, per_run=False)
+
+    def own_values(self, run: int) -> dict[str, float]:
+        """Fitted parameters of one run."""
+        return _named(self.knobs, self.point.own[run], per_run=True)
+
+    @property
+    def cost(self) -> float:
+        """Sum of squares."""
+        return float(sum(r @ r for r in self.residuals))
+
+    def gap(self, runs: Sequence[int] | None = None) -> float:
+        """Root mean square residual in units of the noise."""
+        chosen = self.residuals if runs is None else [self.residuals[i] for i in runs]
+        return float(np.sqrt(sum(r @ r for r in chosen) / max(1, sum(r.size for r in chosen))))
+
+
+def _named(knobs: Sequence[Knob], scaled: np.ndarray, per_run: bool) -> dict[str, float]:
+    chosen = [knob for knob in knobs if knob.per_run == per_run]
+    return {knob.key: knob.value(s) for knob, s in zip(chosen, scaled, strict=True)}
+
+
+def start(flights: Sequence[Flight], knobs: Sequence[Knob]) -> Point:
+    """All knobs at their starts, all windows at the states read off the data."""
+    shared = np.array([k.scaled(k.start) for k in knobs if not k.per_run])
+    own = np.array([k.scaled(k.start) for k in knobs if k.per_run])
+    return Point(shared, tuple(own.copy() for _ in flights), tuple(f.starts for f in flights))
+
+
+class Problem:
+    """Some runs, the knobs to turn and what else is set."""
+
+    def __init__(self, flights: Sequence[Flight], knobs: Sequence[Knob],
+                 settings: dict[str, float] | None = None):
+        self.flights, self.knobs = tuple(flights), tuple(knobs)
+        self.settings = dict(settings or {})
+        self.shared = [knob for knob in knobs if not knob.per_run]
+        self.own = [knob for knob in knobs if knob.per_run]
+
+    def residuals(self, run: int, shared, own, states) -> np.ndarray:
+        """(rows,) of one run."""
+        values = dict(self.settings)
+        values.update((k.key, k.value(s)) for k, s in zip(self.shared, shared, strict=True))
+        values.update((k.key, k.value(s)) for k, s in zip(self.own, own, strict=True))
+        offsets = {key: values.pop(key) for key in OFFSETS if key in values}
+        flight = self.flights[run]
+        states = states.copy()
+        for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
+            states[:, axis] -= offsets.get(key, 0.0)
+        return flight.residuals(flight.fly(values, states), offsets)
+
+    def all_residuals(self, point: Point) -> tuple[np.ndarray, ...]:
+        """Of every run."""
+        return tuple(
+            self.residuals(i, point.shared, point.own[i], point.states[i])
+            for i in range(len(self.flights))
+        )
+
+    def columns(self, run: int, point: Point, residuals: np.ndarray, free_shared) -> Columns:
+        """Derivatives of one run by differences, its own part factorised."""
+        at = point.shared, point.own[run], point.states[run]
+        shared = np.zeros((residuals.size, len(self.shared)))
+        for j in free_shared:
+            shared[:, j] = self._difference(run, at, 0, j, self.shared[j], residuals)
+        own = [self._difference(run, at, 1, j, k, residuals) for j, k in enumerate(self.own)]
+        local = np.column_stack([*own, *self._by_state(run, at, residuals)])
+        basis, triangle = np.linalg.qr(local)
+        return Columns(residuals, shared, basis, np.linalg.pinv(triangle, rcond=1e-10))
+
+    def _difference(self, run, at, which, j, knob: Knob, residuals) -> np.ndarray:
+        moved = [a.copy() for a in at]
+        step = _PART if moved[which][j] + _PART <= knob.scaled(knob.high) else -_PART
+        moved[which][j] += step
+        return (self.residuals(run, *moved) - residuals) / step
+
+    def _by_state(self, run, at, residuals):
+        """A column for every free number of every window's state; windows do not overlap."""
+        flight = self.flights[run]
+        owner = flight.window_of_rows()
+        by_axis = {}
+        for axis in sorted({axis for w in flight.windows for axis in w.free}):
+            states = at[2].copy()
+            states[[axis in w.free for w in flight.windows], axis] += _PART * _STATE_STEP[axis]
+            by_axis[axis] = (self.residuals(run, at[0], at[1], states) - residuals) / _PART
+        for number, window in enumerate(flight.windows):
+            for axis in window.free:
+                yield np.where(owner == number, by_axis[axis], 0.0)
+
+    def tried(
+        self, point: Point, step: np.ndarray, columns: Sequence[Columns]
+    ) -> tuple[Point, tuple[np.ndarray, ...]]:
+        """The point after a step of the campaign's knobs, every run following, and its residuals."""
+        shared = np.array([
+            k.inside(s) for k, s in zip(self.shared, point.shared + step, strict=True)])
+        own, states, residuals = [], [], []
+        for i, c in enumerate(columns):
+            local = -c.solve @ (c.basis.T @ (c.residuals + c.shared @ (shared - point.shared)))
+            count = len(self.own)
+            own.append(np.array([k.inside(s) for k, s in zip(
+                self.own, point.own[i] + local[:count], strict=True)]))
+            move = self._state_step(i, local[count:])
+            best = self._follow(i, shared, own[i], point.states[i], move, c.residuals)
+            states.append(best[0])
+            residuals.append(best[1])
+        return Point(shared, tuple(own), tuple(states)), tuple(residuals)
+
+    def _follow(self, run, shared, own, states, move, before):
+        """States after their step, shortened in the windows that it would throw off course."""
+        owner = self.flights[run].window_of_rows()
+        count = len(self.flights[run].windows)
+        reach = np.ones(count)
+        taken = states + move
+        residuals = self.residuals(run, shared, own, taken)
+        limit = _GROWTH * np.bincount(owner, before**2, count) + _GROWTH_SLACK
+        for shorter in (0.25, 0.0):
+            costs = np.bincount(owner, residuals**2, count)
+            if not (costs > limit).any():
+                break
+            reach[costs > limit] = shorter
+            other = states + reach[:, None] * move
+            tried = self.residuals(run, shared, own, other)
+            better = np.bincount(owner, tried**2, count) < costs
+            taken = np.where(better[:, None], other, taken)
+            residuals = np.where(better[owner], tried, residuals)
+        return taken, residuals
+
+    def _state_step(self, run: int, local: np.ndarray) -> np.ndarray:
+        """(windows, 6) step of the states from the factorised part of one run."""
+        windows = self.flights[run].windows
+        move, at = np.zeros((len(windows), 6)), 0
+        for number, window in enumerate(windows):
+            for axis in window.free:
+                move[number, axis] = local[at] * _STATE_STEP[axis]
+                at += 1
+        return move
+
+    def prior(self, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Residuals and weights (1 per step) of what is known of the knobs beforehand."""
+        weight = np.array([k.step / k.prior if k.prior else 0.0 for k in self.shared])
+        centre = np.array([k.scaled(k.start) for k in self.shared])
+        return weight * (shared - centre), weight
+
+
+def fit(problem: Problem, point: Point, rounds: int = _MOST_ROUNDS, fixed: bool = False) -> Fitted:
+    """The best point from a first one; ``fixed``: the campaign's knobs stay, only runs' own move."""
+    residuals = problem.all_residuals(point)
+    cost, damping = _cost(problem, point, residuals), 1e-3
+    columns = None
+    for _ in range(rounds):
+        free = [] if fixed else range(len(problem.shared))
+        columns = [problem.columns(i, point, r, free) for i, r in enumerate(residuals)]
+        gained = False
+        while damping < 1e6:
+            step = np.zeros(len(problem.shared)) if fixed else _step(problem, point, columns,
+                                                                     damping)
+            tried, new = problem.tried(point, step, columns)
+            new_cost = _cost(problem, tried, new)
+            if new_cost < cost:
+                gained = cost - new_cost > max(_ENOUGH, 1e-6 * cost)
+                point, residuals, cost = tried, new, new_cost
+                damping = max(damping * 0.2, 1e-9)
+                break
+            damping *= 8.0
+            if fixed:
+                break
+        if not gained:
+            break
+    return Fitted(problem.knobs, point, residuals, None if columns is None else tuple(columns))
+
+
+def _cost(problem: Problem, point: Point, residuals) -> float:
+    known = problem.prior(point.shared)[0]
+    return float(sum(r @ r for r in residuals) + known @ known)
+
+
+def _step(problem: Problem, point: Point, columns: Sequence[Columns], damping: float):
+    """Of the campaign's knobs: normal equations of what the runs' own columns leave."""
+    known, weight = problem.prior(point.shared)
+    matrix, right = np.diag(weight**2), -weight * known
+    for c in columns:
+        left = c.shared - c.basis @ (c.basis.T @ c.shared)
+        matrix = matrix + left.T @ left
+        right = right - left.T @ c.residuals
+    diagonal = np.diag(matrix)
+    matrix = matrix + damping * np.diag(diagonal + 1e-12 * diagonal.max() + 1e-300)
+    return np.linalg.lstsq(matrix, right, rcond=None)[0]
+
+
+def with_columns(problem: Problem, fitted: Fitted) -> Fitted:
+    """The same fit with derivatives taken at its end."""
+    columns = tuple(
+        problem.columns(i, fitted.point, r, range(len(problem.shared)))
+        for i, r in enumerate(fitted.residuals)
+    )
+    return replace(fitted, columns=columns)

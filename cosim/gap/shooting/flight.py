@@ -1,0 +1,82 @@
+"""One measured run beside the model: from parameters to residuals in units of the noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from stickslip.kernel import layout
+from stickslip.packing import pack
+from stickslip.restarted import Restart, simulate_restarted
+
+from .windows import Window
+
+#: Columns of the model's output that a tracker can see.
+COLUMN = {"x": layout.O_X, "y": layout.O_X + 1, "phi": layout.O_X + 2}
+#: Residual, in units of the noise, where the model gave up or left for ever.
+LOST = 1e3
+#: Integrator's tolerance in a fit: far below the noise, and cheap.
+TOLERANCE = 1e-7
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A run, cut into windows.
+
+    Attributes
+    ----------
+    name : of the run
+    known : every parameter of the model, `block.parameter` -> value
+    speed, temperature : inputs, m/s and degC
+    time : (n,) s since the first sample
+    channels : name -> (n,) measured values, NaN where missing
+    noise : name -> standard deviation of the channel
+    windows : the pieces
+    """
+
+    name: str
+    known: Mapping[str, float]
+    speed: float
+    temperature: float
+    time: np.ndarray
+    channels: Mapping[str, np.ndarray]
+    noise: Mapping[str, float]
+    windows: tuple[Window, ...]
+    seen: Mapping[str, np.ndarray] = field(init=False)
+
+    def __post_init__(self) -> None:
+        seen = {name: np.isfinite(values) for name, values in self.channels.items()}
+        object.__setattr__(self, "seen", seen)
+
+    @property
+    def starts(self) -> np.ndarray:
+        """(windows, 6) first guesses of the windows' states."""
+        return np.array([window.state for window in self.windows])
+
+    def fly(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
+        flat = dict(self.known)
+        flat.update(values)
+        p = np.array(pack(flat))
+        restarts = [
+            Restart(window.first, state, window.hold_since)
+            for window, state in zip(self.windows, states, strict=True)
+        ]
+        return simulate_restarted(p, self.speed, self.temperature, self.time, restarts)
+
+    def residuals(self, outputs: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
+        """(rows,) model less measurement over noise, channel by channel, missing samples left out."""
+        parts = []
+        for name, values in self.channels.items():
+            model = outputs[:, COLUMN[name]] + offsets.get(f"offset.{name}", 0.0)
+            parts.append(((model - values) / self.noise[name])[self.seen[name]])
+        rows = np.concatenate(parts)
+        return np.clip(np.nan_to_num(rows, nan=LOST), -LOST, LOST)
+
+    def window_of_rows(self) -> np.ndarray:
+        """(rows,) number of the window that each residual belongs to."""
+        number = np.zeros(len(self.time), dtype=int)
+        for i, window in enumerate(self.windows):
+            number[window.first : window.last] = i
+        return np.concatenate([number[self.seen[name]] for name in self.channels])

@@ -1,0 +1,91 @@
+"""Where a measured run is cut, and from which state the model starts each piece."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+#: Stick-slip cycles in a window: enough for the period to tell, few enough for a small error of
+#: the period to stay small.
+CYCLES = 3
+#: Half width, in samples, of the stretch that tells position and velocity outside a stick.
+_REACH = 6
+#: A window that would leave less than this share of its length at the end of a run takes it in.
+_REMNANT = 0.5
+
+
+@dataclass(frozen=True)
+class Window:
+    """A piece of a run: samples first ... last - 1.
+
+    Attributes
+    ----------
+    state : (6,) first guess of x, y, phi, vx, vy, omega; NaN: the model's own goes on
+    free : which of them are fitted
+    hold_since : when the stick began that it starts in, s; NaN in slip
+    """
+
+    first: int
+    last: int
+    state: np.ndarray
+    free: tuple[int, ...]
+    hold_since: float
+
+
+def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float = CYCLES):
+    """Windows of a run: tuple of `Window`.
+
+    period : of a cycle, s. A window starts at the beginning of a stick where there is one within
+    half a window of where it is due. planar: y is measured and the model may move across.
+    """
+    length = cycles * period
+    starts = _starts(track.time, [stick.first for stick in sticks], length)
+    ends = [*starts[1:], len(track.time)]
+    by_first = {stick.first: stick for stick in sticks}
+    return tuple(
+        _window(track, first, last, by_first.get(first), speed, planar)
+        for first, last in zip(starts, ends, strict=True)
+    )
+
+
+def _starts(time: np.ndarray, onsets: list[int], length: float) -> list[int]:
+    starts, end = [0], time[-1] - _REMNANT * length
+    while True:
+        due = time[starts[-1]] + length
+        if due > end:
+            return starts
+        near = [i for i in onsets if abs(time[i] - due) < 0.5 * length and time[i] <= end]
+        row = min(near, key=lambda i: abs(time[i] - due)) if near else int(time.searchsorted(due))
+        starts.append(row)
+
+
+def _window(track, first: int, last: int, stick, speed: float, planar: bool) -> Window:
+    state = np.full(6, np.nan)
+    if first == 0:
+        state[:] = 0.0  # a block that nobody has turned; what is measured is put in its place
+    if stick is None:
+        _fill_moving(track, first, state, planar)
+        free = (0, 3) + ((1, 4) if planar else ())
+        return Window(first, last, state, free, np.nan)
+    rows = slice(stick.first, stick.last + 1)
+    time = track.time[rows] - track.time[stick.first]
+    state[0] = np.nanmean(track.x[rows] - speed * time)
+    if planar:
+        state[1] = np.nanmean(track.y[rows])
+    return Window(first, last, state, (0,) + ((1,) if planar else ()), stick.start)
+
+
+def _fill_moving(track, first: int, state: np.ndarray, planar: bool) -> None:
+    """Position and velocity from a parabola through the samples about the first."""
+    low, high = max(0, first - _REACH), min(len(track.time), first + _REACH + 1)
+    time = track.time[low:high] - track.time[first]
+    for values, at in ((track.x, 0), (track.y if planar else None, 1)):
+        if values is None:
+            continue
+        seen = np.isfinite(values[low:high])
+        if seen.sum() > 3:
+            fit = np.polynomial.polynomial.polyfit(time[seen], values[low:high][seen], 2)
+            state[at], state[at + 3] = fit[0], fit[1]
+        elif np.isnan(state[at]) and seen.any():
+            state[at], state[at + 3] = np.mean(values[low:high][seen]), 0.0

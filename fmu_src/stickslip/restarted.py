@@ -1,0 +1,92 @@
+"""A run that is set to given states at given moments: model flights between measured states.
+
+Positions and velocities are set; what cannot be seen of a block - the heat and the age of its
+contact, the way slid, the place on the surface - goes on from the model's own past.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .compiled import compiled_kernel
+from .kernel.layout import (
+    DONE,
+    E_CAPACITY,
+    E_FIRST,
+    E_WIDTH,
+    HERE,
+    HOLD_SINCE,
+    O_SIZE,
+    SHOWN,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    W_SIZE,
+    Z_HAS_NEXT,
+    Z_SIZE,
+    Z_STARTED,
+    X,
+)
+
+STATE = ("x", "y", "phi", "vx", "vy", "omega")
+
+
+@dataclass(frozen=True)
+class Restart:
+    """One moment at which a run is set to a state.
+
+    Attributes
+    ----------
+    row : number of the time at which it happens
+    state : (6,) x, y, phi (m, m, rad), vx, vy, omega (m/s, m/s, rad/s); NaN leaves the model's own
+    hold_since : when the stick began that the block is in, s: its velocity is then the surface's;
+        NaN: not in stick
+    """
+
+    row: int
+    state: np.ndarray
+    hold_since: float = np.nan
+
+
+def simulate_restarted(
+    p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
+    restarts: Sequence[Restart],
+) -> np.ndarray:
+    """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
+
+    p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
+    The first restart is at row 0. Rows are NaN from where the model gave up to the next restart.
+    """
+    kernel = compiled_kernel()
+    p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
+    u = np.zeros(U_SIZE)
+    u[U_SPEED], u[U_TEMPERATURE] = speed, temperature
+    z, w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
+    e = np.zeros(E_FIRST + E_WIDTH)
+    e[E_CAPACITY] = 1.0
+    o = np.full(O_SIZE * len(times), np.nan)
+    kernel.initialise(p, z, times[0])
+    ends = [restart.row for restart in restarts[1:]] + [len(times)]
+    for restart, end in zip(restarts, ends, strict=True):
+        _set(kernel, p, u, z, w, e, times[restart.row], restart)
+        kernel.record(p, u, z, w, e, times, o, restart.row, end - restart.row)
+    return o.reshape(-1, O_SIZE)
+
+
+def _set(kernel, p, u, z, w, e, time: float, restart: Restart) -> None:
+    """Reach the moment by the model's own motion, then set the state and settle the contact."""
+    if z[Z_STARTED]:
+        kernel.advance(p, u, z, w, e, time)
+    z[SHOWN] = time
+    given = np.isfinite(restart.state)
+    z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
+    holds = np.isfinite(restart.hold_since)
+    if holds:  # in a stick the velocity is the surface's, whatever turns and wherever
+        kernel.look_at(p, u, z, w, SHOWN)
+        kernel.follow_surface(p, u, z, w, SHOWN)
+    z[Z_STARTED], z[Z_HAS_NEXT] = 0.0, 0.0
+    if kernel.advance(p, u, z, w, e, time) == DONE and holds:
+        z[SHOWN + HOLD_SINCE] = z[HERE + HOLD_SINCE] = restart.hold_since
