@@ -21,11 +21,7 @@ def check(effects, seed):
             assert "spring" in run.reason or "rate_and_state" in effects
         speed = parameters.surface.speed
         scale = run["heat"][-1] + 0.5 * parameters.rig.mass * speed**2
-        residual = np.abs(run["energy_residual"])
-        assert residual[-1] < 1e-9 * scale
-        # a sample may fall into the first instants of a slip, where a part of a step is stiffer
-        # than the whole; what it shows there is not carried on
-        assert np.max(residual) < 1e-6 * scale
+        assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
         assert np.min(np.diff(run["heat"])) >= -1e-12 * scale
 
 

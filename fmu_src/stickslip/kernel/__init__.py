@@ -23,6 +23,7 @@ MODULES = (
     "contact",
     "motion",
     "runge_kutta",
+    "interpolant",
     "events",
     "advance",
     "outputs",

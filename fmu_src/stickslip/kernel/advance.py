@@ -10,6 +10,7 @@ from math import isfinite
 from .coefficient import feels_temperature, holding_coefficient
 from .contact import scaled_sliding_speed
 from .events import break_away, look_at, set_direction, settle, time_to_rest
+from .interpolant import copy_block, look_inside, set_interpolant
 from .layout import (
     AGE,
     BLOCK,
@@ -73,12 +74,6 @@ def initialise(p: "float[:]", z: "float[:]", time: float):
     z[Z_TIME_BEFORE] = time
     z[SHOWN + HOLD_SINCE] = time
     z[SHOWN + AGE] = p[P_INITIAL_AGE]
-
-
-def copy_block(z: "float[:]", source: int, target: int):
-    """Copy one block of ``z`` over another."""
-    for i in range(BLOCK):
-        z[target + i] = z[source + i]
 
 
 def longest_step(p: "float[:]", z: "float[:]", w: "float[:]", rest: float) -> float:
@@ -245,6 +240,8 @@ def advance(
                 copy_block(z, HERE, SHOWN)
                 return status
             z[Z_HAS_NEXT] = 1.0
+            if z[NEXT + TIME] > end:
+                set_interpolant(p, u, z, w)
         gap = end - z[NEXT + TIME]
         same = abs(gap) <= 4e-16 * abs(end)
         if gap >= 0.0 or same:
@@ -254,9 +251,7 @@ def advance(
             if same:
                 z[SHOWN + TIME] = end
         else:
-            begin_step(p, u, z, w, HERE)
-            take_step(p, u, z, w, HERE, SHOWN, end - z[HERE + TIME])
-            z[SHOWN + TIME] = end
+            look_inside(p, u, z, w, end)
     for i in range(BLOCK):
         if not isfinite(z[SHOWN + i]):
             z[Z_STATUS] = NOT_FINITE

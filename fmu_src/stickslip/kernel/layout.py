@@ -12,8 +12,9 @@ under numba (numpy arrays) and as generated C. Five arrays travel together:
 =====  ==========================================================================
 
 A moment of the motion is a *block* of `BLOCK` numbers: time, the integrated state (`X` ...),
-the mode and the direction of the last sliding. `z` holds three blocks: `HERE`, where the
-integrator's own step begins; `NEXT`, where it ends; and `SHOWN`, the moment asked for.
+the mode and the direction of the last sliding. `z` holds four blocks: `HERE`, where the
+integrator's own step begins; `NEXT`, where it ends; `SHOWN`, the moment asked for; and `BETWEEN`,
+for moments on the way to it.
 """
 
 # --- modes ------------------------------------------------------------------------------------
@@ -49,15 +50,19 @@ BLOCK = 21
 HERE = 0
 NEXT = 21
 SHOWN = 42
-Z_STEP = 63  # size that the next internal step wants, s
-Z_HAS_NEXT = 64  # 1 while NEXT holds the end of the internal step that begins in HERE
-Z_ENERGY = 65  # kinetic and spring energy at the start, J
-Z_STARTED = 66
-Z_INPUTS = 67  # the inputs that HERE and NEXT were computed with
-Z_HEAT_BEFORE = 72  # friction heat at the communication point before, J
-Z_TIME_BEFORE = 73
-Z_STATUS = 74  # what the last call of `advance` returned
-Z_SIZE = 75
+BETWEEN = 63
+Z_STEP = 84  # size that the next internal step wants, s
+Z_HAS_NEXT = 85  # 1 while NEXT holds the end of the internal step that begins in HERE
+Z_ENERGY = 86  # kinetic and spring energy at the start, J
+Z_STARTED = 87
+Z_INPUTS = 88  # the inputs that HERE and NEXT were computed with
+Z_HEAT_BEFORE = 93  # friction heat at the communication point before, J
+Z_TIME_BEFORE = 94
+Z_STATUS = 95  # what the last call of `advance` returned
+Z_SPAN = 96  # size of the internal step from HERE to NEXT, s
+Z_SMOOTH = 97  # 1 where the interpolant over that step is accurate enough
+Z_DENSE = 98  # the interpolant: POWERS rows of STATES coefficients
+Z_SIZE = 196
 
 # --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
@@ -130,17 +135,21 @@ P_ASPERITY = 171  # asperity_melting, K^2 s/m
 P_MELT_FILM = 172  # melt_film, s/m
 P_QUADRATURE = 173  # nodes and weights for friction that varies over the disc, see disc
 P_TABLEAU = 213  # the Runge-Kutta coefficients, see tableau
-P_SIZE = 405
+P_SIZE = 573
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
 WAVES = 16
-STAGES = 12
-T_A = 0  # STAGES x STAGES, row by row
-T_B = 144
-T_C = 156
-T_E5 = 168
-T_E3 = 180
+STAGES = 12  # of a step
+ALL_STAGES = 16  # with the slope at its end and those that only the interpolant needs
+POWERS = 7  # coefficients of the interpolant for each state
+EXTRA_POWERS = 4  # those that need the further stages
+T_A = 0  # ALL_STAGES x ALL_STAGES, row by row
+T_B = 192  # the row that gives the end of the step
+T_C = 256
+T_E5 = 272
+T_E3 = 284
+T_D = 296  # EXTRA_POWERS x ALL_STAGES
 RAYS = 8
 Q_STRIP = 0  # cos and sin^2 of the strips' angle, RAYS of each
 Q_RAY = 16  # cos and sin^2 of the rays' angle about the centre of rotation, RAYS of each
@@ -149,16 +158,17 @@ Q_DEPTH = 32  # Gauss-Legendre nodes, then weights, DEPTHS of each
 
 # --- w: scratch ---------------------------------------------------------------------------------
 W_STATE = 0  # a block: the moment at which the right-hand side is wanted
-W_SLOPES = 21  # STAGES rows of STATES slopes
-W_LOAD = 189  # springs, damping and external loads on the block: x, y, phi
-W_SLIDING = 192  # velocity of the block relative to the surface: x, y, phi
-W_FRICTION = 195  # friction on the block: x, y, phi
-W_MEAN_SPEED = 198  # local sliding speed, mean over the contact, m/s
-W_SURFACE = 199  # velocity and acceleration of the surface under the block
-W_PAIR = 205  # return values of functions with two results
-W_DIRECTION = 207  # direction of sliding where the sliding velocity is too small to tell
-W_RUNNING_UP = 210  # 1 while the internal step lies in the surface's run-up
-W_SIZE = 211
+W_SLOPES = 21  # ALL_STAGES rows of STATES slopes
+W_LOAD = 245  # springs, damping and external loads on the block: x, y, phi
+W_SLIDING = 248  # velocity of the block relative to the surface: x, y, phi
+W_FRICTION = 251  # friction on the block: x, y, phi
+W_MEAN_SPEED = 254  # local sliding speed, mean over the contact, m/s
+W_SURFACE = 255  # velocity and acceleration of the surface under the block
+W_PAIR = 261  # return values of functions with two results
+W_DIRECTION = 263  # direction of sliding where the sliding velocity is too small to tell
+W_RUNNING_UP = 266  # 1 while the internal step lies in the surface's run-up
+W_SPAN = 267  # size of the step that the slopes belong to, s
+W_SIZE = 268
 
 # --- e: log of events ---------------------------------------------------------------------------
 E_COUNT = 0

@@ -5,6 +5,7 @@ from math import sqrt
 from .contact import set_sliding_velocity
 from .layout import (
     AGE,
+    ALL_STAGES,
     BLOCK,
     DIRECTION,
     DISTANCE,
@@ -33,6 +34,7 @@ from .layout import (
     VY,
     W_DIRECTION,
     W_SLOPES,
+    W_SPAN,
     W_STATE,
     W_SURFACE,
     X,
@@ -77,6 +79,20 @@ def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
     return p[P_TOLERANCE] * (scale + abs(value))
 
 
+def add_stage(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, stage: int):
+    """Slopes of one stage of the step of size ``w[W_SPAN]`` from block ``start``."""
+    h = w[W_SPAN]
+    w[W_STATE + TIME] = z[start + TIME] + h * p[P_TABLEAU + T_C + stage]
+    for i in range(STATES):
+        w[W_STATE + 1 + i] = z[start + 1 + i]
+    for before in range(stage):
+        weight = h * p[P_TABLEAU + T_A + stage * ALL_STAGES + before]
+        if weight != 0.0:
+            for i in range(STATES):
+                w[W_STATE + 1 + i] += weight * w[W_SLOPES + before * STATES + i]
+    set_slopes(p, u, w, z[start + MODE], W_SLOPES + stage * STATES)
+
+
 def take_step(
     p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int, h: float
 ) -> float:
@@ -85,16 +101,9 @@ def take_step(
     Returns the scaled error estimate: the step is good where it is at most 1.
     """
     mode = z[start + MODE]
+    w[W_SPAN] = h
     for stage in range(1, STAGES):
-        w[W_STATE + TIME] = z[start + TIME] + h * p[P_TABLEAU + T_C + stage]
-        for i in range(STATES):
-            w[W_STATE + 1 + i] = z[start + 1 + i]
-        for before in range(stage):
-            weight = h * p[P_TABLEAU + T_A + stage * STAGES + before]
-            if weight != 0.0:
-                for i in range(STATES):
-                    w[W_STATE + 1 + i] += weight * w[W_SLOPES + before * STATES + i]
-        set_slopes(p, u, w, mode, W_SLOPES + stage * STATES)
+        add_stage(p, u, z, w, start, stage)
     for i in range(TIME, BLOCK):
         z[end + i] = z[start + i]
     z[end + TIME] = z[start + TIME] + h
