@@ -12,6 +12,8 @@ from cosim.gap.read.measured import MeasuredRun, Stick, Track
 
 #: A gap of more than this part of the natural period may hide a cycle.
 GAP = 0.5
+#: Slips that last longer than a free vibration (times omega) have unseen sticks in them.
+WHOLE_SLIP = 2.0 * math.pi * 1.1
 
 
 @dataclass(frozen=True)
@@ -62,8 +64,6 @@ def cycle_features(run: MeasuredRun) -> CycleFeatures:
     hold scatter from cycle to cycle as well as noise.
     """
     track, sticks = run.track, run.sticks
-    marks = _marks(run)
-    cycles = list(pairwise(marks))
     whole = [stick for stick in sticks if math.isfinite(stick.start_sd + stick.end_sd)]
     slips = [
         after.start - before.end
@@ -72,14 +72,14 @@ def cycle_features(run: MeasuredRun) -> CycleFeatures:
     ]
     ends = [stick for stick in sticks if math.isfinite(stick.end_sd)]
     starts = [stick for stick in sticks if math.isfinite(stick.start_sd)]
-    lengths = [b - a for a, b in cycles]
     stick, slip = _mean([s.duration for s in whole]), _mean(slips)
+    cycles = list(pairwise(_marks(run, slip)))
     return CycleFeatures(
         break_away_x=_mean([_line(run, s, s.end) for s in ends]),
         restick_x=_mean([_line(run, s, s.start) for s in starts]),
         stick_duration=stick,
         slip_duration=slip,
-        frequency=_inverse(_mean(lengths)),
+        frequency=_inverse(_mean([b - a for a, b in cycles])),
         slip_share=_share(slip, stick) if sticks else Figure(1.0, 0.0),
         mean_x=_cycle_means(track, "x", cycles),
         mean_y=_cycle_means(track, "y", cycles),
@@ -130,16 +130,11 @@ def _unbroken(run: MeasuredRun, before: Stick, after: Stick) -> bool:
     return bool(np.max(np.diff(time), initial=0.0) < GAP * 2.0 * math.pi / run.natural_frequency)
 
 
-def _marks(run: MeasuredRun) -> list[float]:
+def _marks(run: MeasuredRun, slip: Figure) -> list[float]:
     """One time a cycle: break-aways, or upward crossings of the mean."""
     ends = [stick.end for stick in run.sticks if math.isfinite(stick.end_sd)]
     # where sticks of some cycles are too short to be seen, break-aways are several cycles apart
-    return ends if _regular(ends) else _crossings(run)
-
-
-def _regular(ends: list[float]) -> bool:
-    gaps = np.diff(ends)
-    return len(gaps) > 0 and float(np.max(gaps)) < 1.6 * float(np.median(gaps))
+    return ends if slip.value < WHOLE_SLIP / run.natural_frequency else _crossings(run)
 
 
 def _crossings(run: MeasuredRun) -> list[float]:

@@ -4,7 +4,8 @@ A stick is a line with the slope of the surface speed (known within a few per ce
 vibration x = c + a cos(omega t) + b sin(omega t). Misfits are in units of the noise squared; every
 piece costs what it must explain to be more than chance (Schwarz: log n for each number it brings).
 Dynamic programming finds the best of all partitions (Jackson et al., IEEE Signal Process. Lett. 12,
-2005), here with two kinds of pieces, of which two sticks never meet.
+2005; starts that cannot win are dropped: Killick et al., J. Am. Stat. Assoc. 107, 2012), here
+with two kinds of pieces, of which two sticks never meet.
 """
 
 from __future__ import annotations
@@ -23,8 +24,6 @@ STICK_SAMPLES, SLIP_SAMPLES = 3, 4
 #: Parts of a natural period: a slip lasts half a one to a whole one, and hardly less whatever is
 #: missing in the model; what is longer is put together from several pieces.
 SHORTEST_SLIP, LONGEST_SLIP = 0.4, 1.5
-#: So far back the start of a stick is looked for, samples.
-LONGEST_STICK = 5000
 
 
 def partition(
@@ -74,38 +73,61 @@ def _least_cost(time, x, speed, omega, penalty, spans):
     stick_start, slip_start = np.zeros(n + 1, np.int64), np.zeros(n + 1, np.int64)
     kinds = np.full(n + 1, SLIP)
     slip_cost[0] = 0.0
+    starts, sums = np.zeros(n, np.int64), np.zeros((n, 6))
+    count = 0
     for end in range(1, n + 1):
-        _best_stick(time, x, speed, penalty, end, slip_cost, stick_cost, stick_start)
+        starts[count], sums[count] = end - 1, 0.0
+        count += 1
+        _best_stick(
+            time, x, speed, penalty, end, starts, sums, count, slip_cost, stick_cost, stick_start
+        )
         _best_slip(time, x, omega, penalty, spans, end, stick_cost, slip_cost, slip_start)
+        count = _promising(starts, sums, count, slip_cost, slip_cost[end])
         if stick_cost[end] < slip_cost[end]:
             kinds[end] = STICK
     return stick_start, slip_start, kinds
 
 
 @numba.njit(cache=True)
-def _best_stick(time, x, speed, penalty, end, slip_cost, stick_cost, stick_start):
-    """Cost of the best partition that ends with a stick before sample ``end``."""
-    origin = time[end - 1]
-    level = x[end - 1]
+def _best_stick(
+    time, x, speed, penalty, end, starts, sums, count, slip_cost, stick_cost, stick_start
+):
+    """Cost of the best partition that ends with a stick before sample ``end``.
+
+    Each of the ``count`` possible starts has its sums over time and distance from the line, and
+    its misfit so far.
+    """
     prior = 1.0 / (SPEED_ERROR * speed) ** 2
-    count = s_t = s_tt = s_r = s_rr = s_tr = 0.0
-    for start in range(end - 1, max(end - 1 - LONGEST_STICK, -1), -1):
-        t = time[start] - origin
-        r = x[start] - level - speed * t
-        count += 1.0
-        s_t += t
-        s_tt += t * t
-        s_r += r
-        s_rr += r * r
-        s_tr += t * r
-        if count < STICK_SAMPLES:
-            continue
-        cross = s_tr - s_t * s_r / count
-        misfit = s_rr - s_r * s_r / count - cross * cross / (s_tt - s_t * s_t / count + prior)
-        cost = slip_cost[start] + misfit + STICK_NUMBERS * penalty
-        if cost < stick_cost[end]:
+    for row in range(count):
+        start = starts[row]
+        number = float(end - start)
+        t = time[end - 1] - time[start]
+        r = x[end - 1] - x[start] - speed * t
+        own = sums[row]
+        own[0] += t
+        own[1] += t * t
+        own[2] += r
+        own[3] += r * r
+        own[4] += t * r
+        cross = own[4] - own[0] * own[2] / number
+        spread = own[1] - own[0] * own[0] / number + prior
+        own[5] = own[3] - own[2] * own[2] / number - cross * cross / spread
+        cost = slip_cost[start] + own[5] + STICK_NUMBERS * penalty
+        if number >= STICK_SAMPLES and cost < stick_cost[end]:
             stick_cost[end] = cost
             stick_start[end] = start
+
+
+@numba.njit(cache=True)
+def _promising(starts, sums, count, slip_cost, rival):
+    """Drop starts that a stick that begins here will beat whatever comes (Killick's pruning)."""
+    kept = 0
+    for row in range(count):
+        if slip_cost[starts[row]] + sums[row, 5] < rival:
+            starts[kept] = starts[row]
+            sums[kept] = sums[row]
+            kept += 1
+    return kept
 
 
 @numba.njit(cache=True)
