@@ -2,7 +2,8 @@
 
 Exit status: 0 done; 2 bad input, refused in one line before anything is computed; 1 a run that
 failed or was interrupted, of which everything computed is on disk. Nothing heavy is imported
-before the arguments are known, so that help is quick and Ctrl-C never meets an import.
+before the arguments are known, so that help is quick; Ctrl-C waits for the end of imports, which
+do not survive it.
 """
 
 from __future__ import annotations
@@ -13,20 +14,32 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from cosim.cli.errors import BadInput, warnings_in_one_line
+from cosim.cli.interruption import interruptible
+from cosim.interrupts import held_interrupts
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line (sys.argv when left out); the exit status."""
-    argv = sys.argv[1:] if argv is None else argv
+    """Run the command line; the exit status.
+
+    argv: sys.argv when left out, in a process that ends with this command.
+    """
+    with interruptible(ending=argv is None):
+        return _guarded(sys.argv[1:] if argv is None else argv)
+
+
+def _guarded(argv: Sequence[str]) -> int:
+    """The exit status, whatever happens."""
     debug = "--debug" in argv
     try:
-        from cosim.cli.arguments import parser
+        with held_interrupts():
+            from cosim.cli.arguments import parser
 
-        arguments = parser(argv).parse_args(argv)
+            arguments = parser(argv).parse_args(argv)
+            command = import_module(f"cosim.cli.{arguments.home}")
         with warnings_in_one_line():
-            status = import_module(f"cosim.cli.{arguments.home}").main(arguments)
+            status = command.main(arguments)
         sys.stdout.flush()
         return status
     except BadInput as error:

@@ -22,6 +22,10 @@ STUDIES = {
         "the catalogue of effects: what each adds, its parameters, and a figure",
         "stickslip effects -o results/effects",
     ),
+    "friction-map": (
+        "friction against speed and temperature in steady coupled sliding",
+        "stickslip friction-map melting_friction --ambient -8 -o results/friction",
+    ),
     "reproduce": (
         "the source study's claims C1 to C15, each with its number, ours, and a verdict",
         "stickslip reproduce C6 C13 -o results/claims",
@@ -34,6 +38,7 @@ STUDIES = {
 
 STUDY_MODULES = {
     "effects": "cosim.studies.effects_command",
+    "friction-map": "cosim.studies.friction_regimes_command",
     "reproduce": "cosim.studies.reproduction_command",
     "sweep": "cosim.studies.sweep_command",
 }

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+
+Handler = Callable[[int, object], object]
 
 
 class Patience:
     """Ctrl-C works at once while there is nothing to lose; what there is, is saved first.
 
     holding: whether there are results that are not on disk. requested: whether Ctrl-C came
-    meanwhile.
+    meanwhile. otherwise: what it does while there is nothing to lose.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, otherwise: Handler = signal.default_int_handler) -> None:
         self.holding = False
         self.requested = False
+        self._otherwise = otherwise
 
     def hold(self) -> None:
         """From now on there is something to lose."""
@@ -31,19 +34,21 @@ class Patience:
 
     def handle(self, number: int, frame: object) -> None:
         """What SIGINT does."""
-        if not self.holding:
-            raise KeyboardInterrupt
-        self.requested = True
+        if self.holding:
+            self.requested = True
+        else:
+            self._otherwise(number, frame)
 
 
 @contextmanager
 def patient_interrupts() -> Iterator[Patience]:
     """Let Ctrl-C wait for what it would destroy; outside the main thread nothing is changed."""
-    patience = Patience()
+    previous = signal.getsignal(signal.SIGINT)
+    patience = Patience(previous if callable(previous) else signal.default_int_handler)
     if threading.current_thread() is not threading.main_thread():
         yield patience
         return
-    previous = signal.signal(signal.SIGINT, patience.handle)
+    signal.signal(signal.SIGINT, patience.handle)
     try:
         yield patience
     finally:

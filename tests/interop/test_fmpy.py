@@ -7,6 +7,8 @@ import signal
 import subprocess
 import sys
 import threading
+import time
+import traceback
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -183,8 +185,18 @@ def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(block):
     block.initialise()
     block.march(0, 10, 0.01)
     x = block.get("x")
-    timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
+    host = threading.get_ident()
+
+    def interrupt():
+        """Once the host is in the slave: before, it would be the host's own."""
+        while "do_step" not in {
+            frame.f_code.co_name
+            for frame, _ in traceback.walk_stack(sys._current_frames()[host])
+        }:
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt).start()
     refused(block.slave.doStep, 0.1, 1e5)
     assert "KeyboardInterrupt" in block.log.take_errors()
     assert block.get("x") == x

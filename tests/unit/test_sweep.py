@@ -1,6 +1,7 @@
 """Sweeps: the product of the varied keys, what is kept, what is run again, what is refused."""
 
 import json
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -31,10 +32,10 @@ def computed(monkeypatch):
     counts = Counter()
     compute = chunk_module.compute
 
-    def counting(key, parameters, run):
+    def counting(key, parameters, run, progress):
         if run.duration > run.output_interval:
             counts[key] += 1
-        return compute(key, parameters, run)
+        return compute(key, parameters, run, progress)
 
     monkeypatch.setattr(chunk_module, "compute", counting)
     return counts
@@ -168,13 +169,11 @@ sweep(Parameters(), {{"rig.mass": [0.3 + 0.1 * i for i in range(10)]}}, duration
 def test_a_killed_process_of_the_pool_is_replaced(tmp_path, monkeypatch):
     monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0.0)
     monkeypatch.setattr(run_module, "CHUNK_SECONDS", 0.05)
-    from joblib.externals.loky import reusable_executor
-
     killed = []
 
     def kill(done, total):
         if not killed and done > 10:
-            killed.append(next(iter(reusable_executor._executor._processes)))
+            killed.append(multiprocessing.active_children()[0].pid)
             os.kill(killed[0], signal.SIGKILL)
 
     vary = {"rig.mass": np.linspace(0.3, 2.0, 60)}
@@ -194,10 +193,10 @@ def test_failures_are_recorded_and_end_nothing(tmp_path, computed):
 
 
 def test_errors_of_the_program_are_recorded_and_tried_again(tmp_path, monkeypatch):
-    def broken(parameters, *run):
+    def broken(parameters, *run, progress):
         if parameters.rig.mass == 0.7:
             raise MemoryError("no room")
-        return simulate(parameters, *run)
+        return simulate(parameters, *run, progress=progress)
 
     monkeypatch.setattr(combination_module, "simulate", broken)
     done = sweep(BASE, VARY, **SHORT, folder=tmp_path)
@@ -265,8 +264,8 @@ def test_workers_use_one_thread_each(monkeypatch):
     """Else two processes of numba or BLAS on two cores would be four."""
     names = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"]
     monkeypatch.setattr(
-        "cosim.studies.sweep.local.compute_in_process",
-        lambda parent, work, names: [os.getenv(name) for name in names],
+        "cosim.studies.sweep.local._compute",
+        lambda work, names: [os.getenv(name) for name in names],
     )
     assert list(LocalWorkers(2).run(None, [names, names])) == [["1", "1", "1"]] * 2
     assert LocalWorkers().count == joblib.cpu_count()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
@@ -67,7 +67,7 @@ class DaskWorkers:
     ) -> None:
         self._client.close()
 
-    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Iterator[list[Row]]:
+    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Generator[list[Row], None, None]:
         """The rows of each chunk as it is finished; WorkersLost when Dask gave chunks up.
 
         SweepStopped when the scheduler is gone. Without workers it waits for new ones.

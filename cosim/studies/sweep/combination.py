@@ -7,7 +7,7 @@ import hashlib
 import inspect
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import resources
 from typing import Any, NamedTuple
@@ -66,13 +66,16 @@ def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
     return Parameters.model_validate(tables, strict=True)
 
 
-def compute(key: str, parameters: Parameters, run: Run) -> Row:
+def compute(
+    key: str, parameters: Parameters, run: Run, progress: Callable[[float], None] | None = None
+) -> Row:
     """Simulate one combination. What goes wrong is in the row: it never ends a sweep.
 
     FAILED: the model gave up, and would again. ERROR: the program raised, worth another try.
+    progress: called with the time reached; it ends the run by what is no Exception.
     """
     try:
-        trajectory = simulate(parameters, run.duration, run.output_interval)
+        trajectory = simulate(parameters, *run, progress=progress)
         if not trajectory.complete:
             return without_values(key, FAILED, trajectory.reason)
         return Row(key, COMPLETE, "", _values(trajectory))

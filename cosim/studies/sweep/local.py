@@ -1,24 +1,39 @@
-"""Chunks on the cores of this machine, by joblib."""
+"""Chunks on the cores of this machine, by the processes of joblib's loky."""
 
 from __future__ import annotations
 
+import multiprocessing
 import os
+import signal
 import threading
 import time
-from collections.abc import Iterator, Sequence
-from functools import cache
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import Future, wait
+from contextlib import contextmanager
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection
+from queue import SimpleQueue
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 import joblib
-from joblib.externals.loky.process_executor import TerminatedWorkerError
+from joblib.externals.loky import BrokenProcessPool, ProcessPoolExecutor
+
+from cosim.interrupts import REQUESTS, held_interrupts
 
 from .chunk import Task, Work, compute_chunk
 from .combination import Row
 from .errors import SweepError, WorkersLost
 
-#: How often (s) a process looks whether the one that started it is still there.
+#: A process that has not stopped after this time (s) is killed; one that was just started imports.
+STOP_SECONDS = 10.0
+#: How often (s) a process that has stopped looks whether the one that started it is still there.
 LOOK_SECONDS = 1.0
+#: Else two processes of numba or BLAS on two cores would be four.
+ONE_THREAD = dict.fromkeys(
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS",
+     "VECLIB_MAXIMUM_THREADS", "NUMBA_NUM_THREADS"), "1",
+)
 
 
 class LocalWorkers:
@@ -38,44 +53,95 @@ class LocalWorkers:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """joblib keeps and ends its processes by itself."""
+        """The processes end with each `run`."""
 
-    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Iterator[list[Row]]:
+    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Generator[list[Row], None, None]:
         """The rows of each chunk as it is finished; WorkersLost when a process died."""
-        if self.count == 1 or len(chunks) == 1:
+        processes = min(self.count, len(chunks))
+        # a daemon, such as a process of somebody else's pool, must not have children
+        if processes <= 1 or multiprocessing.current_process().daemon:
             for chunk in chunks:
                 yield compute_chunk(work, chunk)
             return
-        with joblib.parallel_config("loky", n_jobs=self.count, inner_max_num_threads=1):
-            parallel = joblib.Parallel(
-                return_as="generator_unordered", batch_size=1, pre_dispatch="2 * n_jobs"
-            )
-            here = os.getpid()
-            results = parallel(
-                joblib.delayed(compute_in_process)(here, work, chunk) for chunk in chunks
-            )
+        finished: SimpleQueue[Future] = SimpleQueue()
         try:
-            yield from results
-        except TerminatedWorkerError as error:
+            with _pool(processes) as submit:
+                with held_interrupts(), _blocked_requests():
+                    for chunk in chunks:
+                        submit(_compute, work, chunk).add_done_callback(finished.put)
+                for _ in chunks:
+                    yield finished.get().result()
+        except BrokenProcessPool as error:
             raise WorkersLost(" ".join(str(error).split())) from error
-        finally:
-            results.close()
 
 
-def compute_in_process(parent: int, work: Work, chunk: Sequence[Task]) -> list[Row]:
-    """`compute_chunk` in a process that ends with its parent."""
-    _end_with(parent)
-    return compute_chunk(work, chunk)
+@contextmanager
+def _pool(processes: int) -> Iterator[Callable[..., Future]]:
+    """What submits work to processes; all of them have ended after the block, however it is left.
+
+    Not by joblib.Parallel, whose folders for shared arrays, of no use here, are removed twice when
+    it is interrupted, nor by killing processes that could end by themselves: what keeps track of
+    their folders and semaphores would complain on the terminal.
+    """
+    futures: list[Future] = []
+    heard, line = multiprocessing.Pipe(duplex=False)
+    with held_interrupts():
+        pool = ProcessPoolExecutor(
+            processes, initializer=_listen, initargs=(heard, os.getpid()), env=ONE_THREAD
+        )
+
+    def submit(*call: Any) -> Future:
+        futures.append(pool.submit(*call))
+        return futures[-1]
+
+    try:
+        yield submit
+    finally:
+        with held_interrupts():
+            line.close()  # which stops them
+            for future in futures:
+                future.cancel()
+            late = wait(futures, timeout=STOP_SECONDS).not_done
+            pool.shutdown(kill_workers=bool(late))
+            heard.close()
 
 
-@cache
-def _end_with(parent: int) -> None:
-    """End this process when its parent, killed, can no longer do so: joblib's wait for ever."""
+@contextmanager
+def _blocked_requests() -> Iterator[None]:
+    """What is started here never gets the signals that ask to end: they are for us.
 
-    def look() -> None:
+    A terminal sends Ctrl-C to all processes of a command, and one that is just starting would
+    answer with a traceback.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # its start would unblock them
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, REQUESTS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+_STOPPED = threading.Event()
+
+
+def _compute(work: Work, chunk: Sequence[Task]) -> list[Row]:
+    """Run in a process of the pool: `compute_chunk`, which ends early where that is to stop."""
+    return compute_chunk(work, chunk, _STOPPED.is_set)
+
+
+def _listen(line: Connection, parent: int) -> None:
+    """Begin the life of a process of the pool: it stops when the line breaks."""
+    for number in REQUESTS:  # where they could not be blocked
+        signal.signal(number, signal.SIG_IGN)
+
+    def listen() -> None:
+        line.poll(None)  # nothing is ever said
+        _STOPPED.set()
         while os.getppid() == parent:
             time.sleep(LOOK_SECONDS)
-        os._exit(1)
+        os._exit(1)  # the parent was killed; it would be waited for, for ever
 
-    if os.getppid() == parent:
-        threading.Thread(target=look, daemon=True).start()
+    threading.Thread(target=listen, daemon=True).start()

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -39,7 +40,9 @@ class Workers(Protocol):
 
     count: int
 
-    def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Any: ...
+    def run(
+        self, work: Work, chunks: Sequence[Sequence[Task]]
+    ) -> Generator[list[Row], None, None]: ...
 
 
 def sweep(
@@ -143,8 +146,10 @@ class _Sweeper:
             size = max(_chunk_size(missing, seconds, workers.count) // 4**attempt, 1)
             chunks = [missing[i : i + size] for i in range(0, len(missing), size)]
             try:
-                for rows in workers.run(self.work, chunks):
-                    self.keep(rows)
+                # closed at once where it is left in the middle, not when it is collected
+                with closing(workers.run(self.work, chunks)) as results:
+                    for rows in results:
+                        self.keep(rows)
                 return
             except WorkersLost as error:
                 lost = error
