@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
@@ -19,6 +18,7 @@ from cosim.gap.read.hold_out import choose_hold_outs
 from cosim.gap.read.measured import CHANNELS, Campaign, MeasuredRun, Track
 from cosim.gap.read.noise import agree, difference_noise
 from cosim.gap.read.outliers import without_outliers
+from cosim.gap.read.stick_remarks import stick_remarks
 from cosim.gap.read.sticks import find_sticks
 from cosim.gap.read.tables import RunTable
 from cosim.gap.read.toml_file import FILE_NAME, read_tables
@@ -27,8 +27,6 @@ from cosim.scenario_faults import describe_faults
 
 #: Fewer samples of x than this hold neither a cycle nor its noise.
 FEWEST = 20
-#: Part of a track in stick from which on there is no slip in it.
-ALL_STICK = 0.95
 
 
 def read_campaign(path: str | Path) -> Campaign:
@@ -205,17 +203,14 @@ def _estimated(
 
 
 def _with_sticks(runs: tuple[MeasuredRun, ...]) -> tuple[tuple[MeasuredRun, ...], list[str]]:
-    """Runs with the sticks of their tracks, and remarks on those that only stick or only slip."""
-    found, remarks = [], []
+    """Runs with the sticks of their tracks, and remarks on these."""
+    found = []
+    names: dict[str, list[str]] = {}
     for run in runs:
-        if run.track is None:
-            found.append(run)
-            continue
-        sticks = find_sticks(run.track, run.surface_speed, run.natural_frequency, run.noise["x"])
-        found.append(replace(run, sticks=sticks))
-        if not any(math.isfinite(stick.start_sd) for stick in sticks):
-            if sum(stick.duration for stick in sticks) > ALL_STICK * run.track.duration:
-                remarks.append(f"{run.name}: no slip is seen, it says nothing of kinetic friction")
-            else:
-                remarks.append(f"{run.name}: no stick is seen after the start")
-    return tuple(found), remarks
+        if run.track is not None:
+            omega, noise = run.natural_frequency, run.noise["x"]
+            run = replace(run, sticks=find_sticks(run.track, run.surface_speed, omega, noise))
+            for remark in stick_remarks(run):
+                names.setdefault(remark, []).append(run.name)
+        found.append(run)
+    return tuple(found), [f"{', '.join(who)}: {remark}" for remark, who in names.items()]
