@@ -85,16 +85,8 @@ class Scenario(Parameters):
     def _join_with_heat(self) -> Self:
         if self.rig.surface == "slab":
             self._take_length_from_slab()
-        for key, interval in (
-            ("run.output_interval", self.run.output_interval),
-            ("coupling.macro_step", self.coupling.macro_step),
-        ):
-            if self.run.duration / interval > MOST_STEPS:
-                raise ValueError(
-                    f"{key} = {interval:g} s cuts run.duration = {self.run.duration:g} s into more "
-                    f"than {MOST_STEPS} steps; allowed is at least "
-                    f"{self.run.duration / MOST_STEPS:g} s"
-                )
+        if fault := self._too_fine("run.output_interval", self.run.output_interval):
+            raise ValueError(fault)
         contact = {"radius": self.rig.contact_radius} | self.contact.model_dump()
         try:
             self._thermal = ThermalParameters.checked(
@@ -129,13 +121,25 @@ class Scenario(Parameters):
         """The thermal model's part."""
         return self._thermal
 
+    def _too_fine(self, key: str, interval: float) -> str:
+        """What is wrong with an interval (s) that cuts the run into too many steps, or nothing."""
+        if self.run.duration / interval <= MOST_STEPS:
+            return ""
+        return (
+            f"{key}: {interval:g} s cuts run.duration = {self.run.duration:g} s into more than "
+            f"{MOST_STEPS} steps, allowed is at least {self.run.duration / MOST_STEPS:g} s"
+        )
+
     @property
     def record_every(self) -> int:
         """Macro steps from one row of the results to the next.
 
         An interval that was not given gives way to the macro step where the two do not fit; for one
-        that was, ScenarioError.
+        that was, and for more macro steps than can be made, ScenarioError: the mechanics alone has
+        no use for them.
         """
+        if fault := self._too_fine("coupling.macro_step", self.coupling.macro_step):
+            raise ScenarioError(fault)
         ratio = self.run.output_interval / self.coupling.macro_step
         if round(ratio) < 1 or abs(ratio - round(ratio)) > ROUNDING * ratio:
             if "output_interval" not in self.run.model_fields_set:

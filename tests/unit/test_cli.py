@@ -78,6 +78,10 @@ def test_rows_between_macro_steps_are_refused_for_run_only(capsys, tmp_path):
     (tmp_path / "case.toml").write_text("[run]\noutput_interval = 0.015")
     line = refusal(capsys, "run", "case.toml")
     assert line.startswith("case.toml: run.output_interval: 0.015 s does not fall on the macro")
+    (tmp_path / "case.toml").write_text("[run]\nduration = 1.0\n[coupling]\nmacro_step = 1e-9")
+    line = refusal(capsys, "run", "case.toml")
+    assert line.startswith("case.toml: coupling.macro_step: 1e-09 s cuts run.duration = 1 s into")
+    assert main(["simulate", "case.toml"]) == 0
 
 
 def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(capsys, tmp_path):
