@@ -9,8 +9,6 @@ and more.
 import numpy as np
 import pytest
 from stickslip import Parameters, simulate
-from stickslip.kernel.layout import P_SCATTER_WAVES, WAVES
-from stickslip.packing import pack
 from stickslip.reference.faults import MENDED, PRINTED
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_effects import SchemeEffects
@@ -20,13 +18,6 @@ MU_S, MU_K, SPEED = 0.2815, 0.2086, 0.15
 COVERED = strips(0.05)[0].sum()
 DURATION = 6.0
 
-
-def waves(**scatter) -> np.ndarray:
-    p = pack(Parameters(surface_scatter=scatter).flat())
-    return np.array(p[P_SCATTER_WAVES : P_SCATTER_WAVES + 2 * WAVES]).reshape(WAVES, 2)
-
-
-FIELD = {"deviation": 0.1, "correlation_length": 0.02, "seed": 3}
 
 # kernel's block -> the scheme's numbers
 CASES = {
@@ -54,7 +45,6 @@ CASES = {
             "pattern_phase": np.radians(30.0),
         },
     ),
-    "surface_scatter": (FIELD, {"scatter": FIELD["deviation"], "waves": waves(**FIELD)}),
     "stick_stiffness": ({"ratio": 0.6}, {"stick_springs": 2.4}),
 }
 

@@ -133,12 +133,18 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
     load1 = np.empty(3)
     a0, a1 = np.empty(3), np.empty(3)
     begin = t
+    past, side, mean = memory.past, memory.side, memory.mean
+    shares, middles = memory.shares, memory.middles
+    alpha, attachment = memory.alpha, memory.attachment
     if rig.strip_wise:
         mean_load(rig, memory.v, memory.shares, memory.middles, memory.mean)
     # only a load that depends on the state needs a look ahead to where it is taken
     ahead = effects.on or not faults.white or (rig.strip_wise and not faults.lagging)
     if effects.on:
-        _effect_load(rig, effects, memory, t, memory.q, memory.v, memory.load)
+        friction_load(
+            rig, effects, past, side, mean, shares, middles, t, memory.q, memory.v, memory.load
+        )
+        add_spring_and_damping_load(effects, alpha, attachment, memory.q, memory.v, memory.load)
     else:
         _plain_load(memory, memory.load)
     if rig.force_scatter > 0.0:
@@ -150,7 +156,10 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
         if rig.strip_wise and not faults.lagging:
             even_load(rig, v1, memory.shares, memory.middles, memory.mean)
         if effects.on:
-            _effect_load(rig, effects, memory, t + STEP, q1, v1, load1)
+            friction_load(
+                rig, effects, past, side, mean, shares, middles, t + STEP, q1, v1, load1
+            )
+            add_spring_and_damping_load(effects, alpha, attachment, q1, v1, load1)
         else:
             _plain_load(memory, load1)
         if rig.force_scatter > 0.0:
@@ -171,7 +180,7 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
         memory.load[:] = load1
         t = begin + (i + 1) * STEP
         if effects.on:
-            remember(rig, effects, memory, t, v1, STEP)
+            remember(rig, effects, past, t, v1, STEP)
         if (i + 1) % ROW_STEPS == 0:
             record(memory, t, SLIP)
         if t >= until:
@@ -184,13 +193,6 @@ def _accelerate(rig, load, a):
     a[0] = load[0] / rig.mass
     a[1] = load[2] / rig.mass
     a[2] = load[1] / rig.inertia
-
-
-@njit(cache=True)
-def _effect_load(rig, effects, memory, t, q, v, load):
-    """Write force, moment and lateral force of all but the scatter into ``load`` (3,)."""
-    friction_load(rig, effects, memory, t, q, v, load)
-    add_spring_and_damping_load(rig, effects, memory, q, v, load)
 
 
 @njit(cache=True)

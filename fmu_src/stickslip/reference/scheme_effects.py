@@ -10,17 +10,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
 from numba import njit
-
-NO_WAVES = np.zeros((0, 2))
 
 
 class SchemeEffects(NamedTuple):
     """Numbers of the effects; SI units, rad. `on` says whether there are any.
 
-    stick_springs: springs counted in stick, 0 for what fault F1 says. waves (n, 2): wavenumber and
-    phase of a random friction field of standard deviation ``scatter``.
+    stick_springs: springs counted in stick, 0 for what fault F1 says.
     """
 
     on: bool = False
@@ -42,8 +38,6 @@ class SchemeEffects(NamedTuple):
     pattern: float = 0.0
     pattern_wavenumber: float = 1.0
     pattern_phase: float = 0.0
-    scatter: float = 0.0
-    waves: np.ndarray = NO_WAVES
     spring_angle: float = 0.0
     anchor_offset: float = 0.0
 
@@ -52,14 +46,17 @@ NO_EFFECTS = SchemeEffects()
 
 WARMTH, DISTANCE, FRICTION = 0, 1, 2  # places in the memory of what has been
 SMALLEST_SLIDING = 1e-9  # m/s, below which a strip's sliding has no direction
+# neighbouring strips that share a direction: twenty directions leave 1e-3 of the spin moment open
+TOGETHER = 5
 
 
 @njit(cache=True)
 def surface_speed(rig, effects, t):
     """Speed of the surface, m/s (speed_ripple)."""
-    return rig.speed * (
-        1.0 + effects.ripple * math.sin(effects.ripple_rate * t + effects.ripple_phase)
-    )
+    if effects.ripple == 0.0:
+        return rig.speed
+    angle = effects.ripple_rate * t + effects.ripple_phase
+    return rig.speed * (1.0 + effects.ripple * math.sin(angle))
 
 
 @njit(cache=True)
@@ -74,17 +71,11 @@ def surface_travel(rig, effects, t):
 
 @njit(cache=True)
 def place_factor(effects, place):
-    """Friction of a place on the surface over its mean (surface_pattern, surface_scatter)."""
-    factor = 1.0
-    if effects.pattern != 0.0:
-        angle = effects.pattern_wavenumber * place + effects.pattern_phase
-        factor += effects.pattern * math.cos(angle)
-    if effects.scatter != 0.0:
-        total = 0.0
-        for i in range(effects.waves.shape[0]):
-            total += math.cos(effects.waves[i, 0] * place + effects.waves[i, 1])
-        factor += effects.scatter * math.sqrt(2.0 / effects.waves.shape[0]) * total
-    return max(0.0, factor)
+    """Friction of a place on the surface over its mean (surface_pattern)."""
+    if effects.pattern == 0.0:
+        return 1.0
+    angle = effects.pattern_wavenumber * place + effects.pattern_phase
+    return max(0.0, 1.0 + effects.pattern * math.cos(angle))
 
 
 @njit(cache=True)
@@ -117,21 +108,25 @@ def held_in_stick(rig, effects, t, hold, x):
 
 
 @njit(cache=True)
-def friction_load(rig, effects, memory, t, q, v, load):
-    """Write friction (force, moment, lateral force) under the effects into ``load`` (3,)."""
-    factor = kinetic_factor(effects, memory.past, q[0] - surface_travel(rig, effects, t))
+def friction_load(rig, effects, past, side, mean, shares, middles, t, q, v, load):
+    """Write friction (force, moment, lateral force) under the effects into ``load`` (3,).
+
+    side, mean, shares, middles, past: those of the scheme's memory, one by one, because handing
+    over the whole of it at every step costs more than the physics.
+    """
+    factor = kinetic_factor(effects, past, q[0] - surface_travel(rig, effects, t))
     if effects.lateral > 0.0:
-        _planar_load(rig, effects, memory, factor, t, q, v, load)
+        _planar_load(rig, effects, shares, middles, factor, t, q, v, load)
     else:
-        load[0] = memory.side[0] * factor * memory.mean[0]
-        load[1] = memory.side[0] * factor * memory.mean[1]
+        load[0] = side[0] * factor * mean[0]
+        load[1] = side[0] * factor * mean[1]
         load[2] = 0.0
     load[0] += effects.film * (surface_speed(rig, effects, t) - v[0])
-    memory.past[FRICTION] = load[0]
+    past[FRICTION] = load[0]
 
 
 @njit(cache=True)
-def _planar_load(rig, effects, memory, factor, t, q, v, load):
+def _planar_load(rig, effects, shares, middles, factor, t, q, v, load):
     """Friction of every strip against its own sliding velocity (lateral_friction).
 
     The strips lie along y, so a lateral force has no arm. The surface under a strip moves with
@@ -140,21 +135,25 @@ def _planar_load(rig, effects, memory, factor, t, q, v, load):
     kappa = effects.lateral
     speed = surface_speed(rig, effects, t)
     across = kappa * (speed * rig.curvature * q[0] - v[1])
+    centre = speed * (1.0 - rig.curvature * q[1]) - v[0]
+    spin = kappa * (v[2] - speed * rig.curvature)
     load[:] = 0.0
-    for j in range(memory.shares.size):
-        y = memory.middles[j]
-        along = speed * (1.0 - rig.curvature * q[1]) - v[0]
-        along += kappa * y * (v[2] - speed * rig.curvature)
-        sliding = max(math.hypot(along, across), SMALLEST_SLIDING)
+    for j in range(TOGETHER // 2, shares.size, TOGETHER):
+        share = 0.0
+        for i in range(j - TOGETHER // 2, j + TOGETHER // 2 + 1):
+            share += shares[i]
+        y = middles[j]
+        along = centre + spin * y
+        sliding = max(math.sqrt(along * along + across * across), SMALLEST_SLIDING)
         mu = max(rig.mu_k - rig.mu_slope * (sliding - rig.mu_k_speed), 0.0)
-        force = factor * mu * memory.shares[j] * rig.normal_force / sliding
+        force = factor * mu * share * rig.normal_force / sliding
         load[0] += force * along
         load[1] -= kappa * force * along * y
         load[2] += kappa * force * across
 
 
 @njit(cache=True)
-def add_spring_and_damping_load(rig, effects, memory, q, v, load):
+def add_spring_and_damping_load(effects, alpha, attachment, q, v, load):
     """Add what the cubic term of the springs and the damping put on the block to ``load`` (3,)."""
     load[0] -= effects.damping * v[0]
     load[2] -= effects.damping * v[1]
@@ -162,8 +161,8 @@ def add_spring_and_damping_load(rig, effects, memory, q, v, load):
     if effects.cubic == 0.0:
         return
     for i in range(4):
-        c, d = math.cos(memory.alpha[i]), math.sin(memory.alpha[i])
-        arm = d * memory.attachment[i, 0] - c * memory.attachment[i, 1]
+        c, d = math.cos(alpha[i]), math.sin(alpha[i])
+        arm = d * attachment[i, 0] - c * attachment[i, 1]
         extension = c * q[0] + d * q[1] + arm * q[2]
         pull = effects.cubic * extension**3
         load[0] -= pull * c
@@ -181,9 +180,9 @@ def turn_springs(effects, attachment, length, alpha):
 
 
 @njit(cache=True)
-def remember(rig, effects, memory, t, v, h):
+def remember(rig, effects, past, t, v, h):
     """Carry warmth and distance over a step ``h`` (s) of slip or stick."""
     sliding = abs(surface_speed(rig, effects, t) - v[0])
-    heat = abs(memory.past[FRICTION]) * sliding
-    memory.past[WARMTH] += h * (heat - memory.past[WARMTH] / effects.relaxation)
-    memory.past[DISTANCE] += h * sliding
+    heat = abs(past[FRICTION]) * sliding
+    past[WARMTH] += h * (heat - past[WARMTH] / effects.relaxation)
+    past[DISTANCE] += h * sliding
