@@ -1,0 +1,185 @@
+"""Mesh files of a sample: what is read, and what is refused in one line that says why."""
+
+import meshio
+import numpy as np
+import pytest
+from sample_meshes import box, cylinder, write
+
+from thermal.base_layers import cut_at_base, layer_height
+from thermal.ice_mesh import MeshError, base_of, facets_of, read_sample
+
+EXTENT = (0.08, 0.06, 0.1)
+
+
+@pytest.fixture
+def cube():
+    return box((3, 3, 3), EXTENT)
+
+
+def volume(points, cells):
+    corners = points[cells]
+    return np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])).sum() / 6.0
+
+
+@pytest.mark.parametrize("suffix", [".msh", ".vtk", ".vtu", ".inp"])
+def test_formats(tmp_path, cube, suffix):
+    points, cells = read_sample(write(tmp_path / f"sample{suffix}", *cube))
+    assert points.shape == (64, 3) and cells.shape == (162, 4)
+    assert volume(points, cells) == pytest.approx(np.prod(EXTENT))
+
+
+def test_surface_triangles_and_unused_nodes_do_no_harm(tmp_path, cube):
+    points, cells = cube
+    mesh = meshio.Mesh(np.concatenate(([[9.0, 9.0, 9.0]], points)),
+                       [("triangle", np.array([[1, 2, 3]])), ("tetra", cells + 1)])
+    mesh.write(tmp_path / "sample.vtu")
+    assert read_sample(tmp_path / "sample.vtu")[0].shape == (64, 3)
+
+
+def test_curved_tetrahedra_count_by_their_corners(tmp_path, cube):
+    points, cells = cube
+    middles = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
+    nodes = np.concatenate([points] + [points[cells[:, list(e)]].mean(axis=1) for e in middles])
+    more = len(points) + np.arange(6)[None, :] * len(cells) + np.arange(len(cells))[:, None]
+    path = write(tmp_path / "curved.vtu", nodes, np.concatenate((cells, more), axis=1), "tetra10")
+    assert volume(*read_sample(path)) == pytest.approx(np.prod(EXTENT))
+
+
+def refused(path, says):
+    with pytest.raises(MeshError, match=says) as caught:
+        read_sample(path)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("factor", "says"), [
+    (1000.0, r"the sample is 80 x 60 x 100 m, allowed is up to 2 m: is the file in mm\?"),
+    (100.0, r"is the file in cm\?"),
+    (1e-3, "the sample is 8e-05 x 6e-05 x 0.0001 m, allowed is at least 0.002 m"),
+])
+def test_wrong_units(tmp_path, cube, factor, says):
+    refused(write(tmp_path / "sample.vtu", factor * cube[0], cube[1]), says)
+
+
+@pytest.mark.parametrize(("name", "content", "says"), [
+    ("absent.msh", None, "no such file"),
+    ("empty.msh", "", "cannot be read as a mesh"),
+    ("text.vtk", "hello", "cannot be read as a mesh"),
+    ("broken.vtu", "<VTKFile>", "cannot be read as a mesh"),
+    ("sample.xyz", "1 2 3", "cannot be read as a mesh"),
+])
+def test_unreadable(tmp_path, capsys, name, content, says):
+    if content is not None:
+        (tmp_path / name).write_text(content)
+    refused(tmp_path / name, says)
+    assert not any(capsys.readouterr()), "nothing but the error is said"
+
+
+def test_no_volume_cells(tmp_path, cube):
+    path = write(tmp_path / "s.vtu", cube[0], cube[1][:, :3], "triangle")
+    refused(path, r"has no volume cells \(triangle\), allowed are tetrahedra")
+
+
+def test_other_volume_cells(tmp_path):
+    corners = np.array(np.meshgrid([0, 0.1], [0, 0.1], [0, 0.1])).reshape(3, -1).T
+    path = write(tmp_path / "s.vtu", corners, np.array([[0, 1, 3, 2, 4, 5, 7, 6]]), "hexahedron")
+    refused(path, r"has other volume cells \(hexahedron\)")
+
+
+def test_not_a_number(tmp_path, cube):
+    points = cube[0].copy()
+    points[5, 1] = np.nan
+    refused(write(tmp_path / "s.vtu", points, cube[1]), "without three finite coordinates")
+
+
+def test_two_pieces(tmp_path, cube):
+    points, cells = cube
+    beside = points + [0.2, 0.0, 0.0]
+    both = np.concatenate((points, beside)), np.concatenate((cells, cells + len(points)))
+    refused(write(tmp_path / "s.vtu", *both), "falls into 2 pieces that share no facet")
+
+
+def test_nodes_that_were_not_merged(tmp_path, cube):
+    points, cells = cube
+    apart = points[cells].reshape(-1, 3), np.arange(cells.size).reshape(-1, 4)
+    refused(write(tmp_path / "s.vtu", *apart), "162 pieces .* merge nodes")
+
+
+def test_an_element_without_volume(tmp_path, cube):
+    points, cells = cube[0].copy(), cube[1]
+    inner = np.flatnonzero(np.all(np.abs(points - [0, 0, 0.05]) < 0.03, axis=1))[0]
+    mates = cells[(cells == inner).any(axis=1)][0]
+    others = mates[mates != inner]
+    points[inner] = points[others].mean(axis=0)
+    refused(write(tmp_path / "s.vtu", points, cells), "have no volume")
+
+
+def test_folded(tmp_path, cube):
+    points = cube[0].copy()
+    inner = np.flatnonzero(np.all(np.abs(points - [0, 0, 0.05]) < 0.03, axis=1))[0]
+    points[inner] += [0.05, 0.0, 0.0]
+    refused(write(tmp_path / "s.vtu", points, cube[1]), "tetrahedra overlap: the mesh is folded")
+
+
+def test_a_facet_of_three(tmp_path, cube):
+    points, cells = cube
+    facets, number, _ = facets_of(cells)
+    shared = facets[np.bincount(number) == 2][0]
+    more = np.concatenate((points, [[0.0, 0.0, 0.033]]))
+    third = np.append(shared, len(points))[None, :]
+    refused(write(tmp_path / "s.vtu", more, np.concatenate((cells, third))),
+            "1 facets belong to more than two tetrahedra")
+
+
+def test_a_missing_element_inside(tmp_path):
+    points, cells = box((5, 5, 5), EXTENT)
+    centres = points[cells].mean(axis=1) - [0.0, 0.0, 0.05]
+    kept = np.delete(cells, np.argmin(np.linalg.norm(centres, axis=1)), axis=0)
+    refused(write(tmp_path / "s.vtu", points, kept), "1 hollows inside, allowed is solid ice")
+
+
+def test_elements_that_touch_along_an_edge(tmp_path, cube):
+    points, cells = cube
+    kept = cells[points[cells].mean(axis=1)[:, 2] > 0.034]
+    lower = cells[points[cells].mean(axis=1)[:, 2] < 0.033]
+    column = lower[np.all(points[lower].mean(axis=1)[:, :2] < [-0.0134, -0.0101], axis=1)]
+    other = lower[np.all(points[lower].mean(axis=1)[:, :2] > [0.0134, 0.0101], axis=1)]
+    middle = np.all(np.abs(points[lower].mean(axis=1)[:, :2]) < [0.0133, 0.0099], axis=1)
+    both = np.concatenate((kept, column, other, lower[middle]))
+    refused(write(tmp_path / "s.vtu", points, both), "surface is not closed")
+
+
+def test_no_base(tmp_path, cube):
+    points, cells = cube
+    refused(write(tmp_path / "s.vtu", points + [0, 0, 0.01], cells),
+            "its lowest node is at z = 0.01 m, allowed is a base at z = 0")
+    round_below = points.copy()
+    low = round_below[:, 2] == 0.0
+    round_below[low, 2] += 0.3 * np.hypot(*(round_below[low, :2] - round_below[low][0, :2]).T)
+    refused(write(tmp_path / "t.vtu", round_below, cells), "no flat base at z = 0")
+
+
+@pytest.mark.parametrize("mesh", [box((3, 2, 2), EXTENT), cylinder(4, 3)])
+def test_layers_at_the_base_keep_shape_and_mesh(tmp_path, mesh):
+    points, cells = mesh
+    first = layer_height(points, cells, points[:, 2] == 0.0)
+    shape = volume(points, cells)
+    for layer in range(1, 4):
+        points, cells = cut_at_base(points, cells, points[:, 2] == 0.0)
+        assert layer_height(points, cells, points[:, 2] == 0.0) == pytest.approx(first * 0.4**layer)
+    assert volume(points, cells) == pytest.approx(shape, rel=1e-12)
+    read, kept = read_sample(write(tmp_path / "s.vtu", points, cells))
+    assert len(kept) == len(cells), "still a mesh without fault"
+    facets, number, _ = facets_of(kept)
+    surface = facets[np.bincount(number) == 1]
+    a, b, c = np.moveaxis(read[surface[base_of(read, surface)]], 1, 0)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+    assert area == pytest.approx(mesh_base_area(mesh))
+
+
+def mesh_base_area(mesh):
+    points, cells = mesh
+    facets, number, _ = facets_of(cells)
+    surface = facets[np.bincount(number) == 1]
+    a, b, c = np.moveaxis(points[surface[base_of(points, surface)]], 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
