@@ -1,0 +1,127 @@
+"""How large a hidden effect is, in units of the tracker's noise, whatever product looks for it.
+
+The plain model (Coulomb friction in closed form) starts afresh from the true state at every cycle
+of the hidden motion; its two friction coefficients and the zero of the tracker are those that
+make the root-mean-square difference smallest. A wrong number is then no effect, and a small
+difference of the period cannot pile up to a large one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize
+
+from .coulomb import plain_motion
+from .hidden import State
+from .motion import COARSE, DENSE, Motion, walk
+
+THIN = 10  # every so manieth dense row is compared: 100 Hz
+ZERO = 2e-3  # m, how far off the zero of a tracker may be
+LIFTS, LEVELS = (1.0, 2.0, 4.0), (0.6, 1.0, 1.4)  # where the fit may begin, of the planned friction
+
+
+@dataclass(frozen=True)
+class Size:
+    """Misfit of the best plain model in units of noise, by channel, and its numbers."""
+
+    x: float
+    y: float
+    mu_s: float
+    mu_k: float
+    offset: float  # m
+
+    @property
+    def largest(self) -> float:
+        """The channel that shows it best."""
+        return max(self.x, self.y)
+
+
+def cycle_starts(x: np.ndarray) -> np.ndarray:
+    """Rows where x passes its mean upwards, at least 0.1 s apart, and the first row."""
+    above = x > x.mean()
+    ups = np.flatnonzero(~above[:-1] & above[1:]) + 1
+    starts, gap = [0], int(0.1 / DENSE)
+    for up in ups:
+        if up - starts[-1] >= gap:
+            starts.append(int(up))
+    return np.array(starts)
+
+
+def line_misfit(motion: Motion, mu_s: float, mu_k: float, offset: float) -> np.ndarray:
+    """x seen less x of the plain model, re-synchronised at every cycle, m; 100 Hz."""
+    p, path = motion.run.hidden, motion.rows
+    edges = [*cycle_starts(path[:, 0]), len(path)]
+    misfits = []
+    for begin, end in zip(edges[:-1], edges[1:], strict=True):
+        rows = (end - 1 - begin) // THIN
+        model = plain_motion(
+            path[begin, 0] - offset,
+            path[begin, 3],
+            p.mass,
+            4 * p.stiffness,
+            p.speed,
+            mu_s,
+            mu_k,
+            THIN * DENSE,
+            rows,
+        )
+        seen = motion.x[begin + THIN : begin + THIN * rows + 1 : THIN]
+        misfits.append(seen - model - offset)
+    return np.concatenate(misfits)
+
+
+def side_misfit(motion: Motion, mu_s: float, mu_k: float) -> np.ndarray:
+    """y less y of the plain model in the plane, re-synchronised at every cycle, m."""
+    p = motion.run.hidden._replace(mu_s=mu_s, mu_k=mu_k)
+    path, misfits = motion.rows, []
+    edges = [*cycle_starts(path[:, 0]), len(path)]
+    for begin, end in zip(edges[:-1], edges[1:], strict=True):
+        if end - begin > 1:
+            start = State(*(float(value) for value in path[begin, :6]))
+            model = walk(p, start, True, COARSE[True], end - begin - 1)
+            misfits.append(path[begin + 1 : end, 1] - model[:, 1])
+    return np.concatenate(misfits)
+
+
+def rms(parts: Sequence[np.ndarray]) -> float:
+    """Root mean square of all parts together."""
+    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))
+
+
+def fit_plain(motions: Sequence[Motion]) -> tuple[float, np.ndarray]:
+    """Smallest misfit of x in m, and mu_s, mu_k, offset that reach it."""
+    p = motions[0].run.hidden
+
+    def numbers(free: np.ndarray) -> tuple[float, float, float]:
+        mu_k, offset = abs(free[1]), ZERO * np.tanh(free[2])
+        return mu_k + abs(free[0]), mu_k, float(offset)
+
+    def misfit(free: np.ndarray) -> float:
+        return rms([line_misfit(each, *numbers(free)) for each in motions])
+
+    grid = [
+        np.array([(p.mu_s * lift - p.mu_k) * level, p.mu_k * level, 0.0])
+        for lift in LIFTS
+        for level in LEVELS
+    ]
+    first = min(grid, key=misfit)
+    simplex = first + np.vstack([np.zeros(3), np.diag([0.03, 0.02, 0.3])])
+    best = minimize(
+        misfit,
+        first,
+        method="Nelder-Mead",
+        options={"initial_simplex": simplex, "xatol": 1e-4, "fatol": 2e-6, "maxfev": 150},
+    )
+    return float(best.fun), np.array(numbers(best.x))
+
+
+def effect_size(motions: Sequence[Motion], noise: float, plane: bool, line: bool) -> Size:
+    """Size of whatever is hidden in the motions; y counts where the rig shows it."""
+    misfit, (mu_s, mu_k, offset) = fit_plain(motions)
+    side = 0.0
+    if plane and not line:
+        side = rms([side_misfit(each, mu_s, mu_k) for each in motions]) / noise
+    return Size(misfit / noise, side, float(mu_s), float(mu_k), float(offset))

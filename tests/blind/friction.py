@@ -1,0 +1,88 @@
+"""Friction level of a contact point: kinetic, held, and what makes either change.
+
+The force is smooth in the sliding velocity w: mu(|w|) N w / (|w|^4 + e^4)^(1/4), with a narrow
+bump at rest that lifts mu from the kinetic to the static level.
+"""
+
+from __future__ import annotations
+
+from math import exp, log10, pi, sin, sqrt
+
+from numba import njit
+
+BUMP = 10.0  # width of the static bump in units of the smoothing speed
+
+
+@njit(inline="always")
+def weakened(p, slip):
+    """Factor on the kinetic level at a sliding speed, 1 at rest."""
+    if p.weakening_form == 1.0:
+        return max(1.0 - p.weakening * slip, 0.1)
+    if p.weakening_form == 2.0:
+        return 1.0 / (1.0 + p.weakening * slip)
+    if p.weakening_form == 3.0:  # Stribeck: the level falls by a part, over a speed
+        return 1.0 - p.weakening * (1.0 - exp(-slip / p.weakening_speed))
+    if p.weakening_form == 4.0:
+        return 1.0 / sqrt(1.0 + p.weakening * slip)
+    return 1.0
+
+
+@njit(inline="always")
+def warmed(p, heat):
+    """Factor on the kinetic level after recent friction heat, J."""
+    if p.thermal_form == 1.0:
+        return max(1.0 - p.thermal * heat, 0.1)
+    if p.thermal_form == 2.0:
+        return exp(-p.thermal * heat)
+    if p.thermal_form == 3.0:
+        return 1.0 / (1.0 + p.thermal * heat)
+    return 1.0
+
+
+@njit(inline="always")
+def worn(p, way):
+    """Factor on the kinetic level after a distance slid, m."""
+    if p.run_in_form == 1.0:
+        return 1.0 + p.run_in * (1.0 - exp(-way / p.run_in_way))
+    if p.run_in_form == 2.0:
+        return 1.0 + p.run_in * min(way / p.run_in_way, 1.0)
+    if p.run_in_form == 3.0:
+        return 1.0 + p.run_in * way / (way + p.run_in_way)
+    return 1.0
+
+
+@njit(inline="always")
+def marked(p, place):
+    """Factor on both levels at a place of the surface, m."""
+    if p.pattern_form == 0.0:
+        return 1.0
+    angle = 2.0 * pi * place / p.pattern_length + p.pattern_phase
+    if p.pattern_form == 2.0:  # rounder valleys than hills
+        return 1.0 + p.pattern * (sin(angle) + 0.25 * sin(2.0 * angle + 0.7))
+    return 1.0 + p.pattern * sin(angle)
+
+
+@njit(inline="always")
+def aged(p, age):
+    """What a hold of some seconds adds to the static level."""
+    if p.ageing_form == 1.0:
+        return p.ageing * log10(1.0 + age / p.ageing_time)
+    if p.ageing_form == 2.0:
+        return p.ageing * (1.0 - exp(-age / p.ageing_time))
+    return 0.0
+
+
+@njit(inline="always")
+def steepness(p, kinetic, static, slip):
+    """Friction coefficient over the sliding speed, s/m: mu(|w|) / (|w|^4 + e^4)^(1/4)."""
+    ratio = slip / (BUMP * p.smooth)
+    mu = kinetic + (static - kinetic) / (1.0 + ratio * ratio * ratio * ratio)
+    q = slip * slip
+    e2 = p.smooth * p.smooth
+    return mu / sqrt(sqrt(q * q + e2 * e2))
+
+
+@njit(inline="always")
+def sheared(p, slip):
+    """Film force of the whole contact over the sliding speed, N s/m."""
+    return p.drag + p.root_drag / sqrt(slip + 1e-9)

@@ -1,0 +1,63 @@
+"""Motions of the runs of a plan with ingredients at given strengths."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .disc import disc_points
+from .hidden import Hidden, State
+from .ingredients import Ingredient
+from .layouts import Plan, Run
+from .line import walk_line
+from .plane import walk_plane
+
+DENSE = 1e-3  # s between the rows of a motion
+FINE = {False: 1e-5, True: 2e-5}  # s, step along the line and in the plane
+COARSE = {False: 5e-5, True: 1e-4}  # for the search of a strength
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What one run really did: rows every DENSE seconds, columns as `line.COLUMNS`."""
+
+    run: Run
+    rows: np.ndarray
+    x: np.ndarray  # as the tracker's optics show it, without noise
+
+
+def needs_plane(plan: Plan, ingredients: Sequence[Ingredient]) -> bool:
+    """Whether anything moves the block off the line."""
+    return any(each.plane for each in ingredients) or any(run.start.y for run in plan.runs)
+
+
+def built(run: Run, ingredients: Sequence[Ingredient], strengths) -> tuple[Hidden, State]:
+    """Properties and start of a run with its ingredients in."""
+    p, start = run.hidden, run.start
+    for each, strength in zip(ingredients, strengths, strict=True):
+        p, start = each.change(p, strength), each.start(start, strength)
+    return p, start
+
+
+def walk(p: Hidden, start: State, plane: bool, step: float, rows: int) -> np.ndarray:
+    """Rows every DENSE seconds of one motion."""
+    every = round(DENSE / step)
+    if plane:
+        return walk_plane(p, start, disc_points(p.radius), step, every, rows)
+    return walk_line(p, start, step, every, rows)
+
+
+def move(plan: Plan, ingredients: Sequence[Ingredient], strengths, steps=FINE) -> list[Motion]:
+    """All runs of a plan."""
+    plane = needs_plane(plan, ingredients)
+    rows, motions = round(plan.duration / DENSE), []
+    for run in plan.runs:
+        path = walk(*built(run, ingredients, strengths), plane, steps[plane], rows)
+        x = path[:, 0]
+        for each, strength in zip(ingredients, strengths, strict=True):
+            if each.pixel is not None:
+                x = each.pixel(x, strength)
+        motions.append(Motion(run, path, x))
+    return motions
