@@ -39,8 +39,9 @@ def read_campaign(path: str | Path) -> Campaign:
     path = path / FILE_NAME if path.is_dir() else path
     table, run_tables = read_tables(path)
     campaign = Campaign(
-        table.name, path.parent, table.rig, table.model.scheme, table.noise.given, (), ()
-    )
+        table.name, path.parent, table.rig, table.model.scheme, table.noise.given, (), (),
+        friction=table.friction.given,
+    )  # fmt: skip
     runs, remarks = [], []
     for number, run_table in enumerate(run_tables, 1):
         run, notes = _read_run(path, campaign, run_table, number)

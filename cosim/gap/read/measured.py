@@ -141,6 +141,7 @@ class Campaign:
     noise : channel -> standard deviation of a sample, over all runs; that of a run is in the run
     noise_estimated : channels whose noise is not given, but taken from the data
     remarks : what the reader should know, a line each
+    friction : coefficient -> (value, standard deviation), of those that are known beforehand
     """
 
     name: str
@@ -151,6 +152,7 @@ class Campaign:
     noise_estimated: tuple[str, ...]
     runs: tuple[MeasuredRun, ...]
     remarks: tuple[str, ...] = ()
+    friction: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def fit_runs(self) -> tuple[MeasuredRun, ...]:

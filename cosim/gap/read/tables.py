@@ -44,6 +44,33 @@ class Noise(Block):
         return {channel: getattr(self, channel) for channel in sorted(self.model_fields_set)}
 
 
+def _coefficient(description: str):
+    """A value with its standard deviation; one that is not known has an infinite one."""
+    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": "1"})
+
+
+class Friction(Block):
+    """Coefficients that were measured by themselves: value and standard deviation."""
+
+    mu_s: tuple[float, float] = _coefficient("static friction coefficient")
+    mu_k: tuple[float, float] = _coefficient("kinetic friction coefficient")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, (value, deviation) in self.given.items():
+            if not (value > 0.0 and deviation > 0.0):
+                raise ValueError(
+                    f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation] "
+                    "with both above 0"
+                )
+        return self
+
+    @property
+    def given(self) -> dict[str, tuple[float, float]]:
+        """coefficient -> (value, standard deviation), of those that the file names."""
+        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
+
+
 def _figure(unit: str, description: str):
     """A value with its standard deviation; one that is not known has an infinite one."""
     return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
@@ -55,7 +82,7 @@ class Summary(Block):
     mean_x: tuple[float, float] = _figure("m", "mean of x")
     mean_y: tuple[float, float] = _figure("m", "mean of y")
     amplitude_x: tuple[float, float] = _figure("m", "half the range of x")
-    frequency: tuple[float, float] = _figure("Hz", "break-aways per second")
+    frequency: tuple[float, float] = _figure("Hz", "oscillations of x per second")
     slip_share: tuple[float, float] = _figure("1", "share of the time in slip")
     slip_duration: tuple[float, float] = _figure("s", "mean length of a slip")
     stick_duration: tuple[float, float] = _figure("s", "mean length of a stick")
@@ -114,3 +141,4 @@ class CampaignTable(Block):
     rig: Rig = Rig()
     model: Model = Model()
     noise: Noise = Noise()
+    friction: Friction = Friction()
