@@ -47,6 +47,7 @@ from .layout import (
 )
 
 MELTING_POINT = 0.0  # of ice, degC
+FINEST_COLD = 1e-12  # K; a temperature this near to melting is there, but for rounding
 
 
 def surface_factor(p: "float[:]", w: "float[:]") -> float:
@@ -132,7 +133,7 @@ def melting_coefficient(p: "float[:]", u: "float[:]", dry: float, speed: float) 
     if p[P_ASPERITY] != 0.0:
         cold = MELTING_POINT - ice_temperature(u)
         mu = 0.0  # melting ice has no dry friction, not even at rest
-        if cold * cold > 0.0:
+        if cold > FINEST_COLD:
             mu = dry * cold / sqrt(cold * cold + p[P_ASPERITY] * dry * dry * speed)
     if p[P_MELT_FILM] != 0.0:
         mu = sqrt(mu * mu + p[P_MELT_FILM] * speed)

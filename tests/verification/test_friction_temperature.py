@@ -1,0 +1,159 @@
+"""Friction from temperature against closed forms: linear, asperities that melt, a film of melt.
+
+The formulas are worked out here once more, from conduction and shear.
+"""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from stickslip import Parameters, friction_coefficient, simulate
+from stickslip.compiled import compiled_kernel
+from stickslip.kernel.coefficient import holding_coefficient, local_coefficient
+from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_SIZE
+
+MASS, RADIUS, DRY, COLD = 0.67, 0.04, 0.5, -8.0
+ASPERITY = {"length": 4e-3, "hardness": 1.6e7, "effusivity": 2034.0}
+FILM = {"wetted_share": 2e-3, "length": 6e-3, "viscosity": 1.79e-3, "latent_heat": 3.06e8}
+PRESSURE = MASS * 9.81 / (FILM["wetted_share"] * pi * RADIUS**2)
+SPEEDS = np.geomspace(1e-7, 1e3, 41)
+
+
+def parameters(**effects) -> Parameters:
+    return Parameters(friction={"mu_s": DRY, "mu_k": DRY}, **effects)
+
+
+def law(temperature=COLD, speeds=SPEEDS, **effects):
+    return friction_coefficient(parameters(**effects), speeds, temperature)
+
+
+def asperity(speed, temperature=COLD, constant=1.128):
+    warming = constant * ASPERITY["effusivity"] * -temperature
+    return warming / (ASPERITY["hardness"] * np.sqrt(ASPERITY["length"] * speed))
+
+
+def film(speed):
+    """Mean shear stress of a film that the shear thickens while it is slid over, by pressure.
+
+    A place sheared for the time t has melted by eta v^2 / h = rho L dh/dt; from a film too thin
+    to matter, over the time that the patch takes to pass.
+    """
+    eta, melting, length = FILM["viscosity"], FILM["latent_heat"], FILM["length"]
+    thickness = sqrt(2.0 * eta * speed * length / melting)  # scale of the numbers
+    grown = solve_ivp(
+        lambda t, y: [eta * speed**2 / (melting * y[0]), eta * speed / y[0]],
+        (0.0, length / speed), [1e-8 * thickness, 0.0],
+        rtol=1e-11, atol=[1e-12 * thickness, 1e-12 * PRESSURE * length / speed], method="DOP853",
+    )
+    assert grown.success
+    return grown.y[1, -1] / (length / speed) / PRESSURE
+
+
+def test_ice_on_rock_is_linear_up_to_the_melting_point():
+    """0.52 at -20 degC and 0.02 at melting, as measured at 100 kPa (McCarthy et al., 2017)."""
+    rock = Parameters(
+        friction={"mu_s": 0.6, "mu_k": 0.52},
+        temperature_dependence={"sensitivity": (1.0 - 0.02 / 0.52) / 20.0, "reference_degC": -20.0},
+    )
+    for temperature, expected in ((-20.0, 0.52), (-10.0, 0.27), (-4.0, 0.12), (0.0, 0.02)):
+        assert friction_coefficient(rock, [0.1], temperature) == pytest.approx(expected, rel=1e-13)
+    assert friction_coefficient(rock, [0.1], 3.0) == pytest.approx(0.02, rel=1e-13)
+
+
+@pytest.mark.parametrize("temperature", [-14.0, -8.0, -2.0, 0.0, 4.0])
+def test_static_friction_is_linear_as_well(temperature):
+    """Seen in where the belt has carried a block when it breaks away."""
+    sticky = Parameters(
+        rig={"degrees_of_freedom": ("x",)},
+        friction={"mu_s": 0.3, "mu_k": 0.05},
+        temperature_dependence={"static_sensitivity": 0.06},
+        initial={"vx": 0.15},
+    )
+    run = simulate(sticky, 3.0, interface_temperature=temperature)
+    expected = 0.3 * (1.0 - 0.06 * (min(temperature, 0.0) + 8.0))
+    first_slip = run.events[run.events[:, 1] == 1][0]
+    assert first_slip[2] == pytest.approx(expected * MASS * 9.81 / (4.0 * 20.17), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "constant, warmed",
+    [
+        # heat that a face held at melting takes up in the passage, sent through it evenly
+        (1.128, lambda: 1.0 / quad(lambda r: 2.0 / sqrt(pi), 0.0, 1.0)[0]),
+        # face under an even flux: int 1 / sqrt(pi (t - s)) ds, mean over the passage, and its end
+        (1.329, lambda: quad(lambda t: quad(lambda r: 2.0 / sqrt(pi), 0.0, sqrt(t))[0], 0, 1)[0]),
+        (0.886, lambda: quad(lambda r: 2.0 / sqrt(pi), 0.0, 1.0)[0]),
+    ],
+)
+def test_the_three_constants_are_those_of_conduction(constant, warmed):
+    """C is 1 over the face's rise for unit flux, effusivity and passage; r is a root of time."""
+    assert constant == pytest.approx(1.0 / warmed(), abs=5e-4)
+
+
+@pytest.mark.parametrize("constant", [0.886, 1.128, 1.329])
+@pytest.mark.parametrize("temperature", [-20.0, -8.0, -0.5])
+def test_asperities_melt_in_passing(temperature, constant):
+    found = law(temperature, asperity_melting=ASPERITY | {"constant": constant})
+    boundary = asperity(SPEEDS, temperature, constant)
+    np.testing.assert_allclose(found**-2, DRY**-2 + boundary**-2, rtol=1e-12)
+    assert np.all(found < np.minimum(DRY, boundary))
+    assert law(temperature, [1e-9], asperity_melting=ASPERITY) == pytest.approx(DRY, rel=1e-3)
+    assert found[-1] == pytest.approx(boundary[-1], rel=1e-3)
+
+
+def test_a_film_of_melt_is_sheared():
+    """At the melting point nothing else is left of friction."""
+    found = law(0.0, melt_film=FILM, asperity_melting=ASPERITY)
+    for at in range(0, len(SPEEDS), 8):
+        # the film begins at 1e-8 of its thickness
+        assert found[at] == pytest.approx(film(SPEEDS[at]), rel=1e-6)
+
+
+def test_the_regimes_add_up_along_the_path():
+    both = law(melt_film=FILM, asperity_melting=ASPERITY)
+    boundary = law(asperity_melting=ASPERITY)
+    wet = law(0.0, melt_film=FILM, asperity_melting=ASPERITY)
+    np.testing.assert_allclose(both**2, boundary**2 + wet**2, rtol=1e-12)
+    np.testing.assert_allclose(law(melt_film=FILM) ** 2, DRY**2 + wet**2, rtol=1e-12)
+
+
+def test_slopes_and_minimum_of_the_law():
+    """-1/2 where asperities melt, 1/2 where a film is sheared, the minimum where both are equal."""
+    speeds = np.geomspace(1e-7, 1e9, 4001)
+    found = law(speeds=speeds, melt_film=FILM | {"wetted_share": 1e-6}, asperity_melting=ASPERITY)
+    slope = np.gradient(np.log(found), np.log(speeds))
+    assert slope[0] == pytest.approx(0.0, abs=1e-3)
+    assert slope.min() == pytest.approx(-0.5, abs=1e-3)
+    assert slope[-1] == pytest.approx(0.5, abs=1e-3)
+    wet = film(1.0) * 1e-6 / FILM["wetted_share"]
+    lowest = speeds[np.argmin(found)]
+    assert lowest == pytest.approx(asperity(1.0) / wet, rel=0.01)  # a step of the grid is 0.9 %
+    assert found.min() == pytest.approx(sqrt(2.0 * asperity(1.0) * wet), rel=1e-4)
+
+
+@pytest.mark.parametrize("temperature", [-20.0, -1.0, -1e-3, -1e-11, -1e-160, 0.0, 2.0])
+def test_the_limit_of_no_speed_is_dry_and_what_is_at_rest_holds(temperature):
+    p = parameters(asperity_melting=ASPERITY, melt_film=FILM).pack()
+    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
+    u[U_TEMPERATURE] = temperature
+    melting = temperature > -1e-12  # none is left where ice melts
+    expected = 0.0 if melting else DRY
+    assert local_coefficient(p, u, DRY, 0.0) == pytest.approx(expected, rel=1e-15)
+    assert holding_coefficient(p, u, w) == pytest.approx(DRY, rel=1e-15)
+    for speed in SPEEDS:
+        assert np.isfinite(local_coefficient(p, u, DRY, speed))
+
+
+def test_the_law_is_the_same_number_compiled():
+    p = parameters(asperity_melting=ASPERITY, melt_film=FILM).pack()
+    u = [0.0] * U_SIZE
+    for u[U_TEMPERATURE] in (-16.0, -3.3, -1e-6, 0.0):
+        for speed in SPEEDS:
+            compiled = compiled_kernel().local_coefficient(np.array(p), np.array(u), DRY, speed)
+            assert compiled == local_coefficient(p, u, DRY, speed)
+
+
+def test_a_speed_must_be_one():
+    with pytest.raises(ValueError, match="speed = -1 m/s"):
+        friction_coefficient(Parameters(), [0.1, -1.0])
