@@ -12,8 +12,9 @@ from cosim.gap.read.measured import MeasuredRun, Stick, Track
 
 #: A gap of more than this part of the natural period may hide a cycle.
 GAP = 0.5
-#: Slips that last longer than a free vibration (times omega) have unseen sticks in them.
-WHOLE_SLIP = 2.0 * math.pi * 1.1
+#: Slips that last longer than a free vibration (times omega) have unseen sticks in them; with more
+#: than a few of these, break-aways are no count of cycles.
+WHOLE_SLIP, FEW = 2.0 * math.pi * 1.1, 0.1
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ def cycle_features(run: MeasuredRun) -> CycleFeatures:
     ends = [stick for stick in sticks if math.isfinite(stick.end_sd)]
     starts = [stick for stick in sticks if math.isfinite(stick.start_sd)]
     stick, slip = _mean([s.duration for s in whole]), _mean(slips)
-    cycles = list(pairwise(_marks(run, slip)))
+    cycles = list(pairwise(_marks(run, slips)))
     return CycleFeatures(
         break_away_x=_mean([_line(run, s, s.end) for s in ends]),
         restick_x=_mean([_line(run, s, s.start) for s in starts]),
@@ -130,11 +131,12 @@ def _unbroken(run: MeasuredRun, before: Stick, after: Stick) -> bool:
     return bool(np.max(np.diff(time), initial=0.0) < GAP * 2.0 * math.pi / run.natural_frequency)
 
 
-def _marks(run: MeasuredRun, slip: Figure) -> list[float]:
+def _marks(run: MeasuredRun, slips: list[float]) -> list[float]:
     """One time a cycle: break-aways, or upward crossings of the mean."""
     ends = [stick.end for stick in run.sticks if math.isfinite(stick.end_sd)]
     # where sticks of some cycles are too short to be seen, break-aways are several cycles apart
-    return ends if slip.value < WHOLE_SLIP / run.natural_frequency else _crossings(run)
+    long = sum(slip > WHOLE_SLIP / run.natural_frequency for slip in slips)
+    return ends if slips and long <= FEW * len(slips) else _crossings(run)
 
 
 def _crossings(run: MeasuredRun) -> list[float]:

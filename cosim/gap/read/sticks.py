@@ -18,8 +18,11 @@ DENSITY = 80
 #: scatter that is not white counts as noise.
 GAP, COLOUR = 0.5, 1.0 / 24.0
 #: Two sticks are one where the second goes on where the first ends, within so many standard
-#: deviations and this part of the usual slip.
-SAME_LEVEL, SAME_PART = 4.0, 0.05
+#: deviations, or where the surface left the block behind by less than this part of its own way: in
+#: a slip the springs pull the block back, which makes it more than the whole.
+SAME_LEVEL, LEFT_BEHIND = 4.0, 0.5
+#: A stick moves with the surface, within so many standard errors and this part of its speed.
+SAME_SPEED, SPEED_PART = 4.0, 0.2
 
 
 def find_sticks(track: Track, speed: float, omega: float, noise: float) -> tuple[Stick, ...]:
@@ -71,6 +74,7 @@ def _in_part(
         if kind == STICK
     ]
     ranges = _merged(time, x, ranges, speed, noise)
+    ranges = [span for span in ranges if _moves_along(time, x, span, speed, noise)]
     return [_refined(time, x, ranges, place, speed, omega, noise) for place in range(len(ranges))]
 
 
@@ -83,27 +87,39 @@ def _merged(
     time: np.ndarray, x: np.ndarray, ranges: list[tuple[int, int]], speed: float, noise: float
 ) -> list[tuple[int, int]]:
     """Sticks without those slips in which the block did not move on the surface."""
-    if len(ranges) < 2:
-        return ranges
-    drops = [_drop(time, x, a, b, speed) for a, b in pairwise(ranges)]
-    usual = SAME_PART * float(np.median([abs(drop) for drop, _ in drops]))
-    merged = [ranges[0]]
-    for (drop, samples), stick in zip(drops, ranges[1:], strict=True):
-        if abs(drop) < max(SAME_LEVEL * noise / math.sqrt(samples), usual):
-            merged[-1] = (merged[-1][0], stick[1])
+    merged = ranges[:1]
+    for before, after in pairwise(ranges):
+        left, samples = _left_behind(time, x, before, after, speed)
+        way = abs(speed) * (time[after[0]] - time[before[1] - 1])
+        if left < max(SAME_LEVEL * noise / math.sqrt(samples), LEFT_BEHIND * way):
+            merged[-1] = (merged[-1][0], after[1])
         else:
-            merged.append(stick)
+            merged.append(after)
     return merged
 
 
-def _drop(
+def _moves_along(
+    time: np.ndarray, x: np.ndarray, span: tuple[int, int], speed: float, noise: float
+) -> bool:
+    """Whether the slope of a stick is that of the surface: else a vibration looked like one."""
+    rows = slice(*span)
+    away = time[rows] - np.mean(time[rows])
+    spread = float(away @ away)
+    off = abs(float(away @ x[rows]) / spread - speed)
+    return off < SAME_SPEED * noise / math.sqrt(spread) + SPEED_PART * abs(speed)
+
+
+def _left_behind(
     time: np.ndarray, x: np.ndarray, before: tuple[int, int], after: tuple[int, int], speed: float
 ) -> tuple[float, float]:
-    """Way on the surface from one stick to the next, and half the samples that it is read from."""
+    """Way of the surface under the block between two sticks, and half the samples it is read from.
+
+    Negative where the block moved ahead of the surface.
+    """
     size = min(before[1] - before[0], after[1] - after[0], 20)
     ends, starts = slice(before[1] - size, before[1]), slice(after[0], after[0] + size)
-    level = [float(np.mean(x[part] - speed * time[part])) for part in (ends, starts)]
-    return level[1] - level[0], size / 2.0
+    level = [float(np.mean(speed * time[part] - x[part])) for part in (ends, starts)]
+    return math.copysign(1.0, speed) * (level[1] - level[0]), size / 2.0
 
 
 def _refined(
