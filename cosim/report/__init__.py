@@ -3,8 +3,9 @@
 >>> from cosim.report import run_dataset, trajectory_dataset, write_results
 """
 
+from cosim.atomic import OutputError
+
 from .dataset import run_dataset, trajectory_dataset
-from .errors import OutputError
 from .results import write_data, write_results
 from .summary import summary
 

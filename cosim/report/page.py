@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Iterator, Mapping
 from datetime import datetime
 from typing import Any, NamedTuple
 
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from cosim.inline import inline
 
 from .blocks import stored_blocks
 from .figures import Plate
@@ -46,7 +47,7 @@ def page(
         loader=PackageLoader("cosim.report"), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True)
     figures = [
-        (plate.caption, _width(picture), base64.b64encode(picture).decode("ascii"))
+        (plate.caption, _width(picture), inline(picture))
         for plate, picture in pictures.items()]
     own = dict(OWN_FILES) | {
         f"{plate.name}.png": "figure, as above" for plate in pictures}

@@ -8,8 +8,10 @@ from pathlib import Path
 
 import xarray as xr
 
+from cosim.atomic import write_bytes, write_text
+
 from .figures import plates_of
-from .files import write_bytes, write_csv, write_json, write_netcdf, write_text
+from .files import write_csv, write_json, write_netcdf
 from .page import page
 from .style import DPI
 from .summary import summary

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import os
 from collections.abc import Callable
@@ -11,7 +10,6 @@ from functools import wraps
 from pathlib import Path
 
 import matplotlib
-from markupsafe import Markup
 from matplotlib.figure import Figure
 
 GREY, INK = "#7A7A7A", "#222222"
@@ -63,11 +61,6 @@ def panels(rows: int, columns: int, *, height: float = 2.6, width: float = 9.0, 
     """A figure and its axes (rows, columns), laid out without overlaps."""
     figure = Figure(figsize=(width, height * rows), layout="constrained")
     return figure, figure.subplots(rows, columns, squeeze=False, **kwargs)
-
-
-def inline(png: bytes) -> Markup:
-    """A picture as a data address."""
-    return Markup("data:image/png;base64," + base64.b64encode(png).decode("ascii"))
 
 
 def writable(folder: Path) -> None:

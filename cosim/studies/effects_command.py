@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
-from cosim.studies.drawing import OutputRefused, writable
-from cosim.studies.effects import UnknownEffect, chosen, described, effect_figure, page
+from cosim.atomic import write_bytes, write_text
+from cosim.studies.drawing import OutputRefused, Picture, writable
+from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page
 
-DONE = 0
+DONE, FAILED = 0, 1
 REFUSED = (UnknownEffect, OutputRefused)
 RESULT, PAGE = "effects.json", "effects.html"
 
@@ -29,8 +31,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def execute(arguments: Namespace) -> int:
     """Print the entries; write page, JSON and figures where asked to."""
     entries = [described(entry) for entry in chosen(arguments.effects)]
-    if arguments.output is not None:
-        _write(entries, Path(arguments.output))
+    if arguments.output is not None and not _write(entries, Path(arguments.output)):
+        return FAILED
     if arguments.json:
         print(json.dumps(entries, indent=1))
     else:
@@ -45,17 +47,24 @@ def _print(entry: dict[str, Any]) -> None:
     for parameter in entry["parameters"]:
         typical = parameter["typical"]
         usual = f", typical {typical[0]:g} to {typical[1]:g}" if typical else ""
-        print(f"    {parameter['key']} [{parameter['unit']}] = {parameter['default']:g}{usual}")
+        print(f"    {parameter['key']} [{parameter['unit']}] = {parameter['default']:g}, allowed "
+              f"{allowed(parameter)}{usual}")
         print(f"        {parameter['description']}")
 
 
-def _write(entries: list[dict[str, Any]], folder: Path) -> None:
+def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
+    """Figures, then the page of all of them; whether it got so far."""
     writable(folder)
-    pictures = {
-        entry["id"]: effect_figure(entry["id"])
-        for entry in tqdm(entries, disable=None, unit="figure", leave=False)
-    }
-    for name, picture in pictures.items():
-        (folder / f"{name}.png").write_bytes(picture.png)
-    (folder / RESULT).write_text(json.dumps(entries, indent=1), encoding="utf-8")
-    (folder / PAGE).write_text(page(entries, pictures), encoding="utf-8")
+    pictures: dict[str, Picture] = {}
+    try:
+        for entry in tqdm(entries, disable=None, unit="figure", leave=False):
+            name = entry["id"]
+            pictures[name] = effect_figure(name)
+            write_bytes(pictures[name].png, folder / f"{name}.png")
+        write_text(json.dumps(entries, indent=1), folder / RESULT)
+        write_text(page(entries, pictures), folder / PAGE)
+    except KeyboardInterrupt:
+        print(f"error: interrupted; {len(pictures)} of {len(entries)} figures are in {folder}",
+              file=sys.stderr)
+        return False
+    return True

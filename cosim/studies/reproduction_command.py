@@ -5,19 +5,20 @@ What `execute` raises of `REFUSED` is bad input, in one line.
 
 from __future__ import annotations
 
+import sys
 import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from tqdm import tqdm
 
+from cosim.atomic import write_bytes, write_text
+from cosim.interrupts import held_interrupts
 from cosim.studies.drawing import OutputRefused, writable
 from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
 
-DONE = 0
+DONE, FAILED = 0, 1
 RESULT, PAGE = "reproduction.json", "report.html"
-
-
 REFUSED = (UnknownClaim, OutputRefused)
 
 
@@ -34,17 +35,27 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def execute(arguments: Namespace) -> int:
-    """Judge, write, print a line a claim; 0. Raises what is in `REFUSED`."""
+    """Judge, write, print a line a claim; 0, or 1 when stopped. Raises what is in `REFUSED`."""
     began = time.perf_counter()
     wanted = claim_ids(arguments.claims)
     folder = Path(arguments.output)
     result = Path(arguments.json) if arguments.json else folder / RESULT
     writable(folder)
     writable(result.parent)
-    with tqdm(total=len(wanted), disable=None, unit="claim", leave=False) as bar:
-        claims = reproduce(wanted, lambda _id: bar.update())
+    claims: list[Claim] = []
+    try:
+        for one in tqdm(wanted, disable=None, unit="claim", leave=False):
+            claims += reproduce([one])
+        _write(claims, folder, result, time.perf_counter() - began)
+    except KeyboardInterrupt:
+        if not claims:
+            raise
+        with held_interrupts():
+            _write(claims, folder, result, time.perf_counter() - began)
+        print(f"error: interrupted; {len(claims)} of {len(wanted)} claims are in {folder / PAGE}",
+              file=sys.stderr)
+        return FAILED
     wall_time = time.perf_counter() - began
-    _write(claims, folder, result, wall_time)
     for claim in claims:
         print(f"{claim.id:<4} {claim.verdict:<30} {claim.title}")
         print(f"     {claim.reason}")
@@ -59,8 +70,8 @@ def _write(claims: list[Claim], folder: Path, result: Path, wall_time: float) ->
     from cosim.studies.reproduction.page import page
     from cosim.studies.reproduction.result import as_json
 
-    result.write_text(as_json(claims, wall_time), encoding="utf-8")
+    write_text(as_json(claims, wall_time), result)
     for claim in claims:
         for picture in claim.pictures:
-            (folder / f"{picture.name}.png").write_bytes(picture.png)
-    (folder / PAGE).write_text(page(claims, DESCRIPTIONS), encoding="utf-8")
+            write_bytes(picture.png, folder / f"{picture.name}.png")
+    write_text(page(claims, DESCRIPTIONS), folder / PAGE)

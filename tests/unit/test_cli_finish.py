@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 
 from cosim.cli.finish import closing_lines
+from cosim.cli.interruption import interruptible
 from cosim.cli.patience import patient_interrupts
+from cosim.interrupts import REQUESTS, held_interrupts
 
 MECHANICS = {
     "name": "case",
@@ -54,6 +56,36 @@ def test_ctrl_c_works_at_once_while_there_is_nothing_to_lose():
     with pytest.raises(KeyboardInterrupt), patient_interrupts():
         signal.raise_signal(signal.SIGINT)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+@pytest.mark.parametrize("wanted", REQUESTS)
+def test_what_asks_to_end_does_as_ctrl_c_does(wanted):
+    before = {number: signal.getsignal(number) for number in REQUESTS}
+    with pytest.raises(KeyboardInterrupt), interruptible(ending=False):
+        signal.raise_signal(wanted)
+    with interruptible(ending=False), patient_interrupts() as patience:
+        patience.hold()
+        signal.raise_signal(wanted)
+        assert patience.requested
+    assert {number: signal.getsignal(number) for number in REQUESTS} == before
+
+
+def test_a_key_held_down_interrupts_once():
+    with interruptible(ending=False):
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_held_interrupts_come_at_the_end_of_the_block():
+    reached = []
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        with held_interrupts():
+            signal.raise_signal(signal.SIGINT)
+            reached.append("the end of the block")
+        reached.append("what follows")
+    assert reached == ["the end of the block"] and signal.getsignal(signal.SIGINT) is before
 
 
 def test_ctrl_c_waits_until_the_results_are_saved():

@@ -7,6 +7,8 @@ import pytest
 from stickslip import CATALOGUE, simulate
 
 from cosim.cli import main
+from cosim.studies import effects_command
+from cosim.studies.effects import effect_figure
 from cosim.studies.effects.cases import CASES
 
 IDS = [entry.id for entry in CATALOGUE]
@@ -29,7 +31,7 @@ def test_the_case_shows(effect):
 def test_command(tmp_path, capsys):
     folder = tmp_path / "out"
     assert main(["effects", "run_in", FELT_ONLY_WHEN_WARM, "-o", str(folder)]) == 0
-    assert "run_in.change [1] = 0" in capsys.readouterr().out
+    assert "run_in.change [1] = 0, allowed [-0.95, 5], typical" in capsys.readouterr().out
     html = (folder / "effects.html").read_text(encoding="utf-8")
     assert html.count("data:image/png;base64,") == 2 and "http" not in html
     assert (folder / "run_in.png").read_bytes().startswith(b"\x89PNG")
@@ -37,6 +39,20 @@ def test_command(tmp_path, capsys):
     entries = json.loads(capsys.readouterr().out)
     assert [entry["id"] for entry in entries] == IDS
     assert all(parameter["unit"] for entry in entries for parameter in entry["parameters"])
+
+
+@pytest.mark.parametrize("drawn", [0, 1])
+def test_what_was_drawn_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, drawn):
+    def interrupted(effect_id):
+        if effect_id == "run_in" or not drawn:
+            raise KeyboardInterrupt
+        return effect_figure(effect_id)
+
+    monkeypatch.setattr(effects_command, "effect_figure", interrupted)
+    assert main(["effects", "run_in", "film_drag", "-o", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert (out, err) == ("", f"error: interrupted; {drawn} of 2 figures are in {tmp_path}\n")
+    assert len(list(tmp_path.iterdir())) == drawn
 
 
 def test_unknown_effect(capsys):

@@ -9,6 +9,7 @@ import pytest
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
 
+from cosim.cli import main
 from cosim.studies import reproduction_command
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
 from cosim.studies.reproduction.cases import DATASET_1, exact_figures, scheme_figures
@@ -203,6 +204,27 @@ def test_command(tmp_path, capsys):
     assert (folder / "report.html").exists()
     assert len(json.loads(result.read_text())["claims"]) == 2
     assert not (folder / "reproduction.json").exists()
+
+
+@pytest.mark.parametrize("judged", [0, 1])
+def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, judged):
+    def interrupted(ids):
+        if len(seen) == judged:
+            raise KeyboardInterrupt
+        seen.extend(ids)
+        return reproduce(ids)
+
+    seen = []
+    monkeypatch.setattr(reproduction_command, "reproduce", interrupted)
+    status = main(["reproduce", "C1", "C2", "-o", str(tmp_path)])
+    out, err = capsys.readouterr()
+    assert (status, out, err.count("\n")) == (1, "", 1)
+    assert err.startswith("error: interrupted")
+    if judged:
+        assert "1 of 2 claims are in" in err
+        claims = json.loads((tmp_path / "reproduction.json").read_text())["claims"]
+        assert [claim["id"] for claim in claims] == ["C1"]
+    assert (tmp_path / "report.html").is_file() == bool(judged)
 
 
 def test_command_refuses_before_it_computes(tmp_path):

@@ -45,6 +45,19 @@ def described(entry: Effect) -> dict[str, Any]:
     }
 
 
+def allowed(parameter: dict[str, Any]) -> str:
+    """The bounds of a described parameter as an interval: [0, 2), (-inf, inf).
+
+    >>> allowed({"ge": 0.0, "lt": 2.0})
+    '[0, 2)'
+    """
+    lower = next((f"{mark}{parameter[kind]:g}" for kind, mark in (("ge", "["), ("gt", "("))
+                  if kind in parameter), "(-inf")
+    upper = next((f"{parameter[kind]:g}{mark}" for kind, mark in (("le", "]"), ("lt", ")"))
+                  if kind in parameter), "inf)")
+    return f"{lower}, {upper}"
+
+
 def _bounds(metadata: list[Any]) -> dict[str, float]:
     return {
         kind: getattr(bound, kind)

@@ -7,7 +7,7 @@ from importlib import resources
 
 from jinja2 import Environment, StrictUndefined
 
-from cosim.studies.drawing import inline
+from cosim.inline import inline
 
 from .claim import CANNOT_BE_CHECKED, DOES_NOT_HOLD, HOLDS, ONLY_WITH_FAULT, Claim, Row
 from .result import OTHER_FAULTS

@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
+from itertools import chain, repeat
 from pathlib import Path
 
 import numpy as np
@@ -61,8 +62,7 @@ def write_sweep(datasets: dict[str, xr.Dataset], path: Path) -> None:
     """netCDF 4; each dataset in the group it is named by ("" is the root)."""
 
     def write(partial: Path) -> None:
-        for group, dataset in datasets.items():
-            mode = "a" if partial.exists() else "w"
+        for mode, (group, dataset) in zip(chain("w", repeat("a")), datasets.items(), strict=False):
             dataset.to_netcdf(partial, mode=mode, group=group or None, engine="h5netcdf")
 
     write_atomically(path, write)

@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
-from cosim.atomic import write_atomically
+from cosim.atomic import OutputError, write_text
 
 from .combination import ERROR, Row, model_version
 from .errors import SweepError, SweepStopped
@@ -55,9 +55,9 @@ class Store:
         name = hashlib.sha256("".join(row.key for row in kept).encode()).hexdigest()[:24]
         text = json.dumps([_plain(row) for row in kept], allow_nan=False)
         try:
-            write_atomically(self.folder / f"{name}.json", lambda path: path.write_text(text))
-        except OSError as error:
-            raise SweepStopped(f"{self.folder}: cannot be written: {error.strerror}") from error
+            write_text(text, self.folder / f"{name}.json")
+        except OutputError as error:
+            raise SweepStopped(str(error)) from error
 
 
 def _plain(row: Row) -> list:
