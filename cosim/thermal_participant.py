@@ -23,6 +23,7 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     belt_heat="J",
     ice_heat="J",
     air_heat="J",
+    support_heat="J",
     latent_heat="J",
     heat_residual="J",
 )

@@ -9,8 +9,10 @@ True
 
 from .fields import FieldSeries
 from .model import BeltIceModel
-from .parameters import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
+from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
 from .single_pass import SinglePass
 
-__all__ = ["Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "ParameterError",
-           "SinglePass", "ThermalParameters"]
+__all__ = [
+    "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "ParameterError",
+    "SinglePass", "ThermalParameters",
+]

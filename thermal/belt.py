@@ -11,29 +11,25 @@ the air.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, rfft
 from scipy.sparse import coo_matrix
-from skfem import BilinearForm, CellBasis, ElementLineP1, ElementLineP2, FacetBasis, MeshLine
+from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
-from .eigenmodes import Medium, eigenmodes
+from .grading import graded as graded
 from .parameters import Belt as BeltParameters
 from .relaxation import LastDurations, decay, mean_decay, mean_response
+from .thickness import Thickness
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
-#: Last element through the thickness over the first, which lies at the contact face.
-_STRETCH = 10.0
-
-
-def graded(length: float, elements: int, stretch: float) -> Array:
-    """Element boundaries from 0 to length, m; a geometric row, last over first is `stretch`."""
-    sizes = stretch ** (np.arange(elements) / max(1, elements - 1))
-    return np.concatenate(([0.0], np.cumsum(sizes) * (length / sizes.sum())))
+#: The faces of the belt.
+CONTACT, BACK = 0, 1
 
 
 def periodic_stiffness(cells: int, cell: float) -> Array:
@@ -53,106 +49,120 @@ def periodic_stiffness(cells: int, cell: float) -> Array:
     return symbol
 
 
+class Window(NamedTuple):
+    """Loads on consecutive nodes of one face: every row a place with a flux of its own.
+
+    first: number of the first node, unwrapped; loads (rows, nodes), m2.
+    """
+
+    face: int
+    first: int
+    loads: Array
+
+
 class Response(NamedTuple):
     """What a step of given duration does; `modes` x `wave numbers` unless said."""
 
     decay: Array
-    free_mean: Array          # weights of the amplitudes in the contact face's mean over the step
-    forced: Array             # amplitude at the end for load 1
-    face: Array               # (wave numbers,) share in the contact face's mean for load 1
+    free_mean: Array          # (2, modes, numbers) weights of the amplitudes in the faces' means
+    forced: Array             # (2, modes, numbers) amplitude at the end for load 1 on a face
+    kernels: Array            # (2, 2, cells) step-mean of a face at a node for 1 W at node 0
     loss_free: Array          # (modes,) J lost to the air per amplitude of wave number 0
-    loss_forced: float        # J lost to the air per load of wave number 0
+    loss_forced: Array        # (2,) J lost to the air per load of wave number 0 on a face
 
 
 class Belt:
     """Temperature field of the lane (width m) of a belt that runs under the ice.
 
     `rates` (modes, wave numbers), 1/s. `amplitudes` (modes, wave numbers), complex: real FFT
-    along x of the nodes' modal amplitudes. A load is the real FFT of nodal loads in W at the
-    contact face.
+    along x of the nodes' modal amplitudes. A load is the real FFT of nodal loads in W on a face.
     """
 
     def __init__(self, parameters: BeltParameters, lane: float) -> None:
         self.cells = parameters.cells
         self.cell = parameters.length / self.cells
         self.position = np.arange(self.cells) * self.cell
-        basis = CellBasis(
-            MeshLine(graded(parameters.thickness, parameters.elements, _STRETCH)), ElementLineP2())
-        self._order = np.argsort(basis.doflocs[0])
-        self.depth = basis.doflocs[0][self._order]
-        medium = Medium(parameters.density, parameters.heat_capacity, parameters.conductivity)
-        films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()),
-                  parameters.air_heat_transfer)]
-        modes = eigenmodes(basis, films, medium, lambda x: lane + 0.0 * x[0])
-        self._shapes = modes.shapes[self._order]
-        self._face = self._shapes[0]
-        diffusivity = medium.conductivity / medium.capacity
-        self.rates = modes.rates[:, None] + diffusivity * (
+        modes = Thickness(parameters, lane)
+        self.depth = modes.depth
+        self._shapes, self._faces = modes.shapes, modes.faces
+        self.rates = modes.rates[:, None] + modes.along[:, None] * (
             periodic_stiffness(self.cells, self.cell) / self.cell)
         self._heat = modes.heat * self.cell
         self._air = modes.air * self.cell
-        #: Weights that turn a sum over half the wave numbers into one over the nodes.
-        self._parseval = np.full(self.cells // 2 + 1, 2.0 / self.cells)
-        self._parseval[0] = 1.0 / self.cells
-        if self.cells % 2 == 0:
-            self._parseval[-1] = 1.0 / self.cells
         self.amplitudes: Spectrum = np.zeros(self.rates.shape, dtype=np.complex128)
         self.response = LastDurations(self._response)
 
     def _response(self, duration: float) -> Response:
         x = self.rates * duration
         mean, response = mean_decay(x), mean_response(x)
-        entering = self._face[:, None] / self.cell
-        slow = duration * mean[:, 0]
+        entering = self._faces[:, :, None] / self.cell
+        pairs = np.einsum("am,bm,mk->abk", self._faces, entering[..., 0], duration * response)
         return Response(
             decay=decay(x),
-            free_mean=self._face[:, None] * mean,
+            free_mean=self._faces[:, :, None] * mean,
             forced=entering * duration * mean,
-            face=self._parseval * duration * np.sum(
-                self._face[:, None] * entering * response, axis=0),
-            loss_free=self._air * slow,
-            loss_forced=float(np.sum(self._air * entering[:, 0] * response[:, 0]) * duration**2))
+            kernels=irfft(pairs, self.cells, axis=-1),
+            loss_free=self._air * duration * mean[:, 0],
+            loss_forced=np.sum(self._air * entering[..., 0] * response[:, 0], axis=1)
+            * duration**2)
 
-    def spectrum(self, first: int, loads: Array) -> Spectrum:
-        """Real FFT of loads on consecutive nodes from `first` on (wrapped): (rows, numbers)."""
-        rows, count = loads.shape
-        nodal = np.zeros((rows, self.cells))
-        for start in range(0, count, self.cells):
-            piece = loads[:, start:start + self.cells]
-            nodal[:, (first + start + np.arange(piece.shape[1])) % self.cells] += piece
-        return rfft(nodal, axis=1)
+    def nodal(self, first: int, loads: Array) -> Array:
+        """Loads (nodes,) on consecutive nodes from `first` on, wrapped onto the loop: (cells,)."""
+        nodal = np.zeros(self.cells)
+        for start in range(0, loads.size, self.cells):
+            piece = loads[start:start + self.cells]
+            nodal[(first + start + np.arange(piece.size)) % self.cells] += piece
+        return nodal
 
-    def face_means(self, duration: float, weights: Spectrum) -> tuple[Array, Array]:
-        """Step-means of the contact face, summed over the nodes with weights.
+    def face_means(self, duration: float, windows: Sequence[Window]) -> tuple[Array, Array]:
+        """Step-means of the faces under the windows, summed over the nodes with their loads.
 
-        weights (rows, wave numbers): real FFT of nodal weights. Returns the means (rows,)
-        without load, K times the weights' unit, and their response (rows, rows) to loads that
-        are distributed as the weights. Sums by einsum: BLAS would start threads for so little.
+        Returns the means (rows,) without load, K m2, and their response (rows, rows), to fluxes
+        of 1 W/m2 on the rows; rows of all windows in a row.
         """
         response = self.response(duration)
-        free = np.einsum("mk,mk->k", response.free_mean, self.amplitudes)
-        free *= self._parseval
-        parts = weights.view(np.float64)
-        means = np.einsum("rk,k->r", parts, free.view(np.float64))
-        spread = (weights * response.face).view(np.float64)
-        return means, np.einsum("rk,sk->rs", parts, spread)
+        free = {}
+        for face in {window.face for window in windows}:
+            weighted = np.einsum("mk,mk->k", response.free_mean[face], self.amplitudes)
+            free[face] = irfft(weighted, self.cells)
+        nodes = [window.first + np.arange(window.loads.shape[1]) for window in windows]
+        means = [window.loads @ free[window.face][node % self.cells]
+                 for window, node in zip(windows, nodes, strict=True)]
+        blocks = [
+            [a.loads @ response.kernels[a.face, b.face][
+                (i[:, None] - j[None, :]) % self.cells] @ b.loads.T
+             for b, j in zip(windows, nodes, strict=True)]
+            for a, i in zip(windows, nodes, strict=True)]
+        return np.concatenate(means), np.block(blocks)
 
-    def advance(self, duration: float, load: Spectrum) -> float:
-        """Advance by duration (s) under a load (real FFT of W per node); heat to the air, J."""
+    def load(self, windows: Sequence[Window], fluxes: Array) -> dict[int, Spectrum]:
+        """Load of each face under fluxes (rows,) W/m2 on the rows of the windows."""
+        nodal: dict[int, Array] = {}
+        row = 0
+        for window in windows:
+            rows = len(window.loads)
+            loads = self.nodal(window.first, fluxes[row:row + rows] @ window.loads)
+            nodal[window.face] = nodal.get(window.face, 0.0) + loads
+            row += rows
+        return {face: rfft(loads) for face, loads in nodal.items()}
+
+    def advance(self, duration: float, loads: dict[int, Spectrum]) -> float:
+        """Advance by duration (s) under loads of the faces; heat to the air, J."""
         response = self.response(duration)
-        loss = (self.amplitudes[:, 0].real @ response.loss_free
-                + load[0].real * response.loss_forced)
+        loss = self.amplitudes[:, 0].real @ response.loss_free
         self.amplitudes *= response.decay
-        self.amplitudes += response.forced * load
+        for face, load in loads.items():
+            loss += load[0].real * response.loss_forced[face]
+            self.amplitudes += response.forced[face] * load
         return float(loss)
 
     def heat(self) -> float:
         """Heat stored above ambient, J."""
         return float(self._heat @ self.amplitudes[:, 0].real)
 
-    def face(self) -> Array:
-        """Contact face at the nodes, K above the air: (cells,)."""
-        return irfft(np.einsum("m,mk->k", self._face, self.amplitudes), self.cells)
+    def face(self, which: int = CONTACT) -> Array:
+        """A face at the nodes, K above the air: (cells,)."""
+        return irfft(np.einsum("m,mk->k", self._faces[which], self.amplitudes), self.cells)
 
     def field(self) -> Array:
         """Temperature rise at all nodes, K: (cells, depths)."""

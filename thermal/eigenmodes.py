@@ -26,14 +26,14 @@ _SLOWEST = 40
 
 @dataclass(frozen=True)
 class Medium:
-    """Density kg/m3, heat capacity J/kgK, conductivity W/mK."""
+    """Density kg/m3, heat capacity J/kgK, conductivity W/mK; where it varies, (elements, 1)."""
 
-    density: float
-    heat_capacity: float
-    conductivity: float
+    density: float | Array
+    heat_capacity: float | Array
+    conductivity: float | Array
 
     @property
-    def capacity(self) -> float:
+    def capacity(self) -> float | Array:
         """Heat capacity of a volume, J/m3K."""
         return self.density * self.heat_capacity
 

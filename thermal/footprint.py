@@ -31,15 +31,17 @@ def disc_on_strip(radius: float, width: float) -> float:
 class Footprint:
     """Equivalent rectangle of a disc (radius, m) on a belt (width, m), cut into strips.
 
-    `lane` and `length` (m) are its sides, `area` (m2) is theirs and the true contact's.
+    length (m, > 0): the contact is itself a rectangle of that length along the motion. `lane`
+    and `length` (m) are the sides, `area` (m2) is theirs and the true contact's.
     """
 
-    def __init__(self, radius: float, width: float, strips: int) -> None:
+    def __init__(self, radius: float, width: float, strips: int, length: float = 0.0) -> None:
         self.radius = radius
         self.width = width
         self.strips = strips
-        self.area = float(disc_on_strip(radius, width))
         self.lane = min(width, 2.0 * radius)
+        self.rectangular = length > 0.0
+        self.area = length * self.lane if self.rectangular else float(disc_on_strip(radius, width))
         self.length = self.area / self.lane
         #: Edges of the strips, m from the centre: (strips + 1,).
         self.edges = np.linspace(-0.5 * self.length, 0.5 * self.length, strips + 1)
@@ -49,8 +51,18 @@ class Footprint:
         """Area of one strip, m2."""
         return self.area / self.strips
 
+    @property
+    def touching(self) -> float:
+        """Radius (m) up to which the ice's face touches all round."""
+        return np.sqrt(self.area / np.pi) if self.rectangular else 0.5 * self.width
+
     def arc_share(self, r: Array) -> Array:
-        """Share of the circle of radius r (m) about the disc's centre that lies on the belt."""
+        """Share of the circle of radius r (m) about the disc's centre that lies on the belt.
+
+        The ice is a body of revolution: a rectangle becomes the disc of its area there.
+        """
+        if self.rectangular:
+            return np.where(r <= self.touching, 1.0, 0.0)
         half = 0.5 * self.width
         return 2.0 / np.pi * np.arcsin(np.minimum(1.0, half / np.maximum(r, half)))
 
@@ -61,15 +73,21 @@ class Footprint:
         i * cell, m. Returns the first node's number (unwrapped, may be negative) and the
         loads, shape (strips, nodes), m2; every row sums to a strip's area.
         """
-        half = 0.5 * self.length
-        first = int(np.floor((centre + min(movement, 0.0) - half) / cell))
-        last = int(np.ceil((centre + max(movement, 0.0) + half) / cell))
-        x = np.arange(first - 1, last + 2) * cell - centre
-        past = np.maximum(x - self.edges[:, None], 0.0)
-        moved = np.maximum(x - movement - self.edges[:, None], 0.0)
-        # (past^3 - moved^3) / (6 movement), factored: no digits are lost for a small movement.
-        share = np.where((past > 0.0) & (moved > 0.0), 1.0, (past - moved) / (movement or 1.0))
-        integral = share * (past * past + past * moved + moved * moved) / 6.0
-        of_strips = integral[:-1] - integral[1:]
-        loads = of_strips[:, 2:] - 2.0 * of_strips[:, 1:-1] + of_strips[:, :-2]
-        return first, loads * (self.strip_area / loads.sum(axis=1))[:, None]
+        return strip_loads(self.edges, self.lane, centre, movement, cell)
+
+
+def strip_loads(edges: Array, lane: float, centre: float, movement: float,
+                cell: float) -> tuple[int, Array]:
+    """Loads of neighbouring strips, as `Footprint.loads`; edges: (strips + 1,) m from centre."""
+    first = int(np.floor((centre + min(movement, 0.0) + edges[0]) / cell))
+    last = int(np.ceil((centre + max(movement, 0.0) + edges[-1]) / cell))
+    x = np.arange(first - 1, last + 2) * cell - centre
+    past = np.maximum(x - edges[:, None], 0.0)
+    moved = np.maximum(x - movement - edges[:, None], 0.0)
+    # (past^3 - moved^3) / (6 movement), factored: no digits are lost for a small movement.
+    share = np.where((past > 0.0) & (moved > 0.0), 1.0, (past - moved) / (movement or 1.0))
+    integral = share * (past * past + past * moved + moved * moved) / 6.0
+    of_strips = integral[:-1] - integral[1:]
+    loads = of_strips[:, 2:] - 2.0 * of_strips[:, 1:-1] + of_strips[:, :-2]
+    areas = np.diff(edges) * lane
+    return first, loads * (areas / loads.sum(axis=1))[:, None]

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 class HeatLedger:
     """Totals since the start, J.
 
-    `to_air` is integrated along with the temperatures, `belt` and `ice` are read off the
-    temperature fields: none of them is inferred from the others, so `residual` can fail.
+    `to_air` and `to_supports` are integrated along with the temperatures, `belt` and `ice` are
+    read off the temperature fields: none of them is inferred from the others, so `residual` can
+    fail.
     """
 
     received: float = 0.0
     from_contact_to_belt: float = 0.0
     to_air: float = 0.0
+    to_supports: float = 0.0
     latent: float = 0.0
     belt: float = 0.0
     ice: float = 0.0
@@ -26,7 +28,8 @@ class HeatLedger:
     @property
     def residual(self) -> float:
         """Received less everything found: 0 up to rounding."""
-        return self.received - (self.belt + self.ice + self.to_air + self.latent)
+        return self.received - (
+            self.belt + self.ice + self.to_air + self.to_supports + self.latent)
 
     @property
     def belt_share(self) -> float:

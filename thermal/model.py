@@ -7,12 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .belt import Belt
-from .contact import BeltFace, Fluxes, IceFace, exchange
+from .contact import Fluxes, IceFace, exchange
 from .footprint import Footprint
 from .ice import Ice
 from .ledger import HeatLedger
 from .parameters import MELTING_POINT_DEGC, ThermalParameters
+from .track import Given, Track
 
 Array = NDArray[np.float64]
 
@@ -38,10 +38,12 @@ class BeltIceModel:
     def __init__(self, parameters: ThermalParameters | None = None) -> None:
         self.parameters = parameters = parameters or ThermalParameters()
         contact = parameters.contact
-        self.footprint = Footprint(contact.radius, parameters.belt.width, contact.strips)
-        self.belt = Belt(parameters.belt, self.footprint.lane)
+        self.footprint = Footprint(
+            contact.radius, parameters.belt.width, contact.strips, contact.length)
+        self.track = Track(parameters.belt, self.footprint)
+        self.belt = self.track.belt
         self.ice = Ice(parameters.ice, contact.radius, self.footprint.arc_share,
-                       touching=0.5 * parameters.belt.width)
+                       touching=self.footprint.touching)
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
         self._longest = _MOVEMENT * self.footprint.length
@@ -77,22 +79,15 @@ class BeltIceModel:
                            / (self.parameters.ice.latent_heat * duration))
 
     def _advance(self, duration: float, heat: float, displacement: float) -> None:
-        """One internal step: loads of the strips, fluxes, both fields, ledger.
-
-        Sums over the wave numbers by einsum: BLAS would start threads for so little.
-        """
-        footprint, length = self.footprint, self.parameters.belt.length
-        first, loads = footprint.loads(self.contact_position, -displacement, self.belt.cell)
-        strips = self.belt.spectrum(first, loads)
-        sums, response = self.belt.face_means(duration, strips)
-        belt_face = BeltFace(sums / footprint.strip_area, response / footprint.strip_area)
+        """One internal step: what it finds, the fluxes, both fields, the ledger."""
+        seen = self.track.see(duration, self.contact_position, -displacement)
         fluxes = exchange(
-            belt_face, self._ice_face(duration), self.parameters.contact.conductance,
-            self.parameters.belt.air_heat_transfer, heat / (duration * footprint.area))
-        to_air = self.belt.advance(duration, np.einsum("s,sk->k", fluxes.belt, strips))
-        to_air += self.ice.advance(duration, fluxes.ice * footprint.area)
-        self._book(duration, heat, to_air, fluxes, belt_face)
-        self._travel = math.fmod(self._travel + displacement, length)
+            seen.contact.face, self._ice_face(duration), self.parameters.contact.conductance,
+            self.parameters.belt.air_heat_transfer, heat / (duration * self.footprint.area))
+        given = self.track.advance(duration, seen, fluxes.belt)
+        to_air = self.ice.advance(duration, fluxes.ice * self.footprint.area)
+        self._book(duration, heat, fluxes, given, to_air)
+        self._travel = math.fmod(self._travel + displacement, self.parameters.belt.length)
 
     def _ice_face(self, duration: float) -> IceFace:
         response = self.ice.response(duration)
@@ -101,16 +96,16 @@ class BeltIceModel:
         return IceFace(mean, end, response.face_mean * area, response.face_end * area,
                        MELTING_POINT_DEGC - self._ambient)
 
-    def _book(self, duration: float, heat: float, to_air: float, fluxes: Fluxes,
-              belt_face: BeltFace) -> None:
-        """Add one internal step to the ledger; `to_air` as if the block covered nothing."""
-        strip_temperatures = belt_face.free + belt_face.response @ fluxes.belt
-        ledger, area = self.ledger, self.footprint.strip_area
-        covered = self.parameters.belt.air_heat_transfer * area * strip_temperatures.sum()
+    def _book(self, duration: float, heat: float, fluxes: Fluxes, given: Given,
+              ice_to_air: float) -> None:
+        """Add one internal step to the ledger."""
+        ledger, footprint = self.ledger, self.footprint
         ledger.received += heat
-        ledger.to_air += to_air - float(covered) * duration
-        ledger.from_contact_to_belt += float(fluxes.from_contact.sum()) * area * duration
-        ledger.latent += fluxes.melting * self.footprint.area * duration
+        ledger.to_air += given.to_air + ice_to_air
+        ledger.to_supports += given.to_supports
+        ledger.from_contact_to_belt += (
+            float(fluxes.from_contact.sum()) * footprint.strip_area * duration)
+        ledger.latent += fluxes.melting * footprint.area * duration
 
     def outputs(self) -> dict[str, float]:
         """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, J.
@@ -138,6 +133,7 @@ class BeltIceModel:
             "belt_heat": ledger.belt,
             "ice_heat": ledger.ice,
             "air_heat": ledger.to_air,
+            "support_heat": ledger.to_supports,
             "latent_heat": ledger.latent,
             "heat_residual": ledger.residual,
         }

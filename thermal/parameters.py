@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Any, Self
@@ -39,13 +40,25 @@ class Ambient(Block):
         ge=-100.0, lt=MELTING_POINT_DEGC)
 
 
+class Layer(Block):
+    """One layer of a belt."""
+
+    thickness: float = quantity(..., "m", "thickness", gt=0.0, le=0.1)
+    density: float = quantity(..., "kg/m3", "density", gt=0.0, le=3e4)
+    heat_capacity: float = quantity(..., "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)
+    conductivity: float = quantity(..., "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
+
+
 class Belt(Block):
-    """An endless belt, one homogeneous layer.
+    """An endless belt, one homogeneous layer unless `layers` says otherwise.
 
     Length, width and mass per length (0.0525 kg/m at 75 mm) are those of the sanding belt of
     the test rig; 840 J/kgK is the source study's figure. Conductivity of paper and cloth
     backed abrasive lies in 0.25 ... 2 W/mK and was not measured. 5 ... 25 W/m2K is still air
     to a light draught; the study's rate of 0.25 1/s would need 73.5 W/m2K.
+
+    A railing carries the belt below the ice, rollers turn it: where they touch the back, they
+    take the place of the air, at the air's temperature. A railing of conductance 0 only covers.
     """
 
     length: float = quantity(1.0, "m", "length of the loop", gt=0.0, le=100.0)
@@ -56,6 +69,22 @@ class Belt(Block):
     conductivity: float = quantity(0.5, "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
     air_heat_transfer: float = quantity(
         15.0, "W/(m2.K)", "heat transfer to the air, on each free face", ge=0.0, le=1e4)
+    layers: tuple[Layer, ...] = Field(
+        (), max_length=10,
+        description="layers from the contact face to the back, in place of thickness, density,"
+                    " heat_capacity and conductivity")
+    railing_length: float = quantity(
+        0.0, "m", "length of the railing along the belt, its middle below the contact's; 0: none",
+        ge=0.0, le=100.0)
+    railing_conductance: float = quantity(
+        0.0, "W/(m2.K)", "from the back of the belt to the railing", ge=0.0, le=1e12)
+    rollers: int = Field(
+        0, ge=0, le=20, description="rollers, evenly spread from half a spacing after the contact")
+    roller_arc: float = quantity(
+        0.1, "m", "length of belt that touches a roller; half the circumference of a 64 mm one",
+        gt=0.0, le=100.0)
+    roller_conductance: float = quantity(
+        100.0, "W/(m2.K)", "from the back of the belt to a roller", ge=0.0, le=1e12)
     elements: int = Field(
         6, ge=1, le=40, description="P2 elements through the thickness, finest at the contact")
     cell_length: float = quantity(
@@ -65,6 +94,18 @@ class Belt(Block):
     def cells(self) -> int:
         """Cells along the loop, at least eight."""
         return max(8, round(self.length / self.cell_length))
+
+    @property
+    def stack(self) -> tuple[Layer, ...]:
+        """The layers, one of the belt's own properties when none are given."""
+        return self.layers or (Layer(
+            thickness=self.thickness, density=self.density, heat_capacity=self.heat_capacity,
+            conductivity=self.conductivity),)
+
+    @property
+    def capacity_per_area(self) -> float:
+        """Heat capacity of the belt per area, J/m2K."""
+        return sum(layer.thickness * layer.density * layer.heat_capacity for layer in self.stack)
 
 
 class Ice(Block):
@@ -94,6 +135,10 @@ class Contact(Block):
     """
 
     radius: float = quantity(0.04, "m", "radius of the ice cylinder", gt=0.0, le=10.0)
+    length: float = quantity(
+        0.0, "m", "length of a rectangular contact along the motion, as wide as the belt or the"
+        " cylinder, the narrower; 0: the contact is the part of the cylinder's face on the belt",
+        ge=0.0, le=20.0)
     conductance: float = quantity(
         1e4, "W/(m2.K)", "contact conductance between the two faces", gt=0.0, le=1e12)
     strips: int = Field(
@@ -123,6 +168,40 @@ class ThermalParameters(Block):
                 f" {MOST_CELLS} cells")
         return self
 
+    @model_validator(mode="after")
+    def _contact_on_ice(self) -> Self:
+        contact = self.contact
+        area = contact.length * min(self.belt.width, 2.0 * contact.radius)
+        face = math.pi * contact.radius**2
+        if area > face * (1.0 + 1e-9):
+            raise ValueError(
+                f"contact.length = {contact.length:g} m makes a contact of {area:g} m2, more than"
+                f" the ice's face of {face:g} m2: take a larger contact.radius")
+        return self
+
+    @model_validator(mode="after")
+    def _layers_or_one(self) -> Self:
+        belt = self.belt
+        given = [key for key in Layer.model_fields
+                 if getattr(belt, key) != Belt.model_fields[key].default]
+        if belt.layers and given:
+            raise ValueError(
+                f"belt.{given[0]} = {getattr(belt, given[0]):g} and belt.layers are both given:"
+                " the layers say it all, leave one of the two out")
+        return self
+
+    @model_validator(mode="after")
+    def _supports_fit(self) -> Self:
+        belt = self.belt
+        one = belt.railing_length + (belt.roller_arc if belt.rollers else 0.0)
+        room = belt.length / max(1, belt.rollers)
+        if one > room:
+            raise ValueError(
+                f"belt.length = {belt.length:g} m is too short for a railing of"
+                f" {belt.railing_length:g} m and {belt.rollers} rollers that touch"
+                f" {belt.roller_arc:g} m each")
+        return self
+
     @classmethod
     def checked(cls, blocks: Mapping[str, Any]) -> Self:
         """Parameters from a mapping of blocks, as a TOML file holds them.
@@ -138,12 +217,19 @@ class ThermalParameters(Block):
 _BLOCKS = {"ambient": Ambient, "belt": Belt, "ice": Ice, "contact": Contact}
 
 
+def _fields_of(owner: tuple) -> Mapping[str, Any]:
+    """Names that are allowed in a block, in one of its layers, or at the top."""
+    if not owner:
+        return _BLOCKS
+    return (Layer if isinstance(owner[-1], int) else _BLOCKS[owner[0]]).model_fields
+
+
 def _one_line(fault: Mapping[str, Any]) -> str:
     """Key, value and what is allowed, from an entry of pydantic's report."""
     key = ".".join(str(part) for part in fault["loc"])
     if fault["type"] == "extra_forbidden":
         owner, name = fault["loc"][:-1], str(fault["loc"][-1])
-        known = list(_BLOCKS[owner[0]].model_fields if owner else _BLOCKS)
+        known = list(_fields_of(owner))
         near = get_close_matches(name, known, 1)
         hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
         return f"{key} is not a parameter: {hint}"

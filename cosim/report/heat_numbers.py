@@ -12,7 +12,10 @@ TEMPERATURES = (
     "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
     "ice_face_temperature",
 )
-SINKS = {"belt": "belt_heat", "ice": "ice_heat", "air": "air_heat", "melting": "latent_heat"}
+SINKS = {
+    "belt": "belt_heat", "ice": "ice_heat", "air": "air_heat", "supports": "support_heat",
+    "melting": "latent_heat",
+}
 
 
 def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:

@@ -19,6 +19,7 @@ THERMAL = {
     "belt_heat": ("J", "heat stored in the belt above the start"),
     "ice_heat": ("J", "heat stored in the ice above the start"),
     "air_heat": ("J", "heat given to the air since the start"),
+    "support_heat": ("J", "heat given to railing and rollers since the start"),
     "latent_heat": ("J", "heat spent on melting since the start"),
     "heat_residual": ("J", "heat received less heat found: the thermal model's error"),
 }

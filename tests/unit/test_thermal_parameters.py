@@ -13,9 +13,9 @@ def test_defaults_are_the_rig():
 
 def test_every_number_states_its_unit():
     schema = ThermalParameters.model_json_schema()
-    for block in ("Ambient", "Belt", "Ice", "Contact"):
+    for block in ("Ambient", "Belt", "Layer", "Ice", "Contact"):
         for name, entry in schema["$defs"][block]["properties"].items():
-            assert "unit" in entry or entry["type"] == "integer", f"{block}.{name}"
+            assert "unit" in entry or entry["type"] in ("integer", "array"), f"{block}.{name}"
 
 
 @pytest.mark.parametrize(("blocks", "says"), [

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
+from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, Layer, ThermalParameters
 
 CLOSED = 1e-10
 
@@ -17,6 +17,22 @@ CASES = {
     "poor contact": ThermalParameters(belt=Belt(**SHORT), contact=Contact(conductance=5.0)),
     "perfect contact, wide belt": ThermalParameters(
         belt=Belt(width=0.3, **SHORT), contact=Contact(conductance=1e12, strips=3)
+    ),
+    "layers, railing, rollers": ThermalParameters(
+        belt=Belt(
+            layers=(
+                Layer(thickness=3e-4, density=2600.0, heat_capacity=780.0, conductivity=2.0),
+                Layer(thickness=7e-4, density=500.0, heat_capacity=1300.0, conductivity=0.12),
+            ),
+            railing_length=0.1,
+            railing_conductance=200.0,
+            rollers=2,
+            roller_arc=0.04,
+            **SHORT,
+        )
+    ),
+    "rectangle": ThermalParameters(
+        belt=Belt(**SHORT), contact=Contact(radius=0.045, length=0.08)
     ),
     "odd cells": ThermalParameters(belt=Belt(length=0.305, cell_length=5e-3)),
 }

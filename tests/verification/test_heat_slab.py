@@ -5,12 +5,13 @@ Slab of thickness d, conductivity k, diffusivity alpha, effusivity e; z from the
 
 import numpy as np
 import pytest
+from scipy.fft import rfft
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 from skfem import BilinearForm, CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
 from thermal import Belt as BeltParameters
-from thermal.belt import Belt
+from thermal.belt import CONTACT, Belt
 
 D, K, RHO, C = 1e-3, 0.5, 700.0, 840.0
 ALPHA, EFFUSIVITY = K / (RHO * C), np.sqrt(K * RHO * C)
@@ -40,7 +41,7 @@ def slab(elements=6, h=0.0, cells=8, length=1.0):
 
 def uniform_flux(belt, flux):
     """Load of a flux (W/m2) over the whole contact face."""
-    return belt.spectrum(0, np.full((1, belt.cells), flux * LANE * belt.cell))[0]
+    return {CONTACT: rfft(np.full(belt.cells, flux * LANE * belt.cell))}
 
 
 def orders(sizes, errors):

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from ..heat_numbers import SINKS
 from ..style import (
     BLUE,
+    GREEN,
     INK,
     ORANGE,
     PURPLE,
@@ -25,8 +26,13 @@ from ..style import (
     title,
 )
 
-COLOURS = {"belt": BLUE, "ice": SKY, "air": ORANGE, "melting": PURPLE}
-LABELS = {"belt": "in the belt", "ice": "in the ice", "air": "in the air", "melting": "melting"}
+COLOURS = {"belt": BLUE, "ice": SKY, "air": ORANGE, "supports": GREEN, "melting": PURPLE}
+LABELS = {
+    "belt": "in the belt", "ice": "in the ice", "air": "in the air", "supports": "in the supports",
+    "melting": "melting",
+}
+#: Sinks that most runs do not have.
+RARE = ("supports", "melting")
 
 
 @styled
@@ -60,10 +66,10 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
 
 
 def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
-    """Sinks that the dataset knows -> variable; melting only where something melted."""
+    """Sinks that the dataset knows -> variable; the rare ones only where they took heat."""
     return {
         sink: name for sink, name in SINKS.items()
-        if name in dataset and (sink != "melting" or float(dataset[name].max()) > 0.0)
+        if name in dataset and (sink not in RARE or float(dataset[name].max()) > 0.0)
     }
 
 

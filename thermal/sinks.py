@@ -1,0 +1,77 @@
+"""Railing and rollers: what touches the back of the belt and stays at the air's temperature.
+
+They stand still while the belt runs over them, like the ice. Each is cut into strips, in each of
+which the flux into the belt is uniform over a step,
+
+    p = -(h - h_air) T,
+
+T the step-mean of the back over the strip (a rise above the air): the belt's modes lose heat to
+the air over the whole back, which a support covers. The strips of all supports are eliminated
+before the contact is solved, so that the contact sees a belt that knows its supports.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .contact import BeltFace
+from .parameters import Belt as BeltParameters
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Support:
+    """A railing or a roller: its middle, m behind the contact's; strip edges, m from its middle."""
+
+    behind: float
+    edges: Array
+    conductance: float
+
+
+def supports(belt: BeltParameters, strip: float) -> list[Support]:
+    """All supports of a belt, cut into strips not longer than `strip` (m)."""
+
+    def cut(length: float) -> Array:
+        return np.linspace(-0.5 * length, 0.5 * length, int(np.ceil(length / strip)) + 1)
+
+    found = []
+    if belt.railing_length > 0.0:
+        found.append(Support(0.0, cut(belt.railing_length), belt.railing_conductance))
+    spacing = belt.length / max(1, belt.rollers)
+    found += [Support((n + 0.5) * spacing, cut(belt.roller_arc), belt.roller_conductance)
+              for n in range(belt.rollers)]
+    return found
+
+
+@dataclass(frozen=True)
+class Eliminated:
+    """The belt seen from the contact, and how the supports answer what happens there."""
+
+    face: BeltFace
+    _own: Array
+    _answer: Array
+
+    def fluxes(self, contact: Array) -> Array:
+        """Fluxes into the belt of all strips, W/m2: the contact's, then the supports'."""
+        return np.concatenate((contact, -self._own - self._answer @ contact))
+
+
+def eliminate(free: Array, response: Array, excess: Array) -> Eliminated:
+    """Solve for the supports' strips, the last ones, in terms of the contact's.
+
+    free (strips,) K, response (strips, strips) K m2/W of all strips; excess: h - h_air of the
+    supports' strips, W/m2K.
+    """
+    contact = free.size - excess.size
+    matrix = np.eye(excess.size) + excess[:, None] * response[contact:, contact:]
+    right = excess[:, None] * np.column_stack((free[contact:], response[contact:, :contact]))
+    solved = np.linalg.solve(matrix, right)
+    own, answer = solved[:, 0], solved[:, 1:]
+    across = response[:contact, contact:]
+    return Eliminated(
+        BeltFace(free[:contact] - across @ own, response[:contact, :contact] - across @ answer),
+        own, answer)

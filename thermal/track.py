@@ -1,0 +1,73 @@
+"""The belt with what touches it: the ice on the contact face, railing and rollers at the back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .belt import BACK, CONTACT, Belt, Window
+from .footprint import Footprint, strip_loads
+from .parameters import Belt as BeltParameters
+from .sinks import Eliminated, eliminate, supports
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Seen:
+    """The belt as a step finds it: places, their step-means without flux, their response."""
+
+    windows: list[Window]
+    free: Array
+    response: Array
+    contact: Eliminated
+
+
+@dataclass(frozen=True)
+class Given:
+    """Heat that the belt gave away in a step, J: to the air and to its supports."""
+
+    to_air: float
+    to_supports: float
+
+
+class Track:
+    """`belt` and its supports; all of them stand still while the belt runs."""
+
+    def __init__(self, parameters: BeltParameters, footprint: Footprint) -> None:
+        self.belt = Belt(parameters, footprint.lane)
+        self._footprint = footprint
+        self._supports = supports(parameters, footprint.length / footprint.strips)
+        self._air = parameters.air_heat_transfer
+        strips = [np.diff(support.edges) for support in self._supports]
+        self._conductances = np.concatenate([np.zeros(0)] + [
+            np.full(lengths.size, support.conductance)
+            for support, lengths in zip(self._supports, strips, strict=True)])
+        #: Areas of all places with a flux of their own, m2: the contact's strips come first.
+        self._areas = np.concatenate(
+            [np.full(footprint.strips, footprint.strip_area)]
+            + [lengths * footprint.lane for lengths in strips])
+
+    def see(self, duration: float, centre: float, movement: float) -> Seen:
+        """What a step of some duration (s) finds, the contact moving from `centre` (m)."""
+        cell = self.belt.cell
+        windows = [Window(CONTACT, *self._footprint.loads(centre, movement, cell))]
+        windows += [
+            Window(BACK, *strip_loads(support.edges, self._footprint.lane,
+                                      centre + support.behind, movement, cell))
+            for support in self._supports]
+        means, response = self.belt.face_means(duration, windows)
+        free, response = means / self._areas, response / self._areas[:, None]
+        contact = eliminate(free, response, self._conductances - self._air)
+        return Seen(windows, free, response, contact)
+
+    def advance(self, duration: float, seen: Seen, contact: Array) -> Given:
+        """Advance by a step that was `seen`, with the fluxes of the contact's strips, W/m2."""
+        fluxes = seen.contact.fluxes(contact)
+        everywhere = self.belt.advance(duration, self.belt.load(seen.windows, fluxes))
+        times = duration * self._areas * (seen.free + seen.response @ fluxes)
+        return Given(
+            everywhere - self._air * float(times.sum()),
+            float(self._conductances @ times[self._footprint.strips:]))
