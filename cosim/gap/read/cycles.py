@@ -13,8 +13,8 @@ from cosim.gap.read.measured import MeasuredRun, Stick, Track
 #: A gap of more than this part of the natural period may hide a cycle.
 GAP = 0.5
 #: Slips that last longer than a free vibration (times omega) have unseen sticks in them; with more
-#: than a few of these, break-aways are no count of cycles.
-WHOLE_SLIP, FEW = 2.0 * math.pi * 1.1, 0.1
+#: than some of these, break-aways are no count of cycles.
+WHOLE_SLIP, FEW = 2.0 * math.pi * 1.1, 0.3
 
 
 @dataclass(frozen=True)
