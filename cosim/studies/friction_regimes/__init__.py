@@ -1,0 +1,23 @@
+"""Friction against speed and temperature in steady coupled sliding: the regimes and their slopes.
+
+Dry, boundary (asperities melt in passing), mixed and hydrodynamic friction (a film of melt is
+sheared), as the effects temperature_dependence, asperity_melting and melt_film make them.
+"""
+
+from .figure import draw_map
+from .map import FrictionMap, friction_map
+from .slopes import DecadeSlope, decade_slopes, lowest_friction
+from .steady import NotSteady, SteadySliding, steady_scenario, steady_sliding
+
+__all__ = [
+    "DecadeSlope",
+    "FrictionMap",
+    "NotSteady",
+    "SteadySliding",
+    "decade_slopes",
+    "draw_map",
+    "friction_map",
+    "lowest_friction",
+    "steady_scenario",
+    "steady_sliding",
+]

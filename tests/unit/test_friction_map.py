@@ -1,0 +1,88 @@
+"""`stickslip friction-map`: slopes and minimum of known curves, what is left, bad input."""
+
+import argparse
+import csv
+import json
+
+import numpy as np
+import pytest
+
+from cosim import read_scenario
+from cosim.studies import friction_regimes_command
+from cosim.studies.friction_regimes import (
+    decade_slopes,
+    friction_map,
+    lowest_friction,
+    steady_scenario,
+)
+
+CASE = read_scenario("melting_friction").changed(
+    {"ice.radial_elements": 2, "ice.axial_elements": 3, "belt.cell_length": 4e-3}
+)
+
+
+def call(*argv):
+    parser = argparse.ArgumentParser()
+    friction_regimes_command.add_arguments(parser)
+    return friction_regimes_command.execute(parser.parse_args([str(word) for word in argv]))
+
+
+def test_slope_of_a_power_over_each_decade():
+    speed = np.geomspace(0.1, 100.0, 10)
+    slopes = decade_slopes(speed, 3.0 * speed**-0.5)
+    assert [entry.slope for entry in slopes] == pytest.approx([-0.5] * 7, rel=1e-12)
+    assert (slopes[0].low, slopes[0].high) == pytest.approx((0.1, 1.0))
+    assert (slopes[-1].low, slopes[-1].high) == pytest.approx((10.0, 100.0))
+
+
+def test_less_than_a_decade_has_no_slope():
+    assert decade_slopes([1.0, 2.0, 3.0, 4.0, 9.0], np.ones(5)) == []
+
+
+def test_minimum_of_a_parabola_on_logarithmic_axes():
+    speed = np.array([0.2, 0.5, 1.0, 2.0, 7.0])
+    value = 0.03 * np.exp(0.3 * np.log(speed / 1.2) ** 2)
+    assert lowest_friction(speed, value) == pytest.approx((1.2, 0.03), rel=1e-9)
+    assert lowest_friction(speed, speed) is None
+
+
+def test_the_block_stands_at_its_balance_from_the_start():
+    case = steady_scenario(CASE, 0.1, -8.0, 1.0)
+    (point,) = friction_map(CASE, [0.1], [-8.0], 0.1).points
+    force = 4.0 * case.springs.stiffness * case.initial.x
+    assert force == pytest.approx(point.law * 0.67 * 9.81, rel=1e-12)
+    assert point.speed == pytest.approx(0.1, rel=1e-4)
+    assert point.friction == pytest.approx(point.law, rel=1e-3)
+
+
+def test_what_the_command_leaves(tmp_path, capsys):
+    file = tmp_path / "case.toml"
+    file.write_text(CASE.to_toml())
+    speeds = [0.02, 0.05, 0.1, 0.2]
+    argv = [file, "--speed", *speeds, "--ambient", -8, "--duration", 0.1, "-o", tmp_path]
+    assert call(*argv) == 0
+    said = capsys.readouterr().out
+    assert "-8 degC" in said and "steepest fall: slope -0.4" in said and "4 coupled runs" in said
+    found = json.loads((tmp_path / "friction_map.json").read_text())
+    assert found["regimes"][0]["steepest_fall"]["slope"] == pytest.approx(-0.49, abs=0.01)
+    assert found["regimes"][0]["minimum"] is None
+    with (tmp_path / "friction_map.csv").open() as table:
+        rows = list(csv.DictReader(table))
+    assert [float(row["speed"]) for row in rows] == pytest.approx(speeds, rel=1e-3)
+    assert (tmp_path / "friction_map.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    "changes, speed, ambient, line",
+    [
+        ({}, 0.0, -8.0, "speed = 0 m/s: allowed is above 0"),
+        ({}, 0.1, 1.0, "ambient.temperature_degC"),
+        ({"springs.stiffness": 0.0}, 0.1, -8.0, "springs.stiffness = 0 N/m: friction of 0.188 N"),
+        ({"springs.stiffness": 0.2}, 0.1, -8.0, "into the springs' anchors"),
+    ],
+)
+def test_what_cannot_slide_steadily_is_refused_in_one_line(changes, speed, ambient, line):
+    with pytest.raises(ValueError, match=line) as refused:
+        friction_map(CASE.changed(changes), [speed], [ambient], 0.1)
+    assert isinstance(refused.value, friction_regimes_command.REFUSED)
+    assert "\n" not in str(refused.value)
