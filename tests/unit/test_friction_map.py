@@ -77,7 +77,7 @@ def test_what_the_command_leaves(tmp_path, capsys):
     [
         ({}, 0.0, -8.0, "speed = 0 m/s: allowed is above 0"),
         ({}, 0.1, 1.0, "ambient.temperature_degC"),
-        ({"springs.stiffness": 0.0}, 0.1, -8.0, "springs.stiffness = 0 N/m: friction of 0.188 N"),
+        ({"springs.stiffness": 0.0}, 0.1, -8.0, "springs.stiffness = 0 N/m: friction of 0.191 N"),
         ({"springs.stiffness": 0.2}, 0.1, -8.0, "into the springs' anchors"),
     ],
 )

@@ -103,8 +103,8 @@ def steady_scenario(
     reach = 4.0 * case.springs.stiffness * case.rig.spring_length
     if force >= reach:
         raise NotSteady(
-            f"springs.stiffness = {case.springs.stiffness:g} N/m: friction of {force:.3g} N carries "
-            f"the block into the springs' anchors; allowed is what holds it within "
+            f"springs.stiffness = {case.springs.stiffness:g} N/m: friction of {force:.3g} N "
+            "carries the block into the springs' anchors; allowed is what holds it within "
             f"rig.spring_length = {case.rig.spring_length:g} m"
         )
     return case.changed(
