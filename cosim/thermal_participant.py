@@ -19,12 +19,15 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     belt_share="1",
     melt_rate="kg/s",
     melted_mass="kg",
+    refrozen_mass="kg",
+    film_thickness="m",
     heat_received="J",
     belt_heat="J",
     ice_heat="J",
     air_heat="J",
     support_heat="J",
     latent_heat="J",
+    meltwater_heat="J",
     heat_residual="J",
 )
 

@@ -47,14 +47,17 @@ class Receding(NamedTuple):
 
 
 class Ablation:
-    """The melting face of an ice body; area: of the contact, m2; melting: K above the air."""
+    """The melting face of an ice body; area: of the contact, m2; melting: K above the air.
+
+    `speed`: of the face in the last step, m/s, where the next iteration starts; `melt_heat` J/kg.
+    """
 
     def __init__(self, ice: IceBody, parameters: IceParameters, area: float,
                  melting: float) -> None:
         self._ice, self._area, self._melting = ice, area, melting
         self.melt_heat = melt_heat(parameters, melting)
         self._volume_heat = parameters.density * self.melt_heat
-        self._speed = 0.0
+        self.speed = 0.0
 
     def parts(self, heat: float) -> int:
         """Internal steps that keep each recession short, should all the heat (J) melt ice."""
@@ -68,7 +71,7 @@ class Ablation:
         """
         ice, area = self._ice, self._area
         refreezing = available * self.melt_heat / (area * duration)
-        recession, load, sinking = self._speed * duration, 0.0, None
+        recession, load, sinking = self.speed * duration, 0.0, None
         for _ in range(_MOST_ITERATIONS):
             if recession != 0.0:
                 sinking = ice.sinking(duration, recession, load, sinking)
@@ -79,16 +82,8 @@ class Ablation:
             before, recession = recession, fluxes.melting * duration / self._volume_heat
             load = fluxes.ice * area
             if abs(recession - before) <= _ABSOLUTE + _RELATIVE * abs(recession):
-                self._speed = recession / duration
+                self.speed = recession / duration
                 return Receding(fluxes, sinking if recession != 0.0 else None, recession)
         raise ArithmeticError(
             f"melting {before:g} m of ice in {duration:g} s: the iteration for the melt rate did"
             f" not settle in {_MOST_ITERATIONS} passes; take a shorter step")
-
-    def state(self) -> float:
-        """Speed of the face in the last step, m/s: where the next iteration starts."""
-        return self._speed
-
-    def restore(self, speed: float) -> None:
-        """Take a speed that `state` returned."""
-        self._speed = speed

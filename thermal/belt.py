@@ -146,6 +146,15 @@ class Belt:
             row += rows
         return {face: rfft(loads) for face, loads in nodal.items()}
 
+    def face_after(self, duration: float, loads: dict[int, Spectrum]) -> tuple[Array, float]:
+        """Contact face after a step (s) under loads, K (cells,); its rise for 1 W a node, K/W."""
+        response = self.response(duration)
+        after = response.decay * self.amplitudes
+        for face, load in loads.items():
+            after += response.forced[face] * load
+        return (irfft(np.einsum("m,mk->k", self._faces[CONTACT], after), self.cells),
+                float(self._faces[CONTACT] @ response.forced[CONTACT, :, 0]))
+
     def advance(self, duration: float, loads: dict[int, Spectrum]) -> float:
         """Advance by duration (s) under loads of the faces; heat to the air, J."""
         response = self.response(duration)

@@ -6,7 +6,7 @@ whatever interrupts a run, what was written before stays readable.
 
 Seen from the rig: x = 0 is the centre of the contact, z = 0 the contact face, metres. The belt
 lies below (the loop cut opposite the contact, its temperatures interpolated linearly to this
-frame), the section of the ice through its axis stands above.
+frame), the ice stands above: of a cylinder the section through its axis, of a sample all of it.
 """
 
 from __future__ import annotations
@@ -20,23 +20,10 @@ import meshio
 import numpy as np
 from numpy.typing import NDArray
 
+from .grid import grid_points, quadrilaterals
 from .model import BeltIceModel
 
 Array = NDArray[np.float64]
-
-
-def _quadrilaterals(columns: int, rows: int) -> NDArray[np.int64]:
-    """Cells of a grid of nodes, numbered row by row within each column: (cells, 4)."""
-    corner = (np.arange(columns - 1)[:, None] * rows + np.arange(rows - 1)).ravel()
-    return np.stack((corner, corner + rows, corner + rows + 1, corner + 1), axis=1)
-
-
-def _points(x: Array, z: Array) -> Array:
-    """Nodes of a grid in the plane y = 0: (columns * rows, 3), m."""
-    grid = np.zeros((x.size, z.size, 3))
-    grid[..., 0] = x[:, None]
-    grid[..., 2] = z
-    return grid.reshape(-1, 3)
 
 
 class FieldSeries:
@@ -55,13 +42,11 @@ class FieldSeries:
         self._written: list[tuple[float, str]] = []
         belt, ice = model.belt, model.ice
         self._offset = (np.arange(belt.cells + 1) - belt.cells / 2) * belt.cell
-        across = np.concatenate((-ice.r[:0:-1], ice.r))
-        self._points = np.concatenate((
-            _points(self._offset, -belt.depth), _points(across, ice.z)))
-        below = _quadrilaterals(self._offset.size, belt.depth.size)
-        above = _quadrilaterals(across.size, ice.z.size) + self._offset.size * belt.depth.size
-        self._cells = [("quad", np.concatenate((below, above)))]
-        self._part = [np.repeat(np.array([0, 1], dtype=np.int32), (len(below), len(above)))]
+        self._below = grid_points(self._offset, -belt.depth)
+        below = quadrilaterals(self._offset.size, belt.depth.size)
+        self._cells = [("quad", below), (ice.cell_type, ice.cells + len(self._below))]
+        self._part = [np.full(len(cells), part, dtype=np.int32)
+                      for part, (_, cells) in enumerate(self._cells)]
 
     @property
     def path(self) -> Path:
@@ -77,9 +62,8 @@ class FieldSeries:
         part = (place - node)[:, None]
         cells = model.belt.cells
         seen = (1.0 - part) * belt[node % cells] + part * belt[(node + 1) % cells]
-        _, _, ice = model.ice_field()
-        section = np.concatenate((ice[:0:-1], ice))
-        return np.concatenate((seen.ravel(), section.ravel()))
+        ice = model.parameters.ambient.temperature_degC + model.ice.at_points()
+        return np.concatenate((seen.ravel(), ice))
 
     def write(self, time: float) -> Path:
         """Add the model's present fields at time (s); returns the VTU file.
@@ -90,7 +74,8 @@ class FieldSeries:
             last = f"{self._written[-1][0]:g} s" if self._written else "none"
             raise ValueError(f"time = {time:g} s of a field must be after the last one ({last})")
         path = self.folder / f"{self.name}_{len(self._written):05d}.vtu"
-        mesh = meshio.Mesh(self._points, self._cells,
+        points = np.concatenate((self._below, self._model.ice.points))
+        mesh = meshio.Mesh(points, self._cells,
                            point_data={"temperature": self._temperature()},
                            cell_data={"part": self._part})
         partial = path.with_suffix(".partial")

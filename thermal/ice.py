@@ -2,23 +2,23 @@
 
 P2 on a graded tensor mesh of quadrilaterals (scikit-fem), volume element 2 pi r dr dz; Newton
 cooling on side and top, a flux on the part of the bottom that lies on the belt, nothing on the
-rest of the bottom. All eigenmodes are kept, so the assembled problem is advanced exactly for a
-constant flux. Temperatures are rises above the air.
+rest of the bottom. All eigenmodes are kept. Temperatures are rises above the air.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from skfem import CellBasis, ElementQuad2, FacetBasis, LinearForm, MeshQuad
+from skfem import CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
-from .belt import graded
-from .eigenmodes import Medium, eigenmodes
+from .eigenmodes import Medium
+from .grading import graded
+from .grid import grid_points, quadrilaterals
+from .ice_body import IceBody
+from .ice_space import Body
 from .parameters import Ice as IceParameters
-from .relaxation import LastDurations, decay, mean_decay, mean_response
 
 Array = NDArray[np.float64]
 
@@ -41,88 +41,76 @@ def _nearest(nodes: Array, places: Array) -> NDArray[np.intp]:
     return np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), places)
 
 
-class Response(NamedTuple):
-    """What a step of given duration does, per mode unless said."""
+def _radii(radius: float, elements: int, touching: float | None) -> Array:
+    """Element boundaries along the radius, m; `touching` becomes one of them."""
+    r = radius - graded(radius, elements, _RADIAL_STRETCH)[::-1]
+    r[0] = 0.0
+    if touching is None or touching >= radius:
+        return r
+    far = np.abs(r - touching) > 1e-3 * radius
+    far[[0, -1]] = True
+    return np.union1d(r[far], touching)
 
-    decay: Array
-    mean: Array               # mean of the decay
-    forced: Array             # amplitude at the end for load 1 W
-    face_mean: float          # step-mean of the face for 1 W, K/W
-    face_end: float           # end of the face for 1 W, K/W
-    loss_free: Array          # J lost to the air per amplitude
-    loss_forced: float        # J lost to the air for load 1 W
 
-
-class Ice:
-    """Temperature field of the ice; `amplitudes` (modes,).
+class Ice(IceBody):
+    """Temperature field of the cylinder; `amplitudes` (modes,).
 
     arc_share: share of the circle of radius r on which the ice touches the belt; `touching`: its
     kink, a radius that becomes an element boundary so that the quadrature sees smooth pieces.
+    Melting takes ice away where it touches; the mesh is lowered as a whole, so a groove that leaves
+    a rim standing is resolved up to its depth over the height.
     """
 
     def __init__(self, parameters: IceParameters, radius: float,
                  arc_share: Callable[[Array], Array] = np.ones_like,
                  touching: float | None = None) -> None:
-        r = radius - graded(radius, parameters.radial_elements, _RADIAL_STRETCH)[::-1]
-        r[0] = 0.0
-        if touching is not None and touching < radius:
-            far = np.abs(r - touching) > 1e-3 * radius
-            far[[0, -1]] = True
-            r = np.union1d(r[far], touching)
+        r = _radii(radius, parameters.radial_elements, touching)
         z = graded(parameters.height, parameters.axial_elements, _AXIAL_STRETCH)
         mesh = MeshQuad.init_tensor(r, z).with_boundaries({
             "bottom": lambda x: x[1] < 0.5 * z[1],
-            "free": lambda x: (x[0] > 0.5 * (r[-2] + r[-1])) | (x[1] > 0.5 * (z[-2] + z[-1])),
+            "side": lambda x: x[0] > 0.5 * (r[-2] + r[-1]),
+            "top": lambda x: x[1] > 0.5 * (z[-2] + z[-1]),
         })
         basis = CellBasis(mesh, ElementQuad2())
-        films = [(FacetBasis(mesh, ElementQuad2(), facets="free"), parameters.air_heat_transfer)]
-        medium = Medium(parameters.density, parameters.heat_capacity, parameters.conductivity)
-        modes = eigenmodes(basis, films, medium, _around)
-        bottom = FacetBasis(mesh, ElementQuad2(), facets="bottom", intorder=12)
-        weight = LinearForm(lambda v, w: _around(w.x) * arc_share(w.x[0]) * v).assemble(bottom)
-        self._face = (weight / weight.sum()) @ modes.shapes
-        self.rates, self._heat, self._air = modes.rates, modes.heat, modes.air
-        self.r, self.z = _with_midpoints(r), _with_midpoints(z)
-        self._grid = np.empty((self.r.size, self.z.size), dtype=np.intp)
-        self._grid[_nearest(self.r, basis.doflocs[0]), _nearest(self.z, basis.doflocs[1])] = (
+        body = Body(
+            basis=basis,
+            medium=Medium(parameters.density, parameters.heat_capacity, parameters.conductivity),
+            h=parameters.air_heat_transfer,
+            side=FacetBasis(mesh, ElementQuad2(), facets="side"),
+            top=FacetBasis(mesh, ElementQuad2(), facets="top"),
+            bottom=FacetBasis(mesh, ElementQuad2(), facets="bottom", intorder=12),
+            share=lambda x: arc_share(x[0]), measure=_around, height=parameters.height)
+        super().__init__(body.space(np.eye(basis.N)))
+        self.basis = basis
+        self.r, self._z = _with_midpoints(r), _with_midpoints(z)
+        self._grid = np.empty((self.r.size, self._z.size), dtype=np.intp)
+        self._grid[_nearest(self.r, basis.doflocs[0]), _nearest(self._z, basis.doflocs[1])] = (
             np.arange(basis.N))
-        self._shapes = modes.shapes
-        self.amplitudes: Array = np.zeros(self.rates.size)
-        self.response = LastDurations(self._response)
+        self.cells = quadrilaterals(2 * self.r.size - 1, self._z.size)
 
-    def _response(self, duration: float) -> Response:
-        x = self.rates * duration
-        mean, response = mean_decay(x), mean_response(x)
-        forced = self._face * duration * mean
-        return Response(
-            decay=decay(x), mean=mean, forced=forced,
-            face_mean=float(np.sum(self._face**2 * response) * duration),
-            face_end=float(self._face @ forced),
-            loss_free=self._air * duration * mean,
-            loss_forced=float(np.sum(self._air * self._face * response) * duration**2))
+    #: What `cells` are, in meshio's words.
+    cell_type = "quad"
 
-    def free_face(self, duration: float) -> tuple[float, float]:
-        """Mean contact face without load, K: mean over the step and at its end."""
-        response = self.response(duration)
-        weighted = self._face * self.amplitudes
-        return float(weighted @ response.mean), float(weighted @ response.decay)
-
-    def advance(self, duration: float, load: float) -> float:
-        """Advance by duration (s) under a load (W) on the contact; heat to the air, J."""
-        response = self.response(duration)
-        loss = self.amplitudes @ response.loss_free + load * response.loss_forced
-        self.amplitudes *= response.decay
-        self.amplitudes += response.forced * load
-        return float(loss)
-
-    def heat(self) -> float:
-        """Heat stored above ambient, J."""
-        return float(self._heat @ self.amplitudes)
-
-    def face(self) -> float:
-        """Mean temperature rise of the contact face, K."""
-        return float(self._face @ self.amplitudes)
+    @property
+    def z(self) -> Array:
+        """Heights of the nodes above the face, m: (heights,)."""
+        return self._z * self.shrink
 
     def field(self) -> Array:
         """Temperature rise at all nodes, K: (radii, heights) on the grid `r` x `z`."""
-        return (self._shapes @ self.amplitudes)[self._grid]
+        return self.nodal()[self._grid]
+
+    def section(self) -> tuple[Array, Array, Array]:
+        """Section through the axis: x (n,) m, z (heights,) m, temperature rise (n, heights) K."""
+        field = self.field()
+        return (np.concatenate((-self.r[:0:-1], self.r)), self.z,
+                np.concatenate((field[:0:-1], field)))
+
+    @property
+    def points(self) -> Array:
+        """Nodes of the section through the axis, which `cells` refer to, m: (nodes, 3)."""
+        return grid_points(np.concatenate((-self.r[:0:-1], self.r)), self.z)
+
+    def at_points(self) -> Array:
+        """Temperature rise at `points`, K: (nodes,)."""
+        return self.section()[2].ravel()

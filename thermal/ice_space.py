@@ -44,7 +44,7 @@ class IceSpace:
     trial (N, n); capacity (n, n) J/K; factors (n, n) of the forms in the module's equation, W/K:
     across, upwards, side, top; sinking (n, n), W/K for V = 1 m/s; contact (n,): mean over the
     contact, K, and load of 1 W on it; heat (n,) J/K; side_air, top_air (n,) W/K. height: H0, m;
-    area: of the contact, m2.
+    area: of the contact, m2; whole_capacity: of the block before it melts, J/K.
     """
 
     trial: Array
@@ -60,6 +60,7 @@ class IceSpace:
     top_air: Array
     height: float
     area: float
+    whole_capacity: float
 
     def factor(self, shrink: float) -> Array:
         """Factor (4 n, n) of everything that takes heat away, at J = shrink."""
@@ -138,7 +139,7 @@ class Body:
             sinking=trial.T @ (self.sinking() @ trial), contact=trial.T @ (load / area),
             heat=trial.T @ np.asarray(capacity.sum(axis=0)).ravel(),
             side_air=trial.T @ self.film(self.side), top_air=trial.T @ self.film(self.top),
-            height=self.height, area=area)
+            height=self.height, area=area, whole_capacity=float(capacity.sum()))
 
     def _traces(self, film: FacetBasis | None, trial: Array) -> Iterator[Array]:
         """Rows g of the film with g . g its power, W."""

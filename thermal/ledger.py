@@ -22,6 +22,7 @@ class HeatLedger:
     to_air: float = 0.0
     to_supports: float = 0.0
     latent: float = 0.0
+    meltwater: float = 0.0
     belt: float = 0.0
     ice: float = 0.0
 
@@ -29,7 +30,8 @@ class HeatLedger:
     def residual(self) -> float:
         """Received less everything found: 0 up to rounding."""
         return self.received - (
-            self.belt + self.ice + self.to_air + self.to_supports + self.latent)
+            self.belt + self.ice + self.to_air + self.to_supports + self.latent
+            + self.meltwater)
 
     @property
     def belt_share(self) -> float:

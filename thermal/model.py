@@ -7,10 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from .block import standing_block
 from .contact import Fluxes, IceFace, exchange
-from .footprint import Footprint
-from .ice import Ice
 from .ledger import HeatLedger
+from .meltwater import Meltwater
 from .parameters import MELTING_POINT_DEGC, ThermalParameters
 from .track import Given, Track
 
@@ -37,15 +37,13 @@ class BeltIceModel:
 
     def __init__(self, parameters: ThermalParameters | None = None) -> None:
         self.parameters = parameters = parameters or ThermalParameters()
-        contact = parameters.contact
-        self.footprint = Footprint(
-            contact.radius, parameters.belt.width, contact.strips, contact.length)
+        self.footprint, self.ice = standing_block(parameters)
         self.track = Track(parameters.belt, self.footprint)
         self.belt = self.track.belt
-        self.ice = Ice(parameters.ice, contact.radius, self.footprint.arc_share,
-                       touching=self.footprint.touching)
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
+        self.meltwater = Meltwater(parameters.ice, self.footprint, self.ice, self.belt,
+                                   MELTING_POINT_DEGC - self._ambient)
         self._longest = _MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
         self._probe = 0.5 * min((1.0 + 2.0 * _PROBE) * self.footprint.length,
@@ -68,33 +66,35 @@ class BeltIceModel:
         evenly over the step. ValueError for anything else; the state is then unchanged.
         """
         _check_step(duration, heat, displacement, self.parameters.belt.length)
-        parts = max(1, math.ceil(abs(displacement) / self._longest))
-        latent = self.ledger.latent
+        parts = max(math.ceil(abs(displacement) / self._longest),
+                    self.meltwater.ablation.parts(heat))
+        melted = self.meltwater.melted
         for _ in range(parts):
             self._advance(duration / parts, heat / parts, displacement / parts)
         if displacement != 0.0:
             self._direction = math.copysign(1.0, displacement)
         self.ledger.belt, self.ledger.ice = self.belt.heat(), self.ice.heat()
-        self._melt_rate = ((self.ledger.latent - latent)
-                           / (self.parameters.ice.latent_heat * duration))
+        self.ledger.latent = self.meltwater.latent_heat
+        self.ledger.meltwater = self.meltwater.sensible_heat
+        self._melt_rate = (self.meltwater.melted - melted) / duration
 
     def _advance(self, duration: float, heat: float, displacement: float) -> None:
         """One internal step: what it finds, the fluxes, both fields, the ledger."""
-        seen = self.track.see(duration, self.contact_position, -displacement)
-        fluxes = exchange(
-            seen.contact.face, self._ice_face(duration), self.parameters.contact.conductance,
-            self.parameters.belt.air_heat_transfer, heat / (duration * self.footprint.area))
-        given = self.track.advance(duration, seen, fluxes.belt)
-        to_air = self.ice.advance(duration, fluxes.ice * self.footprint.area)
+        centre, area = self.contact_position, self.footprint.area
+        seen = self.track.see(duration, centre, -displacement)
+
+        def solve(ice_face: IceFace) -> Fluxes:
+            return exchange(
+                seen.contact.face, ice_face, self.parameters.contact.conductance,
+                self.parameters.belt.air_heat_transfer, heat / (duration * area))
+
+        fluxes, sinking, recession = self.meltwater.exchange(duration, displacement, solve)
+        given = self.track.advance(
+            duration, seen, fluxes.belt, self.meltwater.freezing(duration))
+        to_air = self.ice.advance(duration, fluxes.ice * area, sinking, recession)
+        self.meltwater.advance(duration, displacement, centre, fluxes.melting)
         self._book(duration, heat, fluxes, given, to_air)
         self._travel = math.fmod(self._travel + displacement, self.parameters.belt.length)
-
-    def _ice_face(self, duration: float) -> IceFace:
-        response = self.ice.response(duration)
-        area = self.footprint.area
-        mean, end = self.ice.free_face(duration)
-        return IceFace(mean, end, response.face_mean * area, response.face_end * area,
-                       MELTING_POINT_DEGC - self._ambient)
 
     def _book(self, duration: float, heat: float, fluxes: Fluxes, given: Given,
               ice_to_air: float) -> None:
@@ -105,14 +105,14 @@ class BeltIceModel:
         ledger.to_supports += given.to_supports
         ledger.from_contact_to_belt += (
             float(fluxes.from_contact.sum()) * footprint.strip_area * duration)
-        ledger.latent += fluxes.melting * footprint.area * duration
 
     def outputs(self) -> dict[str, float]:
-        """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, J.
+        """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, m, J.
 
         The interface temperature is the mean of the two faces, each averaged over the contact's
         area. Entry and exit: belt face an eighth of the contact's length before and behind the
-        contact, seen in the direction of the last movement.
+        contact, seen in the direction of the last movement. Melted: what the block has lost;
+        refrozen: what of it lies on the belt as ice.
         """
         face = self.belt.face()
         first, loads = self.footprint.loads(self.contact_position, 0.0, self.belt.cell)
@@ -128,13 +128,16 @@ class BeltIceModel:
             "ice_face_temperature": self._ambient + ice_face,
             "belt_share": ledger.belt_share,
             "melt_rate": self._melt_rate,
-            "melted_mass": ledger.latent / self.parameters.ice.latent_heat,
+            "melted_mass": self.meltwater.melted,
+            "refrozen_mass": float(self.meltwater.on_belt.frozen.sum()),
+            "film_thickness": self.meltwater.film.thickness,
             "heat_received": ledger.received,
             "belt_heat": ledger.belt,
             "ice_heat": ledger.ice,
             "air_heat": ledger.to_air,
             "support_heat": ledger.to_supports,
             "latent_heat": ledger.latent,
+            "meltwater_heat": ledger.meltwater,
             "heat_residual": ledger.residual,
         }
 
@@ -161,23 +164,24 @@ class BeltIceModel:
         """Everything that a continuation needs, as a copy; its length depends on the mesh."""
         return np.concatenate((
             [self._travel, self._direction, self._melt_rate], self.ledger.array(),
-            self.ice.amplitudes, self.belt.amplitudes.view(np.float64).ravel()))
+            self.ice.state(), self.meltwater.state(),
+            self.belt.amplitudes.view(np.float64).ravel()))
 
     def restore(self, array: Array) -> None:
         """Take a state that `state` returned; the continuation is the same bit for bit."""
         array = np.asarray(array, dtype=np.float64)
-        ledger = self.ledger.array().size
-        sizes = 3 + ledger, 3 + ledger + self.ice.amplitudes.size
-        expected = sizes[1] + 2 * self.belt.amplitudes.size
-        if array.shape != (expected,):
+        sizes = np.cumsum([3, self.ledger.array().size, self.ice.state().size,
+                           self.meltwater.state().size, 2 * self.belt.amplitudes.size])
+        if array.shape != (sizes[-1],):
             raise ValueError(
-                f"thermal state has shape {array.shape}, expected ({expected},): it was saved with"
+                f"thermal state has shape {array.shape}, expected ({sizes[-1]},): it was saved with"
                 " another mesh")
-        self._travel, self._direction, self._melt_rate = (float(x) for x in array[:3])
-        self.ledger.restore(array[3:sizes[0]])
-        self.ice.amplitudes[:] = array[sizes[0]:sizes[1]]
-        self.belt.amplitudes.view(np.float64)[:] = array[sizes[1]:].reshape(
-            self.belt.amplitudes.shape[0], -1)
+        own, ledger, ice, meltwater, belt = np.split(array, sizes[:-1])
+        self._travel, self._direction, self._melt_rate = (float(x) for x in own)
+        self.ledger.restore(ledger)
+        self.ice.restore(ice)
+        self.meltwater.restore(meltwater)
+        self.belt.amplitudes.view(np.float64)[:] = belt.reshape(self.belt.amplitudes.shape[0], -1)
 
 
 def _check_step(duration: float, heat: float, displacement: float, length: float) -> None:

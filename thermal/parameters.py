@@ -115,6 +115,11 @@ class Ice(Block):
     10 W/m2K on side and top: natural convection and radiation, about 5 each.
     """
 
+    mesh: str = Field(
+        "", max_length=1000,
+        description="file with the sample's shape as tetrahedra in metres, standing on z = 0 with"
+                    " the belt along x (.msh, .vtk, .vtu, ...); in place of height, elements and"
+                    " the contact's radius and length")
     height: float = quantity(0.10, "m", "height", gt=0.0, le=10.0)
     density: float = quantity(917.0, "kg/m3", "density", gt=0.0, le=3e4)
     heat_capacity: float = quantity(2050.0, "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.fft import rfft
 
 from .belt import BACK, CONTACT, Belt, Window
 from .footprint import Footprint, strip_loads
@@ -63,10 +65,19 @@ class Track:
         contact = eliminate(free, response, self._conductances - self._air)
         return Seen(windows, free, response, contact)
 
-    def advance(self, duration: float, seen: Seen, contact: Array) -> Given:
-        """Advance by a step that was `seen`, with the fluxes of the contact's strips, W/m2."""
+    def advance(self, duration: float, seen: Seen, contact: Array,
+                freezing: Callable[[Array, float], Array] | None = None) -> Given:
+        """Advance by a step that was `seen`, with the fluxes of the contact's strips, W/m2.
+
+        freezing: power into the contact face (cells,) W per node, from what that face would be
+        at the step's end without it, K (cells,), and its rise for 1 W on every node, K/W.
+        """
         fluxes = seen.contact.fluxes(contact)
-        everywhere = self.belt.advance(duration, self.belt.load(seen.windows, fluxes))
+        loads = self.belt.load(seen.windows, fluxes)
+        if freezing is not None:
+            power = freezing(*self.belt.face_after(duration, loads))
+            loads[CONTACT] = loads[CONTACT] + rfft(power)
+        everywhere = self.belt.advance(duration, loads)
         times = duration * self._areas * (seen.free + seen.response @ fluxes)
         return Given(
             everywhere - self._air * float(times.sum()),

@@ -14,13 +14,17 @@ THERMAL = {
     "ice_face_temperature": ("degC", "face of the ice, mean over the contact"),
     "belt_share": ("1", "share of the friction heat that went into the belt, since the start"),
     "melt_rate": ("kg/s", "melting, mean over the last macro step"),
-    "melted_mass": ("kg", "ice melted since the start"),
+    "melted_mass": ("kg", "ice that the block has lost since the start"),
+    "refrozen_mass": ("kg", "ice on the belt, frozen from melt water"),
+    "film_thickness": ("m", "water between block and belt, mean over the contact"),
     "heat_received": ("J", "friction heat that the thermal model took up since the start"),
     "belt_heat": ("J", "heat stored in the belt above the start"),
     "ice_heat": ("J", "heat stored in the ice above the start"),
     "air_heat": ("J", "heat given to the air since the start"),
     "support_heat": ("J", "heat given to railing and rollers since the start"),
-    "latent_heat": ("J", "heat spent on melting since the start"),
+    "latent_heat": ("J", "latent heat of the ice that has melted and not frozen again"),
+    "meltwater_heat": (
+        "J", "heat that this water took on its way from the air's temperature to melting"),
     "heat_residual": ("J", "heat received less heat found: the thermal model's error"),
 }
 

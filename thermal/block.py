@@ -1,0 +1,29 @@
+"""The block of ice that a set of parameters describes, and its contact with the belt."""
+
+from __future__ import annotations
+
+from .footprint import Footprint
+from .ice import Ice
+from .ice_body import IceBody
+from .parameters import ParameterError, ThermalParameters
+from .sample import Sample
+
+
+def standing_block(parameters: ThermalParameters) -> tuple[Footprint, IceBody]:
+    """Contact and ice: a cylinder, or what a mesh file holds.
+
+    A mesh's contact is taken as the rectangle of its area and breadth, as a disc's is. MeshError
+    when the file is no such mesh, ParameterError when its contact is too long for the belt.
+    """
+    contact, belt = parameters.contact, parameters.belt
+    if not parameters.ice.mesh:
+        footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
+        return footprint, Ice(parameters.ice, contact.radius, footprint.arc_share,
+                              touching=footprint.touching)
+    sample = Sample(parameters.ice, parameters.ice.mesh, belt.width)
+    length = sample.area / sample.breadth
+    if belt.length <= length:
+        raise ParameterError(
+            f"belt.length = {belt.length:g} m is shorter than the contact of"
+            f" {parameters.ice.mesh}, which is {length:g} m long")
+    return Footprint(0.5 * sample.breadth, belt.width, contact.strips, length), sample

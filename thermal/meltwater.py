@@ -1,0 +1,90 @@
+"""What becomes of ice that melts: film under the block, water and ice on the belt."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .ablation import Ablation, Receding
+from .belt import Belt
+from .belt_water import BeltWater
+from .contact import Fluxes, IceFace
+from .footprint import Footprint
+from .ice_body import IceBody
+from .melt_film import GRAVITY, MeltFilm
+from .parameters import Ice as IceParameters
+
+Array = NDArray[np.float64]
+
+
+class Meltwater:
+    """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`.
+
+    melting: the melting point, K above the air.
+    """
+
+    def __init__(self, parameters: IceParameters, footprint: Footprint, ice: IceBody, belt: Belt,
+                 melting: float) -> None:
+        self._footprint = footprint
+        self._latent = parameters.latent_heat
+        self.ablation = Ablation(ice, parameters, footprint.area, melting)
+        self.melt_heat = self.ablation.melt_heat
+        weight = GRAVITY * ice.space.whole_capacity / parameters.heat_capacity
+        self.film = MeltFilm(footprint.area, footprint.length, weight / footprint.area)
+        self.on_belt = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
+        self.melted = 0.0
+
+    def exchange(self, duration: float, displacement: float,
+                 solve: Callable[[IceFace], Fluxes]) -> Receding:
+        """Fluxes of a step in which the belt moves (m), from those for an ice face."""
+        return self.ablation.exchange(duration, self.film.available(displacement), solve)
+
+    def freezing(self, duration: float) -> Callable[[Array, float], Array] | None:
+        """Power (cells,) W into the belt's nodes from its face at the step's end and its response.
+
+        None when the belt is dry.
+        """
+        if not self.on_belt.wet:
+            return None
+        return lambda face, response: self.on_belt.freeze(duration, face, response)
+
+    def advance(self, duration: float, displacement: float, centre: float, flux: float) -> None:
+        """Move the water of a step: flux of melting, W/m2; centre of the contact before it, m."""
+        length = self._footprint.length
+        melted = flux * self._footprint.area * duration / self.melt_heat
+        left = self.film.advance(duration, displacement, melted)
+        self.melted += melted
+        if displacement != 0.0:
+            exit_edge = centre + 0.5 * np.copysign(length, displacement)
+            self.on_belt.lay(left, exit_edge, -displacement)
+        if self.on_belt.wet:
+            self.film.mass += self.on_belt.pick_up(centre - displacement, length)
+
+    @property
+    def water(self) -> float:
+        """All water that there is, kg: under the block, beside it, on the belt."""
+        return self.film.mass + self.film.squeezed + float(self.on_belt.water.sum())
+
+    @property
+    def latent_heat(self) -> float:
+        """Heat that the water has taken to melt, J."""
+        return self._latent * self.water
+
+    @property
+    def sensible_heat(self) -> float:
+        """Heat that the water has taken on its way from the air's temperature to melting, J."""
+        return (self.melt_heat - self._latent) * self.water
+
+    def state(self) -> Array:
+        """Everything that a continuation needs, as a copy."""
+        return np.concatenate((
+            [self.ablation.speed, self.film.mass, self.film.squeezed, self.melted],
+            self.on_belt.water, self.on_belt.frozen))
+
+    def restore(self, state: Array) -> None:
+        """Take a state that `state` returned."""
+        self.ablation.speed, self.film.mass, self.film.squeezed, self.melted = (
+            float(x) for x in state[:4])
+        self.on_belt.water[:], self.on_belt.frozen[:] = state[4:].reshape(2, -1)

@@ -1,0 +1,135 @@
+"""A sample of ice of any shape, from a mesh of tetrahedra: three-dimensional P2 (scikit-fem).
+
+The belt runs along x below the base z = 0 and covers |y| <= half its width; the part of the base
+on it is the contact. Newton cooling on all of the surface but the base. The elements at the base
+are cut into thin layers, and the assembled problem is reduced to the space of its answers to a flux
+on the contact (`krylov`), whose eigenmodes are advanced exactly.
+
+How exact: between 0.1 ms and a day the face's answer to a constant flux is that of the assembled
+mesh to 1e-6. The mesh's own error remains, as does that of a base facet that the belt's edge
+crosses: it counts by quadrature.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from skfem import CellBasis, ElementTetP2, FacetBasis, MeshTet
+
+from .base_layers import cut_at_base, layer_height
+from .eigenmodes import Medium
+from .grading import graded
+from .ice_body import IceBody
+from .ice_mesh import FLAT, MeshError, read_sample
+from .ice_space import Body
+from .krylov import response_space
+from .parameters import Ice as IceParameters
+from .section import section
+
+Array = NDArray[np.float64]
+
+#: Highest layer of elements at the base, m: heat is as deep after 40 ms.
+THIN = 2e-4
+
+#: Most elements; more would take minutes and the memory.
+MOST_CELLS = 400_000
+
+#: Of the elements; the quadrature of degree 4 has a negative weight.
+_QUADRATURE = 5
+
+#: Places across and upwards at which the section is seen, and how they crowd at the base.
+_ACROSS, _UP, _CROWDED = 81, 40, 300.0
+
+#: A facet whose normal has more than this upwards counts as top.
+_UPWARDS = np.sqrt(0.5)
+
+
+def layered(points: Array, cells: NDArray[np.int64]) -> tuple[Array, NDArray[np.int64]]:
+    """The mesh with layers at the base as thin as `THIN`."""
+    while True:
+        base = points[:, 2] <= FLAT * points[:, 2].max()
+        if layer_height(points, cells, base) <= THIN:
+            return points, cells
+        points, cells = cut_at_base(points, cells, base)
+
+
+class Sample(IceBody):
+    """Temperature field of a sample from a mesh file; `amplitudes` (modes,).
+
+    belt_width: m. `area` m2 of the contact, `breadth` m of the base across the belt. `points`
+    (nodes, 3) m and `cells` (cells, 4): the mesh with its layers. `r`: places x of the section, m.
+    MeshError: see `ice_mesh`.
+    """
+
+    def __init__(self, parameters: IceParameters, file: str | Path, belt_width: float) -> None:
+        points, cells = layered(*read_sample(file))
+        if len(cells) > MOST_CELLS:
+            raise MeshError(f"{file}: has {len(cells)} tetrahedra with the layers at its base,"
+                            f" allowed are up to {MOST_CELLS}: make it coarser")
+        body = assembled(parameters, points, cells, 0.5 * belt_width)
+        load, area = body.contact()
+        if not area > 0.0:
+            raise MeshError(f"{file}: its base does not lie on the belt,"
+                            f" |y| <= {0.5 * belt_width:g} m")
+        super().__init__(body.space(response_space(
+            body.capacity().tocsr(), body.conduction().tocsr(), load)))
+        low, high = points[:, 2].min(), points[:, 2].max()
+        on_base = points[points[:, 2] <= low + FLAT * high]
+        self.area = area
+        self.breadth = min(belt_width, float(np.ptp(on_base[:, 1])))
+        self.basis, self.cells = body.basis, cells
+        self._points = points
+        self.r = np.linspace(points[:, 0].min(), points[:, 0].max(), _ACROSS)
+        self._z = graded(float(high), _UP, _CROWDED)
+        self._section = section(points, cells, self.r, self._z)
+
+    #: What `cells` are, in meshio's words.
+    cell_type = "tetra"
+
+    @property
+    def points(self) -> Array:
+        """Nodes of the mesh at its present height, m: (nodes, 3)."""
+        return self._points * [1.0, 1.0, self.shrink]
+
+    @property
+    def z(self) -> Array:
+        """Heights above the face at which the section is seen, m: (heights,)."""
+        return self._z * self.shrink
+
+    def field(self) -> Array:
+        """Temperature rise in the plane y = 0 at `r` by `z`, K; NaN outside: (n, heights)."""
+        inside = np.diff(self._section.indptr) > 0
+        seen = np.where(inside, self._section @ self.at_points(), np.nan)
+        return seen.reshape(self.r.size, self._z.size)
+
+    def section(self) -> tuple[Array, Array, Array]:
+        """The plane y = 0: x (n,) m, z (heights,) m, temperature rise (n, heights) K."""
+        return self.r, self.z, self.field()
+
+    def at_points(self) -> Array:
+        """Temperature rise at `points`, K: (nodes,)."""
+        return self.nodal()[self.basis.nodal_dofs[0]]
+
+
+def assembled(parameters: IceParameters, points: Array, cells: NDArray[np.int64],
+               half: float) -> Body:
+    """P2 elements of a mesh on a belt that covers |y| <= half (m)."""
+    height = float(points[:, 2].max())
+    mesh = MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(cells.T)).with_boundaries(
+        {"base": lambda x: x[2] <= FLAT * height})
+    free = np.setdiff1d(mesh.boundary_facets(), mesh.boundaries["base"])
+    normals = FacetBasis(mesh, ElementTetP2(), facets=free, intorder=1).normals
+    flat = np.abs(normals[2, :, 0]) > _UPWARDS
+
+    def films(facets: NDArray[np.int64]) -> FacetBasis | None:
+        return FacetBasis(mesh, ElementTetP2(), facets=facets) if facets.size else None
+
+    return Body(
+        basis=CellBasis(mesh, ElementTetP2(), intorder=_QUADRATURE),
+        medium=Medium(parameters.density, parameters.heat_capacity, parameters.conductivity),
+        h=parameters.air_heat_transfer, side=films(free[~flat]), top=films(free[flat]),
+        bottom=FacetBasis(mesh, ElementTetP2(), facets="base", intorder=6),
+        share=lambda x: np.where(np.abs(x[1]) <= half, 1.0, 0.0),
+        measure=lambda x: 1.0 + 0.0 * x[0], height=height)
