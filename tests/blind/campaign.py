@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from .effect_size import Size, effect_size
+from .effect_size import Known, Size, effect_size
 from .effects import EFFECTS
 from .hidden import State
 from .ingredients import Ingredient
@@ -19,6 +19,8 @@ from .tracker import Tracker, draw_tracker
 KINDS = ("effects", "none", "unknown", "two", "single_speed")
 SIZES = (6.0, 30.0)  # noise units between which a size is drawn, unless told
 SEARCH = 7  # motions spent on the strength that has the size asked for
+NEAR = 0.05  # logarithm of a size that need not be met more closely
+KNOWN = 0.03  # relative standard deviation of a coefficient that is stated
 STICKS = 5e-4  # m/s of sliding below which a block counts as held
 # pairs that no campaign of this kind can tell from one another or from one of them alone
 BLURRED = (
@@ -43,6 +45,7 @@ class Campaign:
     motions: list[Motion]
     size: Size
     alone: tuple[float, ...]  # size of each ingredient by itself, noise units
+    known: Known  # friction coefficients that the experimenter states
 
     @property
     def stick_shares(self) -> list[float]:
@@ -98,23 +101,35 @@ def pick_plan(kind: str, rng: np.random.Generator, ingredients: Sequence[Ingredi
     return drawn
 
 
-def size_at(plan: Plan, ingredients, strengths, tracker: Tracker, steps) -> tuple[list, Size]:
+def state_friction(plan: Plan, rng: np.random.Generator, stated: bool) -> Known:
+    """Coefficients measured by themselves, with their standard deviations; none if not stated."""
+    p = plan.runs[0].hidden
+    if not stated:
+        return {}
+    return {
+        name: (round(value * (1 + KNOWN * float(rng.normal())), 4), round(KNOWN * value, 4))
+        for name, value in (("mu_s", p.mu_s), ("mu_k", p.mu_k))
+    }
+
+
+def size_at(plan: Plan, ingredients, strengths, tracker: Tracker, steps, known: Known):
     """Motions at given strengths, and the size of what is hidden in them."""
     motions = move(plan, ingredients, strengths, steps)
     plane = needs_plane(plan, ingredients)
-    return motions, effect_size(motions, tracker.noise, plane, plan.line or not tracker.with_y)
+    blind = plan.line or not tracker.with_y
+    return motions, effect_size(motions, tracker.noise, plane and not blind, known)
 
 
-def find_strength(plan: Plan, ingredient: Ingredient, tracker: Tracker, target: float) -> tuple:
-    """Strength whose size comes nearest to the target, and that size; bisection in the logarithm."""
+def find_strength(plan: Plan, ingredient, tracker: Tracker, target: float, known: Known):
+    """Strength whose size comes nearest to the target, and that size, by bisection."""
     if not ingredient.sized:
-        _, size = size_at(plan, [ingredient], [1.0], tracker, COARSE)
+        _, size = size_at(plan, [ingredient], [1.0], tracker, COARSE, known)
         return 1.0, size.largest
     low, high, tried = np.log(2e-3), 0.0, []
     middle = np.log(0.15)
     for _ in range(SEARCH):
         strength = float(np.exp(middle))
-        _, size = size_at(plan, [ingredient], [strength], tracker, COARSE)
+        _, size = size_at(plan, [ingredient], [strength], tracker, COARSE, known)
         miss = np.log(max(size.largest, 1e-3) / target)
         tried.append((abs(miss), strength, size.largest))
         if abs(miss) < 0.15:
@@ -122,6 +137,36 @@ def find_strength(plan: Plan, ingredient: Ingredient, tracker: Tracker, target: 
         low, high = (low, middle) if miss > 0 else (middle, high)
         middle = 0.5 * (low + high)
     return min(tried)[1:]
+
+
+def shown(seed: int, kind: str, ids, sizes, clean: float, rng: np.random.Generator) -> Campaign:
+    """One try: plan, ingredients, tracker and strengths drawn."""
+    ingredients = pick(kind, rng, ids)
+    plan = pick_plan(kind, rng, ingredients)
+    only_known = any(each.known for each in ingredients)
+    force = rng.random() < (0.5 if only_known else 0.05)
+    tracker = draw_tracker(rng, rng.random() < clean, not plan.line, force)
+    if any(each.plane for each in ingredients):
+        tracker = replace(tracker, with_y=True)
+    known = state_friction(plan, rng, only_known or (kind != "single_speed" and rng.random() < 0.1))
+    target = np.exp(rng.uniform(*np.log(sizes)))
+    found = [find_strength(plan, each, tracker, target, known) for each in ingredients]
+    strengths = tuple(strength for strength, _ in found)
+    motions, size = size_at(plan, ingredients, strengths, tracker, FINE, known)
+    alone = (size.largest,) if len(found) == 1 else tuple(value for _, value in found)
+    hidden = tuple(ingredients)
+    return Campaign(seed, kind, plan, hidden, strengths, tracker, motions, size, alone, known)
+
+
+def shortfall(made: Campaign, sizes: tuple[float, float]) -> float:
+    """How far a campaign is from the sizes asked for (logarithm) and from two stick-slip runs."""
+    misses = [
+        max(np.log(sizes[0] / value), np.log(value / sizes[1]), 0.0)
+        for each, value in zip(made.ingredients, made.alone, strict=True)
+        if each.sized
+    ]
+    moving = sum(0.02 < share < 0.98 for share in made.stick_shares)
+    return float(sum(misses)) + (0.0 if moving >= 2 else 2.0)
 
 
 def draw_campaign(
@@ -140,38 +185,18 @@ def draw_campaign(
     ids : effects or strangers to hide; drawn if empty
     sizes : noise units between which each ingredient's own size is drawn
     clean : part of the campaigns recorded with white noise only
-    tries : plans drawn at most until the sizes are met and at least two runs stick and slip
+    tries : campaigns drawn at most until the sizes are met and at least two runs stick and slip
     """
     rng = np.random.default_rng(seed)
-    best: tuple[float, Campaign] | None = None
+    best, least = None, np.inf
     for _ in range(tries):
-        ingredients = pick(kind, rng, ids)
-        plan = pick_plan(kind, rng, ingredients)
-        with_y = not plan.line
-        force = any(each.force for each in ingredients) or rng.random() < 0.05
-        tracker = draw_tracker(rng, rng.random() < clean, with_y, force)
-        if any(each.plane for each in ingredients):
-            tracker = replace(tracker, with_y=True)
-        target = np.exp(rng.uniform(*np.log(sizes)))
-        found = [find_strength(plan, each, tracker, target) for each in ingredients]
-        strengths = tuple(strength for strength, _ in found)
-        motions, size = size_at(plan, ingredients, strengths, tracker, FINE)
-        alone = (size.largest,) if len(found) == 1 else tuple(value for _, value in found)
-        made = Campaign(
-            seed, kind, plan, tuple(ingredients), strengths, tracker, motions, size, alone
-        )
-        misses = [
-            max(np.log(sizes[0] / value), np.log(value / sizes[1]), 0.0)
-            for each, value in zip(ingredients, alone, strict=True)
-            if each.sized
-        ]
-        moving = sum(0.02 < share < 0.98 for share in made.stick_shares)
-        miss = float(sum(misses)) + (0.0 if moving >= 2 else 2.0)
-        if best is None or miss < best[0]:
-            best = (miss, made)
-        if miss < 0.05:
+        made = shown(seed, kind, ids, sizes, clean, rng)
+        missing = shortfall(made, sizes)
+        if missing < least:
+            best, least = made, missing
+        if missing < NEAR:
             break
-    return best[1]
+    return best
 
 
 def answer(campaign: Campaign) -> dict:
@@ -194,6 +219,7 @@ def answer(campaign: Campaign) -> dict:
         "plan": campaign.plan.name,
         "degrees_of_freedom": 1 if campaign.plan.line else 3,
         "tracker": asdict(campaign.tracker),
+        "known": campaign.known,
         "mu_s": campaign.plan.runs[0].hidden.mu_s,
         "mu_k": campaign.plan.runs[0].hidden.mu_k,
         "stick_shares": campaign.stick_shares,

@@ -20,7 +20,11 @@ from .motion import COARSE, DENSE, Motion, walk
 
 THIN = 10  # every so manieth dense row is compared: 100 Hz
 ZERO = 2e-3  # m, how far off the zero of a tracker may be
+ERRORS = 2.0  # standard deviations by which a known coefficient may be off
 LIFTS, LEVELS = (1.0, 2.0, 4.0), (0.6, 1.0, 1.4)  # where the fit may begin, of the planned friction
+
+
+Known = dict[str, tuple[float, float]]  # mu_s and mu_k with their standard deviations, or empty
 
 
 @dataclass(frozen=True)
@@ -91,16 +95,23 @@ def rms(parts: Sequence[np.ndarray]) -> float:
     return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))
 
 
-def fit_plain(motions: Sequence[Motion]) -> tuple[float, np.ndarray]:
+def free_numbers(free: np.ndarray, known: Known) -> tuple[float, float, float]:
+    """mu_s, mu_k and offset of a point of the search; what is known stays within its error."""
+    mu_k, mu_s = abs(free[1]), abs(free[1]) + abs(free[0])
+    if known:
+        mu_s, mu_k = (
+            float(np.clip(mu, value - ERRORS * deviation, value + ERRORS * deviation))
+            for mu, (value, deviation) in zip((mu_s, mu_k), known.values(), strict=True)
+        )
+    return mu_s, mu_k, float(ZERO * np.tanh(free[2]))
+
+
+def fit_plain(motions: Sequence[Motion], known: Known) -> tuple[float, tuple]:
     """Smallest misfit of x in m, and mu_s, mu_k, offset that reach it."""
     p = motions[0].run.hidden
 
-    def numbers(free: np.ndarray) -> tuple[float, float, float]:
-        mu_k, offset = abs(free[1]), ZERO * np.tanh(free[2])
-        return mu_k + abs(free[0]), mu_k, float(offset)
-
     def misfit(free: np.ndarray) -> float:
-        return rms([line_misfit(each, *numbers(free)) for each in motions])
+        return rms([line_misfit(each, *free_numbers(free, known)) for each in motions])
 
     grid = [
         np.array([(p.mu_s * lift - p.mu_k) * level, p.mu_k * level, 0.0])
@@ -115,13 +126,20 @@ def fit_plain(motions: Sequence[Motion]) -> tuple[float, np.ndarray]:
         method="Nelder-Mead",
         options={"initial_simplex": simplex, "xatol": 1e-4, "fatol": 2e-6, "maxfev": 150},
     )
-    return float(best.fun), np.array(numbers(best.x))
+    return float(best.fun), free_numbers(best.x, known)
 
 
-def effect_size(motions: Sequence[Motion], noise: float, plane: bool, line: bool) -> Size:
-    """Size of whatever is hidden in the motions; y counts where the rig shows it."""
-    misfit, (mu_s, mu_k, offset) = fit_plain(motions)
+def effect_size(motions: Sequence[Motion], noise: float, sideways: bool, known: Known) -> Size:
+    """Size of whatever is hidden in the motions.
+
+    Parameters
+    ----------
+    noise : standard deviation of the tracker, m
+    sideways : whether the block leaves the line and the tracker shows it
+    known : mu_s and mu_k with their standard deviations, or nothing
+    """
+    misfit, (mu_s, mu_k, offset) = fit_plain(motions, known)
     side = 0.0
-    if plane and not line:
+    if sideways:
         side = rms([side_misfit(each, mu_s, mu_k) for each in motions]) / noise
-    return Size(misfit / noise, side, float(mu_s), float(mu_k), float(offset))
+    return Size(misfit / noise, side, mu_s, mu_k, offset)

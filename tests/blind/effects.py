@@ -168,7 +168,7 @@ def stick_stiffness(rng) -> Ingredient:
         f"share {share:.2f}",
         lambda p, s: p._replace(stick_share=share),
         sized=False,
-        force=True,
+        known=True,
     )
 
 

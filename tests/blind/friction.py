@@ -86,3 +86,43 @@ def steepness(p, kinetic, static, slip):
 def sheared(p, slip):
     """Film force of the whole contact over the sliding speed, N s/m."""
     return p.drag + p.root_drag / sqrt(slip + 1e-9)
+
+
+@njit(inline="always")
+def levels(p, memory, place):
+    """Kinetic and static level of the whole contact, before the sliding speed enters.
+
+    memory is (age in s, recent friction heat in J, distance slid in m).
+    """
+    mark = marked(p, place)
+    kinetic = mark * p.mu_k * warmed(p, memory[1]) * worn(p, memory[2])
+    return kinetic, (mark * p.mu_s + aged(p, memory[0])) / p.stick_share
+
+
+@njit(inline="always")
+def remembered(p, memory, step, slip, power):
+    """Memory of the contact after a step at a sliding speed and a friction power, W."""
+    age, heat, way = memory
+    if p.ageing_form > 0.0:
+        age = (age + step) / (1.0 + step * slip / p.ageing_way)
+    if p.thermal_form > 0.0:
+        heat += step * (power - heat / p.thermal_time)
+    return age, heat, way + step * slip
+
+
+@njit(inline="always")
+def steepness_at(p, level, static, slip, backwards):
+    """Steepness with what the speed and the direction of sliding do to the levels, s/m."""
+    kinetic = level * weakened(p, slip)
+    held = max(static, kinetic)
+    if backwards:
+        kinetic *= 1.0 + p.asymmetry
+        held *= 1.0 + p.asymmetry
+    return steepness(p, kinetic, held, slip)
+
+
+@njit(inline="always")
+def shown_part(p, slip):
+    """Part of the spring force that a load cell sees: less at rest where one spring holds."""
+    rest = 1.0 / (1.0 + (slip / (BUMP * p.smooth)) ** 4)
+    return 1.0 - rest * (1.0 - p.stick_share)

@@ -23,7 +23,7 @@ class Ingredient:
     start : State and strength to State, where the effect needs a push to be seen
     pixel : x in m and strength to the x that the tracker reports, m
     sized : whether a larger strength makes a larger disagreement
-    force : whether the run needs the force column to show it
+    known : whether only friction coefficients that are known beforehand can show it
     """
 
     id: str
@@ -33,7 +33,7 @@ class Ingredient:
     start: Callable[[State, float], State] = lambda state, strength: state
     pixel: Callable[[np.ndarray, float], np.ndarray] | None = None
     sized: bool = True
-    force: bool = False
+    known: bool = False
 
 
 def between(rng: np.random.Generator, low: float, high: float) -> float:

@@ -61,11 +61,15 @@ def conditions(name: str, rng: np.random.Generator, base: Hidden) -> list[tuple]
     return rows
 
 
-def start_of(p: Hidden, rng: np.random.Generator, rest: bool) -> State:
-    """At rest, or riding on the surface somewhere before the break-away."""
-    if rest:
-        return State()
+def start_of(p: Hidden, rng: np.random.Generator, how: str) -> State:
+    """At rest, pulled out and let go, or riding on the surface somewhere before the break-away."""
     reach = p.mu_s * 9.81 * p.mass / (4 * p.stiffness)
+    if how == "rest":
+        return State()
+    if how == "pulled":
+        # not so far that the block overtakes the surface on its way back: there the constant part
+        # of a film's drag would show, and drag and damping could be told apart at one speed
+        return State(x=float(rng.uniform(1.5, 2.1)) * reach * math.copysign(1, p.speed))
     return State(x=float(rng.uniform(-0.5, 0.8)) * reach * math.copysign(1, p.speed), vx=p.speed)
 
 
@@ -77,7 +81,11 @@ def draw_plan(name: str, rng: np.random.Generator, line: bool) -> Plan:
     base = Hidden(mu_k=mu_k, mu_s=mu_k * float(rng.uniform(1.2, 1.6)))
     if name not in ("example", "slow"):
         base = base._replace(natural=round(float(rng.uniform(0.15, 0.185)), 3))
-    rest = name in ("example", "slow") and rng.random() < 0.5
+    how = "riding"
+    if name in ("example", "slow"):
+        how = str(rng.choice(("rest", "riding")))
+    elif name == "single":
+        how = "pulled"
     runs = []
     for mass, stiffness, speed, hold_out in conditions(name, rng, base):
         p = base._replace(
@@ -86,5 +94,5 @@ def draw_plan(name: str, rng: np.random.Generator, line: bool) -> Plan:
             speed=float(speed),
             inertia=0.5 * float(mass) * base.radius**2,
         )
-        runs.append(Run(p, start_of(p, rng, rest), hold_out))
+        runs.append(Run(p, start_of(p, rng, how), hold_out))
     return Plan(name, tuple(runs), line)

@@ -44,6 +44,8 @@ def built(run: Run, ingredients: Sequence[Ingredient], strengths) -> tuple[Hidde
 def walk(p: Hidden, start: State, plane: bool, step: float, rows: int) -> np.ndarray:
     """Rows every DENSE seconds of one motion."""
     every = round(DENSE / step)
+    # one type for numba, whatever numbers an ingredient has set
+    p, start = Hidden(*map(float, p)), State(*map(float, start))
     if plane:
         return walk_plane(p, start, disc_points(p.radius), step, every, rows)
     return walk_line(p, start, step, every, rows)

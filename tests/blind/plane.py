@@ -7,8 +7,8 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 from numba import njit
 
-from .friction import BUMP, aged, marked, sheared, steepness, warmed, weakened, worn
-from .line import pull
+from .friction import levels, remembered, sheared, shown_part, steepness_at
+from .line import COLUMNS, pull
 from .surface import left_stiffness, load, strange_force, stretch_of_frame, surface_speed
 
 ANGLES = tuple(pi * degrees / 180.0 for degrees in (160.0, 20.0, 200.0, 340.0))
@@ -59,12 +59,8 @@ def contact_sums(p, points, n, level, static, motion, surface):
         sy = surface * p.curvature * (x + a)
         wx, wy = sx - vx + omega * b, sy - vy - omega * a
         slip = sqrt(wx * wx + lateral * wy * wy)
-        kinetic = level * weakened(p, slip)
-        held = max(static, kinetic)
-        if p.asymmetry != 0.0 and wx < 0.0:
-            kinetic *= 1.0 + p.asymmetry
-            held *= 1.0 + p.asymmetry
-        g = points[i, 2] * (n * steepness(p, kinetic, held, slip) + sheared(p, slip))
+        mu = steepness_at(p, level, static, slip, wx < 0.0)
+        g = points[i, 2] * (n * mu + sheared(p, slip))
         gy = lateral * g
         gxx += g
         gyy += gy
@@ -79,67 +75,76 @@ def contact_sums(p, points, n, level, static, motion, surface):
 
 
 @njit(inline="always")
-def solve_velocity(mx, my, mw, sums, step, px, py, pw):
-    """Velocities that the momenta px, py, pw leave when friction acts with them: 3 x 3, symmetric.
+def solve_velocity(inertia, sums, step, momentum):
+    """Velocities that the momenta leave when friction acts with them: (inertia + step G) v = p.
 
-    There is no coupling of x and y: (mx + step G) v = p.
+    inertia is (along x and y, about the centre); G does not couple x and y.
     """
-    a, b, w = mx + step * sums[0], my + step * sums[1], mw + step * sums[4]
+    a, b = inertia[0] + step * sums[0], inertia[0] + step * sums[1]
     e, f = step * sums[2], step * sums[3]
-    omega = (pw - e * px / a - f * py / b) / (w - e * e / a - f * f / b)
+    px, py, turn = momentum
+    omega = (turn - e * px / a - f * py / b) / (inertia[1] + step * sums[4] - e * e / a - f * f / b)
     return (px - e * omega) / a, (py - f * omega) / b, omega
+
+
+@njit(inline="always")
+def applied_force(p, frame, t, travel, place, angle, m):
+    """Forces and moment that are neither friction nor resonator, and the springs' own along x."""
+    x, y = place
+    fx, fy, moment = spring_load(p, frame, stretch_of_frame(p, t, x), y, angle[0], angle[1])
+    left = left_stiffness(p, t)
+    along = left * fx + strange_force(p, x, travel) + m * 9.81 * p.tilt_x
+    return along, left * fy + m * 9.81 * p.tilt_y, left * moment, left * fx
+
+
+@njit(inline="always")
+def step_plane(p, frame, points, q, v, hidden, clock, memory, step):
+    """One step of place q, velocity v (three each), hidden resonator (x2, v2), (t, travel).
+
+    Returns them new, the memory, the springs' force along x and the sliding speed of the centre.
+    """
+    h = 0.5 * step
+    x, y, phi = q[0] + h * v[0], q[1] + h * v[1], q[2] + h * v[2]
+    x2, v2 = hidden[0] + h * hidden[1], hidden[1]
+    t = clock[0] + h
+    surface = surface_speed(p, t)
+    travel = clock[1] + h * surface
+    m = p.mass * (1.0 - p.melting * t)
+    angle = (cos(phi), sin(phi))
+    level, static = levels(p, memory, travel - x)
+    motion = (x, y, angle[0], angle[1], v[0], v[1], v[2])
+    sums = contact_sums(p, points, load(p, m, x), level, static, motion, surface)
+    fx, fy, moment, springs = applied_force(p, frame, t, travel, (x, y), angle, m)
+    inner = p.resonator_stiffness * (x2 - x) + p.resonator_damping * (v2 - v[0])
+    slip = sqrt((surface - v[0]) ** 2 + p.lateral * v[1] ** 2)
+    momentum = (
+        m * v[0] + step * (fx + inner + sums[5]),
+        m * v[1] + step * (fy + sums[6]),
+        p.inertia * v[2] + step * (moment + sums[7]),
+    )
+    inertia = (m + step * p.damping, p.inertia + step * p.damping_yaw)
+    v = solve_velocity(inertia, sums, step, momentum)
+    if p.resonator_mass > 0.0:
+        v2 -= step * inner / p.resonator_mass
+    q = (x + h * v[0], y + h * v[1], phi + h * v[2])
+    memory = remembered(p, memory, step, slip, sums[8])
+    return q, v, (x2 + h * v2, v2), (t + h, travel + h * surface), memory, springs, slip
 
 
 @njit(cache=True, fastmath=True)
 def walk_plane(p, start, points, step, every, rows):
-    """Motion from a state, recorded every so many steps; (rows, 8) as `line.COLUMNS`."""
-    out = np.zeros((rows, 8))
+    """Motion from a state, recorded every so many steps; (rows, len(COLUMNS))."""
+    out = np.zeros((rows, len(COLUMNS)))
     frame = anchors(p)
-    x, y, phi, vx, vy, omega = start
-    x2, v2 = start.x, start.vx
-    travel, age, heat, way, t = 0.0, 0.0, 0.0, 0.0, 0.0
+    q, v = (start.x, start.y, start.phi), (start.vx, start.vy, start.omega)
+    hidden, clock, memory = (start.x, start.vx), (0.0, 0.0), (0.0, 0.0, 0.0)
     for row in range(rows):
+        springs, slip = 0.0, 0.0
         for _ in range(every):
-            x += 0.5 * step * vx
-            y += 0.5 * step * vy
-            phi += 0.5 * step * omega
-            x2 += 0.5 * step * v2
-            t += 0.5 * step
-            surface = surface_speed(p, t)
-            travel += 0.5 * step * surface
-            m = p.mass * (1.0 - p.melting * t)
-            n = load(p, m, x)
-            c, s = cos(phi), sin(phi)
-            mark = marked(p, travel - x)
-            level = mark * p.mu_k * warmed(p, heat) * worn(p, way)
-            static = (mark * p.mu_s + aged(p, age)) / p.stick_share
-            motion = (x, y, c, s, vx, vy, omega)
-            sums = contact_sums(p, points, n, level, static, motion, surface)
-            u = stretch_of_frame(p, t, x)
-            fx, fy, moment = spring_load(p, frame, u, y, c, s)
-            left = left_stiffness(p, t)
-            hidden = p.resonator_stiffness * (x2 - x) + p.resonator_damping * (v2 - vx)
-            extra = strange_force(p, x, travel) + hidden + m * 9.81 * p.tilt_x
-            px = m * vx + step * (left * fx + extra + sums[5])
-            py = m * vy + step * (left * fy + m * 9.81 * p.tilt_y + sums[6])
-            pw = p.inertia * omega + step * (left * moment + sums[7])
-            damp = step * p.damping
-            turn = p.inertia + step * p.damping_yaw
-            slip = sqrt((surface - vx) ** 2 + p.lateral * vy * vy)
-            vx, vy, omega = solve_velocity(m + damp, m + damp, turn, sums, step, px, py, pw)
-            if p.resonator_mass > 0.0:
-                v2 -= step * hidden / p.resonator_mass
-            age = (age + step) / (1.0 + step * slip / p.ageing_way)
-            heat += step * (sums[8] - heat / p.thermal_time)
-            way += step * slip
-            x += 0.5 * step * vx
-            y += 0.5 * step * vy
-            phi += 0.5 * step * omega
-            x2 += 0.5 * step * v2
-            t += 0.5 * step
-            travel += 0.5 * step * surface
-        rest = 1.0 / (1.0 + (slip / (BUMP * p.smooth)) ** 4)
-        force = left * fx * (1.0 - rest * (1.0 - p.stick_share))
-        for k, value in enumerate((x, y, phi, vx, vy, omega, force, slip)):
-            out[row, k] = value
+            q, v, hidden, clock, memory, springs, slip = step_plane(
+                p, frame, points, q, v, hidden, clock, memory, step
+            )
+        for k in range(3):
+            out[row, k], out[row, 3 + k] = q[k], v[k]
+        out[row, 6], out[row, 7] = springs * shown_part(p, slip), slip
     return out

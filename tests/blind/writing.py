@@ -27,6 +27,8 @@ def described(campaign: Campaign, name: str) -> dict:
     told = {"name": name, "rig": rig}
     if tracker.stated:
         told["noise"] = dict.fromkeys(("x", "y") if tracker.with_y else ("x",), tracker.noise)
+    if campaign.known:
+        told["friction"] = {name: list(pair) for name, pair in campaign.known.items()}
     told["run"] = [
         {
             "file": f"run{i:02d}.csv",
