@@ -50,6 +50,7 @@ STARTS = {
         "damping_heat",
         "sliding_distance",
         "surface_travel",
+        "slip_time",
         "slip_count",
         "energy_residual",
     ),

@@ -10,6 +10,7 @@ from .kernel.layout import (
     P_ATTACH,
     P_CURVE,
     P_CURVE_POINTS,
+    P_FEEDING,
     P_INERTIA,
     P_INITIAL,
     P_LOCAL_LAW,
@@ -91,6 +92,15 @@ LOCAL_LAWS = (
     "asperity_melting.length",
     "melt_film.wetted_share",
 )
+# by these, friction depends on the way of the surface, the distance slid, the heat or the age
+MEMORIES = (
+    "surface_pattern.amplitude",
+    "surface_scatter.deviation",
+    "run_in.change",
+    "thermal_weakening.per_joule",
+    "rate_and_state.direct",
+    "rate_and_state.evolution",
+)
 
 
 def pack(values: dict[str, float]) -> list[float]:
@@ -111,6 +121,8 @@ def pack(values: dict[str, float]) -> list[float]:
     p[P_LOCAL_LAW] = float(any(values[name] != 0.0 for name in LOCAL_LAWS))
     if p[layout.P_DIRECT] != 0.0 or p[layout.P_EVOLUTION] != 0.0:
         p[layout.P_CREEP_SPEED] = values["rate_and_state.creep_speed"]
+    remembers = any(values[name] != 0.0 for name in MEMORIES)
+    p[P_FEEDING] = float(layout.REMEMBERED if remembers else layout.MOVING)
     for i, name in enumerate(("x", "y", "phi", "vx", "vy", "omega")):
         p[P_INITIAL + i] = values[f"initial.{name}"]
     _place_springs(p, values)

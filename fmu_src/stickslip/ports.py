@@ -53,6 +53,7 @@ OUTPUTS = (
     Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Local way slid, mean", min=0.0),
     Port("surface_travel", "O_TRAVEL", "m", 1.0, "Way of the surface since the start"),
     Port("mode", "O_MODE", None, None, "0 stick, 1 slip", min=0, max=1),
+    Port("slip_time", "O_SLIP_TIME", "s", 1.0, "Time spent in slip since the start", min=0.0),
     Port("slip_count", "O_SLIPS", None, None, "Break-aways since the start", min=0),
     Port("energy_residual", "O_ENERGY_RESIDUAL", "J", 1.0, "Energy gained less energy supplied"),
     Port("surface_work", "O_SURFACE_WORK", "J", 1.0, "Work of the surface on the block"),

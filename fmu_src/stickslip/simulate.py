@@ -145,4 +145,6 @@ class _Run:
         table = np.array(self.o).reshape(-1, O_SIZE)[: self.rows]
         columns = {port.name: table[:, getattr(layout, port.slot)].copy() for port in OUTPUTS}
         events = np.concatenate([np.empty((0, E_WIDTH)), *self.events])
+        # the internal step that the run ends in may have met an event beyond that end
+        events = events[events[:, 0] <= self.z[layout.SHOWN + layout.TIME]]
         return Trajectory(self.times[: self.rows], columns, events, self.parameters, reason)

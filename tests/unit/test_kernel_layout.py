@@ -86,7 +86,7 @@ ARRAYS = {
         for head, part in sections().items()
         if "inside a block" in head
         for name, value in part.items()
-        if name != "STATES"
+        if name not in ("STATES", "MOVING", "REMEMBERED")
     },
 }
 
@@ -106,8 +106,9 @@ def test_every_wide_slot_exists():
 
 
 def test_the_integrated_states_come_first():
-    states = {name: ARRAYS["block"][name] for name in ("X", "AGE")}
-    assert states == {"X": 1, "AGE": layout.STATES}
+    states = {name: ARRAYS["block"][name] for name in ("X", "OMEGA", "AGE", "DAMPED")}
+    ends = {"OMEGA": layout.MOVING, "AGE": layout.REMEMBERED, "DAMPED": layout.STATES}
+    assert states == {"X": 1} | ends
     assert layout.MODE == 1 + layout.STATES
 
 

@@ -43,6 +43,7 @@ from .layout import (
     TOO_STIFF,
     U_SIZE,
     U_TEMPERATURE,
+    W_ALONG,
     W_SLIDING,
     Z_ENERGY,
     Z_HAS_NEXT,
@@ -56,7 +57,7 @@ from .layout import (
     X,
 )
 from .motion import block_energy, rest_speed
-from .runge_kutta import begin_step, take_step
+from .runge_kutta import begin_step, load_block, take_step
 from .springs import shortest_spring
 
 
@@ -92,16 +93,17 @@ def longest_step(p: "float[:]", z: "float[:]", w: "float[:]", rest: float) -> fl
     return h
 
 
-def has_turned(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]") -> float:
-    """Sliding velocity of NEXT along the direction of sliding in HERE, m/s: negative if reversed.
+def has_reversed(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]") -> bool:
+    """Does NEXT slide against the direction of sliding in HERE?
 
-    Leaves the contact at NEXT in ``w``.
+    Leaves the contact at NEXT in ``w``, and in ``w[W_ALONG]`` the velocity along that direction.
     """
     look_at(p, u, z, w, NEXT)
     along = w[W_SLIDING] * z[HERE + DIRECTION]
     along += p[P_LATERAL] * w[W_SLIDING + 1] * z[HERE + DIRECTION + 1]
     along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[HERE + DIRECTION + 2]
-    return along
+    w[W_ALONG] = along
+    return along < 0.0
 
 
 def try_step(
@@ -119,23 +121,27 @@ def try_step(
         if h < finest:
             return -1.0
         error = take_step(p, u, z, w, HERE, NEXT, h)
+        if h == p[P_RUN_UP] - z[HERE + TIME]:
+            z[NEXT + TIME] = p[P_RUN_UP]
         if not isfinite(error):
             error = 1e8
         if error > 1.0:
             h *= max(0.1, 0.9 * error ** (-0.125))
-        elif z[HERE + MODE] == SLIP and grip > 0.0 and h > 16.0 * finest:
-            if has_turned(p, u, z, w) < 0.0 and scaled_sliding_speed(p, w) > rest_speed(p, u):
+        elif z[HERE + MODE] == SLIP and has_reversed(p, u, z, w) and grip > 0.0:
+            if scaled_sliding_speed(p, w) > rest_speed(p, u) and h > 16.0 * finest:
                 error = 2.0
                 h *= 0.5
-                begin_step(p, u, z, w, HERE)
+                load_block(p, z, w, HERE)
     return error
 
 
 def finish_slip_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]"):
-    """Note the course of a slip at NEXT, or settle the contact where the slip has turned round."""
-    along = has_turned(p, u, z, w)
+    """Note the course of a slip at NEXT, or settle the contact where the slip has turned round.
+
+    Takes the contact at NEXT from `has_reversed`.
+    """
     speed = scaled_sliding_speed(p, w)
-    if along < 0.0:
+    if w[W_ALONG] < 0.0:
         settle(p, u, z, w, e, NEXT)
     elif speed > rest_speed(p, u):
         set_direction(p, z, w, NEXT, speed)
@@ -164,20 +170,19 @@ def internal_step(
     grip = holding_coefficient(p, u, w)  # without it there is no coming to rest
     if z[HERE + MODE] == SLIP and grip > 0.0:
         rest = time_to_rest(p, w)
+    to_run_up = p[P_RUN_UP] - z[HERE + TIME]
     slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)
-    if slow and 0.0 < rest and rest * p[P_RATE] < 1e-3:  # a landing that takes longer is no landing
+    # a landing that takes longer is no landing, and none crosses the end of the run-up
+    if slow and 0.0 < rest and rest * p[P_RATE] < 1e-3 and not 0.0 < to_run_up < rest:
         land(p, u, z, w, e, rest)
     else:
         bound = longest_step(p, z, w, rest)
         if cap > 0.0:
             bound = min(bound, cap)
-        to_run_up = p[P_RUN_UP] - z[HERE + TIME]
         error = try_step(p, u, z, w, bound, grip)
         if error < 0.0:
             return STEP_VANISHED
         h = z[NEXT + TIME] - z[HERE + TIME]
-        if h == to_run_up:
-            z[NEXT + TIME] = p[P_RUN_UP]
         z[Z_STEP] = max(h * min(8.0, 0.9 * max(error, 1e-12) ** (-0.125)), min(z[Z_STEP], bound))
         if z[HERE + MODE] == STICK:
             break_away(p, u, z, w, e)

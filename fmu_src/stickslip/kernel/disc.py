@@ -55,16 +55,18 @@ def sine_cosine_integral(k2: float, b: float, d: float) -> float:
     """Integral of sin^2 cos^2 / D from 0 to pi/2, with b and d from `elliptic_pair`.
 
     (b - d) / (3 k^2) in closed form; a power series where that would cancel. The series is cut
-    where the terms left out are below rounding: 0.05^12 < 1e-15.
+    where the terms left out are below rounding.
     """
     if k2 > 0.05:
         return (b - d) / (3.0 * k2)
     # int sin^(2n+2) cos^2 = pi/2 (2n+1)!!/(2n+4)!!, times the binomial (2n-1)!!/(2n)!!
     term = pi / 16.0
     total = term
-    for n in range(1, 13):
+    n = 1.0
+    while term > 1e-16 * total:
         term = term * k2 * (2.0 * n + 1.0) * (2.0 * n - 1.0) / ((2.0 * n + 4.0) * 2.0 * n)
         total += term
+        n += 1.0
     return total
 
 

@@ -23,6 +23,8 @@ from .layout import (
     P_TABLEAU,
     POWERS,
     SHOWN,
+    SLIP,
+    SLIP_TIME,
     STAGES,
     STATES,
     STICK,
@@ -92,6 +94,8 @@ def interpolate(
     r = 1.0 - t
     copy_block(z, HERE, target)
     z[target + TIME] = time
+    if z[target + MODE] == SLIP:
+        z[target + SLIP_TIME] += time - z[HERE + TIME]
     for i in range(STATES):
         at = Z_DENSE + i
         y = (z[at + 5 * STATES] + t * z[at + 6 * STATES]) * r

@@ -29,40 +29,43 @@ PHI = 3
 VX = 4
 VY = 5
 OMEGA = 6
-HEAT = 7  # friction heat since the start, J
+TRAVEL = 7  # way of the surface since the start, m
 DISTANCE = 8  # mean sliding distance of the contact, m
-TRAVEL = 9  # way of the surface since the start, m
-WORK_SURFACE = 10  # work of the surface on the block, J
-WORK_EXTERNAL = 11  # work of the external forces, J
-DAMPED = 12  # work of the block on the structural damping, J
-WARMTH = 13  # recent friction heat, J (thermal_weakening)
-AGE = 14  # age of the contact, s (rate_and_state)
-STATES = 14  # integrated numbers: X ... AGE
+WARMTH = 9  # recent friction heat, J (thermal_weakening)
+AGE = 10  # age of the contact, s (rate_and_state)
+HEAT = 11  # friction heat since the start, J
+WORK_SURFACE = 12  # work of the surface on the block, J
+WORK_EXTERNAL = 13  # work of the external forces, J
+DAMPED = 14  # work of the block on the structural damping, J
+STATES = 14  # integrated numbers: X ... DAMPED
+MOVING = 6  # those that every motion depends on: X ... OMEGA
+REMEMBERED = 10  # those that it can depend on by way of friction: X ... AGE
 
 # --- discrete state, offsets inside a block -----------------------------------------------------
 MODE = 15
 DIRECTION = 16  # unit vector of the scaled sliding velocity
 SLIPS = 19  # break-aways since the start
 HOLD_SINCE = 20  # when the present stick began, s
-BLOCK = 21
+SLIP_TIME = 21  # time spent in slip since the start, s
+BLOCK = 22
 
 # --- z: memory of a run -------------------------------------------------------------------------
 HERE = 0
-NEXT = 21
-SHOWN = 42
-BETWEEN = 63
-Z_STEP = 84  # size that the next internal step wants, s
-Z_HAS_NEXT = 85  # 1 while NEXT holds the end of the internal step that begins in HERE
-Z_ENERGY = 86  # kinetic and spring energy at the start, J
-Z_STARTED = 87
-Z_INPUTS = 88  # the inputs that HERE and NEXT were computed with
-Z_HEAT_BEFORE = 93  # friction heat at the communication point before, J
-Z_TIME_BEFORE = 94
-Z_STATUS = 95  # what the last call of `advance` returned
-Z_SPAN = 96  # size of the internal step from HERE to NEXT, s
-Z_SMOOTH = 97  # 1 where the interpolant over that step is accurate enough
-Z_DENSE = 98  # the interpolant: POWERS rows of STATES coefficients
-Z_SIZE = 196
+NEXT = 22
+SHOWN = 44
+BETWEEN = 66
+Z_STEP = 88  # size that the next internal step wants, s
+Z_HAS_NEXT = 89  # 1 while NEXT holds the end of the internal step that begins in HERE
+Z_ENERGY = 90  # kinetic and spring energy at the start, J
+Z_STARTED = 91
+Z_INPUTS = 92  # the inputs that HERE and NEXT were computed with
+Z_HEAT_BEFORE = 97  # friction heat at the communication point before, J
+Z_TIME_BEFORE = 98
+Z_STATUS = 99  # what the last call of `advance` returned
+Z_SPAN = 100  # size of the internal step from HERE to NEXT, s
+Z_SMOOTH = 101  # 1 where the interpolant over that step is accurate enough
+Z_DENSE = 102  # the interpolant: POWERS rows of STATES coefficients
+Z_SIZE = 200
 
 # --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
@@ -133,9 +136,10 @@ P_INITIAL = 164  # x, y, phi, vx, vy, omega
 P_STATIC_SENSITIVITY = 170  # of mu_s, 1/K
 P_ASPERITY = 171  # asperity_melting, K^2 s/m
 P_MELT_FILM = 172  # melt_film, s/m
-P_QUADRATURE = 173  # nodes and weights for friction that varies over the disc, see disc
-P_TABLEAU = 213  # the Runge-Kutta coefficients, see tableau
-P_SIZE = 573
+P_FEEDING = 173  # integrated numbers that the motion depends on: MOVING or REMEMBERED
+P_QUADRATURE = 174  # nodes and weights for friction that varies over the disc, see disc
+P_TABLEAU = 214  # the Runge-Kutta coefficients, see tableau
+P_SIZE = 574
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
@@ -158,17 +162,18 @@ Q_DEPTH = 32  # Gauss-Legendre nodes, then weights, DEPTHS of each
 
 # --- w: scratch ---------------------------------------------------------------------------------
 W_STATE = 0  # a block: the moment at which the right-hand side is wanted
-W_SLOPES = 21  # ALL_STAGES rows of STATES slopes
-W_LOAD = 245  # springs, damping and external loads on the block: x, y, phi
-W_SLIDING = 248  # velocity of the block relative to the surface: x, y, phi
-W_FRICTION = 251  # friction on the block: x, y, phi
-W_MEAN_SPEED = 254  # local sliding speed, mean over the contact, m/s
-W_SURFACE = 255  # velocity and acceleration of the surface under the block
-W_PAIR = 261  # return values of functions with two results
-W_DIRECTION = 263  # direction of sliding where the sliding velocity is too small to tell
-W_RUNNING_UP = 266  # 1 while the internal step lies in the surface's run-up
-W_SPAN = 267  # size of the step that the slopes belong to, s
-W_SIZE = 268
+W_SLOPES = 22  # ALL_STAGES rows of STATES slopes
+W_LOAD = 246  # springs, damping and external loads on the block: x, y, phi
+W_SLIDING = 249  # velocity of the block relative to the surface: x, y, phi
+W_FRICTION = 252  # friction on the block: x, y, phi
+W_MEAN_SPEED = 255  # local sliding speed, mean over the contact, m/s
+W_SURFACE = 256  # velocity and acceleration of the surface under the block
+W_PAIR = 262  # return values of functions with two results
+W_DIRECTION = 264  # direction of sliding where the sliding velocity is too small to tell
+W_RUNNING_UP = 267  # 1 while the internal step lies in the surface's run-up
+W_SPAN = 268  # size of the step that the slopes belong to, s
+W_ALONG = 269  # sliding velocity at its end along the direction at its beginning, m/s
+W_SIZE = 270
 
 # --- e: log of events ---------------------------------------------------------------------------
 E_COUNT = 0
@@ -198,7 +203,8 @@ O_SURFACE_SPEED = 17
 O_DAMPED = 18
 O_SURFACE_WORK = 19
 O_EXTERNAL_WORK = 20
-O_SIZE = 21
+O_SLIP_TIME = 21
+O_SIZE = 22
 
 # --- what `advance` returns ---------------------------------------------------------------------
 DONE = 0

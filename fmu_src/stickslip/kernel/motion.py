@@ -18,6 +18,7 @@ from .layout import (
     P_RADIUS,
     P_RELAXATION,
     P_SPEED_SCALE,
+    P_WEAKENING,
     PHI,
     SLIP,
     TIME,
@@ -137,7 +138,9 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     w[out + WORK_EXTERNAL - 1] = external
     w[out + DAMPED - 1] = damping_power(p, w, W_STATE)
     w[out + AGE - 1] = ageing_rate(p, w[W_STATE + AGE], w[W_MEAN_SPEED])
-    w[out + WARMTH - 1] = heat - w[W_STATE + WARMTH] / p[P_RELAXATION]
+    w[out + WARMTH - 1] = 0.0
+    if p[P_WEAKENING] != 0.0:
+        w[out + WARMTH - 1] = heat - w[W_STATE + WARMTH] / p[P_RELAXATION]
 
 
 def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:

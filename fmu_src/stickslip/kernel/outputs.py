@@ -14,12 +14,14 @@ from .layout import (
     O_HEAT_FLOW,
     O_MODE,
     O_SLIDING_SPEED,
+    O_SLIP_TIME,
     O_SLIPS,
     O_SURFACE_SPEED,
     O_SURFACE_WORK,
     O_TRAVEL,
     O_X,
     SHOWN,
+    SLIP_TIME,
     SLIPS,
     TIME,
     TRAVEL,
@@ -73,4 +75,5 @@ def show(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", o: "float[:
     o[at + O_DAMPED] = z[SHOWN + DAMPED]
     o[at + O_SURFACE_WORK] = z[SHOWN + WORK_SURFACE]
     o[at + O_EXTERNAL_WORK] = z[SHOWN + WORK_EXTERNAL]
+    o[at + O_SLIP_TIME] = z[SHOWN + SLIP_TIME]
     o[at + O_SURFACE_SPEED] = surface_speed(p, u, w, z[SHOWN + TIME])

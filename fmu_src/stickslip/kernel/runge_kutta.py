@@ -12,6 +12,7 @@ from .layout import (
     HEAT,
     MODE,
     OMEGA,
+    P_FEEDING,
     P_LATERAL,
     P_MASS,
     P_RADIUS,
@@ -20,6 +21,8 @@ from .layout import (
     P_TABLEAU,
     P_TOLERANCE,
     PHI,
+    SLIP,
+    SLIP_TIME,
     STAGES,
     STATES,
     STICK,
@@ -80,15 +83,21 @@ def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
 
 
 def add_stage(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, stage: int):
-    """Slopes of one stage of the step of size ``w[W_SPAN]`` from block ``start``."""
+    """Slopes of one stage of the step of size ``w[W_SPAN]`` from block ``start``.
+
+    Numbers that the slopes do not depend on, heat and works for instance, keep their value at the
+    start.
+    """
     h = w[W_SPAN]
+    row = P_TABLEAU + T_A + stage * ALL_STAGES
     w[W_STATE + TIME] = z[start + TIME] + h * p[P_TABLEAU + T_C + stage]
-    for i in range(STATES):
+    feeding = int(p[P_FEEDING])
+    for i in range(feeding):
         w[W_STATE + 1 + i] = z[start + 1 + i]
     for before in range(stage):
-        weight = h * p[P_TABLEAU + T_A + stage * ALL_STAGES + before]
+        weight = h * p[row + before]
         if weight != 0.0:
-            for i in range(STATES):
+            for i in range(feeding):
                 w[W_STATE + 1 + i] += weight * w[W_SLOPES + before * STATES + i]
     set_slopes(p, u, w, z[start + MODE], W_SLOPES + stage * STATES)
 
@@ -107,6 +116,8 @@ def take_step(
     for i in range(TIME, BLOCK):
         z[end + i] = z[start + i]
     z[end + TIME] = z[start + TIME] + h
+    if mode == SLIP:
+        z[end + SLIP_TIME] += h
     error = close_step(p, u, z, w, end, h)
     if mode == STICK:
         follow_surface(p, u, z, w, end)
