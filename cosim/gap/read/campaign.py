@@ -126,7 +126,7 @@ def _check_time(file: Path, time: np.ndarray, lines: np.ndarray) -> None:
         row = back[0] + 1
         again = "repeats" if time[row] == time[row - 1] else "falls back from"
         raise CampaignError(
-            f"{file}: line {lines[row]}: t = {time[row]:.9g} s {again} {time[row - 1]:.9g} s, "
+            f"{file}: line {lines[row]}: t = {time[row]:.12g} s {again} {time[row - 1]:.12g} s, "
             f"allowed is a time that grows from row to row ({back.size} such row"
             f"{'s' * (back.size > 1)})"
         )

@@ -16,7 +16,9 @@ GRAVITY = 9.81
 MOST_FRICTION = 5.0
 #: Swing of the spring force over weight below which mass or stiffness are doubtful.
 LEAST_FRICTION = 1e-4
-LENGTHS = {"centimetres": 1e2, "millimetres": 1e3, "micrometres": 1e6}
+LENGTHS = {"millimetres": 1e3, "centimetres": 1e2, "micrometres": 1e6}
+#: What is usual of the same swing, and of y's part of a spring's length.
+USUAL_FRICTION, USUAL_PART = (0.05, 2.0), (1e-6, 0.5)
 TIMES = {"milliseconds": 1e3, "microseconds": 1e6}
 #: Part of a free vibration's period that two samples may at most be apart.
 COARSEST = 0.5
@@ -33,14 +35,14 @@ def check_units(file: Path, run: MeasuredRun, track: Track, rig: Rig) -> list[st
     if friction > MOST_FRICTION:
         raise CampaignError(
             f"{file}: column x: swings by {swing:.4g} m, a spring force of {friction:.3g} times "
-            f"the weight; allowed is metres ({_length_hint(friction / MOST_FRICTION)}check mass "
+            f"the weight; allowed is metres ({_length_hint(friction, USUAL_FRICTION)}check mass "
             "and stiffness)"
         )
     if track.y is not None and _swing(track.y) > rig.spring_length:
         raise CampaignError(
             f"{file}: column y: swings by {_swing(track.y):.4g} m, more than rig.spring_length = "
             f"{rig.spring_length:g} m; allowed is metres "
-            f"({_length_hint(_swing(track.y) / rig.spring_length)}check the rig)"
+            f"({_length_hint(_swing(track.y) / rig.spring_length, USUAL_PART)}check the rig)"
         )
     if track.phi is not None and np.nanmax(np.abs(track.phi)) > 2.0 * math.pi:
         raise CampaignError(
@@ -72,7 +74,7 @@ def _swing(values: np.ndarray) -> float:
     return float(high - low)
 
 
-def _length_hint(excess: float) -> str:
-    """The smallest unit that explains an excess."""
-    units = [name for name, factor in LENGTHS.items() if 1.0 < excess <= factor]
+def _length_hint(value: float, usual: tuple[float, float]) -> str:
+    """The unit in which a value would be usual."""
+    units = [name for name, factor in LENGTHS.items() if usual[0] < value / factor < usual[1]]
     return f"are these {units[0]}?, " if units else ""

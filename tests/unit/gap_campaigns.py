@@ -1,0 +1,51 @@
+"""Campaigns on disk for the tests of the gap workflow: exact motions with noise, written as CSV."""
+
+from pathlib import Path
+
+import numpy as np
+import tomli_w
+from stickslip import Parameters, simulate
+
+NOISE = 2e-4
+KNOWN = {"mass": 0.87, "stiffness": 38.5}
+RIG = {"spring_natural_length": 0.17}
+# measured data that are not part of the project
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "data"
+
+
+def motion(speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, **blocks):
+    """The exact motion of a block that sticks and slips."""
+    parameters = Parameters(
+        rig={"mass": mass, **RIG},
+        springs={"stiffness": KNOWN["stiffness"]},
+        friction={"mu_s": mu_s, "mu_k": mu_k},
+        surface={"speed": speed},
+        **blocks,
+    )
+    return simulate(parameters, duration, interval)
+
+
+def noisy(values, seed, noise=NOISE):
+    return values + noise * np.random.default_rng(seed).standard_normal(len(values))
+
+
+def write_csv(path, columns):
+    """columns: name -> values"""
+    table = np.stack(list(columns.values()), axis=1)
+    rows = [",".join("" if np.isnan(v) else f"{v:.15g}" for v in row) for row in table]
+    path.write_text("\n".join([",".join(columns), *rows]) + "\n", encoding="utf-8")
+
+
+def write_campaign(folder, runs, **tables):
+    """runs: tables of [[run]], each with `columns` for its file or without a file."""
+    entries = []
+    for number, run in enumerate(runs, 1):
+        entry = KNOWN | {"surface_speed": 0.06} | run
+        columns = entry.pop("columns", None)
+        if columns is not None:
+            entry.setdefault("file", f"run{number:02d}.csv")
+            write_csv(folder / entry["file"], columns)
+        entries.append({key: value for key, value in entry.items() if value is not None})
+    content = {"name": "test", "rig": RIG} | tables | {"run": entries}
+    (folder / "campaign.toml").write_text(tomli_w.dumps(content), encoding="utf-8")
+    return folder / "campaign.toml"
