@@ -3,34 +3,17 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import product
 
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.studies.drawing import panels, picture
 
-from ..cases import (
-    CYCLES,
-    DATASET_2,
-    LAW_ASSUMED,
-    MASSES,
-    MASSES_ASSUMED,
-    SPEEDS,
-    STIFFNESS_ASSUMED,
-    STIFFNESSES,
-    WEAKENING,
-    Case,
-    exact_motion,
-    exact_parameters,
-    longest,
-    many,
-    scheme,
-)
+from ..cases import CYCLES, Case, exact_motion, exact_parameters, longest, many, scheme
 from ..claim import Check, Claim, Row, responsible
 from ..drawing import COLOURS
+from ..series import ASSUMED, CASE, cases
 
-CASE = DATASET_2.changed(weakening=WEAKENING)
 NAMED = tuple(CASE.changed(stiffness=68.22, mass=2.03, speed=v) for v in (0.50, 0.63, 0.82))
 # a block of 10 ms changes x' by at most 10 ms of the largest acceleration, omega v; a jump is more
 JUMP = 2.0
@@ -53,10 +36,7 @@ def _jumps(case: Case, faults: Faults) -> int:
 
 def judge() -> Claim:
     """Jumps in the three named runs and in all runs of the study's plan."""
-    plan = [
-        CASE.changed(stiffness=k, mass=m, speed=v)
-        for k, m, v in product(STIFFNESSES, MASSES, SPEEDS)
-    ]
+    plan = cases()
     jumping = [c for c, n in zip(plan, many(_jumps, plan, PRINTED), strict=True) if n]
     mended = sum(n > 0 for n in many(_jumps, plan, MENDED))
     witnesses = jumping[:WITNESSES]
@@ -88,7 +68,7 @@ def judge() -> Claim:
             "Which runs jump is a matter of chance: the rotation that keeps x' below the "
             "surface's speed for a second grows from rounding.",
         ),
-        assumed=(LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED),
+        assumed=ASSUMED,
         pictures=(_draw(jumping[-1] if jumping else NAMED[0]),),
         leading=len(NAMED),
     )

@@ -2,48 +2,19 @@
 
 from __future__ import annotations
 
-from itertools import product
-
 import numpy as np
 
 from cosim.studies.drawing import SERIES, panels, picture
 
-from ..cases import (
-    DATASET_2,
-    EXTRA_STIFFNESS,
-    GUIDED_ASSUMED,
-    LAW_ASSUMED,
-    MASSES,
-    MASSES_ASSUMED,
-    SPEEDS,
-    STIFFNESS_ASSUMED,
-    STIFFNESSES,
-    WEAKENING,
-    three_models,
-)
+from ..cases import EXTRA_STIFFNESS, GUIDED_ASSUMED, MASSES, SPEEDS, STIFFNESSES
 from ..claim import Check, Claim, Row
 from ..drawing import LABELS, MODELS
+from ..series import ASSUMED, Grid, grid
 
-CASE = DATASET_2.changed(weakening=WEAKENING)
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)
 RANGE = (0.05, 0.11)
 # lines over mass count as horizontal where mu_k strays by less than this part of its mean
 HORIZONTAL = 0.05
-
-Grid = dict[str, np.ndarray]  # model -> mean mu_k (stiffness, mass, speed)
-
-
-def grid() -> Grid:
-    """Mean of the friction force in slip over m g, for every case."""
-    keys = list(product(ALL_STIFFNESSES, MASSES, SPEEDS))
-    cases = [CASE.changed(stiffness=k, mass=m, speed=v) for k, m, v in keys]
-    weights = np.array([case.weight for case in cases])
-    shape = len(ALL_STIFFNESSES), len(MASSES), len(SPEEDS)
-    return {
-        model: (np.array([one.mean_friction for one in figures]) / weights).reshape(shape)
-        for model, figures in three_models(cases).items()
-    }
-
 
 def _strays(mu: np.ndarray) -> float:
     """Largest spread over mass at one stiffness and speed, relative to the mean there."""
@@ -57,7 +28,7 @@ def _spread_over_speed(mu: np.ndarray) -> np.ndarray:
 
 def judge() -> Claim:
     """Range, mass, speed, stiffness."""
-    mu = grid()
+    mu = grid(lambda case, figures: figures.mean_friction / case.weight, ALL_STIFFNESSES)
     spreads = {model: _spread_over_speed(mu[model]) for model in MODELS}
     by_speed = {model: mu[model].mean(axis=(0, 1)) for model in MODELS}
     strays = [_strays(mu[model]) for model in MODELS]
@@ -89,7 +60,7 @@ def judge() -> Claim:
             "divided by the share of slip, which stiffness brings to 1. So µ_k at high stiffness "
             "differs between speeds by what the friction law differs.",
         ),
-        assumed=(LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED, GUIDED_ASSUMED),
+        assumed=(*ASSUMED, GUIDED_ASSUMED),
         pictures=(_draw(mu),),
     )
 

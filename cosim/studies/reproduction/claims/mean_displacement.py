@@ -2,46 +2,19 @@
 
 from __future__ import annotations
 
-from itertools import product
-
 import numpy as np
 
 from cosim.studies.drawing import SERIES, panels, picture
 
-from ..cases import (
-    DATASET_2,
-    GUIDED_ASSUMED,
-    LAW_ASSUMED,
-    MASSES,
-    MASSES_ASSUMED,
-    SPEEDS,
-    STIFFNESS_ASSUMED,
-    STIFFNESSES,
-    WEAKENING,
-    three_models,
-)
+from ..cases import GUIDED_ASSUMED, MASSES, SPEEDS, STIFFNESSES, three_models
 from ..claim import Check, Claim, Row
 from ..drawing import LABELS, MODELS, by_model
+from ..series import ASSUMED, CASE, Grid, grid
 
-CASE = DATASET_2.changed(weakening=WEAKENING)
 LINE = CASE.changed(stiffness=38.50, speed=0.37)
 LINE_MASSES = tuple(0.1 + 0.2 * i for i in range(16))
 # a straight line "holds" where it leaves less than a hundredth of the variance
 STRAIGHT = 0.99
-
-Grid = dict[str, np.ndarray]  # model -> mean x (stiffness, mass, speed), m
-
-
-def grid() -> Grid:
-    """Mean of x for every stiffness, mass and speed of the study."""
-    keys = list(product(STIFFNESSES, MASSES, SPEEDS))
-    cases = [CASE.changed(stiffness=k, mass=m, speed=v) for k, m, v in keys]
-    shape = len(STIFFNESSES), len(MASSES), len(SPEEDS)
-    return {
-        model: np.reshape([one.mean_x for one in figures], shape)
-        for model, figures in three_models(cases).items()
-    }
-
 
 def straightness(x: np.ndarray, y: np.ndarray) -> float:
     """R2 of a straight line."""
@@ -59,7 +32,7 @@ def judge() -> Claim:
         model: np.array([one.mean_x for one in figures])
         for model, figures in three_models([LINE.changed(mass=m) for m in LINE_MASSES]).items()
     }
-    means = grid()
+    means = grid(lambda case, figures: figures.mean_x)
     r2 = [straightness(np.array(LINE_MASSES), line[model]) for model in MODELS]
     by_stiffness = {model: means[model].mean(axis=(1, 2)) for model in MODELS}
     by_speed = {model: means[model].mean(axis=(0, 1)) for model in MODELS}
@@ -85,7 +58,7 @@ def judge() -> Claim:
             "With a constant µ_k the mean of x is µ_k m g/(4k) whatever the speed: it falls with "
             "speed only as far as µ_k does.",
         ),
-        assumed=(LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED, GUIDED_ASSUMED),
+        assumed=(*ASSUMED, GUIDED_ASSUMED),
         pictures=(_draw_grid(means), _draw_line(line)),
     )
 

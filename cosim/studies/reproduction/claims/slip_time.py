@@ -8,17 +8,11 @@ from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
 from cosim.studies.drawing import INK, panels, picture
 
-from ..cases import (
-    DATASET_2,
-    GUIDED_ASSUMED,
-    LAW_ASSUMED,
-    WEAKENING,
-    three_models,
-)
+from ..cases import GUIDED_ASSUMED, LAW_ASSUMED, three_models
 from ..claim import Check, Claim, Row
 from ..drawing import MODELS, by_model
+from ..series import CASE
 
-CASE = DATASET_2.changed(weakening=WEAKENING)
 SPEEDS = (0.01, 0.02, 0.04, 0.07, 0.10, 0.15, 0.20, 0.25, 0.31, 0.37, 0.44, 0.50, 0.57, 0.63,
           0.70, 0.76, 0.82)
 # a trend: at least this rank correlation with the speed
