@@ -165,9 +165,10 @@ def _cycle_means(track: Track, channel: str, cycles: list[tuple[float, float]]) 
     time, values = track.time[there], track[channel][there]
     means = []
     for start, end in cycles or [(time[0], time[-1])]:
-        inside = (time >= start) & (time <= end)
-        if np.count_nonzero(inside) > 2:
-            means.append(float(np.trapezoid(values[inside], time[inside]) / np.ptp(time[inside])))
+        grid = np.array([start, *time[(time > start) & (time < end)], end])
+        if len(grid) > 4:
+            curve = np.interp(grid, time, values)
+            means.append(float(np.trapezoid(curve, grid)) / (end - start))
     return _mean(means)
 
 
