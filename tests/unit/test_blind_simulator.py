@@ -1,0 +1,146 @@
+"""The simulator of the hidden campaigns: closed forms, convergence, energy; and whom it knows."""
+
+import ast
+import subprocess
+import sys
+from math import atan, cos, hypot, pi, sin, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+TESTS = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS))
+
+from blind.coulomb import plain_motion  # noqa: E402
+from blind.disc import disc_points  # noqa: E402
+from blind.hidden import Hidden, State  # noqa: E402
+from blind.motion import FINE, walk  # noqa: E402
+from blind.plane import ANGLES, anchors, spring_load  # noqa: E402
+
+PRODUCT = {"stickslip", "thermal", "cosim"}
+NOISE = 1e-4  # m, of the best tracker that a campaign draws
+G = 9.81
+
+
+def coulomb_cycle(p):
+    """Period of the plain model's stick-slip in s, and its largest displacement in m."""
+    k, n = 4 * p.stiffness, p.mass * G
+    a, omega = (p.mu_s - p.mu_k) * n / k, sqrt(k / p.mass)
+    period = 2 / omega * (pi - atan(a * omega / p.speed)) + 2 * a / p.speed
+    return period, p.mu_k * n / k + hypot(a, p.speed / omega)
+
+
+def mean_period(x, step):
+    """Mean time between upward passages of the mean, s."""
+    z = x - x.mean()
+    up = np.flatnonzero((z[:-1] < 0) & (z[1:] >= 0))
+    return np.diff(up - z[up] / (z[up + 1] - z[up])).mean() * step
+
+
+def test_no_file_imports_the_product():
+    imported = set()
+    for file in (TESTS / "blind").rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                imported |= {alias.name.split(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and not node.level:
+                imported.add(node.module.split(".")[0])
+    assert "numpy" in imported
+    assert not imported & PRODUCT
+
+
+def test_the_product_is_not_loaded_with_it():
+    program = (
+        "import sys, blind.campaign, blind.writing; "
+        f"sys.exit(bool({PRODUCT!r} & {{name.split('.')[0] for name in sys.modules}}))"
+    )
+    assert subprocess.run([sys.executable, "-c", program], cwd=TESTS).returncode == 0
+
+
+def test_disc_points_carry_the_load_and_the_polar_moment():
+    x, y, share = disc_points(0.04).T
+    assert share.sum() == pytest.approx(1.0)
+    assert (share * (x**2 + y**2)).sum() == pytest.approx(0.5 * 0.04**2)
+    assert abs(share @ y) < 1e-17 and abs(share @ x) < 1e-17
+
+
+def test_springs_against_the_vectors_of_the_paper():
+    p = Hidden()
+    x, y, phi = 0.012, -0.007, 0.2
+    total = np.zeros(3)
+    for angle in ANGLES:
+        rest = p.attachment * np.array([cos(angle), sin(angle)])
+        anchor = rest + [np.sign(rest[0]) * p.length, 0.0]
+        arm = p.attachment * np.array([cos(angle + phi), sin(angle + phi)])
+        spring = anchor - arm - [x, y]
+        force = p.stiffness * (1 - p.natural / np.linalg.norm(spring)) * spring
+        total += [*force, arm[0] * force[1] - arm[1] * force[0]]
+    load = spring_load(p, anchors(p), x, y, cos(phi), sin(phi))
+    assert load == pytest.approx(tuple(total), rel=1e-12)
+
+
+def test_closed_form_of_the_plain_model():
+    # m = k = 1, v = 0.2, F_s = 1, F_k = 0.5: period known to sixteen digits
+    x = plain_motion(0.5, 0.2, 1.0, 1.0, 0.2, 1 / G, 0.5 / G, 1e-3, 90000)
+    assert mean_period(x, 1e-3) == pytest.approx(8.902605407814523, abs=1e-7)
+    assert x.max() == pytest.approx(0.5 + hypot(0.5, 0.2), abs=1e-7)
+
+
+@pytest.mark.parametrize("speed", [0.008, 0.06, 0.12])
+def test_smoothed_friction_keeps_the_coulomb_cycle(speed):
+    p = Hidden(speed=speed)
+    x = walk(p, State(vx=speed), False, FINE[False], 20000)[4000:, 0]
+    period, largest = coulomb_cycle(p)
+    # what the smoothing does to one cycle is less than the best tracker's noise
+    assert abs(mean_period(x, 1e-3) - period) * speed < NOISE
+    assert abs(x.max() - largest) < NOISE
+
+
+@pytest.mark.parametrize("plane", [False, True])
+def test_halving_step_and_smoothing_changes_less_than_the_noise(plane):
+    p = Hidden(lateral=1.0, curvature=1.0) if plane else Hidden()
+    start = State(vx=p.speed)
+    once = walk(p, start, plane, FINE[plane], 1100)
+    twice = walk(p._replace(smooth=p.smooth / 2), start, plane, FINE[plane] / 2, 1100)
+    # two break-aways; every further one moves the phases apart by as much as the first
+    assert once[:, 0].std() > 20 * NOISE
+    assert np.abs(once[:, 0] - twice[:, 0]).max() < 1.5 * NOISE
+    assert np.abs(once[:, 1] - twice[:, 1]).max() < 0.1 * NOISE
+
+
+def test_plane_and_line_agree_where_nothing_pushes_aside():
+    p = Hidden(lateral=1.0)
+    line = walk(p, State(), False, FINE[True], 3000)
+    plane = walk(p, State(), True, FINE[True], 3000)
+    assert np.abs(line[:, 0] - plane[:, 0]).max() < 1e-9
+    assert np.abs(plane[:, 1]).max() < 1e-12
+
+
+def test_energy_of_free_motion_in_the_plane():
+    p = Hidden(mu_s=0.0, mu_k=0.0)
+    rows = walk(p, State(x=0.01, y=0.005, phi=0.1, vx=0.05), True, FINE[True], 5000)
+
+    def energy(row):
+        x, y, phi, vx, vy, omega = row[:6]
+        total = 0.5 * p.mass * (vx**2 + vy**2) + 0.5 * p.inertia * omega**2
+        for a, b, ax, ay in anchors(p):
+            reach_x = ax - x - a * cos(phi) + b * sin(phi)
+            reach_y = ay - y - a * sin(phi) - b * cos(phi)
+            total += 0.5 * p.stiffness * (hypot(reach_x, reach_y) - p.natural) ** 2
+        return total
+
+    energies = np.array([energy(row) for row in rows[::50]])
+    swing = 0.5 * p.mass * (rows[:, 3] ** 2).max()
+    assert np.ptp(energies) < 1e-5 * swing
+
+
+def test_friction_takes_what_the_springs_lose():
+    # a block let go on a surface at rest stops; the heat is the energy that the springs gave up
+    p = Hidden(speed=0.0, mu_s=0.1, mu_k=0.1)
+    rows = walk(p, State(x=0.03), False, FINE[False], 5000)
+    x = rows[:, 0]
+    heat = 0.1 * p.mass * G * (np.abs(np.diff(x)).sum() + abs(0.03 - x[0]))
+    given = 2 * p.stiffness * (0.03**2 - x[-1] ** 2)
+    assert abs(rows[-1, 3]) < p.smooth
+    assert heat == pytest.approx(given, rel=1e-3)
