@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from cosim.cli.errors import BadInput, refusing
+from cosim.cli.errors import refusing
+from cosim.folders import OutputRefused, writable
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario_faults import ScenarioError
 
@@ -32,16 +32,5 @@ def results_folder(given: str | None, scenario: Scenario) -> Path:
 
 def writable_folder(folder: Path, files: Iterable[str]) -> Path:
     """Make a folder; BadInput when nothing can be written to it, or a name in it is taken."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass  # the only sure test: permissions do not bind everybody, a disk may be read-only
-    except OSError as error:
-        raise BadInput(
-            f"{folder}: cannot be written to ({error.strerror}), allowed is a folder that can: "
-            "name one with -o"
-        ) from error
-    for name in files:
-        if (folder / name).is_dir():
-            raise BadInput(f"{folder / name}: is a folder, allowed is a file or nothing")
-    return folder
+    with refusing(OutputRefused):
+        return writable(folder, files)

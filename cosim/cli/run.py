@@ -15,10 +15,11 @@ from cosim.coupled import CoupledRun, run_scenario
 from cosim.master import CouplingError, FmuError, ParticipantError
 from cosim.report import run_dataset
 from cosim.scenario import Scenario
+from thermal import ParameterError
 
 FIELDS = "fields"
 #: Input that does not fit, as opposed to a run that fails.
-REFUSED = (CouplingError, FmuError)
+REFUSED = (CouplingError, FmuError, ParameterError)
 
 
 def main(arguments: Namespace) -> int:

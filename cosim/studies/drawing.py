@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import wraps
-from pathlib import Path
 
 import matplotlib
 from matplotlib.figure import Figure
+
+from cosim.folders import OutputRefused as OutputRefused
+from cosim.folders import writable as writable
 
 GREY, INK = "#7A7A7A", "#222222"
 # Okabe and Ito's palette: told apart with any kind of colour vision
@@ -25,10 +26,6 @@ RC = {
     "lines.linewidth": 1.2, "lines.markersize": 4.0,
 }
 DPI = 130
-
-
-class OutputRefused(ValueError):
-    """A file or folder that cannot be written; the message is one line."""
 
 
 @dataclass(frozen=True)
@@ -61,13 +58,3 @@ def panels(rows: int, columns: int, *, height: float = 2.6, width: float = 9.0, 
     """A figure and its axes (rows, columns), laid out without overlaps."""
     figure = Figure(figsize=(width, height * rows), layout="constrained")
     return figure, figure.subplots(rows, columns, squeeze=False, **kwargs)
-
-
-def writable(folder: Path) -> None:
-    """Create ``folder``; OutputRefused, before anything is computed, where that cannot be."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputRefused(f"{folder}: cannot be made a folder: {error.strerror}") from error
-    if not os.access(folder, os.W_OK):
-        raise OutputRefused(f"{folder}: is not writable; give another folder")

@@ -11,7 +11,8 @@ from typing import Any
 from tqdm import tqdm
 
 from cosim.atomic import write_bytes, write_text
-from cosim.studies.drawing import OutputRefused, Picture, writable
+from cosim.folders import OutputRefused, writable
+from cosim.studies.drawing import Picture
 from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page
 
 DONE, FAILED = 0, 1
@@ -54,7 +55,7 @@ def _print(entry: dict[str, Any]) -> None:
 
 def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
     """Figures, then the page of all of them; whether it got so far."""
-    writable(folder)
+    writable(folder, (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries)))
     pictures: dict[str, Picture] = {}
     try:
         for entry in tqdm(entries, disable=None, unit="figure", leave=False):

@@ -13,8 +13,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from cosim.atomic import write_bytes, write_text
+from cosim.folders import OutputRefused, writable
 from cosim.interrupts import held_interrupts
-from cosim.studies.drawing import OutputRefused, writable
 from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
 
 DONE, FAILED = 0, 1
@@ -40,8 +40,8 @@ def execute(arguments: Namespace) -> int:
     wanted = claim_ids(arguments.claims)
     folder = Path(arguments.output)
     result = Path(arguments.json) if arguments.json else folder / RESULT
-    writable(folder)
-    writable(result.parent)
+    writable(folder, (PAGE,))
+    writable(result.parent, (result.name,))
     claims: list[Claim] = []
     try:
         for one in tqdm(wanted, disable=None, unit="claim", leave=False):

@@ -16,6 +16,7 @@ import xarray as xr
 from tqdm import tqdm
 
 from cosim.atomic import write_atomically
+from cosim.folders import OutputRefused, not_taken
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario_faults import ScenarioError
 from cosim.studies.sweep import (
@@ -32,7 +33,7 @@ from cosim.studies.sweep.combination import COMPLETE
 from cosim.studies.sweep.figure import draw_sweep
 from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
 
-REFUSED = (SweepError, ScenarioError)
+REFUSED = (SweepError, ScenarioError, OutputRefused)
 DONE, FAILED = 0, 1
 RESULT, FIGURE = "sweep.nc", "sweep.png"
 #: Group of the result file that holds the test plan's repeats.
@@ -73,6 +74,7 @@ def execute(arguments: Namespace) -> int:
     grids = _grids(arguments, scenario)
     run = Run(scenario.run.duration, scenario.run.output_interval)
     folder = Path(arguments.output or Path("results") / f"{scenario.name}-sweep")
+    not_taken(folder, (RESULT, FIGURE))
     datasets = {}
     try:
         for group, grid in grids.items():

@@ -232,8 +232,12 @@ def test_command_refuses_before_it_computes(tmp_path):
         reproduction_command.execute(arguments("C99", "-o", str(tmp_path / "out")))
     assert not (tmp_path / "out").exists()
     (tmp_path / "file").write_text("")
-    with pytest.raises(reproduction_command.REFUSED, match="cannot be made a folder"):
+    with pytest.raises(reproduction_command.REFUSED, match="cannot be written to"):
         reproduction_command.execute(arguments("C1", "-o", str(tmp_path / "file")))
+    with pytest.raises(reproduction_command.REFUSED, match="is a folder, allowed is a file"):
+        reproduction_command.execute(
+            arguments("C1", "--json", str(tmp_path), "-o", str(tmp_path / "out"))
+        )
 
 
 def test_friction_level_against_the_measurements():

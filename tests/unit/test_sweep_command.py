@@ -99,6 +99,9 @@ def test_bad_input_leaves_nothing(case, tmp_path):
         call(tmp_path / "none.toml", "--vary", "rig.mass=1")
     with pytest.raises(sweep_command.REFUSED, match="cannot be written to"):
         call(case, "--vary", "rig.mass=1", "-o", case)
+    (tmp_path / "taken" / "sweep.png").mkdir(parents=True)
+    with pytest.raises(sweep_command.REFUSED, match="is a folder, allowed is a file"):
+        call(case, "--vary", "rig.mass=1", "-o", tmp_path / "taken")
     assert not (tmp_path / "out").exists()
 
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import tempfile
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
 from cosim.atomic import OutputError, write_text
+from cosim.folders import OutputRefused, writable
 
 from .combination import ERROR, Row, model_version
 from .errors import SweepError, SweepStopped
@@ -31,14 +31,9 @@ class Store:
         self.folder = None if folder is None else folder / FOLDER / model_version()[:VERSION_DIGITS]
         if self.folder is not None:
             try:
-                self.folder.mkdir(parents=True, exist_ok=True)
-                with tempfile.TemporaryFile(dir=self.folder):
-                    pass  # the only sure test: permissions do not bind everybody
-            except OSError as error:
-                raise SweepError(
-                    f"{folder}: cannot be written to ({error.strerror}), allowed is a folder that "
-                    "can"
-                ) from error
+                writable(self.folder)
+            except OutputRefused as error:
+                raise SweepError(str(error)) from error
 
     def read(self) -> dict[str, Row]:
         """Key -> row of everything that is kept."""
