@@ -210,12 +210,20 @@ def read_scenario(source: str | Path = "reference") -> Scenario:
         # tomllib lets through what Python itself refuses: a number of 5000 digits, a date of
         # month 13, a thousand nested brackets
         raise ScenarioError(f"{source}: not TOML that can be used: {error}") from None
+    _find_mesh(tables, Path(source).parent)
     if "name" not in tables:
         tables["name"] = Path(source).name.removesuffix(SUFFIX)
     try:
         return Scenario.from_tables(tables)
     except ScenarioError as fault:
         raise ScenarioError(f"{source}: {fault}") from None
+
+
+def _find_mesh(tables: dict[str, Any], folder: Path) -> None:
+    """A mesh is named from where the scenario is, and found from everywhere."""
+    ice = tables.get("ice")
+    if isinstance(ice, dict) and isinstance(ice.get("mesh"), str) and ice["mesh"]:
+        ice["mesh"] = str((folder / ice["mesh"]).resolve())
 
 
 def _read_text(source: str | Path) -> str:

@@ -121,6 +121,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         return f"{number} {' and '.join(bounds)}".rstrip() + unit
     if kind is bool:
         return "true or false"
+    if kind is str and not any(getattr(bound, "pattern", None) for bound in metadata):
+        return "a text"
     if kind is str:
         return 'a text of 1 to 100 characters without /\\:*?"<>|, a dot or a space not first'
     if get_origin(kind) is Literal:

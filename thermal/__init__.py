@@ -8,11 +8,12 @@ True
 """
 
 from .fields import FieldSeries
+from .ice_mesh import MeshError
 from .model import BeltIceModel
 from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
 from .single_pass import SinglePass
 
 __all__ = [
-    "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "ParameterError",
-    "SinglePass", "ThermalParameters",
+    "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "MeshError",
+    "ParameterError", "SinglePass", "ThermalParameters",
 ]

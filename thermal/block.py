@@ -5,6 +5,7 @@ from __future__ import annotations
 from .footprint import Footprint
 from .ice import Ice
 from .ice_body import IceBody
+from .ice_mesh import MeshError
 from .parameters import ParameterError, ThermalParameters
 from .sample import Sample
 
@@ -20,7 +21,10 @@ def standing_block(parameters: ThermalParameters) -> tuple[Footprint, IceBody]:
         footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
         return footprint, Ice(parameters.ice, contact.radius, footprint.arc_share,
                               touching=footprint.touching)
-    sample = Sample(parameters.ice, parameters.ice.mesh, belt.width)
+    try:
+        sample = Sample(parameters.ice, parameters.ice.mesh, belt.width)
+    except MeshError as error:
+        raise MeshError(f"ice.mesh: {error}") from error
     length = sample.area / sample.breadth
     if belt.length <= length:
         raise ParameterError(

@@ -42,8 +42,8 @@ def response_space(capacity: csr_matrix, conduction: csr_matrix, load: Array) ->
                            M=diags(1.0 / system.diagonal()))
         if failed:
             raise ArithmeticError(
-                f"the response of the ice mesh at {shift:g} 1/s did not converge in"
-                f" {_MOST_ITERATIONS} iterations: are some of its elements very flat?")
+                f"its answer to heat at {shift:g} 1/s did not converge in {_MOST_ITERATIONS}"
+                " iterations: are some of its elements very flat?")
         space = _extended(space, found, capacity)
     return space
 

@@ -176,6 +176,10 @@ class ThermalParameters(Block):
     @model_validator(mode="after")
     def _contact_on_ice(self) -> Self:
         contact = self.contact
+        if self.ice.mesh and contact.length:
+            raise ValueError(
+                f"contact.length = {contact.length:g} m and ice.mesh are both given: the mesh's"
+                " base is the contact, leave contact.length out")
         area = contact.length * min(self.belt.width, 2.0 * contact.radius)
         face = math.pi * contact.radius**2
         if area > face * (1.0 + 1e-9):

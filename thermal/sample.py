@@ -73,8 +73,11 @@ class Sample(IceBody):
         if not area > 0.0:
             raise MeshError(f"{file}: its base does not lie on the belt,"
                             f" |y| <= {0.5 * belt_width:g} m")
-        super().__init__(body.space(response_space(
-            body.capacity().tocsr(), body.conduction().tocsr(), load)))
+        try:
+            trial = response_space(body.capacity().tocsr(), body.conduction().tocsr(), load)
+        except ArithmeticError as error:
+            raise MeshError(f"{file}: {error}") from error
+        super().__init__(body.space(trial))
         low, high = points[:, 2].min(), points[:, 2].max()
         on_base = points[points[:, 2] <= low + FLAT * high]
         self.area = area

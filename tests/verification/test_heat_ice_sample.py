@@ -1,5 +1,6 @@
 """A sample from a mesh of tetrahedra: closed forms of the box, and the axisymmetric model."""
 
+import meshio
 import numpy as np
 import pytest
 from sample_meshes import box, cylinder, write
@@ -7,6 +8,16 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 from scipy.sparse.linalg import eigsh
 
+from thermal import (
+    Ambient,
+    Belt,
+    BeltIceModel,
+    Contact,
+    FieldSeries,
+    MeshError,
+    ParameterError,
+    ThermalParameters,
+)
 from thermal import Ice as IceParameters
 from thermal.ice import Ice
 from thermal.ice_body import IceBody
@@ -77,7 +88,7 @@ def test_the_small_space_answers_as_the_whole_mesh():
 
 def differences(tmp_path, across):
     """Face of a cooled cylinder against the axisymmetric model after some times, relative."""
-    ice = sample(tmp_path, cylinder(across, 6), h=50.0)
+    ice = sample(tmp_path, cylinder(across, 5), h=50.0)
     round_ = Ice(IceParameters(air_heat_transfer=50.0), 0.04)
     area = np.pi * 0.04**2
     return np.array([
@@ -120,3 +131,83 @@ def test_section_shows_the_field(tmp_path):
     assert middle[0] == pytest.approx(ice.face(), rel=0.02)
     assert np.diff(middle).max() < 1e-4 * middle[0]
     assert np.isfinite(rise).all()
+
+
+def models(tmp_path, **ambient):
+    """The whole model with a cylinder by itself and from a mesh, heated alike."""
+    path = write(tmp_path / "cylinder.vtu", *cylinder(4, 4))
+    belt = Belt(width=0.1, cell_length=4e-3)
+    contact = Contact(radius=0.04)
+    return [
+        BeltIceModel(ThermalParameters(
+            belt=belt, contact=contact, ambient=Ambient(**ambient), ice=IceParameters(mesh=mesh)))
+        for mesh in ("", str(path))]
+
+
+def test_the_whole_model_agrees_with_a_mesh_of_its_cylinder(tmp_path):
+    rises = []
+    for model in models(tmp_path):
+        for _ in range(300):
+            model.step(0.02, 0.03, 0.01)
+        outputs = model.outputs()
+        assert abs(outputs["heat_residual"]) < 1e-10 * outputs["heat_received"]
+        rises.append([outputs["ice_face_temperature"] + 8.0, outputs["belt_share"]])
+    # the polygon is 2.6 % smaller than the circle
+    assert rises[1] == pytest.approx(rises[0], rel=0.03)
+
+
+def test_a_sample_melts_as_the_cylinder_does(tmp_path):
+    rates = []
+    for model in models(tmp_path, temperature_degC=-1.0):
+        for _ in range(300):
+            model.step(0.01, 1.0, 0.005)
+        outputs = model.outputs()
+        assert abs(outputs["heat_residual"]) < 1e-10 * outputs["heat_received"]
+        assert outputs["ice_face_temperature"] == pytest.approx(0.0, abs=1e-10)
+        rates.append(outputs["melt_rate"])
+    assert rates[1] == pytest.approx(rates[0], rel=0.01)
+
+
+def test_a_melting_sample_continues_bit_for_bit(tmp_path):
+    model = models(tmp_path, temperature_degC=-1.0)[1]
+    for n in range(60):
+        if n == 30:
+            kept = model.state()
+        model.step(0.05, 10.0, 0.005)
+    assert model.ice.melted_depth > 1e-4, "the modes have been formed anew"
+    end = model.state()
+    model.restore(kept)
+    for _ in range(30):
+        model.step(0.05, 10.0, 0.005)
+    assert np.array_equal(model.state(), end)
+
+
+def test_fields_of_a_sample_read_back(tmp_path):
+    path = write(tmp_path / "sample.vtu", *cylinder(2, 3))
+    model = BeltIceModel(ThermalParameters(
+        belt=Belt(cell_length=5e-3), ice=IceParameters(mesh=str(path))))
+    model.step(1.0, 5.0, 0.1)
+    mesh = meshio.read(FieldSeries(tmp_path, model).write(0.0))
+    kinds = {block.type: block.data for block in mesh.cells}
+    assert set(kinds) == {"quad", "tetra"}
+    assert len(kinds["tetra"]) == len(model.ice.cells)
+    seen = mesh.point_data["temperature"][kinds["tetra"]]
+    assert seen.max() == pytest.approx(-8.0 + model.ice.at_points().max(), abs=1e-12)
+    heights = mesh.points[kinds["tetra"]][..., 2]
+    assert heights.min() == 0.0 and heights.max() == pytest.approx(0.1)
+
+
+def test_refusals_name_the_key(tmp_path):
+    big = write(tmp_path / "mm.vtu", 1e3 * cylinder(2, 2)[0], cylinder(2, 2)[1])
+    with pytest.raises(MeshError, match=r"^ice\.mesh: .*mm\.vtu: .* is the file in mm\?"):
+        BeltIceModel(ThermalParameters(ice=IceParameters(mesh=str(big))))
+    beside = write(tmp_path / "beside.vtu", cylinder(2, 2)[0] + [0.0, 0.2, 0.0], cylinder(2, 2)[1])
+    with pytest.raises(MeshError, match="its base does not lie on the belt"):
+        BeltIceModel(ThermalParameters(ice=IceParameters(mesh=str(beside))))
+    long_base = write(tmp_path / "long.vtu", *box((2, 2, 2), (0.1, 0.02, 0.05)))
+    with pytest.raises(ParameterError, match=r"belt\.length = 0\.09 m is shorter than the contact"):
+        BeltIceModel(ThermalParameters(
+            belt=Belt(length=0.09, width=0.01), contact=Contact(radius=0.01),
+            ice=IceParameters(mesh=str(long_base))))
+    with pytest.raises(ParameterError, match=r"contact\.length = 0\.05 m and ice\.mesh"):
+        ThermalParameters.checked({"ice": {"mesh": str(long_base)}, "contact": {"length": 0.05}})

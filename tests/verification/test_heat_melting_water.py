@@ -1,4 +1,4 @@
-"""What becomes of melt water: the film's balance, freezing and thawing on the belt, nothing lost."""
+"""Melt water: the film's balance, freezing and thawing on the belt, nothing lost."""
 
 import math
 
