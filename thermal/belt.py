@@ -106,6 +106,20 @@ class Belt:
             loss_forced=np.sum(self._air * entering[..., 0] * response[:, 0], axis=1)
             * duration**2)
 
+    def periodic_response(self, duration: float, shift: int) -> Response:
+        """Of a step before and after which the field is the same, `shift` nodes further back.
+
+        Without memory: `forced` gives the field before the step, which the loads sustain.
+        """
+        once = self.response(duration)
+        turn = 2j * np.pi * shift / self.cells * np.arange(self.rates.shape[1])
+        # exp(turn) - decay, without cancelling
+        kept = once.forced / (np.expm1(turn) - np.expm1(-self.rates * duration))
+        pairs = np.einsum("amk,bmk->abk", once.free_mean, kept)
+        return once._replace(
+            decay=np.zeros_like(once.decay), free_mean=np.zeros_like(once.free_mean), forced=kept,
+            kernels=once.kernels + irfft(pairs, self.cells, axis=-1))
+
     def nodal(self, first: int, loads: Array) -> Array:
         """Loads (nodes,) on consecutive nodes from `first` on, wrapped onto the loop: (cells,)."""
         nodal = np.zeros(self.cells)
@@ -114,13 +128,14 @@ class Belt:
             nodal[(first + start + np.arange(piece.size)) % self.cells] += piece
         return nodal
 
-    def face_means(self, duration: float, windows: Sequence[Window]) -> tuple[Array, Array]:
+    def face_means(self, duration: float, windows: Sequence[Window],
+                   response: Response | None = None) -> tuple[Array, Array]:
         """Step-means of the faces under the windows, summed over the nodes with their loads.
 
         Returns the means (rows,) without load, K m2, and their response (rows, rows), to fluxes
-        of 1 W/m2 on the rows; rows of all windows in a row.
+        of 1 W/m2 on the rows; rows of all windows in a row. response: in place of the step's own.
         """
-        response = self.response(duration)
+        response = response or self.response(duration)
         free = {}
         for face in {window.face for window in windows}:
             weighted = np.einsum("mk,mk->k", response.free_mean[face], self.amplitudes)

@@ -44,7 +44,7 @@ class BeltIceModel:
         self._ambient = parameters.ambient.temperature_degC
         self.meltwater = Meltwater(parameters.ice, self.footprint, self.ice, self.belt,
                                    MELTING_POINT_DEGC - self._ambient)
-        self._longest = _MOVEMENT * self.footprint.length
+        self.longest_movement = _MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
         self._probe = 0.5 * min((1.0 + 2.0 * _PROBE) * self.footprint.length,
                                 parameters.belt.length)
@@ -66,7 +66,7 @@ class BeltIceModel:
         evenly over the step. ValueError for anything else; the state is then unchanged.
         """
         _check_step(duration, heat, displacement, self.parameters.belt.length)
-        parts = max(math.ceil(abs(displacement) / self._longest),
+        parts = max(math.ceil(abs(displacement) / self.longest_movement),
                     self.meltwater.ablation.parts(heat))
         melted = self.meltwater.melted
         for _ in range(parts):

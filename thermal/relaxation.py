@@ -1,4 +1,4 @@
-"""Exact time integrals of u' = -rate u + p with p constant over a step."""
+"""Exact time integrals of u' = -rate u + p with p constant over a step; rates may be complex."""
 
 from __future__ import annotations
 
@@ -29,13 +29,14 @@ def mean_decay(x: Array) -> Array:
 
 def mean_response(x: Array) -> Array:
     """(exp(-x) - 1 + x) / x^2, the mean over a step of the response to p; 1/2 at x = 0."""
-    large = np.maximum(x, _SERIES_BELOW)
+    is_small = np.abs(x) < _SERIES_BELOW
+    large = np.where(is_small, _SERIES_BELOW, x)
     closed = (np.expm1(-large) + large) / large**2
-    small = np.minimum(x, _SERIES_BELOW)
+    small = np.where(is_small, x, 0.0)
     series = np.zeros_like(small)
     for n in range(_TERMS + 1, 1, -1):
         series = (1.0 - small * series) / n
-    return np.where(x < _SERIES_BELOW, series, closed)
+    return np.where(is_small, series, closed)
 
 
 class LastDurations(Generic[T]):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
 
-from .belt import BACK, CONTACT, Belt, Window
+from .belt import BACK, CONTACT, Belt, Response, Window
 from .footprint import Footprint, strip_loads
 from .parameters import Belt as BeltParameters
 from .sinks import Eliminated, eliminate, supports
@@ -52,15 +52,24 @@ class Track:
             [np.full(footprint.strips, footprint.strip_area)]
             + [lengths * footprint.lane for lengths in strips])
 
-    def see(self, duration: float, centre: float, movement: float) -> Seen:
-        """What a step of some duration (s) finds, the contact moving from `centre` (m)."""
+    @property
+    def takes_heat(self) -> bool:
+        """Does a support take heat?"""
+        return bool(np.any(self._conductances > 0.0))
+
+    def see(self, duration: float, centre: float, movement: float,
+            belt: Response | None = None) -> Seen:
+        """What a step of some duration (s) finds, the contact moving from `centre` (m).
+
+        belt: how it responds, when not as to a step.
+        """
         cell = self.belt.cell
         windows = [Window(CONTACT, *self._footprint.loads(centre, movement, cell))]
         windows += [
             Window(BACK, *strip_loads(support.edges, self._footprint.lane,
                                       centre + support.behind, movement, cell))
             for support in self._supports]
-        means, response = self.belt.face_means(duration, windows)
+        means, response = self.belt.face_means(duration, windows, belt)
         free, response = means / self._areas, response / self._areas[:, None]
         contact = eliminate(free, response, self._conductances - self._air)
         return Seen(windows, free, response, contact)

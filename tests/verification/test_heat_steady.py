@@ -1,0 +1,165 @@
+"""The steady state of sliding, found directly: against many passes, and the two ways to it."""
+
+import numpy as np
+import pytest
+
+from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
+from thermal.steady import NoSteadyState, settle
+from thermal.steady_sliding import SteadySliding
+
+PASSES = 10_000
+LIKE_MANY_PASSES = 1e-6
+#: Belt and ice that forget the start within the passes, and few unknowns.
+SMALL = ThermalParameters(
+    belt=Belt(length=0.045, width=0.05, cell_length=1.5e-3, elements=1, railing_length=0.02,
+              railing_conductance=40.0),
+    ice=Ice(height=0.01, air_heat_transfer=60.0, radial_elements=2, axial_elements=2),
+    contact=Contact(radius=0.02, strips=4),
+)
+STEP = (0.02, 0.01, 1.5e-3)  # s, J, m
+STEPS_IN_A_PASS = 30
+SENSES = ("belt_entry_temperature", "belt_exit_temperature", "ice_face_temperature",
+          "interface_temperature")
+
+
+def rises(model):
+    outputs = model.outputs()
+    return np.array([outputs[name] + 8.0 for name in SENSES])
+
+
+def temperatures(model):
+    """All amplitudes of belt and ice as real numbers."""
+    return np.concatenate((model.ice.amplitudes, model.belt.amplitudes.view(np.float64).ravel()))
+
+
+def set_temperatures(model, values):
+    ice = model.ice.amplitudes.size
+    model.ice.amplitudes[:] = values[:ice]
+    model.belt.amplitudes.view(np.float64)[:] = values[ice:].reshape(
+        model.belt.amplitudes.shape[0], -1)
+
+
+def one_pass(start, heat):
+    """Temperatures after the steps of one loop, from given ones, by stepping the model."""
+    model = BeltIceModel(SMALL)
+    set_temperatures(model, start)
+    for _ in range(STEPS_IN_A_PASS):
+        model.step(STEP[0], heat, STEP[2])
+    return temperatures(model)
+
+
+def test_ten_thousand_passes_lead_to_the_settled_state():
+    """A pass is linear in the temperatures: its columns are stepped, then it is done over and over.
+
+    The fluxes of a pass are affine in the temperatures too, so no step is left out or lengthened.
+    """
+    settled = BeltIceModel(SMALL)
+    settle(settled, *STEP)
+    for _ in range(STEPS_IN_A_PASS - 1):
+        settled.step(*STEP)
+    size = temperatures(settled).size
+    columns = np.stack([one_pass(unit, 0.0) for unit in 1e-3 * np.eye(size)], axis=1) / 1e-3
+    added = one_pass(np.zeros(size), STEP[1])
+    state = np.zeros(size)
+    for _ in range(PASSES):
+        state = columns @ state + added
+    stepped = BeltIceModel(SMALL)
+    set_temperatures(stepped, state)
+    assert rises(stepped) == pytest.approx(rises(settled), rel=LIKE_MANY_PASSES)
+    early = BeltIceModel(SMALL)
+    set_temperatures(early, added)
+    assert rises(early) != pytest.approx(rises(settled), rel=0.1), "the start must differ"
+
+
+@pytest.mark.parametrize("displacement", [2e-3, -4e-3, 0.0])
+def test_the_settled_state_stays(displacement):
+    model = BeltIceModel(ThermalParameters(belt=Belt(length=0.5, cell_length=2e-3)))
+    settle(model, 0.01, 0.005, displacement)
+    before = rises(model)
+    for _ in range(200):
+        model.step(0.01, 0.005, displacement)
+    assert rises(model) == pytest.approx(before, rel=1e-9)
+    outputs = model.outputs()
+    assert abs(outputs["heat_residual"]) < 1e-10 * outputs["heat_received"]
+    given = outputs["air_heat"] / (201 * 0.005)
+    assert given == pytest.approx(1.0, rel=1e-9), "all friction heat goes to the air"
+
+
+def test_two_ways_to_the_steady_state_meet():
+    """Steps of whole cells against the fixed point in the contact's frame, as the cells shrink.
+
+    Their loads differ by how far a cell spreads them: first order at the edges of the contact.
+    """
+    speed, force = 0.2, 4.0
+    errors = []
+    for cell in (4e-3, 2e-3, 1e-3):
+        parameters = ThermalParameters(belt=Belt(length=0.4, cell_length=cell))
+        model = BeltIceModel(parameters)
+        settle(model, cell / speed, force * cell, cell)
+        direct = SteadySliding(parameters, speed, force, waves=800).settle()
+        expected = (direct.entry, direct.ice_face, direct.mean_interface)
+        errors.append(np.abs(rises(model)[[0, 2, 3]] / expected - 1.0))
+    errors = np.array(errors)
+    assert np.all(errors[-1] < 1e-3)
+    assert np.all(errors[1:] < 0.6 * errors[:-1])
+
+
+@pytest.mark.parametrize(("length", "speed"), [(1.0, 0.82), (0.3, 0.5)])
+def test_long_steps_follow_the_transient(length, speed):
+    """20 s in a hundred steps of the contact's frame, against small steps of the model."""
+    parameters = ThermalParameters(belt=Belt(length=length, cell_length=2e-3))
+    model = BeltIceModel(parameters)
+    for _ in range(2000):
+        model.step(0.01, 4.03 * speed * 0.01, speed * 0.01)
+    state = SteadySliding(parameters, speed, 4.03).until(20.0)
+    assert (state.entry, state.exit, state.ice_face, state.mean_interface) == pytest.approx(
+        rises(model), rel=3e-3)
+    assert state.belt_share_so_far == pytest.approx(model.outputs()["belt_share"], abs=1e-3)
+
+
+def test_heat_of_the_steady_state_leaves_by_the_films():
+    """All heat to the belt: mean rise F v/(2 h w L), less the film that the block covers."""
+    h, force, speed, length = 15.0, 4.03, 0.82, 1.0
+    parameters = ThermalParameters(
+        belt=Belt(length=length, air_heat_transfer=h, conductivity=50.0),
+        ice=Ice(conductivity=1e-6))
+    sliding = SteadySliding(parameters, speed, force)
+    state = sliding.settle()
+    covered = sliding.footprint.area * sliding.strip_means().mean()
+    open_faces = 2.0 * 0.075 * length * state.belt_mean - covered
+    assert h * open_faces == pytest.approx(force * speed, rel=1e-3)
+    assert state.belt_share == pytest.approx(1.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("railing", [0.0, 0.2])
+def test_a_belt_that_keeps_its_heat_has_no_steady_state(railing):
+    belt = Belt(air_heat_transfer=0.0, railing_length=railing)
+    parameters = ThermalParameters(belt=belt)
+    with pytest.raises(NoSteadyState, match=r"belt\.air_heat_transfer = 0: .* warms for ever"):
+        SteadySliding(parameters, 0.15, 4.0).settle()
+    with pytest.raises(NoSteadyState, match="warms for ever"):
+        settle(BeltIceModel(parameters), 0.01, 0.01, 1e-3)
+
+
+def test_a_railing_alone_makes_a_steady_state():
+    belt = Belt(air_heat_transfer=0.0, railing_length=0.2, railing_conductance=50.0)
+    state = SteadySliding(ThermalParameters(belt=belt), 0.15, 1.0).settle()
+    assert 0.0 < state.entry < state.exit
+
+
+def test_ice_that_melts_for_ever_is_told():
+    with pytest.raises(NoSteadyState, match="melts for ever"):
+        settle(BeltIceModel(), 0.01, 10.0, 1e-3)
+
+
+def test_ways_that_are_not_whole_cells_are_refused():
+    with pytest.raises(ValueError, match=r"displacement = 0\.0015 m: .* whole cells"):
+        settle(BeltIceModel(), 0.01, 0.01, 1.5e-3)
+
+
+@pytest.mark.parametrize(("speed", "force", "says"), [
+    (0.0, 4.0, "speed = 0 m/s must be above 0"), (-0.1, 4.0, "speed = -0.1"),
+    (0.1, -1.0, "force = -1 N"), (np.nan, 1.0, "speed = nan")])
+def test_steady_sliding_refuses_what_cannot_be(speed, force, says):
+    with pytest.raises(ValueError, match=says):
+        SteadySliding(ThermalParameters(), speed, force)
