@@ -12,6 +12,7 @@ from tqdm import tqdm
 
 from cosim.atomic import write_bytes, write_text
 from cosim.folders import OutputRefused, writable
+from cosim.interrupts import held_interrupts
 from cosim.studies.drawing import Picture
 from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page
 
@@ -60,8 +61,9 @@ def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
     try:
         for entry in tqdm(entries, disable=None, unit="figure", leave=False):
             name = entry["id"]
-            pictures[name] = effect_figure(name)
-            write_bytes(pictures[name].png, folder / f"{name}.png")
+            with held_interrupts():
+                pictures[name] = effect_figure(name)
+                write_bytes(pictures[name].png, folder / f"{name}.png")
         write_text(json.dumps(entries, indent=1), folder / RESULT)
         write_text(page(entries, pictures), folder / PAGE)
     except KeyboardInterrupt:

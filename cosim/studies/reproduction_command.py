@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 import time
 from argparse import ArgumentParser, Namespace
+from importlib import import_module
 from pathlib import Path
 
 from tqdm import tqdm
@@ -43,6 +44,8 @@ def execute(arguments: Namespace) -> int:
     writable(folder, (PAGE,))
     writable(result.parent, (result.name,))
     claims: list[Claim] = []
+    with held_interrupts():
+        import_module("cosim.studies.reproduction.claims")
     try:
         for one in tqdm(wanted, disable=None, unit="claim", leave=False):
             claims += reproduce([one])

@@ -12,6 +12,8 @@ from pydantic import ValidationError
 from stickslip import Parameters
 from stickslip.compiled import compiled_kernel
 
+from cosim.interrupts import held_interrupts
+
 from .combination import ERROR, Row, Run, compute, model_version, with_changes, without_values
 from .errors import SweepStopped
 
@@ -47,7 +49,7 @@ def compute_chunk(
             f"the worker on {platform.node()} has another version of the model than this process; "
             "install the same one there, or start again if it was just changed"
         )
-    with _LOADING:  # threads of one worker must not load the kernel twice
+    with _LOADING, held_interrupts():  # threads of one worker must not load the kernel twice
         compiled_kernel()
     with warnings.catch_warnings():
         # what there is to warn of was said when the combinations were checked
