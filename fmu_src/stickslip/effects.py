@@ -217,7 +217,7 @@ class TemperatureDependence(Block):
 
 
 class AsperityMelting(Block):
-    """Asperities warmed to melting as they pass cap mu_k: (T_m - T) / sqrt(v), boundary friction.
+    """Asperities that melt in passing limit mu_k: as (T_m - T) / sqrt(v), boundary friction.
 
     mu_a = C e (T_m - T) / (H sqrt(l v)): the heat mu_a H v of a contact of length l that slides for
     l / v warms ice of effusivity e from the interface temperature T to melting, 0 degC. mu_k is
@@ -236,7 +236,7 @@ class AsperityMelting(Block):
         2e7,
         "Pa",
         "H, pressure that an asperity of ice bears: some 1e7 near melting to 3e7 in the cold",
-        gt=0,
+        ge=1e3,
         le=1e10,
         typical=(3e6, 3e7),
     )
@@ -244,7 +244,7 @@ class AsperityMelting(Block):
         2034.0,
         "W.s0.5/(m2.K)",
         "e of the ice, sqrt(k rho c)",
-        gt=0,
+        ge=1,
         le=1e6,
         typical=(1900.0, 2200.0),
     )
@@ -253,7 +253,7 @@ class AsperityMelting(Block):
         "1",
         "C: 1.128 isothermal contact, 1.329 uniform heat flux and melting in the mean, 0.886 "
         "uniform flux and melting at the trailing edge",
-        gt=0,
+        ge=0.1,
         le=10,
         typical=(0.886, 1.329),
     )
@@ -272,13 +272,13 @@ class MeltFilm(Block):
         "part of the contact's area that the film fills; p is the mean pressure over it; 0 is off",
         ge=0,
         le=1,
-        typical=(1e-4, 1e-1),
+        typical=(3e-4, 3e-2),
     )
     length: float = quantity(
         1e-3,
         "m",
         "l, way along the sliding over which a film grows: that of a wetted patch",
-        gt=0,
+        ge=1e-9,
         le=10,
         typical=(1e-4, 1e-2),
     )

@@ -58,5 +58,5 @@ CASES = {
     "rate_and_state": Case({"direct": 0.01, "evolution": 0.03, "distance": 1e-5}, SLOW),
     "temperature_dependence": Case({"sensitivity": 0.125, "reference_degC": -8.0}),
     "asperity_melting": Case({"length": 1e-3}),
-    "melt_film": Case({"wetted_share": 0.03}),
+    "melt_film": Case({"wetted_share": 0.01}, window=(0.0, 8.0)),
 }
