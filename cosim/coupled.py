@@ -54,17 +54,20 @@ def run_scenario(
     *,
     fmu: str | Path | None = None,
     fields: str | Path | None = None,
+    views: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> CoupledRun:
     """Run a scenario, the name of a packaged one, or a TOML file, coupled.
 
     fmu: the mechanical FMU; left out, it is `build/StickSlip3DOF.fmu`, built when it is missing
     or stale. fields: a folder that exists, for the temperature fields (`temperature.pvd` opens
-    in ParaView). progress: called with the time reached (s) after each macro step.
+    in ParaView). views: keep what belt and ice look like, as `snapshots.views`. progress: called
+    with the time reached (s) after each macro step.
 
     A run that is interrupted (Ctrl-C) or fails returns what it had; `result.status` says so.
-    Raises ScenarioError, FmuError, FmuBuildError or CouplingError (all ValueErrors of one line)
-    for input that cannot be, ParticipantError when a model fails before the first step.
+    Raises ScenarioError, FmuError, FmuBuildError, CouplingError or thermal.ParameterError (all
+    ValueErrors of one line) for input that cannot be, ParticipantError when a model fails before
+    the first step.
 
     >>> run = run_scenario("reference")                      # doctest: +SKIP
     >>> run.result["thermal.interface_temperature"][-1]      # doctest: +SKIP
@@ -72,7 +75,7 @@ def run_scenario(
     if not isinstance(scenario, Scenario):
         scenario = read_scenario(scenario)
     record_every = scenario.record_every
-    snapshots = Snapshots(scenario.run.snapshot_interval, fields)
+    snapshots = Snapshots(scenario.run.snapshot_interval, fields, views)
     mechanics = FmuParticipant(
         fmu or _own_fmu(),
         MECHANICS,

@@ -7,25 +7,31 @@ from pathlib import Path
 
 import numpy as np
 
-from thermal import BeltIceModel, FieldSeries
+from thermal import BeltIceModel, FieldSeries, RigView, rig_view
 
 #: Times closer than this part of the interval are the same: 3 macro steps of 0.1 s make 0.3 s.
 ROUNDING = 1e-6
+
+#: Most views that are kept; then every other one is dropped, and from there on not taken.
+MOST_VIEWS = 400
 
 
 class Snapshots:
     """Keeps the belt's contact face and, when a folder is given, writes the fields there.
 
     interval: s; a picture is taken of the first state shown at or after each multiple of it.
-    folder: must exist; None writes no files.
+    folder: must exist; None writes no files. views: also keep the fields of belt and ice, as
+    `views` (time in s, what is seen), evenly spread over the run, for an animation.
     """
 
-    def __init__(self, interval: float, folder: str | Path | None = None):
+    def __init__(self, interval: float, folder: str | Path | None = None, views: bool = False):
         self._interval = interval
         self._folder = folder
         self._number = -1
         self._series: FieldSeries | None = None
         self._taken: list[tuple[float, np.ndarray, float]] = []
+        self._view_every = 1 if views else 0
+        self.views: list[tuple[float, RigView]] = []
         self.position = np.empty(0)
 
     def __call__(self, time: float, model: BeltIceModel) -> None:
@@ -42,8 +48,17 @@ class Snapshots:
         if self._folder is not None:
             self._series = self._series or FieldSeries(self._folder, model)
             self._series.write(time)
+        if self._view_every and len(self._taken) % self._view_every == 0:
+            self._keep_view(time, model)
         self.position, temperature = model.belt_profile()
         self._taken.append((time, temperature, model.contact_position))
+
+    def _keep_view(self, time: float, model: BeltIceModel) -> None:
+        view = rig_view(model)
+        self.views.append((time, RigView(*(np.float32(part) for part in view))))
+        if len(self.views) > MOST_VIEWS:
+            del self.views[1::2]
+            self._view_every *= 2
 
     @property
     def file(self) -> Path | None:

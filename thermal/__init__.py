@@ -11,9 +11,10 @@ from .fields import FieldSeries
 from .ice_mesh import MeshError
 from .model import BeltIceModel
 from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
+from .rig_view import RigView, rig_view
 from .single_pass import SinglePass
 
 __all__ = [
     "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "MeshError",
-    "ParameterError", "SinglePass", "ThermalParameters",
+    "ParameterError", "RigView", "SinglePass", "ThermalParameters", "rig_view",
 ]

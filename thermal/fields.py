@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from .grid import grid_points, quadrilaterals
 from .model import BeltIceModel
+from .rig_view import seen_belt
 
 Array = NDArray[np.float64]
 
@@ -41,9 +42,8 @@ class FieldSeries:
         self._model = model
         self._written: list[tuple[float, str]] = []
         belt, ice = model.belt, model.ice
-        self._offset = (np.arange(belt.cells + 1) - belt.cells / 2) * belt.cell
-        self._below = grid_points(self._offset, -belt.depth)
-        below = quadrilaterals(self._offset.size, belt.depth.size)
+        self._below = grid_points(seen_belt(model)[0], -belt.depth)
+        below = quadrilaterals(belt.cells + 1, belt.depth.size)
         self._cells = [("quad", below), (ice.cell_type, ice.cells + len(self._below))]
         self._part = [np.full(len(cells), part, dtype=np.int32)
                       for part, (_, cells) in enumerate(self._cells)]
@@ -55,15 +55,9 @@ class FieldSeries:
 
     def _temperature(self) -> Array:
         """degC at all points."""
-        model = self._model
-        _, _, belt = model.belt_field()
-        place = (model.contact_position + self._offset) / model.belt.cell
-        node = np.floor(place).astype(np.int64)
-        part = (place - node)[:, None]
-        cells = model.belt.cells
-        seen = (1.0 - part) * belt[node % cells] + part * belt[(node + 1) % cells]
-        ice = model.parameters.ambient.temperature_degC + model.ice.at_points()
-        return np.concatenate((seen.ravel(), ice))
+        ambient = self._model.parameters.ambient.temperature_degC
+        belt = seen_belt(self._model)[1].ravel()
+        return np.concatenate((belt, ambient + self._model.ice.at_points()))
 
     def write(self, time: float) -> Path:
         """Add the model's present fields at time (s); returns the VTU file.

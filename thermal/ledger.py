@@ -13,15 +13,14 @@ class HeatLedger:
     """Totals since the start, J.
 
     `to_air` and `to_supports` are integrated along with the temperatures, `belt` and `ice` are
-    read off the temperature fields: none of them is inferred from the others, so `residual` can
-    fail.
+    read off the temperature fields, `meltwater` off the water that there is: none of them is
+    inferred from the others, so `residual` can fail.
     """
 
     received: float = 0.0
     from_contact_to_belt: float = 0.0
     to_air: float = 0.0
     to_supports: float = 0.0
-    latent: float = 0.0
     meltwater: float = 0.0
     belt: float = 0.0
     ice: float = 0.0
@@ -30,8 +29,7 @@ class HeatLedger:
     def residual(self) -> float:
         """Received less everything found: 0 up to rounding."""
         return self.received - (
-            self.belt + self.ice + self.to_air + self.to_supports + self.latent
-            + self.meltwater)
+            self.belt + self.ice + self.to_air + self.to_supports + self.meltwater)
 
     @property
     def belt_share(self) -> float:

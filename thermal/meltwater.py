@@ -68,14 +68,14 @@ class Meltwater:
         return self.film.mass + self.film.squeezed + float(self.on_belt.water.sum())
 
     @property
-    def latent_heat(self) -> float:
-        """Heat that the water has taken to melt, J."""
-        return self._latent * self.water
+    def heat(self) -> float:
+        """Heat that the water holds above ice of the air's temperature, J."""
+        return self.melt_heat * self.water
 
     @property
-    def sensible_heat(self) -> float:
-        """Heat that the water has taken on its way from the air's temperature to melting, J."""
-        return (self.melt_heat - self._latent) * self.water
+    def latent_heat(self) -> float:
+        """The latent part of it, J."""
+        return self._latent * self.water
 
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy."""

@@ -74,8 +74,7 @@ class BeltIceModel:
         if displacement != 0.0:
             self._direction = math.copysign(1.0, displacement)
         self.ledger.belt, self.ledger.ice = self.belt.heat(), self.ice.heat()
-        self.ledger.latent = self.meltwater.latent_heat
-        self.ledger.meltwater = self.meltwater.sensible_heat
+        self.ledger.meltwater = self.meltwater.heat
         self._melt_rate = (self.meltwater.melted - melted) / duration
 
     def _advance(self, duration: float, heat: float, displacement: float) -> None:
@@ -136,7 +135,7 @@ class BeltIceModel:
             "ice_heat": ledger.ice,
             "air_heat": ledger.to_air,
             "support_heat": ledger.to_supports,
-            "latent_heat": ledger.latent,
+            "latent_heat": self.meltwater.latent_heat,
             "meltwater_heat": ledger.meltwater,
             "heat_residual": ledger.residual,
         }

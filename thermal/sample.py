@@ -86,7 +86,7 @@ class Sample(IceBody):
         self._points = points
         self.r = np.linspace(points[:, 0].min(), points[:, 0].max(), _ACROSS)
         self._z = graded(float(high), _UP, _CROWDED)
-        self._section = section(points, cells, self.r, self._z)
+        self._section = section(body.basis, self.r, self._z)
 
     #: What `cells` are, in meshio's words.
     cell_type = "tetra"
@@ -104,7 +104,7 @@ class Sample(IceBody):
     def field(self) -> Array:
         """Temperature rise in the plane y = 0 at `r` by `z`, K; NaN outside: (n, heights)."""
         inside = np.diff(self._section.indptr) > 0
-        seen = np.where(inside, self._section @ self.at_points(), np.nan)
+        seen = np.where(inside, self._section @ self.nodal(), np.nan)
         return seen.reshape(self.r.size, self._z.size)
 
     def section(self) -> tuple[Array, Array, Array]:

@@ -18,6 +18,10 @@ OUTPUT_HELP = "folder of the results; made when missing (default: results/NAME O
 
 # command -> what it does, an example
 STUDIES = {
+    "belt-length": (
+        "how long the belt must be: drift of its temperature, loop after loop",
+        "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt",
+    ),
     "effects": (
         "the catalogue of effects: what each adds, its parameters, and a figure",
         "stickslip effects -o results/effects",
@@ -37,6 +41,7 @@ STUDIES = {
 }
 
 STUDY_MODULES = {
+    "belt-length": "cosim.studies.belt_length_command",
     "effects": "cosim.studies.effects_command",
     "friction-map": "cosim.studies.friction_regimes_command",
     "reproduce": "cosim.studies.reproduction_command",
@@ -120,6 +125,11 @@ def _add_run(commands: argparse._SubParsersAction) -> None:
         "--fmu",
         metavar="FILE",
         help="the mechanical FMU (default: build/StickSlip3DOF.fmu, built when missing or stale)",
+    )
+    run.add_argument(
+        "--animation",
+        action="store_true",
+        help="also write temperature.gif: belt and ice, a frame every run.snapshot_interval",
     )
 
 

@@ -13,7 +13,7 @@ import xarray as xr
 
 from cosim.cli.patience import Patience
 from cosim.cli.progress import progress_over_files
-from cosim.report import summary, write_results
+from cosim.report import Views, summary, write_results
 
 COMPLETE = "complete"
 #: Written after all other data and before the figures.
@@ -26,14 +26,16 @@ def finish(
     began: float,
     patience: Patience,
     files: Mapping[str, str] | None = None,
+    views: Views = (),
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
     began: of the command, on time.perf_counter, s. patience: released when the data are on
-    disk; a Ctrl-C then ends the drawing. files: further ones to list on the page.
+    disk; a Ctrl-C then ends the drawing. files: further ones to list on the page. views:
+    of belt and ice, for an animation.
     """
     try:
-        _write(dataset, folder, patience, files or {})
+        _write(dataset, folder, patience, files=files or {}, views=views)
     except KeyboardInterrupt:
         print(f"error: interrupted while drawing; the data are in {folder}", file=sys.stderr)
         return 1
@@ -45,7 +47,7 @@ def finish(
     return 0
 
 
-def _write(dataset: xr.Dataset, folder: Path, patience: Patience, files: Mapping[str, str]) -> None:
+def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any) -> None:
     command = shlex.join(["stickslip", *sys.argv[1:]])
     with progress_over_files() as show:
 
@@ -54,7 +56,7 @@ def _write(dataset: xr.Dataset, folder: Path, patience: Patience, files: Mapping
             if name == LAST_OF_DATA:
                 patience.release()
 
-        write_results(dataset, folder, command=command, files=files, progress=written)
+        write_results(dataset, folder, command=command, progress=written, **further)
 
 
 def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:

@@ -35,10 +35,12 @@ def main(arguments: Namespace) -> int:
                 patience.hold()
                 show(reached)
 
-            done = _coupled(scenario, fmu=arguments.fmu, fields=fields, progress=progress)
+            done = _coupled(scenario, fmu=arguments.fmu, fields=fields, progress=progress,
+                            views=arguments.animation)
         patience.hold()
         dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
-        return finish(dataset, folder, began, patience, _field_files(done, folder))
+        return finish(dataset, folder, began, patience, _field_files(done, folder),
+                      views=done.snapshots.views)
 
 
 def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:

@@ -5,10 +5,12 @@
 
 from cosim.atomic import OutputError
 
+from .animation import Views
 from .dataset import run_dataset, trajectory_dataset
 from .results import write_data, write_results
 from .summary import summary
 
 __all__ = [
-    "OutputError", "run_dataset", "summary", "trajectory_dataset", "write_data", "write_results",
+    "OutputError", "Views", "run_dataset", "summary", "trajectory_dataset", "write_data",
+    "write_results",
 ]

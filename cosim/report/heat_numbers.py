@@ -14,7 +14,7 @@ TEMPERATURES = (
 )
 SINKS = {
     "belt": "belt_heat", "ice": "ice_heat", "air": "air_heat", "supports": "support_heat",
-    "melting": "latent_heat",
+    "melting": "meltwater_heat",
 }
 
 

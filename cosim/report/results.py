@@ -10,13 +10,17 @@ import xarray as xr
 
 from cosim.atomic import write_bytes, write_text
 
+from .animation import Views, animation
 from .figures import plates_of
 from .files import write_csv, write_json, write_netcdf
+from .heat_numbers import ambient_degC
 from .page import page
 from .style import DPI
 from .summary import summary
 
 Progress = Callable[[str], None]
+
+ANIMATION = "temperature.gif"
 
 
 def write_results(
@@ -25,12 +29,14 @@ def write_results(
     *,
     command: str = "",
     files: Mapping[str, str] | None = None,
+    views: Views = (),
     progress: Progress | None = None,
 ) -> list[Path]:
     """Write data, summary, figures and page into a folder that exists; the data first.
 
     command: how the run was asked for, shown on the page. files: further files of the run,
-    relative to the folder -> what they are, to be listed there. progress: called with the name
+    relative to the folder -> what they are, to be listed there. views: times (s) and what is seen
+    of belt and ice, for an animation; none without them. progress: called with the name
     of each file once it is written. Raises OutputError where the disk refuses.
     """
     folder = Path(folder)
@@ -49,7 +55,12 @@ def write_results(
     for plate in plates_of(dataset):
         pictures[plate] = png(dataset, plate.draw)
         done(write_bytes(pictures[plate], folder / f"{plate.name}.png"))
-    text = page(dataset, numbers, pictures, command=command, files=files or {})
+    files = dict(files or {})
+    if views:
+        moving = animation(views, ambient_degC(dataset), dataset.attrs["title"])
+        done(write_bytes(moving, folder / ANIMATION))
+        files[ANIMATION] = "temperature of belt and ice over time, an animation"
+    text = page(dataset, numbers, pictures, command=command, files=files)
     done(write_text(text, folder / "report.html"))
     return written
 

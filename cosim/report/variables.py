@@ -22,9 +22,8 @@ THERMAL = {
     "ice_heat": ("J", "heat stored in the ice above the start"),
     "air_heat": ("J", "heat given to the air since the start"),
     "support_heat": ("J", "heat given to railing and rollers since the start"),
-    "latent_heat": ("J", "latent heat of the ice that has melted and not frozen again"),
-    "meltwater_heat": (
-        "J", "heat that this water took on its way from the air's temperature to melting"),
+    "meltwater_heat": ("J", "heat in what has melted, above ice of the air's temperature"),
+    "latent_heat": ("J", "the latent part of the heat in what has melted"),
     "heat_residual": ("J", "heat received less heat found: the thermal model's error"),
 }
 

@@ -1,0 +1,76 @@
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from cosim.report.animation import LASTS, animation
+from cosim.snapshots import MOST_VIEWS, Snapshots
+from thermal import Belt, BeltIceModel, ThermalParameters
+
+
+@pytest.fixture
+def model():
+    return BeltIceModel(ThermalParameters(belt=Belt(cell_length=0.02, elements=2)))
+
+
+def run(model, snapshots, steps, power=1.0):
+    for n in range(steps):
+        snapshots(0.1 * n, model)
+        model.step(0.1, 0.1 * power, 0.03)
+
+
+def test_views_are_kept_when_asked_for(model):
+    without, with_views = Snapshots(0.5), Snapshots(0.5, views=True)
+    run(model, without, 10)
+    assert without.views == []
+    run(model, with_views, 11)
+    assert [time for time, _ in with_views.views] == pytest.approx([0.0, 0.5, 1.0])
+    _, last = with_views.views[-1]
+    assert last.belt.shape == (last.offset.size, last.depth.size) == (51, 5)
+    assert last.ice.shape == (last.x.size, last.height.size)
+    assert last.offset[[0, -1]] == pytest.approx([-0.5, 0.5])
+    assert abs(last.offset[np.argmax(last.belt[:, 0])]) < 0.06, "warmest at the contact"
+    assert last.contact == pytest.approx(model.footprint.length)
+
+
+def test_a_long_run_keeps_views_evenly_spread(model):
+    snapshots = Snapshots(0.1, views=True)
+    for n in range(3 * MOST_VIEWS):
+        snapshots(0.1 * n, model)
+    times = np.array([time for time, _ in snapshots.views])
+    assert MOST_VIEWS // 3 < times.size <= MOST_VIEWS
+    assert np.ptp(np.diff(times)) < 1e-9
+    assert times[-1] > 0.99 * 0.1 * (3 * MOST_VIEWS - 8)
+
+
+def frames(data):
+    image = Image.open(io.BytesIO(data))
+    assert image.format == "GIF"
+    shown = []
+    for number in range(image.n_frames):
+        image.seek(number)
+        shown.append(np.asarray(image.convert("RGB"), dtype=float))
+    return shown, image.info["duration"]
+
+
+def test_an_animation_shows_how_it_gets_warmer(model):
+    snapshots = Snapshots(1.0, views=True)
+    run(model, snapshots, 31, power=5.0)
+    shown, duration = frames(animation(snapshots.views, -8.0, "case"))
+    assert len(shown) == 4
+    assert duration <= 1000.0 * LASTS / 3
+    size = shown[0].shape
+    assert all(frame.shape == size for frame in shown)
+    # the middle of the belt's picture: from black towards the bright end of the map
+    row, columns = int(0.8 * size[0]), slice(int(0.40 * size[1]), int(0.50 * size[1]))
+    brightness = [frame[row, columns].mean() for frame in shown]
+    assert np.all(np.diff(brightness) > 1.0)
+    assert shown[0][-3:, -3:].mean() > 250.0, "white paper"
+
+
+def test_an_animation_of_nothing_that_happens(model):
+    snapshots = Snapshots(0.1, views=True)
+    run(model, snapshots, 2, power=0.0)
+    shown, _ = frames(animation(snapshots.views, -8.0, "case"))
+    assert len(shown) >= 1
