@@ -1,0 +1,70 @@
+"""What the drift does to friction and to the stick-slip motion.
+
+Kinetic friction that falls linearly with the interface temperature, to nothing at the melting
+point, as measured on rock; or with a sensitivity that is given. Quasi-steady: a run of the
+mechanics with the friction that the interface's temperature at 20 s leaves, beside one with that
+of the start. The temperature varies over a stick-slip cycle by far less than over the run.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
+
+from .case import Case
+from .drift import Drift
+
+MELTING_POINT_DEGC = 0.0
+#: Static over kinetic friction, as measured on the rig (0.2815 and 0.2086).
+STATIC_OVER_KINETIC = 0.2815 / 0.2086
+#: One of the rig's four springs, N/m.
+STIFFNESS = 20.17
+#: Length of the mechanical runs, s.
+_DURATION = 40.0
+
+
+@dataclass(frozen=True)
+class FrictionEffect:
+    """mu_change: of mu_k over 20 s, relative. frequency: of stick-slip at the start, Hz, and its
+    relative change; None where the block does not stick and slip."""
+
+    mu_change: float
+    frequency: float | None
+    frequency_change: float | None
+
+
+def linear_sensitivity(ambient_degC: float) -> float:
+    """Part of mu_k lost per kelvin when nothing is left at the melting point, 1/K."""
+    return 1.0 / (MELTING_POINT_DEGC - ambient_degC)
+
+
+@lru_cache(maxsize=4096)
+def stick_slip_frequency(speed: float, mass: float, mu_s: float, mu_k: float) -> float | None:
+    """Break-aways per second along x on a belt, Hz; None where there are none."""
+    run = simulate(mechanics(speed, mass, mu_s, mu_k), duration=_DURATION, output_interval=1.0)
+    starts = run.slip_starts
+    if len(starts) < 3:
+        return None
+    return float((len(starts) - 1) / (starts[-1] - starts[0]))
+
+
+def mechanics(speed: float, mass: float, mu_s: float, mu_k: float) -> Parameters:
+    """The rig along x; the block moves with the belt at the start."""
+    return Parameters(
+        rig=Rig(mass=mass, degrees_of_freedom=("x",)), springs=Springs(stiffness=STIFFNESS),
+        friction=Friction(mu_s=mu_s, mu_k=mu_k), surface=Surface(speed=speed),
+        initial=Initial(vx=speed))
+
+
+def friction_effect(case: Case, drift: Drift, sensitivity: float | None = None) -> FrictionEffect:
+    """Of the interface's rise over a run; sensitivity: 1/K, linear to melting when left out."""
+    lost = sensitivity if sensitivity is not None else linear_sensitivity(case.ambient_degC)
+    mu_change = -min(1.0, lost * drift.interface_run)
+    mu_s = STATIC_OVER_KINETIC * case.friction
+    cold = stick_slip_frequency(case.speed, case.mass, mu_s, case.friction)
+    warm = stick_slip_frequency(
+        case.speed, case.mass, mu_s, round(case.friction * (1.0 + mu_change), 12))
+    change = warm / cold - 1.0 if cold and warm else None
+    return FrictionEffect(mu_change, cold, change)

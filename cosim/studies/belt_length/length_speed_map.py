@@ -1,0 +1,42 @@
+"""Drift after 20 s over lengths and speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from joblib import Parallel, delayed
+from numpy.typing import NDArray
+
+from .case import Case
+from .drift import run_drift
+
+#: Corners of the map: m and m/s.
+LENGTHS, SPEEDS = (0.3, 10.0), (0.05, 1.5)
+
+
+@dataclass(frozen=True)
+class DriftMap:
+    """drift (lengths, speeds), K; NaN where a map was stopped before it came there."""
+
+    lengths: NDArray[np.float64]
+    speeds: NDArray[np.float64]
+    drift: NDArray[np.float64]
+
+
+def _column(case: Case, speeds: NDArray[np.float64]) -> list[float]:
+    return [run_drift(replace(case, speed=float(speed))) for speed in speeds]
+
+
+def drift_map(case: Case, points: int, jobs: int,
+              progress: Callable[[int], None] = lambda done: None) -> DriftMap:
+    """points x points cases, evenly in the logarithm; in `jobs` processes."""
+    lengths, speeds = np.geomspace(*LENGTHS, points), np.geomspace(*SPEEDS, points)
+    drift = np.full((points, points), np.nan)
+    columns = Parallel(n_jobs=jobs, return_as="generator")(
+        delayed(_column)(case.with_length(float(length)), speeds) for length in lengths)
+    for i, column in enumerate(columns):
+        drift[i] = column
+        progress(points)
+    return DriftMap(lengths, speeds, drift)

@@ -1,0 +1,130 @@
+"""All cases of the study, worked off in processes; what is stopped keeps what it had."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass, field, fields, replace
+from itertools import groupby, product
+
+import pandas as pd
+from joblib import Parallel, delayed
+
+from .case import Case
+from .drift import Drift, drift, run_drift, steady_drift
+from .friction_effect import FrictionEffect, friction_effect
+from .shortest import shortest_belt
+from .uncertainty import Uncertainty, uncertainty
+
+Progress = Callable[[int], None]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A case and what it comes to.
+
+    shortest_run, shortest_steady: belt on which the drift stays below the limit after 20 s and
+    for ever, m; None where no belt does.
+    """
+
+    case: Case
+    drift: Drift
+    effect: FrictionEffect
+    shortest_run: float | None
+    shortest_steady: float | None
+    uncertainty: Uncertainty | None
+
+    def flat(self) -> dict[str, object]:
+        """One row of the table: columns named by what they hold, with units."""
+        d, e, u = self.drift, self.effect, self.uncertainty
+        return {
+            **{COLUMNS[one.name]: getattr(self.case, one.name) for one in fields(Case)},
+            "study [K]": d.study, "single pass mended [K]": d.single_pass,
+            "drift 20 s [K]": d.run, "drift 30 s [K]": d.long_run, "drift steady [K]": d.steady,
+            "drift 20 s low [K]": u and u.low, "drift 20 s high [K]": u and u.high,
+            "ice 20 s [K]": d.ice_run, "ice 30 s [K]": d.ice_long_run,
+            "ice steady [K]": d.ice_steady,
+            "interface 20 s [K]": d.interface_run, "flash 20 s [K]": d.flash_run,
+            "belt share 20 s": d.belt_share, "belt share steady": d.belt_share_steady,
+            "seen by camera": d.seen_by_camera, "steady melts": d.steady_melts,
+            "mu change 20 s": e.mu_change, "frequency [Hz]": e.frequency,
+            "frequency change 20 s": e.frequency_change,
+            "shortest belt 20 s [m]": self.shortest_run,
+            "shortest belt steady [m]": self.shortest_steady,
+        }
+
+
+#: Field of a case -> column of the table.
+COLUMNS = {
+    "length": "length [m]", "speed": "speed [m/s]", "mass": "mass [kg]", "h": "h [W/m2K]",
+    "conductivity": "conductivity [W/mK]", "friction": "friction", "ambient_degC": "ambient [degC]",
+    "conductance": "conductance [W/m2K]", "thickness": "thickness [m]",
+}
+
+
+@dataclass(frozen=True)
+class Options:
+    """limit K; sensitivity of friction 1/K (None: linear to melting); samples: of the Sobol
+    sequence, a power of two, 0 for none."""
+
+    limit: float
+    sensitivity: float | None = None
+    samples: int = 32
+
+
+@dataclass
+class Study:
+    """Rows so far; `complete` when none is missing."""
+
+    options: Options
+    rows: list[Row] = field(default_factory=list)
+    complete: bool = False
+
+    def table(self) -> pd.DataFrame:
+        """One row a case."""
+        return pd.DataFrame([row.flat() for row in self.rows])
+
+    def as_dict(self) -> dict[str, object]:
+        """Everything, for JSON."""
+        return {
+            "complete": self.complete, "limit": self.options.limit,
+            "cases": [asdict(row) | {"seen_by_camera": row.drift.seen_by_camera}
+                      for row in self.rows],
+        }
+
+
+def cases(**choices: Iterable[float]) -> list[Case]:
+    """Every combination; the lengths of one belt drive lie side by side."""
+    names = [name for name in choices if name != "length"] + ["length"]
+    return [Case(**dict(zip(names, values, strict=True)))
+            for values in product(*(choices[name] for name in names))]
+
+
+def _rows(group: list[Case], options: Options) -> list[Row]:
+    """Cases that differ in their length alone: the shortest belt is theirs together."""
+    first = group[0]
+    found = []
+    shortest = tuple(
+        shortest_belt(first, options.limit, one) for one in (run_drift, steady_drift))
+    for case in group:
+        rises = drift(case)
+        found.append(Row(
+            case, rises, friction_effect(case, rises, options.sensitivity), *shortest,
+            uncertainty(case, options.samples) if options.samples else None))
+    return found
+
+
+def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
+    """Fill the study's rows; whatever interrupts it, the rows until then stay."""
+    groups = [list(group) for _, group in groupby(wanted, lambda case: replace(case, length=1.0))]
+    for rows in _in_processes(groups, study.options, jobs):
+        study.rows += rows
+        progress(len(rows))
+    study.complete = True
+
+
+def _in_processes(groups: list[list[Case]], options: Options, jobs: int) -> Iterator[list[Row]]:
+    if jobs == 1:
+        yield from (_rows(group, options) for group in groups)
+        return
+    yield from Parallel(n_jobs=jobs, return_as="generator")(
+        delayed(_rows)(group, options) for group in groups)
