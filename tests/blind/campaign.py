@@ -19,6 +19,7 @@ from .tracker import Tracker, draw_tracker
 KINDS = ("effects", "none", "unknown", "two", "single_speed")
 SIZES = (6.0, 30.0)  # noise units between which a size is drawn, unless told
 SEARCH = 7  # motions spent on the strength that has the size asked for
+BEST_NOISE = 1e-4  # m, of the best tracker
 NEAR = 0.05  # logarithm of a size that need not be met more closely
 KNOWN = 0.03  # relative standard deviation of a coefficient that is stated
 STICKS = 5e-4  # m/s of sliding below which a block counts as held
@@ -151,6 +152,11 @@ def shown(seed: int, kind: str, ids, sizes, clean: float, rng: np.random.Generat
     known = state_friction(plan, rng, only_known or (kind != "single_speed" and rng.random() < 0.1))
     target = np.exp(rng.uniform(*np.log(sizes)))
     found = [find_strength(plan, each, tracker, target, known) for each in ingredients]
+    least = min((value for _, value in found), default=sizes[0])
+    if least < sizes[0]:  # what cannot be made larger is recorded better
+        noise = round(max(BEST_NOISE, 0.9 * tracker.noise * least / sizes[0]), 6)
+        found = [(strength, value * tracker.noise / noise) for strength, value in found]
+        tracker = replace(tracker, noise=noise)
     strengths = tuple(strength for strength, _ in found)
     motions, size = size_at(plan, ingredients, strengths, tracker, FINE, known)
     alone = (size.largest,) if len(found) == 1 else tuple(value for _, value in found)

@@ -65,3 +65,24 @@ def plain_motion(x, v, mass, stiffness, speed, mu_s, mu_k, step, rows):
             v, t = speed, t + left
             riding = abs(x) < reach
     return out
+
+
+@njit(cache=True)
+def replay(edges, x, v, seen, model, offset, thin, dense):
+    """Squares of seen less plain x, summed, and their number; afresh at every edge.
+
+    x, v, seen have rows every `dense` seconds, of which every `thin`-th is compared; model is
+    (mass, stiffness, speed, mu_s, mu_k).
+    """
+    mass, stiffness, speed, mu_s, mu_k = model
+    total, count = 0.0, 0
+    for i_edge in range(len(edges) - 1):
+        begin, end = edges[i_edge], edges[i_edge + 1]
+        rows = (end - 1 - begin) // thin
+        plain = plain_motion(
+            x[begin] - offset, v[begin], mass, stiffness, speed, mu_s, mu_k, thin * dense, rows
+        )
+        for i in range(rows):
+            total += (seen[begin + thin * (i + 1)] - plain[i] - offset) ** 2
+        count += rows
+    return total, count

@@ -8,14 +8,16 @@ difference of the period cannot pile up to a large one.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy.optimize import minimize
 
-from .coulomb import plain_motion
-from .hidden import State
+from .coulomb import replay
+from .hidden import Hidden, State
 from .motion import COARSE, DENSE, Motion, walk
 
 THIN = 10  # every so manieth dense row is compared: 100 Hz
@@ -54,27 +56,28 @@ def cycle_starts(x: np.ndarray) -> np.ndarray:
     return np.array(starts)
 
 
-def line_misfit(motion: Motion, mu_s: float, mu_k: float, offset: float) -> np.ndarray:
-    """x seen less x of the plain model, re-synchronised at every cycle, m; 100 Hz."""
-    p, path = motion.run.hidden, motion.rows
-    edges = [*cycle_starts(path[:, 0]), len(path)]
-    misfits = []
-    for begin, end in zip(edges[:-1], edges[1:], strict=True):
-        rows = (end - 1 - begin) // THIN
-        model = plain_motion(
-            path[begin, 0] - offset,
-            path[begin, 3],
-            p.mass,
-            4 * p.stiffness,
-            p.speed,
-            mu_s,
-            mu_k,
-            THIN * DENSE,
-            rows,
-        )
-        seen = motion.x[begin + THIN : begin + THIN * rows + 1 : THIN]
-        misfits.append(seen - model - offset)
-    return np.concatenate(misfits)
+@dataclass(frozen=True)
+class Cycles:
+    """A hidden motion cut where x passes its mean, ready for the plain model."""
+
+    hidden: Hidden
+    edges: np.ndarray  # rows where the plain model starts afresh, and the end
+    x: np.ndarray  # true, m
+    v: np.ndarray  # true, m/s
+    seen: np.ndarray  # x as the tracker's optics show it, m
+
+    @classmethod
+    def of(cls, motion: Motion) -> Self:
+        """Cut a motion."""
+        x, v = (np.ascontiguousarray(motion.rows[:, column]) for column in (0, 3))
+        edges = np.append(cycle_starts(x), len(x))
+        return cls(motion.run.hidden, edges, x, v, np.ascontiguousarray(motion.x))
+
+    def misfit(self, mu_s: float, mu_k: float, offset: float) -> tuple[float, int]:
+        """Sum of squares of x seen less x of the plain model in m2, and how many; 100 Hz."""
+        p = self.hidden
+        model = (p.mass, 4 * p.stiffness, p.speed, mu_s, mu_k)
+        return replay(self.edges, self.x, self.v, self.seen, model, offset, THIN, DENSE)
 
 
 def side_misfit(motion: Motion, mu_s: float, mu_k: float) -> np.ndarray:
@@ -109,9 +112,12 @@ def free_numbers(free: np.ndarray, known: Known) -> tuple[float, float, float]:
 def fit_plain(motions: Sequence[Motion], known: Known) -> tuple[float, tuple]:
     """Smallest misfit of x in m, and mu_s, mu_k, offset that reach it."""
     p = motions[0].run.hidden
+    cut = [Cycles.of(each) for each in motions]
 
     def misfit(free: np.ndarray) -> float:
-        return rms([line_misfit(each, *free_numbers(free, known)) for each in motions])
+        numbers = free_numbers(free, known)
+        sums = [each.misfit(*numbers) for each in cut]
+        return math.sqrt(sum(square for square, _ in sums) / sum(count for _, count in sums))
 
     grid = [
         np.array([(p.mu_s * lift - p.mu_k) * level, p.mu_k * level, 0.0])
