@@ -1,7 +1,7 @@
 """Slopes of friction against speed in coupled runs: belt and ice warm, the FMU feels it.
 
 Steady sliding by `steady_sliding`, 2 s each. In air of -8 degC and under the block's own weight
-friction warms the interface by 0.3 to 3 mK of the 8 K that melting takes, so the slope of the
+friction warms the interface by 1 to 2 mK of the 8 K that melting takes, so the slope of the
 friction itself is that of the law, -1/2. Under 400 times the load the interface warms by
 tenths of a kelvin, more the faster the block slides: friction then falls faster than -1/2, and what
 has the slope -1/2 is friction over T_m - T. The film's +1/2 does not feel the temperature; it is
