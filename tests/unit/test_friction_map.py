@@ -3,6 +3,7 @@
 import argparse
 import csv
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from cosim.studies.friction_regimes import (
     decade_slopes,
     friction_map,
     lowest_friction,
+    steady,
     steady_scenario,
 )
 
@@ -86,3 +88,10 @@ def test_what_cannot_slide_steadily_is_refused_in_one_line(changes, speed, ambie
         friction_map(CASE.changed(changes), [speed], [ambient], 0.1)
     assert isinstance(refused.value, friction_regimes_command.REFUSED)
     assert "\n" not in str(refused.value)
+
+
+def test_a_run_that_was_interrupted_ends_the_map(monkeypatch):
+    stopped = SimpleNamespace(result=SimpleNamespace(status="interrupted"))
+    monkeypatch.setattr(steady, "run_scenario", lambda case: stopped)
+    with pytest.raises(KeyboardInterrupt):
+        friction_map(CASE, [0.1, 0.2], [-8.0], 0.1)
