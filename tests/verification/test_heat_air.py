@@ -1,0 +1,70 @@
+"""The boundary layer of a moving belt, integrated here, against the constants in use."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_bvp
+
+from thermal.air import LAMINAR, SAKIADIS_AIR, NotLaminar, moving_belt
+from thermal.properties import ice_properties
+
+
+def nusselt(prandtl):
+    """-theta'(0) of the similarity equations, and -f''(0)."""
+
+    def slopes(eta, y):
+        f, df, ddf, theta, dtheta = y
+        return np.stack((df, ddf, -0.5 * f * ddf, dtheta, -0.5 * prandtl * f * dtheta))
+
+    def ends(a, b):
+        return np.array([a[0], a[1] - 1.0, a[3] - 1.0, b[1], b[3]])
+
+    eta = np.linspace(0.0, 40.0, 400)
+    decaying = np.exp(-0.7 * eta)
+    guess = np.stack((1.6 * (1.0 - decaying), decaying, -0.44 * decaying, decaying,
+                      -0.4 * decaying))
+    found = solve_bvp(slopes, ends, eta, guess, tol=1e-8, max_nodes=20000)
+    assert found.success
+    return -found.y[4, 0], -found.y[2, 0]
+
+
+def test_constant_of_sakiadis_flow():
+    air, friction = nusselt(0.7)
+    assert air == pytest.approx(SAKIADIS_AIR, abs=2e-4)
+    assert friction == pytest.approx(0.44375, abs=1e-4)
+    assert nusselt(1.0)[0] == pytest.approx(friction, abs=1e-6), "Reynolds' analogy"
+
+
+def test_the_belts_of_the_rig_lie_in_the_usual_range():
+    """5 W/m2K in still air to 25 in a light draught."""
+    for length in (1.0, 4.0):
+        for speed in (0.15, 0.82):
+            assert 5.0 < moving_belt(speed, 0.5 * length) < 15.0
+
+
+def test_faster_belts_cool_more_and_longer_spans_less():
+    assert moving_belt(0.8, 0.5) > moving_belt(0.4, 0.5) > moving_belt(0.0, 0.5) > 4.0
+    assert moving_belt(0.8, 0.5) > moving_belt(0.8, 2.0)
+    assert moving_belt(-0.8, 0.5) == moving_belt(0.8, 0.5)
+
+
+def test_without_buoyancy_and_radiation_it_is_sakiadis():
+    speed, span = 5.0, 0.5
+    still = moving_belt(0.0, span, rise=0.0)
+    forced = moving_belt(speed, span, rise=0.0) - still
+    viscosity, conductivity = 1.26e-5, 0.0235  # of air at -8 degC
+    expected = 2.0 * 0.3492 * np.sqrt(speed * span / viscosity) * conductivity / span
+    assert forced == pytest.approx(expected, rel=0.01)
+
+
+def test_turbulent_belts_are_refused():
+    assert LAMINAR == 5e5
+    with pytest.raises(NotLaminar, match="laminar, up to 500000"):
+        moving_belt(10.0, 1.0)
+
+
+def test_effusivity_of_ice_hardly_moves():
+    cold, warm = ice_properties(-16.0), ice_properties(0.0)
+    assert cold.conductivity > warm.conductivity and cold.heat_capacity < warm.heat_capacity
+    assert cold.effusivity / warm.effusivity == pytest.approx(1.01, abs=0.005)
+    with pytest.raises(ValueError, match="temperature = 1 degC"):
+        ice_properties(1.0)
