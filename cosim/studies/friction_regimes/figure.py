@@ -40,7 +40,8 @@ def draw_map(found: FrictionMap) -> Figure:
         ax.set(xscale="log", yscale="log", xlabel="sliding speed [m/s]",
                ylabel="friction coefficient [1]",
                title="lines: the law at the ambient temperature; points: coupled runs")
-        ax.set_ylim(top=2.0 * ax.get_ylim()[1])
+        low, high = ax.dataLim.intervaly
+        ax.set_ylim(low / 1.5, 2.5 * high)  # room for words; a law without speed is a line in it
         figure.legend(loc="outside right upper", title="ambient")
     return figure
 
