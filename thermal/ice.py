@@ -52,6 +52,24 @@ def _radii(radius: float, elements: int, touching: float | None) -> Array:
     return np.union1d(r[far], touching)
 
 
+def assembled(parameters: IceParameters, r: Array, z: Array,
+              arc_share: Callable[[Array], Array] = np.ones_like) -> Body:
+    """P2 elements between the radii r and the heights z (m)."""
+    mesh = MeshQuad.init_tensor(r, z).with_boundaries({
+        "bottom": lambda x: x[1] < 0.5 * z[1],
+        "side": lambda x: x[0] > 0.5 * (r[-2] + r[-1]),
+        "top": lambda x: x[1] > 0.5 * (z[-2] + z[-1]),
+    })
+    return Body(
+        basis=CellBasis(mesh, ElementQuad2()),
+        medium=Medium(parameters.density, parameters.heat_capacity, parameters.conductivity),
+        h=parameters.air_heat_transfer,
+        side=FacetBasis(mesh, ElementQuad2(), facets="side"),
+        top=FacetBasis(mesh, ElementQuad2(), facets="top"),
+        bottom=FacetBasis(mesh, ElementQuad2(), facets="bottom", intorder=12),
+        share=lambda x: arc_share(x[0]), measure=_around, height=float(z[-1]))
+
+
 class Ice(IceBody):
     """Temperature field of the cylinder; `amplitudes` (modes,).
 
@@ -66,20 +84,8 @@ class Ice(IceBody):
                  touching: float | None = None) -> None:
         r = _radii(radius, parameters.radial_elements, touching)
         z = graded(parameters.height, parameters.axial_elements, _AXIAL_STRETCH)
-        mesh = MeshQuad.init_tensor(r, z).with_boundaries({
-            "bottom": lambda x: x[1] < 0.5 * z[1],
-            "side": lambda x: x[0] > 0.5 * (r[-2] + r[-1]),
-            "top": lambda x: x[1] > 0.5 * (z[-2] + z[-1]),
-        })
-        basis = CellBasis(mesh, ElementQuad2())
-        body = Body(
-            basis=basis,
-            medium=Medium(parameters.density, parameters.heat_capacity, parameters.conductivity),
-            h=parameters.air_heat_transfer,
-            side=FacetBasis(mesh, ElementQuad2(), facets="side"),
-            top=FacetBasis(mesh, ElementQuad2(), facets="top"),
-            bottom=FacetBasis(mesh, ElementQuad2(), facets="bottom", intorder=12),
-            share=lambda x: arc_share(x[0]), measure=_around, height=parameters.height)
+        body = assembled(parameters, r, z, arc_share)
+        basis = body.basis
         super().__init__(body.space(np.eye(basis.N)))
         self.basis = basis
         self.r, self._z = _with_midpoints(r), _with_midpoints(z)
