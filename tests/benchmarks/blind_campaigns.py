@@ -61,9 +61,11 @@ def cells(kinds, count, first: int, ids, sizes) -> Iterator[Cell]:
         "effects": [(name,) for name in EFFECTS],
         "unknown": [(name,) for name in STRANGERS],
         "single_speed": [("film_drag",), ("structural_damping",)],
+        "two": [tuple(ids) if len(ids) == 2 else ()],
+        "none": [()],
     }
     for kind in kinds:
-        hidden = [each for each in lists.get(kind, [()]) if not ids or set(each) & set(ids)]
+        hidden = [each for each in lists[kind] if not ids or not each or set(each) & set(ids)]
         bands = sizes or SIZES.get(kind, ((5.0, 30.0),))
         for names in hidden:
             for band in bands:
@@ -108,8 +110,11 @@ def proposed_separation(drawn: Campaign, found: dict | None) -> float:
 def judge(cell: Cell, folder: Path, keep: bool) -> dict:
     """Draw a campaign, ask the product, and put both answers side by side."""
     drawn = draw_campaign(cell.seed, cell.kind, cell.ids, cell.sizes, float(cell.clean))
-    place, answers = folder / "campaigns" / cell.name, folder / "answers" / f"{cell.name}.json"
-    # the product reads a name that says nothing
+    # neither the name nor the path of what the product reads says anything
+    place, answers = (
+        folder / "campaigns" / f"c{cell.seed}",
+        folder / "answers" / f"{cell.name}.json",
+    )
     truth = write_campaign(drawn, place / "data", answers, f"campaign {cell.seed}")
     found, words, seconds = ask(place / "data" / "campaign.toml", place)
     row = asdict(cell) | {"truth": truth, "found": found, "words": words, "seconds": seconds}
@@ -147,10 +152,15 @@ def read_rows(file: Path) -> list[dict]:
     return rows
 
 
-def run_missing(wanted: list[Cell], folder: Path, jobs: int, keep: bool) -> list[dict]:
-    """All rows of the cells wanted, those from an earlier start included."""
+def run_missing(
+    wanted: list[Cell], folder: Path, jobs: int, keep: bool, again: bool = False
+) -> list[dict]:
+    """All rows of the cells wanted, those from an earlier start included.
+
+    again: campaigns without an answer are asked once more.
+    """
     file = folder / "campaigns.jsonl"
-    rows = {row["name"]: row for row in read_rows(file)}
+    rows = {row["name"]: row for row in read_rows(file) if row["found"] or not again}
     missing = [cell for cell in wanted if cell.name not in rows]
     work = joblib.Parallel(n_jobs=jobs, return_as="generator_unordered")(
         joblib.delayed(judge)(cell, folder, keep) for cell in missing
@@ -176,12 +186,13 @@ def main() -> None:
     parser.add_argument("--seed", type=int, help="drawn afresh in a new folder")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep", action="store_true", help="keep the campaigns and the reports")
+    parser.add_argument("--again", action="store_true", help="ask those without an answer again")
     told = parser.parse_args()
     seed = seed_of(told.folder, told.seed)
     print(f"seed {seed}")
     bands = [tuple(band) for band in told.size or ()]
     wanted = list(cells(told.kind, told.count, seed, told.effects, bands))
-    rows = run_missing(wanted, told.folder, told.jobs, told.keep)
+    rows = run_missing(wanted, told.folder, told.jobs, told.keep, told.again)
     table = markdown(rows, seed)
     (told.folder / "scores.md").write_text(table, encoding="utf-8")
     score_figure(rows, told.folder / "scores.png")

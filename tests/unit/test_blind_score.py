@@ -100,8 +100,8 @@ def test_cells_keep_their_seeds_whatever_else_is_run():
     everything = list(benchmark.cells(benchmark.KINDS, None, 7, (), []))
     assert len({cell.name for cell in everything}) == len(everything) >= 200
     assert len({cell.seed for cell in everything}) == len(everything)
-    few = list(benchmark.cells(["effects"], 1, 7, ["run_in"], []))
-    assert len(few) == 4 and set(few) <= set(everything)
+    few = list(benchmark.cells(["effects", "none"], 1, 7, ["run_in"], []))
+    assert len(few) == 6 and set(few) <= set(everything)
     assert not {c.seed for c in everything} & {
         c.seed for c in benchmark.cells(benchmark.KINDS, None, 8, (), [])
     }
@@ -113,6 +113,7 @@ def test_benchmark_does_only_what_is_missing(tmp_path, monkeypatch):
     def answer(campaign, folder):
         asked.append(campaign)
         assert campaign.is_file() and not list(folder.rglob("*answer*"))
+        assert not any(word in str(campaign.relative_to(tmp_path)) for word in ("none", "clean"))
         return {"verdict": "none", "effects": []}, "exit 0: ", 0.1
 
     monkeypatch.setattr(benchmark, "ask", answer)
@@ -125,9 +126,20 @@ def test_benchmark_does_only_what_is_missing(tmp_path, monkeypatch):
     assert len(asked) == 2 and both[0] == json.loads(json.dumps(first[0]))
     assert benchmark.run_missing(cells, tmp_path, 1, keep=False) == json.loads(json.dumps(both))
     assert len(asked) == 2
-    assert not (tmp_path / "campaigns" / cells[0].name).exists()
+    assert not list((tmp_path / "campaigns").iterdir())
     benchmark.score_figure(both, tmp_path / "scores.png")
     assert (tmp_path / "scores.png").stat().st_size > 10_000
+
+
+def test_failures_are_asked_again_when_told(tmp_path, monkeypatch):
+    cells = list(benchmark.cells(["none"], 1, 7, (), []))[:1]
+    monkeypatch.setattr(benchmark, "ask", lambda *_: (None, "exit 1: broken", 0.1))
+    assert benchmark.run_missing(cells, tmp_path, 1, keep=False)[0]["found"] is None
+    found = {"verdict": "none", "effects": []}
+    monkeypatch.setattr(benchmark, "ask", lambda *_: (found, "exit 0: ", 0.1))
+    assert benchmark.run_missing(cells, tmp_path, 1, keep=False)[0]["found"] is None
+    assert benchmark.run_missing(cells, tmp_path, 1, keep=False, again=True)[0]["found"] == found
+    assert benchmark.run_missing(cells, tmp_path, 1, keep=False)[0]["found"] == found
 
 
 def test_seed_is_kept_in_the_folder(tmp_path):
