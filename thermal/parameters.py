@@ -111,8 +111,11 @@ class Belt(Block):
 class Ice(Block):
     """A standing cylinder of ice on the belt; its radius is the contact's.
 
-    The sample of the test rig: diameter 8 cm, height 10 cm. Properties of ice Ih near -8 degC.
-    10 W/m2K on side and top: natural convection and radiation, about 5 each.
+    The sample of the test rig: diameter 8 cm, height 10 cm. Properties of ice Ih near -8 degC,
+    constant: between -16 and 0 degC conductivity falls by 9 % while capacity grows by 6 %, so the
+    face's rise under a given flux is 1.0 % low for rises below 1 K from -8 degC (0.2 % from -16),
+    and 1.8 % low for one up to melting. With `Ice.at` the temperature that the face comes to it
+    errs by 0.1 %. 10 W/m2K on side and top: natural convection and radiation, about 5 each.
     """
 
     mesh: str = Field(
@@ -131,6 +134,20 @@ class Ice(Block):
         6, ge=1, le=40, description="P2 elements along the radius, finest at the side")
     axial_elements: int = Field(
         10, ge=1, le=40, description="P2 elements along the height, finest at the contact")
+
+    @classmethod
+    def at(cls, temperature_degC: float, **others: Any) -> Self:
+        """Ice with the conductivity and capacity that it has at a temperature; others: any keys.
+
+        k = 9.828 exp(-0.0057 T) W/mK, c = 152.5 + 7.122 T J/kgK, T in K (Yen, Review of thermal
+        properties of snow, ice and sea ice, CRREL 81-10, 1981).
+
+        >>> round(Ice.at(-4.0).conductivity, 3), round(Ice.at(-4.0).heat_capacity)
+        (2.119, 2069)
+        """
+        kelvin = temperature_degC + 273.15
+        return cls(conductivity=9.828 * math.exp(-0.0057 * kelvin),
+                   heat_capacity=152.5 + 7.122 * kelvin, **others)
 
 
 class Contact(Block):
