@@ -35,6 +35,7 @@ WIDTHS = {
     "W_SURFACE": 2 * MOTION,
     "W_PAIR": 2,
     "W_DIRECTION": MOTION,
+    "W_CREEP": MOTION,
     "T_A": layout.STAGES * layout.ALL_STAGES,
     "T_B": (layout.ALL_STAGES - layout.STAGES) * layout.ALL_STAGES,
     "T_C": layout.ALL_STAGES,

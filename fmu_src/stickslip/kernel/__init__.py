@@ -21,6 +21,7 @@ MODULES = (
     "disc",
     "friction",
     "contact",
+    "creep",
     "motion",
     "runge_kutta",
     "interpolant",

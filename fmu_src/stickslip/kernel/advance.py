@@ -8,12 +8,22 @@ change, the trajectory therefore does not depend on when anybody looks at it.
 from math import isfinite
 
 from .coefficient import feels_temperature, holding_coefficient
-from .contact import scaled_sliding_speed
-from .events import break_away, look_at, set_direction, settle, time_to_rest
+from .contact import rest_speed, scaled_sliding_speed
+from .creep import can_creep
+from .events import (
+    break_away,
+    choose_creep,
+    keep_to_creep,
+    look_at,
+    set_direction,
+    settle,
+    time_to_rest,
+)
 from .interpolant import copy_block, look_inside, set_interpolant
 from .layout import (
     AGE,
     BLOCK,
+    CREEPING,
     DIRECTION,
     DONE,
     E_COUNT,
@@ -56,7 +66,7 @@ from .layout import (
     Z_TIME_BEFORE,
     X,
 )
-from .motion import block_energy, rest_speed
+from .motion import block_energy
 from .runge_kutta import begin_step, load_block, take_step
 from .springs import shortest_spring
 
@@ -143,6 +153,8 @@ def finish_slip_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]",
     speed = scaled_sliding_speed(p, w)
     if w[W_ALONG] < 0.0:
         settle(p, u, z, w, e, NEXT)
+    elif z[NEXT + CREEPING] == 1.0:
+        keep_to_creep(p, u, z, w, NEXT)
     elif speed > rest_speed(p, u):
         set_direction(p, z, w, NEXT, speed)
 
@@ -169,6 +181,8 @@ def internal_step(
     rest = -1.0
     grip = holding_coefficient(p, u, w)  # without it there is no coming to rest
     if z[HERE + MODE] == SLIP and grip > 0.0:
+        if can_creep(p):
+            choose_creep(p, u, z, w)
         rest = time_to_rest(p, w)
     to_run_up = p[P_RUN_UP] - z[HERE + TIME]
     slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)

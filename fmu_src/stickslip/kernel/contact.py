@@ -6,6 +6,7 @@ from .coefficient import holding_coefficient, onset_coefficient
 from .disc import disc_friction
 from .layout import (
     OMEGA,
+    P_CREEP_SPEED,
     P_FREE_PHI,
     P_FREE_Y,
     P_INERTIA,
@@ -13,6 +14,11 @@ from .layout import (
     P_MASS,
     P_NORMAL_FORCE,
     P_RADIUS,
+    P_SPEED_SCALE,
+    U_FORCE_X,
+    U_FORCE_Y,
+    U_MOMENT,
+    U_SPEED,
     VX,
     VY,
     W_DIRECTION,
@@ -22,6 +28,8 @@ from .layout import (
     W_SLIDING,
     W_SURFACE,
 )
+from .springs import add_damping, add_spring_forces
+from .surface import surface_motion
 
 
 def set_sliding_velocity(w: "float[:]", state: int):
@@ -200,3 +208,36 @@ def set_yielding_motion(p: "float[:]", limit: float, w: "float[:]") -> float:
         arm = kappa * p[P_RADIUS]
         mass += p[P_MASS] * ny * ny / (kappa * kappa) + p[P_INERTIA] * nr * nr / (arm * arm)
     return drive / mass
+
+
+def speed_scale(p: "float[:]", u: "float[:]") -> float:
+    """A speed typical of this motion, m/s: what is small is small against it."""
+    return max(abs(u[U_SPEED]), p[P_SPEED_SCALE])
+
+
+def rest_speed(p: "float[:]", u: "float[:]") -> float:
+    """Scaled sliding speed below which a decelerating contact is taken to come to rest, m/s.
+
+    Below it the direction of friction is frozen, and one smooth step lands the block on the
+    surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m.
+    It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
+    and passes rest at a distance never reaches it exactly, however small the distance. With
+    rate_and_state it is the creep speed, at which that law ends.
+    """
+    return max(1e-6 * speed_scale(p, u), p[P_CREEP_SPEED])
+
+
+def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+    """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
+    w[W_LOAD] = u[U_FORCE_X]
+    w[W_LOAD + 1] = u[U_FORCE_Y]
+    w[W_LOAD + 2] = u[U_MOMENT]
+    add_spring_forces(p, w, state)
+    add_damping(p, w, state)
+
+
+def set_contact(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+    """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
+    set_loads(p, u, w, state)
+    surface_motion(p, u, w, state)
+    set_sliding_velocity(w, state)

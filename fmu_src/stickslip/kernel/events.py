@@ -1,13 +1,25 @@
 """Stick and slip as events: where a slip begins, where it ends, and what the contact does then."""
 
+from math import sqrt
+
 from .coefficient import holding_coefficient
 from .contact import (
     holding_ratio,
+    rest_speed,
     scaled_sliding_speed,
+    set_contact,
     set_holding_load,
     set_onset_direction,
 )
+from .creep import (
+    creeps,
+    set_creep_direction,
+    slides_steadily,
+    sliding_energy,
+    turn_to_creep,
+)
 from .layout import (
+    CREEPING,
     DIRECTION,
     E_CAPACITY,
     E_COUNT,
@@ -33,6 +45,7 @@ from .layout import (
     TIME,
     VX,
     VY,
+    W_CREEP,
     W_DIRECTION,
     W_FRICTION,
     W_SLIDING,
@@ -42,8 +55,8 @@ from .layout import (
     WORK_SURFACE,
     X,
 )
-from .motion import rest_speed, set_contact
-from .runge_kutta import follow_surface, load_block, take_step
+from .motion import kinetic_energy
+from .runge_kutta import begin_step, follow_surface, load_block, take_step
 from .surface import set_surface_phase
 
 
@@ -86,6 +99,7 @@ def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: i
     set_holding_load(p, w)
     set_onset_direction(p, u, w)
     z[block + MODE] = SLIP
+    z[block + CREEPING] = 0.0
     for i in range(3):
         z[block + DIRECTION + i] = w[W_DIRECTION + i]
 
@@ -122,6 +136,7 @@ def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float
     look_at(p, u, z, w, block)
     before = z[block + MODE]
     speed = scaled_sliding_speed(p, w)
+    z[block + CREEPING] = 0.0
     if speed > rest_speed(p, u):
         z[block + MODE] = SLIP
         set_direction(p, z, w, block, speed)
@@ -204,3 +219,42 @@ def time_to_rest(p: "float[:]", w: "float[:]") -> float:
     if rate >= 0.0:
         return -1.0
     return (sx * sx + sy * sy + sr * sr) / -rate
+
+
+def turn(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Turn the sliding at a block that creeps to the direction in ``w[W_CREEP:]``.
+
+    What the block's kinetic energy gains is the surface's work: the energy of the sliding stays.
+    """
+    energy = kinetic_energy(p, z, block)
+    turn_to_creep(p, w)
+    z[block + VX] = w[W_STATE + VX]
+    z[block + VY] = p[P_FREE_Y] * w[W_STATE + VY]
+    z[block + OMEGA] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
+    z[block + WORK_SURFACE] += kinetic_energy(p, z, block) - energy
+    for i in range(3):
+        z[block + DIRECTION + i] = w[W_CREEP + i]
+
+
+def keep_to_creep(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Give a block that creeps the direction that its load asks for."""
+    look_at(p, u, z, w, block)
+    set_creep_direction(p, u, w, sqrt(sliding_energy(p, w)))
+    turn(p, u, z, w, block)
+
+
+def choose_creep(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
+    """Decide whether the slip that goes on from HERE creeps; slopes and contact are in ``w``."""
+    before = z[HERE + CREEPING]
+    now = 0.0
+    if before == 1.0 or slides_steadily(p, u, w):
+        look_at(p, u, z, w, HERE)
+        if creeps(p, u, w, before):
+            now = 1.0
+    if now != before:
+        z[HERE + CREEPING] = now
+        if now == 1.0:
+            turn(p, u, z, w, HERE)
+        begin_step(p, u, z, w, HERE)
+    elif now == 1.0:
+        begin_step(p, u, z, w, HERE)

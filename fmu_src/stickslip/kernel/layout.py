@@ -47,25 +47,26 @@ DIRECTION = 16  # unit vector of the scaled sliding velocity
 SLIPS = 19  # break-aways since the start
 HOLD_SINCE = 20  # when the present stick began, s
 SLIP_TIME = 21  # time spent in slip since the start, s
-BLOCK = 22
+CREEPING = 22  # 1 where the direction of a slow slip follows from the load alone, see creep
+BLOCK = 23
 
 # --- z: memory of a run -------------------------------------------------------------------------
 HERE = 0
-NEXT = 22
-SHOWN = 44
-BETWEEN = 66
-Z_STEP = 88  # size that the next internal step wants, s
-Z_HAS_NEXT = 89  # 1 while NEXT holds the end of the internal step that begins in HERE
-Z_ENERGY = 90  # kinetic and spring energy at the start, J
-Z_STARTED = 91
-Z_INPUTS = 92  # the inputs that HERE and NEXT were computed with
-Z_HEAT_BEFORE = 97  # friction heat at the communication point before, J
-Z_TIME_BEFORE = 98
-Z_STATUS = 99  # what the last call of `advance` returned
-Z_SPAN = 100  # size of the internal step from HERE to NEXT, s
-Z_SMOOTH = 101  # 1 where the interpolant over that step is accurate enough
-Z_DENSE = 102  # the interpolant: POWERS rows of STATES coefficients
-Z_SIZE = 200
+NEXT = 23
+SHOWN = 46
+BETWEEN = 69
+Z_STEP = 92  # size that the next internal step wants, s
+Z_HAS_NEXT = 93  # 1 while NEXT holds the end of the internal step that begins in HERE
+Z_ENERGY = 94  # kinetic and spring energy at the start, J
+Z_STARTED = 95
+Z_INPUTS = 96  # the inputs that HERE and NEXT were computed with
+Z_HEAT_BEFORE = 101  # friction heat at the communication point before, J
+Z_TIME_BEFORE = 102
+Z_STATUS = 103  # what the last call of `advance` returned
+Z_SPAN = 104  # size of the internal step from HERE to NEXT, s
+Z_SMOOTH = 105  # 1 where the interpolant over that step is accurate enough
+Z_DENSE = 106  # the interpolant: POWERS rows of STATES coefficients
+Z_SIZE = 204
 
 # --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
@@ -162,18 +163,19 @@ Q_DEPTH = 32  # Gauss-Legendre nodes, then weights, DEPTHS of each
 
 # --- w: scratch ---------------------------------------------------------------------------------
 W_STATE = 0  # a block: the moment at which the right-hand side is wanted
-W_SLOPES = 22  # ALL_STAGES rows of STATES slopes
-W_LOAD = 246  # springs, damping and external loads on the block: x, y, phi
-W_SLIDING = 249  # velocity of the block relative to the surface: x, y, phi
-W_FRICTION = 252  # friction on the block: x, y, phi
-W_MEAN_SPEED = 255  # local sliding speed, mean over the contact, m/s
-W_SURFACE = 256  # velocity and acceleration of the surface under the block
-W_PAIR = 262  # return values of functions with two results
-W_DIRECTION = 264  # direction of sliding where the sliding velocity is too small to tell
-W_RUNNING_UP = 267  # 1 while the internal step lies in the surface's run-up
-W_SPAN = 268  # size of the step that the slopes belong to, s
-W_ALONG = 269  # sliding velocity at its end along the direction at its beginning, m/s
-W_SIZE = 270
+W_SLOPES = 23  # ALL_STAGES rows of STATES slopes
+W_LOAD = 247  # springs, damping and external loads on the block: x, y, phi
+W_SLIDING = 250  # velocity of the block relative to the surface: x, y, phi
+W_FRICTION = 253  # friction on the block: x, y, phi
+W_MEAN_SPEED = 256  # local sliding speed, mean over the contact, m/s
+W_SURFACE = 257  # velocity and acceleration of the surface under the block
+W_PAIR = 263  # return values of functions with two results
+W_DIRECTION = 265  # direction of sliding where the sliding velocity is too small to tell
+W_CREEP = 268  # direction of sliding that the load asks for, see creep
+W_RUNNING_UP = 271  # 1 while the internal step lies in the surface's run-up
+W_SPAN = 272  # size of the step that the slopes belong to, s
+W_ALONG = 273  # sliding velocity at its end along the direction at its beginning, m/s
+W_SIZE = 274
 
 # --- e: log of events ---------------------------------------------------------------------------
 E_COUNT = 0

@@ -1,15 +1,16 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
 from .coefficient import ageing_rate
-from .contact import scaled_sliding_speed, set_holding_load, set_sliding_velocity
+from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
+from .creep import set_creeping_motion
 from .friction import friction_at_onset, friction_in_slip
 from .layout import (
     AGE,
+    CREEPING,
     DAMPED,
     DISTANCE,
     HEAT,
     OMEGA,
-    P_CREEP_SPEED,
     P_FREE_PHI,
     P_FREE_Y,
     P_INERTIA,
@@ -17,7 +18,6 @@ from .layout import (
     P_MASS,
     P_RADIUS,
     P_RELAXATION,
-    P_SPEED_SCALE,
     P_WEAKENING,
     PHI,
     SLIP,
@@ -26,7 +26,6 @@ from .layout import (
     U_FORCE_X,
     U_FORCE_Y,
     U_MOMENT,
-    U_SPEED,
     VX,
     VY,
     W_DIRECTION,
@@ -42,41 +41,8 @@ from .layout import (
     X,
     Y,
 )
-from .springs import add_damping, add_spring_forces, damping_power, elastic_energy
-from .surface import surface_motion, surface_speed
-
-
-def speed_scale(p: "float[:]", u: "float[:]") -> float:
-    """A speed typical of this motion, m/s: what is small is small against it."""
-    return max(abs(u[U_SPEED]), p[P_SPEED_SCALE])
-
-
-def rest_speed(p: "float[:]", u: "float[:]") -> float:
-    """Scaled sliding speed below which a decelerating contact is taken to come to rest, m/s.
-
-    Below it the direction of friction is frozen, and one smooth step lands the block on the
-    surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m.
-    It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
-    and passes rest at a distance never reaches it exactly, however small the distance. With
-    rate_and_state it is the creep speed, at which that law ends.
-    """
-    return max(1e-6 * speed_scale(p, u), p[P_CREEP_SPEED])
-
-
-def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
-    """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
-    w[W_LOAD] = u[U_FORCE_X]
-    w[W_LOAD + 1] = u[U_FORCE_Y]
-    w[W_LOAD + 2] = u[U_MOMENT]
-    add_spring_forces(p, w, state)
-    add_damping(p, w, state)
-
-
-def set_contact(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
-    """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
-    set_loads(p, u, w, state)
-    surface_motion(p, u, w, state)
-    set_sliding_velocity(w, state)
+from .springs import damping_power, elastic_energy
+from .surface import surface_speed
 
 
 def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
@@ -95,9 +61,16 @@ def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
         w[W_MEAN_SPEED] = scaled_sliding_speed(p, w)
 
 
-def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
-    """Rates of x, y, phi and of their velocities at ``w[W_STATE:]``, into ``w[out:]``."""
+def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int) -> float:
+    """Rates of x, y, phi and of their velocities at ``w[W_STATE:]``, into ``w[out:]``.
+
+    Returns power of the surface beyond that of friction, W: 0 but in creep.
+    """
     set_contact(p, u, w, W_STATE)
+    if mode == SLIP and w[W_STATE + CREEPING] == 1.0:
+        power = set_creeping_motion(p, u, w, out)
+        set_rates_of_place(p, w, out)
+        return power
     if mode == SLIP:
         set_slip_friction(p, u, w)
     else:
@@ -107,12 +80,18 @@ def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
         if p[P_LATERAL] > 0.0:
             w[W_STATE + VY] = w[W_SURFACE + 1]
             w[W_STATE + OMEGA] = w[W_SURFACE + 2]
-    w[out + X - 1] = w[W_STATE + VX]
-    w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
-    w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
+    set_rates_of_place(p, w, out)
     w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
     w[out + VY - 1] = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
     w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
+    return 0.0
+
+
+def set_rates_of_place(p: "float[:]", w: "float[:]", out: int):
+    """Rates of x, y, phi, into ``w[out:]``: the velocities, where the block is free."""
+    w[out + X - 1] = w[W_STATE + VX]
+    w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
+    w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
 
 
 def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
@@ -122,12 +101,12 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     Friction heat is what friction takes out of the relative motion; the surface's work is what
     it puts into the block through friction. Their difference drives block and springs.
     """
-    set_motion(p, u, w, mode, out)
+    work = set_motion(p, u, w, mode, out)
     heat = 0.0
     if mode == SLIP:
         heat -= w[W_FRICTION] * w[W_SLIDING] + w[W_FRICTION + 1] * w[W_SLIDING + 1]
         heat -= w[W_FRICTION + 2] * w[W_SLIDING + 2]
-    work = w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
+    work += w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
     work += w[W_FRICTION + 2] * w[W_SURFACE + 2]
     external = u[U_FORCE_X] * w[W_STATE + VX] + u[U_FORCE_Y] * w[W_STATE + VY]
     external += u[U_MOMENT] * w[W_STATE + OMEGA]
@@ -143,10 +122,14 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
         w[out + WARMTH - 1] = heat - w[W_STATE + WARMTH] / p[P_RELAXATION]
 
 
-def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:
-    """Kinetic energy of the block and elastic energy of the springs, J."""
+def kinetic_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+    """Kinetic energy of the block, J."""
     vx = z[block + VX]
     vy = z[block + VY]
     omega = z[block + OMEGA]
-    kinetic = 0.5 * p[P_MASS] * (vx * vx + vy * vy) + 0.5 * p[P_INERTIA] * omega * omega
-    return kinetic + elastic_energy(p, z, block)
+    return 0.5 * p[P_MASS] * (vx * vx + vy * vy) + 0.5 * p[P_INERTIA] * omega * omega
+
+
+def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+    """Kinetic energy of the block and elastic energy of the springs, J."""
+    return kinetic_energy(p, z, block) + elastic_energy(p, z, block)

@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from .contact import set_sliding_velocity
+from .contact import set_sliding_velocity, speed_scale
 from .layout import (
     AGE,
     ALL_STAGES,
@@ -43,7 +43,7 @@ from .layout import (
     X,
     Y,
 )
-from .motion import set_slopes, speed_scale
+from .motion import set_slopes
 from .surface import set_surface_phase, surface_motion
 
 
