@@ -77,7 +77,7 @@ def run_scenario(
     record_every = scenario.record_every
     snapshots = Snapshots(scenario.run.snapshot_interval, fields, views)
     mechanics = FmuParticipant(
-        fmu or _own_fmu(),
+        fmu or own_fmu(),
         MECHANICS,
         parameters=scenario.mechanics.flat(),
         inputs={"surface_speed": scenario.surface.speed},
@@ -107,7 +107,7 @@ def _with_last_picture(
     return result
 
 
-def _own_fmu() -> Path:
+def own_fmu() -> Path:
     """The FMU in `build`; where that cannot be written, in the user's cache or a scratch folder."""
     for place in (Path(BUILD_FOLDER), platformdirs.user_cache_path("stickslip")):
         try:

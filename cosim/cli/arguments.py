@@ -30,6 +30,10 @@ STUDIES = {
         "friction against speed and temperature in steady coupled sliding",
         "stickslip friction-map melting_friction --ambient -8 -o results/friction",
     ),
+    "gap": (
+        "what model and measurement disagree on: names the missing effect, adds it, shows it",
+        "stickslip gap cold_room/campaign.toml -o results/cold_room",
+    ),
     "reproduce": (
         "the source study's claims C1 to C15, each with its number, ours, and a verdict",
         "stickslip reproduce C6 C13 -o results/claims",
@@ -44,6 +48,7 @@ STUDY_MODULES = {
     "belt-length": "cosim.studies.belt_length_command",
     "effects": "cosim.studies.effects_command",
     "friction-map": "cosim.studies.friction_regimes_command",
+    "gap": "cosim.gap_command",
     "reproduce": "cosim.studies.reproduction_command",
     "sweep": "cosim.studies.sweep_command",
 }

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.gap.atlas.atlas import Atlas
 from cosim.gap.atlas.model_track import ModelTrack
 from cosim.gap.atlas.where import Where
 from cosim.gap.read import Campaign
@@ -119,6 +120,7 @@ class Gap:
     chance : "p" of the best of the catalogue under the plain model, "draws" that it rests on
     determined : plain parameter -> (value, low, high), as far as the data determine it
     seed : of everything that was drawn
+    atlas : of the plain model's misfit, what ``where`` was read off
     next_experiment : the run that would tell most, or None
     empirical : the formula proposed where the catalogue has no name, or None
     remarks : what the reader should know, a line each; the campaign's own are in the campaign
@@ -137,6 +139,7 @@ class Gap:
     chance: Mapping[str, float]
     determined: Mapping[str, tuple[float, float, float]]
     seed: int = 0
+    atlas: Atlas | None = None
     next_experiment: Mapping[str, Any] | None = None
     empirical: Mapping[str, Any] | None = None
     remarks: tuple[str, ...] = ()

@@ -1,0 +1,1 @@
+"""The answer shown: numbers, words, figures, a page, and the extended model as a file."""

@@ -1,0 +1,92 @@
+"""What a finished answer leaves behind: numbers and model first, then figures and the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+
+from joblib import Parallel, delayed
+
+from cosim.atomic import write_bytes, write_text
+from cosim.coupled import own_fmu
+from cosim.gap.atlas import draw_atlas, residual_atlas
+from cosim.gap.result import Gap
+from cosim.gap.summary import SummaryGap
+from cosim.interrupts import held_interrupts
+from cosim.studies.drawing import Picture
+
+from .model_file import model_text
+from .model_file import safe_name as safe_name
+from .numbers import as_json
+from .page import page
+from .reproduction import Reproduced, reproduce, reproduced_runs
+from .reproduction_figure import draw_reproduction
+from .run_figures import draw_residuals, overlays
+from .score_figures import draw_gaps, draw_parameters, draw_ranking
+from .summary_figures import draw_observations
+from .words import closing_lines as closing_lines
+
+
+def write_data(gap: Gap | SummaryGap, result: Path, model: Path) -> str:
+    """JSON and the model; the JSON's text."""
+    text = as_json(gap, model.name)
+    write_text(model_text(gap), model)
+    write_text(text, result)
+    return text
+
+
+def write_page(
+    gap: Gap | SummaryGap, folder: Path, file: Path, jobs: int, drawn: Callable[[], object]
+) -> None:
+    """Every figure into the folder, and the page with all of them inside.
+
+    drawn: called after each figure. Between two figures a KeyboardInterrupt passes.
+    """
+    reproduced = [] if isinstance(gap, SummaryGap) else _reproduced(gap)
+    pictures: list[Picture] = []
+    for batch in _drawn(_drawers(gap, reproduced), jobs):
+        with held_interrupts():
+            for one in batch:
+                write_bytes(one.png, folder / f"{one.name}.png")
+        pictures += batch
+        drawn()
+    write_text(page(gap, pictures, reproduced), file)
+
+
+def _reproduced(gap: Gap) -> list[Reproduced]:
+    with held_interrupts():
+        fmu = own_fmu()
+        return [reproduce(gap, run, fmu) for run in reproduced_runs(gap)]
+
+
+def _drawers(
+    gap: Gap | SummaryGap, reproduced: list[Reproduced]
+) -> list[Callable[[], list[Picture]]]:
+    """Functions that draw, in the page's order."""
+    if isinstance(gap, SummaryGap):
+        return [partial(_one, draw_observations, gap), partial(_one, draw_ranking, gap)]
+    return [
+        partial(overlays, gap),
+        partial(_one, draw_gaps, gap),
+        partial(_one, draw_residuals, gap),
+        partial(_one, draw_ranking, gap),
+        partial(_one, draw_parameters, gap),
+        partial(_one, draw_reproduction, gap, reproduced),
+        partial(_atlas, gap),
+    ]
+
+
+def _one(draw: Callable[..., Picture], *arguments) -> list[Picture]:
+    return [draw(*arguments)]
+
+
+def _atlas(gap: Gap) -> list[Picture]:
+    atlas = gap.atlas or residual_atlas([run.track for run in gap.plain.runs])
+    return [draw_atlas(atlas)]
+
+
+def _drawn(drawers: list[Callable[[], list[Picture]]], jobs: int) -> Iterator[list[Picture]]:
+    """What they draw, in their order."""
+    with Parallel(n_jobs=jobs, return_as="generator") as pool:
+        yield from pool(delayed(draw)() for draw in drawers)

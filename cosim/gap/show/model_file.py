@@ -1,0 +1,155 @@
+"""The extended model as a scenario: `model.toml`, for `stickslip run`, `simulate` and the FMU."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Mapping
+from typing import Any
+
+import tomli_w
+
+from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.result import FittedRun, Gap
+from cosim.gap.summary import SummaryGap
+from cosim.scenario import Scenario
+from thermal import Ambient
+
+from .quantities import unit_and_meaning
+from .words import gap_line, verdict
+
+#: Enough that the motion is the fitted one for longer than any window.
+DIGITS = 12
+#: Tables that stand before the effects.
+FIRST = ("rig", "springs", "friction", "surface")
+STATE = ("x", "y", "phi", "vx", "vy", "omega")
+#: s; of a run whose time series is not known.
+DURATION = 30.0
+
+
+def safe_name(name: str) -> str:
+    """A campaign's name as that of a file, a folder or a scenario."""
+    return re.sub(r"[^\w.-]+", "-", name).strip("-.")[:80] or "campaign"
+
+
+def shown_run(gap: Gap) -> FittedRun:
+    """The run that stands for the campaign: the first that was held out, or the first."""
+    held = [run for run in gap.model.runs if run.track.run.hold_out]
+    return (held or list(gap.model.runs))[0]
+
+
+def scenario_of(gap: Gap, run: FittedRun) -> Scenario:
+    """The best model at one run's mass, springs, speed and initial state."""
+    measured = run.track.run
+    tables = _known(gap.campaign, measured)
+    tables["rig"]["degrees_of_freedom"] = gap.model.degrees_of_freedom
+    _put(tables, gap.model.parameters(run))
+    tables["initial"] = dict(zip(STATE, run.start, strict=True))
+    interval = _digits(measured.track.interval, 6)
+    tables["run"] = {"duration": measured.track.duration, "output_interval": interval}
+    tables["coupling"] = {"macro_step": interval}
+    return _scenario(gap.campaign, tables)
+
+
+def summary_scenario(gap: SummaryGap) -> Scenario:
+    """The best model at the first run's mass, springs and speed, from rest on the surface."""
+    model = gap.extended or gap.plain
+    tables = _known(gap.campaign, gap.campaign.runs[0])
+    _put(tables, model.values)
+    tables["initial"] = {"vx": gap.campaign.runs[0].surface_speed}
+    tables["run"] = {"duration": DURATION}
+    return _scenario(gap.campaign, tables)
+
+
+def model_text(gap: Gap | SummaryGap) -> str:
+    """The file: what it is, then every key that was known or found, with unit and meaning."""
+    if isinstance(gap, SummaryGap):
+        scenario, run = summary_scenario(gap), gap.campaign.runs[0].name
+    else:
+        shown = shown_run(gap)
+        scenario, run = scenario_of(gap, shown), shown.name
+    given = scenario.model_dump(exclude_unset=True)
+    lines = [*_header(gap, run), "", *_entries({"name": given.pop("name")})]
+    for block in sorted(given, key=lambda block: block not in FIRST):
+        if given[block]:
+            lines += ["", f"[{block}]", *_entries(given[block], block)]
+    return "\n".join(lines) + "\n"
+
+
+def _known(campaign: Campaign, run: MeasuredRun) -> dict[str, dict[str, Any]]:
+    """What the campaign says of a run; a room that no ice survives is left to the default."""
+    tables = campaign.parameters(run)
+    tables["rig"] = {
+        key: value for key, value in tables["rig"].items()
+        if key != "slab_radius" or campaign.rig.surface == "slab"
+    }  # fmt: skip
+    melting = next(m.lt for m in Ambient.model_fields["temperature_degC"].metadata
+                   if hasattr(m, "lt"))
+    if run.ambient_degC < melting:
+        tables["ambient"] = {"temperature_degC": run.ambient_degC}
+    return tables
+
+
+def _put(tables: dict[str, dict[str, Any]], values: Mapping[str, float]) -> None:
+    """`block.parameter` -> value into the tables; on a slab the curvature is the rig's."""
+    for key, value in values.items():
+        block, _, name = key.partition(".")
+        if key == "turning_surface.curvature" and tables["rig"]["surface"] == "slab":
+            tables["rig"]["slab_radius"] = 1.0 / float(value)
+        else:
+            tables.setdefault(block, {})[name] = float(value)
+
+
+def _scenario(campaign: Campaign, tables: dict[str, dict[str, Any]]) -> Scenario:
+    rounded = {
+        block: {key: _rounded(value) for key, value in entries.items()}
+        for block, entries in tables.items()
+    }
+    return Scenario.from_tables({"name": f"{safe_name(campaign.name)}-model", **rounded})
+
+
+def _rounded(value: Any) -> Any:
+    return _digits(value, DIGITS) if isinstance(value, float) else value
+
+
+def _digits(value: float, digits: int) -> float:
+    return float(f"{value:.{digits}g}")
+
+
+def _header(gap: Gap | SummaryGap, run: str) -> list[str]:
+    """What a reader of the file alone has to know."""
+    said = [
+        f"The model that campaign {gap.campaign.name!r} leaves, at {run}. {verdict(gap)}",
+        f"Gap: {gap_line(gap)}.",
+    ]
+    if gap.verdict == "class":
+        said.append("The block below is the member of the class that fits best.")
+    if gap.empirical:
+        said.append("The empirical formula of the report is no part of it.")
+    lines = [line for text in said for line in textwrap.wrap(text, 96)]
+    usage = [
+        "",
+        "  stickslip simulate model.toml     the mechanics alone",
+        "  stickslip run model.toml          with the heat in belt and ice",
+        "",
+        "Keys are parameters of the FMU StickSlip3DOF too, as block.key.",
+    ]
+    return [f"# {line}".rstrip() for line in [*lines, *usage]]
+
+
+def _entries(entries: Mapping[str, Any], block: str = "") -> list[str]:
+    """`key = value   # meaning, unit` for each entry."""
+    lines = []
+    for key, value in entries.items():
+        text = tomli_w.dumps({key: list(value) if isinstance(value, tuple) else value}).strip()
+        text = re.sub(r"\s*\n\s*", " ", text).replace("[ ", "[").replace(", ]", "]")
+        lines.append(f"{text:<34}{_comment(block, key)}".rstrip())
+    return lines
+
+
+def _comment(block: str, key: str) -> str:
+    if not block:
+        return ""
+    unit, meaning = unit_and_meaning(f"{block}.{key}")
+    meaning = re.split(r"[:;\[]", meaning)[0].strip()
+    return f"  # {meaning}{f', {unit}' if unit else ''}"

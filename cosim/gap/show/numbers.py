@@ -1,0 +1,112 @@
+"""The answer as data: what `gap.json` holds."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from cosim.gap.result import FittedModel, Gap
+from cosim.gap.summary import SummaryGap
+
+#: Significant digits of every number: more than any fit to noisy data knows, fewer than what the
+#: order of a sum may change.
+DIGITS = 6
+
+
+def as_json(gap: Gap | SummaryGap, model: str) -> str:
+    """JSON text without NaN; the same answer gives the same bytes. model: name of its file."""
+    return json.dumps(as_data(gap, model), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def as_data(gap: Gap | SummaryGap, model: str) -> dict[str, Any]:
+    """A tree of plain values; a number that there is not is None."""
+    data = {
+        "campaign": gap.campaign.name,
+        "verdict": gap.verdict,
+        "effects": gap.effects,
+        "classes": gap.classes,
+        "where": gap.where,
+        "ranking": gap.ranking,
+        "gap": {"before": _pair(gap.gap_before), "after": _pair(gap.gap_after)},
+        "next_experiment": gap.next_experiment,
+        "model": model,
+        "chance": gap.chance,
+        "determined": {key: _interval(*value) for key, value in gap.determined.items()},
+        "empirical": gap.empirical,
+        "remarks": (*gap.campaign.remarks, *gap.remarks),
+    }
+    more = _of_figures(gap) if isinstance(gap, SummaryGap) else _of_runs(gap)
+    return _plain(data | more)
+
+
+def _of_runs(gap: Gap) -> dict[str, Any]:
+    """What only runs with a time series have."""
+    campaign = gap.campaign
+    noise = {
+        channel: {"value": value, "estimated": channel in campaign.noise_estimated}
+        for channel, value in campaign.noise.items()
+    }
+    return {
+        "noise": noise,
+        "plain": _fitted(gap.plain),
+        "extended": None if gap.extended is None else _fitted(gap.extended),
+        "seed": gap.seed,
+    }
+
+
+def _fitted(fitted: FittedModel) -> dict[str, Any]:
+    return {
+        "parameters": fitted.values,
+        "settings": fitted.settings,
+        "intervals": fitted.intervals,
+        "runs": [
+            {"name": run.name, "hold_out": run.track.run.hold_out, "gap": run.gap, "own": run.own}
+            for run in fitted.runs
+        ],
+    }
+
+
+def _of_figures(gap: SummaryGap) -> dict[str, Any]:
+    """What only runs have of which figures alone are known."""
+    return {
+        "observations": [
+            {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
+            for one in gap.observations
+        ],
+        "printed": gap.printed,
+        "plain": gap.plain,
+        "extended": gap.extended,
+        "free_friction": gap.free_friction,
+        "not_felt": gap.not_felt,
+        "open_figures": gap.open_figures,
+    }
+
+
+def _pair(pair: tuple[float, float]) -> dict[str, float]:
+    return {"fit": pair[0], "held_out": pair[1]}
+
+
+def _interval(value: float, low: float, high: float) -> dict[str, float]:
+    return {"value": value, "low": low, "high": high}
+
+
+def _plain(value: Any) -> Any:
+    """Numbers of so many digits, lists for sequences, tables for mappings and data classes."""
+    if is_dataclass(value):
+        return _plain(asdict(value))
+    if isinstance(value, Mapping):
+        return {str(key): _plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_plain(entry) for entry in value]
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    if isinstance(value, (int, np.integer)):
+        return int(value)
+    if isinstance(value, (float, np.floating)):
+        return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
+    return value

@@ -1,0 +1,72 @@
+"""The answer as one self-contained HTML page."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from importlib import resources
+from typing import Any
+
+from jinja2 import Environment, StrictUndefined
+
+from cosim.gap.result import Gap
+from cosim.gap.summary import SummaryGap
+from cosim.inline import inline
+from cosim.studies.drawing import Picture
+
+from .model_file import model_text
+from .quantities import quantities
+from .reproduction import Reproduced
+from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, verdict
+
+
+def page(
+    gap: Gap | SummaryGap, pictures: Sequence[Picture], reproduced: Sequence[Reproduced] = ()
+) -> str:
+    """HTML with every picture inside."""
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+                              lstrip_blocks=True)
+    environment.filters |= {"number": number, "inline": inline}
+    source = resources.files(__package__).joinpath("gap.html.j2").read_text(encoding="utf-8")
+    figures_only = isinstance(gap, SummaryGap)
+    return environment.from_string(source).render(
+        gap=gap,
+        campaign=gap.campaign,
+        figures_only=figures_only,
+        unit="standard deviations" if figures_only else "noise units",
+        pictures={one.name: one for one in pictures},
+        reproduced=reproduced,
+        verdict=verdict(gap),
+        gap_line=gap_line(gap),
+        numbers=fitted_quantities(gap),
+        determined=_determined(gap),
+        ranking=_best_laws(gap),
+        next_experiment=next_experiment(gap),
+        formula=formula(gap) if gap.empirical else "",
+        model=model_text(gap),
+        sentences=SENTENCES,
+        remarks=[*gap.campaign.remarks, *gap.remarks],
+    )
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """So many significant digits, a dash for none."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    return f"{value:.{digits}g}".replace("-", "−")
+
+
+def _determined(gap: Gap | SummaryGap) -> list:
+    """Plain parameters with their intervals."""
+    values = {key: value for key, (value, _, _) in gap.determined.items()}
+    return quantities(values, {key: pair[1:] for key, pair in gap.determined.items()})
+
+
+def _best_laws(gap: Gap | SummaryGap) -> list[dict[str, Any]]:
+    """The best law of each effect, best first, with its numbers."""
+    rows: dict[str, dict[str, Any]] = {}
+    for row in gap.ranking:
+        added = [key for key in row.parameters if key.startswith(f"{row.effect}.")]
+        numbers = quantities(row.parameters, row.intervals, added)
+        rows.setdefault(row.effect, {"row": row, "numbers": numbers})
+    return list(rows.values())

@@ -1,0 +1,57 @@
+"""Parameters as a reader sees them: unit, meaning, number of digits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from cosim.scenario import Scenario
+
+#: Of the tracker, not of the model.
+TRACKER = {
+    "offset.x": ("m", "zero of the tracker along x"),
+    "offset.y": ("m", "zero of the tracker along y"),
+}
+PLAIN = ("friction.mu_s", "friction.mu_k")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A fitted number with its 95 % interval (None: not known), unit "" for pure numbers."""
+
+    key: str
+    value: float
+    interval: tuple[float, float] | None
+    unit: str
+    meaning: str
+
+    @property
+    def text(self) -> str:
+        """`key = value unit (low to high)`."""
+        unit = f" {self.unit}" if self.unit else ""
+        said = f"{self.key} = {self.value:.4g}{unit}"
+        if self.interval is None:
+            return said
+        return f"{said} ({self.interval[0]:.4g} to {self.interval[1]:.4g})"
+
+
+def unit_and_meaning(key: str) -> tuple[str, str]:
+    """Of `block.parameter`; the unit is "" for a pure number."""
+    if key in TRACKER:
+        return TRACKER[key]
+    block, _, name = key.partition(".")
+    field = Scenario.model_fields[block].annotation.model_fields[name]
+    unit = (field.json_schema_extra or {}).get("unit", "1")
+    return ("" if unit == "1" else unit), field.description
+
+
+def quantities(
+    values: Mapping[str, float], intervals: Mapping[str, Any], keys: Iterable[str] | None = None
+) -> list[Quantity]:
+    """Of the keys wanted (all when left out), in the order of ``values``."""
+    wanted = values if keys is None else [key for key in values if key in set(keys)]
+    return [
+        Quantity(key, float(values[key]), intervals.get(key), *unit_and_meaning(key))
+        for key in wanted
+    ]

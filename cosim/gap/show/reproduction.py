@@ -1,0 +1,98 @@
+"""The FMU with the extended model's numbers, beside the measurement and the model itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from stickslip.restarted import STATE, Restart, simulate_restarted
+
+from cosim.gap.result import FittedRun, Gap
+from cosim.gap.shooting.flight import COLUMN
+from cosim.master import FmuParticipant
+from cosim.scenario import Scenario
+
+from .model_file import scenario_of
+
+
+@dataclass(frozen=True)
+class Reproduced:
+    """A run's first window, from one initial state, by the FMU.
+
+    Attributes
+    ----------
+    name : of the run
+    time : (n,) s, the data's samples up to where the fit started anew from the data
+    motion : channel -> (n,) by the FMU, the tracker's zero included, m or rad
+    measured : channel -> (n,) the data
+    gap : root mean square of measured less FMU over all channels, units of the noise
+    plain_gap : of the plain model, fitted, in the same window
+    apart : largest difference between the FMU and the compiled kernel in any channel, noise units
+    """
+
+    name: str
+    time: np.ndarray = field(repr=False)
+    motion: dict[str, np.ndarray] = field(repr=False)
+    measured: dict[str, np.ndarray] = field(repr=False)
+    gap: float
+    plain_gap: float
+    apart: float
+
+
+def reproduced_runs(gap: Gap) -> tuple[FittedRun, ...]:
+    """Those that were held out; all where none was."""
+    held = tuple(run for run in gap.model.runs if run.track.run.hold_out)
+    return held or gap.model.runs
+
+
+def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
+    """Fly the first window of a run in the FMU."""
+    scenario = scenario_of(gap, run)
+    track, noise = run.track, run.track.run.noise
+    rows = np.flatnonzero(track.windows == track.windows[0])
+    time = track.time[rows]
+    flown = _in_fmu(fmu, scenario, time)
+    own = _in_kernel(scenario, time)
+    zero = {name: gap.model.values.get(f"offset.{name}", 0.0) for name in track.channels}
+    motion = {name: flown[name] + zero[name] for name in track.channels}
+    measured = {name: track.run.track[name][rows] for name in track.channels}
+    apart = max(np.max(np.abs(flown[name] - own[name])) / noise[name] for name in track.channels)
+    left = {name: (measured[name] - motion[name]) / noise[name] for name in track.channels}
+    plain = gap.plain.of(run.name).track
+    return Reproduced(
+        run.name, time, motion, measured, _rms(left.values()),
+        _rms(plain.residual(name)[rows] for name in track.channels), float(apart),
+    )  # fmt: skip
+
+
+def _in_fmu(fmu: Path, scenario: Scenario, time: np.ndarray) -> dict[str, np.ndarray]:
+    """Outputs at the times (s), which are the communication points."""
+    rows = []
+    with FmuParticipant(
+        fmu, parameters=scenario.mechanics.flat(), inputs={"surface_speed": scenario.surface.speed}
+    ) as block:
+        block.enter_initialisation(float(time[0]), float(time[-1]))
+        block.exit_initialisation()
+        rows.append(block.read())
+        for before, after in zip(time[:-1], time[1:], strict=True):
+            block.step(float(before), float(after - before))
+            rows.append(block.read())
+    return {name: np.array([row[name] for row in rows]) for name in COLUMN}
+
+
+def _in_kernel(scenario: Scenario, time: np.ndarray) -> dict[str, np.ndarray]:
+    """The same by the compiled kernel, from the same initial state, without an FMU."""
+    mechanics = scenario.mechanics
+    start = np.array([getattr(scenario.initial, name) for name in STATE])
+    outputs = simulate_restarted(
+        mechanics.pack(), scenario.surface.speed, mechanics.temperature_dependence.reference_degC,
+        time, [Restart(0, start)],
+    )  # fmt: skip
+    return {name: outputs[:, COLUMN[name]] for name in COLUMN}
+
+
+def _rms(parts) -> float:
+    rows = np.concatenate(list(parts))
+    rows = rows[np.isfinite(rows)]
+    return float(np.sqrt(np.mean(rows**2)))

@@ -1,0 +1,106 @@
+"""The answer in sentences."""
+
+from __future__ import annotations
+
+from stickslip import CATALOGUE
+
+from cosim.gap.result import Gap
+from cosim.gap.summary import SummaryGap
+
+from .quantities import PLAIN, Quantity, quantities
+
+Answer = Gap | SummaryGap
+SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in CATALOGUE}
+
+
+def verdict(gap: Answer) -> str:
+    """The verdict and what it rests on, one or two sentences."""
+    if gap.verdict == "none":
+        return "None is missing: the plain model with its numbers fitted leaves only noise."
+    if gap.verdict == "named":
+        return f"Named: {' and '.join(map(described, gap.effects))}."
+    if gap.verdict == "class":
+        return _class(gap)
+    return _unknown(gap)
+
+
+def described(effect: str) -> str:
+    """An effect's id with what it adds."""
+    return f"{effect} ({SENTENCES[effect][0].lower()}{SENTENCES[effect][1:]})"
+
+
+def _class(gap: Answer) -> str:
+    groups = [" or ".join(group) for group in gap.classes]
+    alone = [e for e in gap.effects if not any(e in group for group in gap.classes)]
+    beside = f", beside {' and '.join(alone)}" if alone else ""
+    return f"Class: {'; '.join(groups)}{beside}; these data cannot tell which."
+
+
+def _unknown(gap: Answer) -> str:
+    if gap.effects:
+        return (
+            f"Unknown: with {' and '.join(gap.effects)} the model comes nearer, but a disagreement "
+            "is left that no catalogued effect repairs."
+        )
+    return "Unknown: the plain model does not fit, and no catalogued effect repairs it."
+
+
+def gap_line(gap: Answer) -> str:
+    """Before and after, held out and fit."""
+    unit = "standard deviations" if isinstance(gap, SummaryGap) else "noise units"
+    (fit, held), (fit_after, held_after) = gap.gap_before, gap.gap_after
+    return (
+        f"held out {held:.3g} → {held_after:.3g} {unit}, "
+        f"fit {fit:.3g} → {fit_after:.3g} (1 is measurement noise)"
+    )
+
+
+def fitted_quantities(gap: Answer) -> list[Quantity]:
+    """The numbers of the model that is left: friction first, then what was added."""
+    if isinstance(gap, SummaryGap):
+        model = gap.extended or gap.plain
+        intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
+        for row in gap.ranking:
+            if gap.extended is not None and row.effect in gap.effects:
+                intervals |= row.intervals
+        return quantities(model.values, intervals)
+    model = gap.model
+    intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
+    intervals = model.intervals or (intervals if gap.extended is None else {})
+    shown = [key for key in model.values if not key.startswith("offset.")]
+    shown.sort(key=lambda key: key not in PLAIN)
+    return quantities({key: model.values[key] for key in shown}, intervals)
+
+
+def next_experiment(gap: Answer) -> str:
+    """The run that would tell most, or nothing."""
+    proposed = gap.next_experiment
+    if not proposed:
+        return ""
+    if "text" in proposed:
+        return str(proposed["text"])
+    names = {"mass": "kg", "stiffness": "N/m", "surface_speed": "m/s", "hold": "s"}
+    parts = [
+        f"{key} = {proposed[key]:.4g} {unit}" for key, unit in names.items() if key in proposed
+    ]
+    return ", ".join(parts)
+
+
+def closing_lines(gap: Answer) -> list[str]:
+    """What is said at the end, on a terminal."""
+    lines = [f"{gap.campaign.name}: {verdict(gap)}", f"  gap        {gap_line(gap)}"]
+    lines.append(f"  where      {gap.where.text}")
+    numbers = fitted_quantities(gap)
+    if numbers:
+        lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}")
+    if gap.empirical:
+        lines.append(f"  formula    {formula(gap)}")
+    if gap.next_experiment:
+        lines.append(f"  next       {next_experiment(gap)}")
+    return lines
+
+
+def formula(gap: Answer) -> str:
+    """What is proposed where the catalogue has no name."""
+    proposed = gap.empirical or {}
+    return str(proposed.get("text") or proposed.get("formula") or proposed)
