@@ -1,0 +1,73 @@
+"""What `stickslip run` does with the heat: a sample from a mesh, an animation, melting away."""
+
+import json
+import subprocess
+import sys
+
+import meshio
+import numpy as np
+import pytest
+import xarray as xr
+from PIL import Image
+from skfem import MeshTet
+
+SHORT = """
+[surface]
+run_up_time = 0.2
+[run]
+duration = 1.0
+snapshot_interval = 0.25
+[belt]
+cell_length = 5e-3
+elements = 3
+"""
+
+
+def run(folder, fmu, text, *arguments):
+    (folder / "case.toml").write_text(text)
+    command = [sys.executable, "-m", "cosim", "run", "case.toml", "--fmu", str(fmu), "-o", "out"]
+    return subprocess.run(
+        [*command, *arguments], cwd=folder, capture_output=True, text=True, timeout=300)
+
+
+@pytest.fixture
+def mesh():
+    side = np.linspace(-0.03, 0.03, 3)
+    return MeshTet.init_tensor(side, side, np.linspace(0.0, 0.08, 4))
+
+
+def test_a_sample_beside_the_scenario_and_an_animation(tmp_path, fmu, mesh):
+    meshio.Mesh(mesh.p.T, [("tetra", mesh.t.T)]).write(tmp_path / "block.vtk")
+    done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n', "--animation")
+    assert (done.returncode, done.stderr) == (0, "")
+    with Image.open(tmp_path / "out" / "temperature.gif") as animation:
+        assert animation.n_frames == 5
+    assert "temperature.gif" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    fields = meshio.read(tmp_path / "out" / "fields" / "temperature_00004.vtu")
+    assert {block.type for block in fields.cells} == {"quad", "tetra"}
+    heat = json.loads((tmp_path / "out" / "summary.json").read_text())["ledger"]["heat"]
+    assert heat["relative_residual"] < 1e-10
+
+
+@pytest.mark.parametrize(("factor", "says"), [
+    (1000.0, "the sample is 60 x 60 x 80 m, allowed is up to 2 m: is the file in mm?"),
+    (0.0, "the sample is 0 x 0 x 0 m"),
+])
+def test_a_bad_mesh_is_one_line(tmp_path, fmu, mesh, factor, says):
+    meshio.Mesh(factor * mesh.p.T, [("tetra", mesh.t.T)]).write(tmp_path / "block.vtk")
+    done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n')
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: ice.mesh: ") and says in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_without_asking_there_is_no_animation_and_melting_away_ends_the_run(tmp_path, fmu):
+    text = SHORT + "[ice]\nheight = 1e-6\nlatent_heat = 1.0\nheat_capacity = 1.0\n"
+    done = run(tmp_path, fmu, text + "[ambient]\ntemperature_degC = -1e-6\n")
+    assert done.returncode == 1
+    assert "the ice has melted: of its 1e-06 m less than 5e-08 m are left" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "out" / "temperature.gif").exists()
+    with xr.open_dataset(tmp_path / "out" / "result.nc") as dataset:
+        assert dataset.attrs["status"] == "failed"
+        assert dataset.sizes["time"] > 1
