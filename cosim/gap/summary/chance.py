@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .score import scatter
+from .score import spread
 from .trial import Trial
 
 BOOTSTRAPS = 999
@@ -20,7 +20,7 @@ BOOTSTRAPS = 999
 
 @dataclass(frozen=True)
 class Table:
-    """Draws as arrays: means (d, n), their scatter's variance (d, n), prices (d,)."""
+    """Draws as arrays: means (d, n), variances of a realisation (d, n), prices (d,)."""
 
     means: np.ndarray
     variances: np.ndarray
@@ -33,7 +33,7 @@ class Table:
         for trial in trials:
             for one in trial.draws:
                 means.append(one.mean)
-                variances.append(scatter(one, trial.kin) ** 2 * (1.0 + 1.0 / one.seeds))
+                variances.append(spread(one, trial.kin))
                 prices.append(one.surprise + trial.price)
         return cls(np.array(means), np.array(variances), np.array(prices))
 

@@ -33,7 +33,7 @@ PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 RANGE_DRAWS = 32  # for the ranges of the numbers of the model that won
 # share of the first draws that stay near the plain fit; least squares rather start from anywhere
 NEAR_PLAIN = {False: 0.5, True: 0.0}
-IN_THE_RUNNING = 3  # models that are searched to the end
+IN_THE_RUNNING = 2  # models that are searched to the end
 CHANCE = 0.05  # an improvement that chance makes more often is none
 FITS = 0.05  # lack of fit above which the plain model needs nothing
 REPAIRED = 0.01  # lack of fit below which an extended model has not repaired the disagreement

@@ -19,7 +19,6 @@ from .table import Draw
 
 # seeds from which a draw's own scatter is taken; below, that of its kin
 ENOUGH_SEEDS = 4
-KIN_SEEDS = 3
 
 
 @dataclass(frozen=True)
@@ -58,21 +57,24 @@ def scatter_of_kin(draws: Sequence[Draw]) -> np.ndarray:
 
 
 def scatter(one: Draw, kin: np.ndarray) -> np.ndarray:
-    """(n,) standard deviation of a draw's figures from seed to seed.
+    """(n,) standard deviation of a draw's figures from seed to seed."""
+    return one.shown.std(axis=0, ddof=1) if one.seeds >= ENOUGH_SEEDS else kin
 
-    A few seeds tell a scatter badly, so the kin's counts as `KIN_SEEDS` more of them.
+
+def spread(one: Draw, kin: np.ndarray) -> np.ndarray:
+    """(n,) variance of the next realisation about the draw's mean.
+
+    Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
     """
     if one.seeds < ENOUGH_SEEDS:
-        return kin
-    own = one.seeds - 1
-    variance = own * one.shown.var(axis=0, ddof=1) + KIN_SEEDS * kin**2
-    return np.sqrt(variance / (own + KIN_SEEDS))
+        return 2.0 * kin**2
+    freedom = one.seeds - 1
+    return scatter(one, kin) ** 2 * (1.0 + 1.0 / one.seeds) * freedom / (freedom - 2)
 
 
 def terms(one: Draw, target: Target, kin: np.ndarray) -> np.ndarray:
     """(n,) the figures' parts of `misfit`."""
-    own = scatter(one, kin) ** 2 * (1.0 + 1.0 / one.seeds)
-    wider = 1.0 + own / target.sds**2  # variance of the prediction over that of the observation
+    wider = 1.0 + spread(one, kin) / target.sds**2  # variance of the prediction, in sds squared
     return distances(one.mean, target) ** 2 / wider + np.log(wider)
 
 
@@ -83,8 +85,8 @@ def misfit(one: Draw, target: Target, kin: np.ndarray) -> float:
 
 def chi_square(one: Draw, target: Target, kin: np.ndarray) -> float:
     """Sum of squared distances in the standard deviations of observation and model together."""
-    own = scatter(one, kin) ** 2 * (1.0 + 1.0 / one.seeds)
-    return float(np.sum((one.mean - target.sizes) ** 2 / (target.sds**2 + own)) + one.surprise)
+    variance = target.sds**2 + spread(one, kin)
+    return float(np.sum((one.mean - target.sizes) ** 2 / variance) + one.surprise)
 
 
 def best(draws: Sequence[Draw], target: Target, kin: np.ndarray) -> Draw:
