@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cosim.gap.atlas.collect import sources
-from cosim.gap.atlas.dependence import Dependence, bin_edges, log10_chance, membership
+from cosim.gap.atlas.dependence import Dependence, log10_chance, nodes_of, shares
 from cosim.gap.atlas.model_track import ModelTrack
 from cosim.gap.atlas.response import Answer, Normal
 from cosim.gap.atlas.source import Source
@@ -122,7 +122,7 @@ def _region(
         source.channel, source.regime, source.quantity, source.unit,
         runs=tuple(tracks[i].run.name for i in present),
         value=answer.values,
-        error=np.sqrt(np.diag(answer.covariance)),
+        error=_errors(answer, sums),
         rms=float(np.sqrt(sums.total / max(sums.freedom, 1))),
         log10_p=log10_p,
         explained={tracks[i].run.name: float(g) for i, g in zip(present, gain, strict=True)},
@@ -148,27 +148,31 @@ def _dependence(
     source: Source, variables: list[Mapping[str, np.ndarray]], name: str, present: np.ndarray
 ) -> tuple[Dependence, np.ndarray] | None:
     """Dependence on a variable, and what it explains of each run; None where it has one value."""
-    values = source.at_samples(variables, name)
-    edges = bin_edges(values, VARIABLES[name].per_run)
-    if len(edges) < 3:
+    values, kind = source.at_samples(variables, name), VARIABLES[name].kind
+    nodes = nodes_of(values, kind)
+    if len(nodes) < 2:
         return None
     normals = source.normals(
-        lambda piece: membership(variables[piece.track][name][piece.rows], edges)
+        lambda piece: shares(variables[piece.track][name][piece.rows], nodes, kind)
     )
     sums = _sum(normals)
-    binned, level = sums.solve(), sums.solve(np.ones((len(edges) - 1, 1)))
-    if binned.count < 2:
+    curve, level = sums.solve(), sums.solve(np.ones((len(nodes), 1)))
+    if curve.count < 2:
         return None
-    freedom = (binned.count - 1, sums.freedom - binned.count)
-    statistic = _ratio(level.misfit - binned.misfit, binned.misfit, freedom)
-    known = binned.known
-    inside = membership(values, edges)
-    centre = inside.T @ np.nan_to_num(values) / np.maximum(inside.sum(axis=0), 1.0)
+    freedom = (curve.count - 1, sums.freedom - curve.count)
+    statistic = _ratio(level.misfit - curve.misfit, curve.misfit, freedom)
+    known = curve.known
     found = Dependence(
-        name, centre[known], binned.values[known], np.sqrt(np.diag(binned.covariance))[known],
+        name, nodes[known], curve.values[known], _errors(curve, sums)[known],
         statistic, freedom, log10_chance(statistic, freedom),
     )  # fmt: skip
-    return found, _gains(normals, binned, source.tracks, present)
+    return found, _gains(normals, curve, source.tracks, present)
+
+
+def _errors(answer: Answer, sums: Normal) -> np.ndarray:
+    """Standard errors; where more than noise is left, that scatter counts."""
+    left = answer.misfit / max(sums.freedom - answer.count, 1)
+    return np.sqrt(np.diag(answer.covariance) * max(left, 1.0))
 
 
 def _sum(normals: Sequence[Normal]) -> Normal:

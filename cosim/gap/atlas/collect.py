@@ -78,11 +78,10 @@ def _points_at_corners(number: int, track: ModelTrack, corner: str) -> Points:
     run = track.run
     rows, values, errors = [], [], []
     for measured, modelled in _matched(track):
-        sd = math.hypot(_sd(measured, corner), _sd(modelled, corner))
-        if not math.isfinite(sd):
-            continue
         apart = _level(track, run.track.x, measured, corner)
         apart -= _level(track, track.x, modelled, corner)
+        if not math.isfinite(apart + _sd(measured, corner) + _sd(modelled, corner)):
+            continue
         error = math.hypot(
             run.surface_speed * _sd(measured, corner),
             run.noise["x"] / math.sqrt(measured.last - measured.first + 1),
@@ -112,9 +111,11 @@ def _matched(track: ModelTrack) -> list[tuple[Stick, Stick]]:
 
 
 def _level(track: ModelTrack, x: np.ndarray, stick: Stick, corner: str) -> float:
-    """x of a stick's line at its corner."""
+    """x of a stick's line at its corner; NaN without a sample in it."""
     rows = np.arange(stick.first, stick.last + 1)
     rows = rows[np.isfinite(x[rows])]
+    if not rows.size:
+        return math.nan
     at = getattr(stick, corner)
     return float(np.mean(x[rows] - track.run.surface_speed * (track.time[rows] - at)))
 

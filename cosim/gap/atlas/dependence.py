@@ -1,4 +1,4 @@
-"""How a misfit depends on a variable: bins with errors, and a test against no dependence."""
+"""How a misfit depends on a variable: a curve with errors, and a test against no dependence."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy import stats
 
-#: Bins of a variable that changes within a run.
+#: Corners of the polygon over a variable that changes within a run.
 BINS = 8
 #: Natural logarithm of the smallest probability that is computed exactly.
 SMALLEST = -600.0
@@ -16,14 +16,14 @@ SMALLEST = -600.0
 
 @dataclass(frozen=True)
 class Dependence:
-    """A misfit in bins of a variable.
+    """A misfit as a polygon over a variable.
 
     Attributes
     ----------
     variable : key of `VARIABLES`
-    centre : (b,) mean of the variable in each bin
-    value, error : (b,) misfit in the bin and its standard error
-    statistic : F of the bins' values against one value for all
+    centre : (b,) the variable at the polygon's corners
+    value, error : (b,) misfit there and its standard error
+    statistic : F of the polygon against one value for all
     freedom : its two degrees of freedom
     log10_p : logarithm of the probability of as large an F by chance, not corrected for the number
         of variables that were looked at
@@ -38,24 +38,35 @@ class Dependence:
     log10_p: float
 
 
-def bin_edges(values: np.ndarray, per_run: bool) -> np.ndarray:
-    """Edges of bins with about as many values in each; one bin for each value that repeats."""
+def nodes_of(values: np.ndarray, kind: str) -> np.ndarray:
+    """Where a dependence is told: at each value that repeats, or so that bins are equally full.
+
+    kind : "per run", "phase" (0 to 1, once around) or "within"
+    """
     values = values[np.isfinite(values)]
-    if not values.size:
-        return np.empty(0)
+    if kind == "phase":
+        return np.arange(BINS) / BINS
     unique = np.unique(values)
-    if per_run and len(unique) <= BINS:
-        between = 0.5 * (unique[1:] + unique[:-1])
-        return np.concatenate([[-np.inf], between, [np.inf]])
-    edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, BINS + 1)[1:-1]))
-    return np.concatenate([[-np.inf], edges, [np.inf]])
+    if kind == "per run" and len(unique) <= BINS:
+        return unique
+    return np.unique(np.quantile(values, np.linspace(0.0, 1.0, BINS))) if values.size else unique
 
 
-def membership(values: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """(n, b) 1 where a value is in a bin; a value that is NaN is in none."""
-    place = np.searchsorted(edges, values, side="left") - 1
-    inside = (place[:, None] == np.arange(len(edges) - 1)) & np.isfinite(values)[:, None]
-    return inside.astype(float)
+def shares(values: np.ndarray, nodes: np.ndarray, kind: str) -> np.ndarray:
+    """(n, b) how much of each value belongs to each node; the sum is 1, or 0 for a NaN.
+
+    Between two nodes the shares are linear: what is fitted is a polygon, not a flight of stairs.
+    """
+    there = np.isfinite(values)
+    if kind == "per run" and len(nodes) > 1:
+        nearest = np.abs(values[:, None] - nodes).argmin(axis=1)
+        return (nearest[:, None] == np.arange(len(nodes))) * there[:, None].astype(float)
+    if kind == "phase":
+        apart = np.abs(values[:, None] - nodes)
+        apart = np.minimum(apart, 1.0 - apart) * len(nodes)
+        return np.nan_to_num(np.maximum(1.0 - apart, 0.0))
+    hats = np.stack([np.interp(values, nodes, row) for row in np.eye(len(nodes))], axis=1)
+    return np.nan_to_num(hats) * there[:, None]
 
 
 def log10_chance(statistic: float, freedom: tuple[int, int]) -> float:

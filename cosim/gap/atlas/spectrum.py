@@ -22,7 +22,7 @@ NYQUIST = 4.0
 #: Periods that a run must hold.
 FEWEST = 2.0
 #: Rates at the most, and how many are worked on together.
-MOST, TOGETHER = 1500, 250
+MOST, TOGETHER = 1000, 250
 #: A period counts where chance makes as strong a one less often than this.
 CHANCE = 0.01
 
