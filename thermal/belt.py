@@ -23,7 +23,7 @@ from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 from .grading import graded as graded
 from .parameters import Belt as BeltParameters
 from .relaxation import LastDurations, decay, mean_decay, mean_response
-from .thickness import Thickness
+from .thickness import thickness_of
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
@@ -82,7 +82,7 @@ class Belt:
         self.cells = parameters.cells
         self.cell = parameters.length / self.cells
         self.position = np.arange(self.cells) * self.cell
-        modes = Thickness(parameters, lane)
+        modes = thickness_of(parameters, lane)
         self.depth = modes.depth
         self._shapes, self._faces = modes.shapes, modes.faces
         self.rates = modes.rates[:, None] + modes.along[:, None] * (

@@ -31,12 +31,13 @@ def mean_response(x: Array) -> Array:
     """(exp(-x) - 1 + x) / x^2, the mean over a step of the response to p; 1/2 at x = 0."""
     is_small = np.abs(x) < _SERIES_BELOW
     large = np.where(is_small, _SERIES_BELOW, x)
-    closed = (np.expm1(-large) + large) / large**2
-    small = np.where(is_small, x, 0.0)
+    result = (np.expm1(-large) + large) / large**2
+    small = x[is_small]
     series = np.zeros_like(small)
     for n in range(_TERMS + 1, 1, -1):
         series = (1.0 - small * series) / n
-    return np.where(is_small, series, closed)
+    result[is_small] = series
+    return result
 
 
 class LastDurations(Generic[T]):

@@ -31,7 +31,7 @@ from .parameters import MELTING_POINT_DEGC, ThermalParameters
 from .relaxation import LastDurations, decay, mean_decay, mean_response
 from .sinks import eliminate, supports
 from .steady import FOREVER, check_gives_heat
-from .thickness import Thickness
+from .thickness import thickness_of
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
@@ -87,7 +87,7 @@ class SteadySliding:
         belt, contact = parameters.belt, parameters.contact
         self.parameters, self.speed, self.force = parameters, speed, force
         self.footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
-        self._modes = Thickness(belt, self.footprint.lane)
+        self._modes = thickness_of(belt, self.footprint.lane)
         self.ice = ice or standing_ice(parameters, self.footprint)
         self.ice.amplitudes[:] = 0.0
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)

@@ -13,6 +13,8 @@ temperatures by less than 1 %.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 from skfem import BilinearForm, CellBasis, ElementLineP2, FacetBasis, MeshLine
@@ -45,7 +47,9 @@ def element_boundaries(layers: tuple[Layer, ...], elements: int) -> tuple[Array,
 
 
 class Thickness:
-    """Modes through the thickness of a lane (width m) of belt; per metre of belt where said.
+    """Modes through the thickness of a lane (width m) of belt with films h (W/m2K) on its faces.
+
+    Per metre of belt where said.
 
     depth (depths,) m from the contact face; shapes (depths, modes); rates (modes,) 1/s without
     conduction along the belt, `along` (modes,) m2/s what that adds per wave number squared; heat
@@ -53,16 +57,14 @@ class Thickness:
     shapes at the contact face and at the back.
     """
 
-    def __init__(self, parameters: BeltParameters, lane: float) -> None:
-        layers = parameters.stack
-        boundaries, of_element = element_boundaries(layers, parameters.elements)
+    def __init__(self, layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> None:
+        boundaries, of_element = element_boundaries(layers, elements)
         basis = CellBasis(MeshLine(boundaries), ElementLineP2())
         # One row per element, to be broadcast over its quadrature points.
         medium = Medium(*(
             np.array([getattr(layers[i], name) for i in of_element])[:, None]
             for name in ("density", "heat_capacity", "conductivity")))
-        films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()),
-                  parameters.air_heat_transfer)]
+        films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()), h)]
         modes = eigenmodes(basis, films, medium, lambda x: lane + 0.0 * x[0])
         order = np.argsort(basis.doflocs[0])
         self.depth = basis.doflocs[0][order]
@@ -71,3 +73,13 @@ class Thickness:
         self.rates, self.heat, self.air = modes.rates, modes.heat, modes.air
         along = BilinearForm(lambda u, v, w: medium.conductivity * lane * u * v).assemble(basis)
         self.along = np.sum(modes.shapes * (along @ modes.shapes), axis=0)
+
+
+@lru_cache(maxsize=32)
+def _solved(layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> Thickness:
+    return Thickness(layers, h, elements, lane)
+
+
+def thickness_of(belt: BeltParameters, lane: float) -> Thickness:
+    """The modes of a belt; those of belts that differ in length alone are solved once."""
+    return _solved(belt.stack, belt.air_heat_transfer, belt.elements, lane)

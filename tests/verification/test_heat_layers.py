@@ -9,7 +9,7 @@ from skfem import BilinearForm, CellBasis, ElementQuad2, MeshQuad
 from thermal import Belt, BeltIceModel, Contact, Ice, Layer, ThermalParameters
 from thermal.belt import CONTACT
 from thermal.belt import Belt as BeltField
-from thermal.thickness import Thickness
+from thermal.thickness import thickness_of
 
 GRIT = Layer(thickness=0.3e-3, density=2600.0, heat_capacity=780.0, conductivity=2.0)
 CLOTH = Layer(thickness=0.7e-3, density=500.0, heat_capacity=1300.0, conductivity=0.12)
@@ -52,7 +52,7 @@ def test_two_layers_cool_at_their_slowest_rate_with_the_order_of_p2():
     exact = slowest_rate(h)
     elements = np.array([4, 8, 16])
     errors = [
-        abs(Thickness(two_layers(h, int(n)), 1.0).rates[0] / exact - 1.0)
+        abs(thickness_of(two_layers(h, int(n)), 1.0).rates[0] / exact - 1.0)
         for n in elements
     ]
     orders = np.diff(np.log(errors)) / np.diff(np.log(1.0 / elements))
@@ -91,7 +91,7 @@ def test_equal_layers_are_one():
 def test_conduction_along_layers_is_that_of_the_assembled_problem():
     """A wave of a contact's length: what the coupling of the modes changes is below 1e-3 of it."""
     length, belt = 0.07, Belt(layers=(GRIT, CLOTH), air_heat_transfer=0.0, elements=4)
-    modes = Thickness(belt, 1.0)
+    modes = thickness_of(belt, 1.0)
     wave = 2.0 * np.pi / length
     mesh = MeshQuad.init_tensor(np.linspace(0.0, 0.5 * length, 9), modes.depth[::2])
     basis = CellBasis(mesh, ElementQuad2())

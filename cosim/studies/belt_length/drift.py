@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .case import COARSENESS, Case
+from .case import COARSENESS, CONTACT_LENGTH, Case
 
 #: Times at constant speed at which the drift is told, s: the study's run, and with its run-up.
 RUN, LONG_RUN = 20.0, 30.0
@@ -59,7 +59,9 @@ def drift(case: Case) -> Drift:
 
 
 def run_drift(case: Case) -> float:
-    """Rise where the belt enters the contact after 20 s, K."""
+    """Rise where the belt enters the contact after 20 s, K; 0 when nothing of it has been there."""
+    if case.speed * RUN < case.length - 2.0 * CONTACT_LENGTH:
+        return 0.0
     return case.sliding().until(RUN, COARSENESS).entry
 
 
