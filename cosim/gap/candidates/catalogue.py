@@ -58,8 +58,9 @@ def _static_strengthening(s: Scales):
     rate = Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
     yield Candidate("static_strengthening", "logarithmic", (rate,),
                     {"static_strengthening.hold_time": 0.01})
-    onset = Knob("static_strengthening.hold_time", 0.3, 0.5, 1e-4, 30.0, log=True)
-    yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset))
+    for time in (0.03, 0.5):
+        onset = Knob("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
+        yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset))
 
 
 def _velocity_weakening(s: Scales):

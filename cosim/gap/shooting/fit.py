@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -44,12 +45,52 @@ class Point:
 
 @dataclass(frozen=True)
 class Columns:
-    """Of one run: residuals (r,), by the campaign's knobs (r, g), basis of its own (r, l)."""
+    """Derivatives of one run's residuals.
+
+    Attributes
+    ----------
+    residuals : (r,) where they were taken
+    shared : (r, g) by the campaign's knobs
+    own : (r, k) by the run's own knobs
+    states : of each window: rows, derivatives (rows, free) by the free numbers of its state
+    """
 
     residuals: np.ndarray
     shared: np.ndarray
-    basis: np.ndarray
-    solve: np.ndarray
+    own: np.ndarray
+    states: tuple[tuple[np.ndarray, np.ndarray], ...]
+
+    @cached_property
+    def _bases(self) -> tuple[np.ndarray, ...]:
+        return tuple(np.linalg.qr(columns)[0] for _, columns in self.states)
+
+    @cached_property
+    def _own_left(self) -> np.ndarray:
+        return self._without_states(self.own)
+
+    def _without_states(self, a: np.ndarray) -> np.ndarray:
+        rest = a.copy()
+        for (rows, _), basis in zip(self.states, self._bases, strict=True):
+            rest[rows] -= basis @ (basis.T @ a[rows])
+        return rest
+
+    def left(self, a: np.ndarray) -> np.ndarray:
+        """What of (r, ...) the run's own knobs and states cannot take up."""
+        rest = self._without_states(a)
+        if self.own.shape[1]:
+            rest = rest - self._own_left @ (np.linalg.pinv(self._own_left) @ rest)
+        return rest
+
+    def local_step(self, shared: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+        """Own knobs' step (k,) and each window's, that go best with a step of the shared ones."""
+        rest = self.residuals + self.shared @ shared
+        own = np.zeros(0)
+        if self.own.shape[1]:
+            own = -np.linalg.pinv(self._own_left) @ self._without_states(rest)
+            rest = rest + self.own @ own
+        steps = [-np.linalg.pinv(columns, rcond=1e-10) @ rest[rows]
+                 for rows, columns in self.states]
+        return own, steps
 
 
 @dataclass(frozen=True)
@@ -137,9 +178,8 @@ class Problem:
         for j in free_shared:
             shared[:, j] = self._difference(run, at, 0, j, self.shared[j], residuals)
         own = [self._difference(run, at, 1, j, k, residuals) for j, k in enumerate(self.own)]
-        local = np.column_stack([*own, *self._by_state(run, at, residuals)])
-        basis, triangle = np.linalg.qr(local)
-        return Columns(residuals, shared, basis, np.linalg.pinv(triangle, rcond=1e-10))
+        own = np.array(own).reshape(len(own), residuals.size).T
+        return Columns(residuals, shared, own, self._by_state(run, at, residuals))
 
     def _difference(self, run, at, which, j, knob: Knob, residuals) -> np.ndarray:
         moved = [a.copy() for a in at]
@@ -148,7 +188,7 @@ class Problem:
         return (self.residuals(run, *moved) - residuals) / step
 
     def _by_state(self, run, at, residuals):
-        """A column for every free number of every window's state; windows do not overlap."""
+        """Every window's rows and derivatives; windows do not overlap, so one run tells all."""
         flight = self.flights[run]
         owner = flight.window_of_rows()
         by_axis = {}
@@ -156,23 +196,24 @@ class Problem:
             states = at[2].copy()
             states[[axis in w.free for w in flight.windows], axis] += _PART * _STATE_STEP[axis]
             by_axis[axis] = (self.residuals(run, at[0], at[1], states) - residuals) / _PART
-        for number, window in enumerate(flight.windows):
-            for axis in window.free:
-                yield np.where(owner == number, by_axis[axis], 0.0)
+        rows = [np.flatnonzero(owner == number) for number in range(len(flight.windows))]
+        return tuple(
+            (r, np.column_stack([by_axis[axis][r] for axis in window.free]))
+            for r, window in zip(rows, flight.windows, strict=True)
+        )
 
     def tried(
         self, point: Point, step: np.ndarray, columns: Sequence[Columns]
     ) -> tuple[Point, tuple[np.ndarray, ...]]:
-        """The point after a step of the campaign's knobs, every run following, and its residuals."""
+        """The point after a step of the campaign's knobs, the runs following, and its residuals."""
         shared = np.array([
             k.inside(s) for k, s in zip(self.shared, point.shared + step, strict=True)])
         own, states, residuals = [], [], []
         for i, c in enumerate(columns):
-            local = -c.solve @ (c.basis.T @ (c.residuals + c.shared @ (shared - point.shared)))
-            count = len(self.own)
+            own_step, state_steps = c.local_step(shared - point.shared)
             own.append(np.array([k.inside(s) for k, s in zip(
-                self.own, point.own[i] + local[:count], strict=True)]))
-            move = self._state_step(i, local[count:])
+                self.own, point.own[i] + own_step, strict=True)]))
+            move = self._state_step(i, state_steps)
             best = self._follow(i, shared, own[i], point.states[i], move, c.residuals)
             states.append(best[0])
             residuals.append(best[1])
@@ -198,14 +239,13 @@ class Problem:
             residuals = np.where(better[owner], tried, residuals)
         return taken, residuals
 
-    def _state_step(self, run: int, local: np.ndarray) -> np.ndarray:
-        """(windows, 6) step of the states from the factorised part of one run."""
+    def _state_step(self, run: int, steps: Sequence[np.ndarray]) -> np.ndarray:
+        """(windows, 6) step of the states."""
         windows = self.flights[run].windows
-        move, at = np.zeros((len(windows), 6)), 0
-        for number, window in enumerate(windows):
-            for axis in window.free:
-                move[number, axis] = local[at] * _STATE_STEP[axis]
-                at += 1
+        move = np.zeros((len(windows), 6))
+        for number, (window, step) in enumerate(zip(windows, steps, strict=True)):
+            axes = list(window.free)
+            move[number, axes] = step * _STATE_STEP[axes]
         return move
 
     def prior(self, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -216,10 +256,9 @@ class Problem:
 
 
 def fit(problem: Problem, point: Point, rounds: int = _MOST_ROUNDS, fixed: bool = False) -> Fitted:
-    """The best point from a first one; ``fixed``: the campaign's knobs stay, only runs' own move."""
+    """The best point from a first one; ``fixed``: only what belongs to the runs moves."""
     residuals = problem.all_residuals(point)
     cost, damping = _cost(problem, point, residuals), 1e-3
-    columns = None
     for _ in range(rounds):
         free = [] if fixed else range(len(problem.shared))
         columns = [problem.columns(i, point, r, free) for i, r in enumerate(residuals)]
@@ -239,7 +278,7 @@ def fit(problem: Problem, point: Point, rounds: int = _MOST_ROUNDS, fixed: bool 
                 break
         if not gained:
             break
-    return Fitted(problem.knobs, point, residuals, None if columns is None else tuple(columns))
+    return Fitted(problem.knobs, point, residuals)
 
 
 def _cost(problem: Problem, point: Point, residuals) -> float:
@@ -252,7 +291,7 @@ def _step(problem: Problem, point: Point, columns: Sequence[Columns], damping: f
     known, weight = problem.prior(point.shared)
     matrix, right = np.diag(weight**2), -weight * known
     for c in columns:
-        left = c.shared - c.basis @ (c.basis.T @ c.shared)
+        left = c.left(c.shared)
         matrix = matrix + left.T @ left
         right = right - left.T @ c.residuals
     diagonal = np.diag(matrix)

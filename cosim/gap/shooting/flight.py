@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from stickslip.kernel import layout
@@ -54,6 +54,13 @@ class Flight:
         """(windows, 6) first guesses of the windows' states."""
         return np.array([window.state for window in self.windows])
 
+    def first(self, count: int) -> Flight:
+        """The first so many windows alone."""
+        last = self.windows[count - 1].last
+        channels = {name: values[:last] for name, values in self.channels.items()}
+        return replace(
+            self, time=self.time[:last], channels=channels, windows=self.windows[:count])
+
     def fly(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
         """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
         flat = dict(self.known)
@@ -66,7 +73,7 @@ class Flight:
         return simulate_restarted(p, self.speed, self.temperature, self.time, restarts)
 
     def residuals(self, outputs: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
-        """(rows,) model less measurement over noise, channel by channel, missing samples left out."""
+        """(rows,) model less measurement over noise, channel by channel, without missing ones."""
         parts = []
         for name, values in self.channels.items():
             model = outputs[:, COLUMN[name]] + offsets.get(f"offset.{name}", 0.0)

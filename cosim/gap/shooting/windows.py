@@ -36,11 +36,14 @@ class Window:
 def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float = CYCLES):
     """Windows of a run: tuple of `Window`.
 
-    period : of a cycle, s. A window starts at the beginning of a stick where there is one within
-    half a window of where it is due. planar: y is measured and the model may move across.
+    period : of a cycle, s. A window starts at the beginning of a stick where there is one near the
+    place where it is due, else where the block moves against the surface as fast as it ever does:
+    near a stick a small error of the velocity would decide between stick and slip.
+    planar: y is measured and the model may move across.
     """
     length = cycles * period
-    starts = _starts(track.time, [stick.first for stick in sticks], length)
+    onsets = np.array([stick.first for stick in sticks if np.isfinite(stick.start_sd)], dtype=int)
+    starts = _starts(track, onsets, speed, length, period)
     ends = [*starts[1:], len(track.time)]
     by_first = {stick.first: stick for stick in sticks}
     return tuple(
@@ -49,15 +52,32 @@ def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float 
     )
 
 
-def _starts(time: np.ndarray, onsets: list[int], length: float) -> list[int]:
+def _starts(track, onsets, speed: float, length: float, period: float) -> list[int]:
+    time = track.time
     starts, end = [0], time[-1] - _REMNANT * length
     while True:
         due = time[starts[-1]] + length
         if due > end:
             return starts
-        near = [i for i in onsets if abs(time[i] - due) < 0.5 * length and time[i] <= end]
-        row = min(near, key=lambda i: abs(time[i] - due)) if near else int(time.searchsorted(due))
-        starts.append(row)
+        near = onsets[np.abs(time[onsets] - due) < max(0.5 * length, period)]
+        near = near[(time[near] <= end) & (near > starts[-1])]
+        if near.size:
+            starts.append(int(near[np.abs(time[near] - due).argmin()]))
+        else:
+            starts.append(_fastest(track, due, speed, period))
+
+
+def _fastest(track, due: float, speed: float, period: float) -> int:
+    """The sample within half a cycle of ``due`` at which the sliding is fastest."""
+    low, high = np.searchsorted(track.time, [due - 0.5 * period, due + 0.5 * period])
+    low, high = max(low, 1), min(high, len(track.time))
+    seen = low + np.flatnonzero(np.isfinite(track.x[low:high]))
+    if seen.size < 2 * _REACH:
+        return int(np.searchsorted(track.time, due))
+    steps = np.arange(_REACH, seen.size - _REACH + 1)
+    way = track.x[seen[steps + _REACH - 1]] - track.x[seen[steps - _REACH]]
+    time = track.time[seen[steps + _REACH - 1]] - track.time[seen[steps - _REACH]]
+    return int(seen[steps[np.abs(way / time - speed).argmax()]])
 
 
 def _window(track, first: int, last: int, stick, speed: float, planar: bool) -> Window:

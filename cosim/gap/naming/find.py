@@ -1,0 +1,124 @@
+"""From a campaign to its gap: calibrate, locate, name, extend."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from joblib import Parallel
+
+from cosim.gap.atlas import find_where, residual_atlas
+from cosim.gap.candidates.catalogue import candidates
+from cosim.gap.fitted_model import fitted_model
+from cosim.gap.read import Campaign
+from cosim.gap.result import FittedModel, Gap, Ranked
+from cosim.gap.shooting.fit import Problem
+from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+
+from .across import moves_across
+from .chance import chance
+from .intervals import determined, intervals
+from .plain import plain_knobs
+from .scales import scales
+from .search import SKETCH, Search, Tried
+from .trial import Data, Model, Trial, sketch, try_model
+from .verdict import Finding, judge
+
+
+def find_gap(
+    campaign: Campaign, *, seed: int = 0, jobs: int = 2,
+    progress: Callable[[int], object] | None = None,
+) -> Gap:
+    """What the plain model lacks in a campaign with tracks.
+
+    seed : of the bootstrap; the same seed gives the same answer. progress : called with 1 after
+    every model tried. Runs of which only figures are known are left to `find_summary_gap`.
+    """
+    fit_runs = [run for run in campaign.fit_runs if run.track is not None]
+    held_out = [run for run in campaign.held_out_runs if run.track is not None]
+    planar = moves_across(campaign)
+    data = Data(
+        prepare(campaign, fit_runs, planar),
+        prepare(campaign, fit_runs, planar, SHORT_CYCLES),
+        prepare(campaign, held_out, planar),
+    )
+    base = Model(plain_knobs(campaign, planar), {})
+    sketched = sketch(data, base, SKETCH)
+    plain = try_model(data, base, sketched)
+    laws = candidates(scales([*fit_runs, *held_out], plain.fitted.values["friction.mu_k"]))
+    felt = [law for law in laws if planar or not law.lateral]
+    with Parallel(n_jobs=jobs, return_as="generator", max_nbytes=None) as pool:
+        search = Search(data, pool, progress)
+        finding = judge(search, plain, sketched, felt)
+        ranking = search.judged(finding.ranking)
+    return _answer(campaign, data, plain, finding, ranking, seed)
+
+
+def _answer(
+    campaign: Campaign, data: Data, plain: Trial, finding: Finding, ranking, seed: int
+) -> Gap:
+    finalists = [t.trial for t in finding.ranking if t.trial is not None]
+    before = _fitted_model(campaign, data, plain)
+    after = _fitted_model(campaign, data, finding.chosen) if finding.chosen else None
+    tried = {t.candidate.effect for t in ranking}
+    return Gap(
+        campaign=campaign,
+        verdict=finding.verdict,
+        effects=finding.effects,
+        classes=(finding.effects,) if finding.verdict == "class" else (),
+        where=find_where(residual_atlas([run.track for run in before.runs])),
+        ranking=tuple(_ranked(plain, t, finding.nearest.gap) for t in ranking),
+        gap_before=before.gap,
+        gap_after=(after or before).gap,
+        plain=before,
+        extended=after,
+        chance=chance(data, plain, finalists, seed),
+        determined=determined(plain),
+        seed=seed,
+        remarks=_remarks(campaign, tried),
+    )
+
+
+def _fitted_model(campaign: Campaign, data: Data, trial: Trial) -> FittedModel:
+    knobs, settings = trial.model.knobs, trial.model.settings
+    parts = [(Problem(data.fit, knobs, settings), trial.fitted)]
+    if data.held_out:
+        parts.append((Problem(data.held_out, knobs, settings), trial.held_out))
+    return fitted_model(campaign, parts, intervals(trial))
+
+
+def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
+    """``noise`` : gap of the best model, to which sums of squares are compared."""
+    trial = tried.trial
+    rows = float(plain.rows.sum())
+    gained = (plain.squares.sum() - trial.squares.sum()) / max(noise, 1.0) ** 2
+    added = {knob.key for knob in tried.candidate.knobs if not knob.per_run}
+    values = {key: float(value) for key, value in trial.fitted.values.items() if key in added}
+    wide = intervals(trial) if trial.fitted.columns else {}
+    return Ranked(
+        effect=tried.candidate.effect,
+        form=tried.candidate.form,
+        held_out_gap=trial.held_out_gap,
+        fit_gap=trial.fitted.gap(),
+        delta_bic=float(gained - tried.candidate.size * np.log(rows)),
+        parameters=values,
+        intervals={key: wide[key] for key in values if key in wide},
+    )
+
+
+def _remarks(campaign: Campaign, tried: set[str]) -> tuple[str, ...]:
+    lines = []
+    silent = [e for e in ("lateral_friction", "turning_surface", "spring_misalignment")
+              if e not in tried]
+    if silent:
+        seen = any("y" in run.track.channels for run in campaign.runs if run.track is not None)
+        why = "no motion across was seen" if seen else "y was not measured"
+        lines.append(f"{', '.join(silent)}: not tried, as {why}")
+    if "mu_s" not in campaign.friction:
+        lines.append(
+            "stick_stiffness: along x it is the same as another mu_s; a campaign that states mu_s "
+            "under [friction] can tell"
+        )
+    if any(run.track is None for run in campaign.runs):
+        lines.append("runs of which only figures are known were not used")
+    return tuple(lines)

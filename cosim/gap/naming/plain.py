@@ -1,0 +1,46 @@
+"""The plain model's own numbers: a wrong number is not a missing effect."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.shooting.knob import Knob
+
+GRAVITY = 9.81
+#: The tracker's zero is known to this many standard deviations of its noise.
+_ZERO = 2.0
+
+
+def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
+    """mu_s, mu_k and the tracker's zero, from where the data put them or as they are known."""
+    runs = [run for run in campaign.fit_runs if run.track is not None]
+    knobs = []
+    for name, guess in zip(("mu_s", "mu_k"), first_guess(runs), strict=True):
+        value, deviation = campaign.friction.get(name, (guess, None))
+        knobs.append(Knob(f"friction.{name}", value, 0.05 * guess, 0.0, 20.0, prior=deviation))
+    for channel in ("x", "y") if planar else ("x",):
+        if channel in campaign.noise:
+            zero = _ZERO * campaign.noise[channel]
+            knobs.append(Knob(f"offset.{channel}", 0.0, zero, prior=zero))
+    return tuple(knobs)
+
+
+def first_guess(runs: Sequence[MeasuredRun]) -> tuple[float, float]:
+    """mu_s from where sticks end, mu_k from about where the block swings between two sticks."""
+    holding, sliding = [], []
+    for run in runs:
+        per_metre = run.total_stiffness / (run.mass * GRAVITY)
+        seen = run.track.x[np.isfinite(run.track.x)]
+        ends = [run.track.x[s.last] for s in run.sticks if np.isfinite(s.end_sd)]
+        starts = [run.track.x[s.first] for s in run.sticks if np.isfinite(s.start_sd)]
+        if ends and starts:
+            holding.append(per_metre * np.nanmedian(ends))
+            sliding.append(per_metre * 0.5 * (np.nanmedian(ends) + np.nanmedian(starts)))
+        else:
+            sliding.append(per_metre * np.mean(seen[seen.size // 4 :]))
+    mu_k = max(float(np.median(np.abs(sliding))), 1e-3)
+    mu_s = float(np.median(np.abs(holding))) if holding else 1.3 * mu_k
+    return max(mu_s, 1.05 * mu_k), mu_k

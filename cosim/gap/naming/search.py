@@ -1,0 +1,120 @@
+"""The whole catalogue tried on a campaign, on top of what is already in the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.knob import Knob
+
+from .scan import scan
+from .trial import Data, Model, Trial, sketch, try_model
+
+#: Rounds of the first look at every law, and of the sketch of those that do well in it.
+GLANCE, SKETCH = 2, 8
+#: So many laws are sketched and so many fitted in long windows, ...
+SKETCHED, FINALISTS = 7, 5
+#: ... at most so many of one effect.
+FORMS = 2
+
+Progress = Callable[[int], object]
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A candidate on top of a base model; `trial` is None where a shorter look ruled it out."""
+
+    candidate: Candidate
+    model: Model
+    sketched: Fitted
+    trial: Trial | None = None
+
+
+def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Model:
+    """The base, starting where it was fitted, with the candidate's knobs."""
+    taken = {knob.key for knob in candidate.knobs}
+    kept = tuple(moved(knob, fitted) for knob in base.knobs if knob.key not in taken)
+    return Model(kept + candidate.knobs, {**base.settings, **candidate.settings})
+
+
+def moved(knob: Knob, fitted: dict[str, float]) -> Knob:
+    """The knob starting where it was fitted; one with a prior stays centred on it."""
+    if knob.prior is not None or knob.key not in fitted:
+        return knob
+    return replace(knob, start=min(max(fitted[knob.key], knob.low), knob.high))
+
+
+class Search:
+    """Tries candidates on top of base models, on the processes of a pool that yields in order."""
+
+    def __init__(self, data: Data, pool: Parallel, progress: Progress | None = None):
+        self.data, self.pool = data, pool
+        self.progress = progress or (lambda count: None)
+
+    def on(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
+        """The best law of each effect, best effect first; finalists have a trial.
+
+        fitted : the base in short windows.
+        """
+        placed = self._placed(base, fitted, candidates)
+        models = [extended(base, c, fitted.values) for c in placed]
+        glances = self._run(sketch, [(self.data, m, GLANCE) for m in models])
+        tried = [Tried(c, m, g) for c, m, g in zip(placed, models, glances, strict=True)]
+        chosen = _best_forms(tried, FORMS)[:SKETCHED]
+        sketches = self._run(_continued, [(self.data, t) for t in chosen])
+        chosen = _best_forms(sketches, FORMS)[:FINALISTS]
+        trials = self._run(try_model, [(self.data, t.model, t.sketched) for t in chosen])
+        done = [replace(t, trial=trial) for t, trial in zip(chosen, trials, strict=True)]
+        done = _best_forms(done, 1, lambda t: t.trial.gap)
+        seen = {t.candidate.effect for t in done}
+        rest = [t for t in _best_forms([*sketches, *tried], 1) if t.candidate.effect not in seen]
+        return done + rest
+
+    def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
+        """Those that were ruled out early judged as well, by what little fit they had."""
+        early = [t for t in tried if t.trial is None]
+        trials = self._run(try_model, [(self.data, t.model, t.sketched, False) for t in early])
+        late = [replace(t, trial=trial) for t, trial in zip(early, trials, strict=True)]
+        late.sort(key=lambda t: t.trial.gap)
+        return (*(t for t in tried if t.trial is not None), *late)
+
+    def _run(self, function, arguments) -> list:
+        """Every call's result in order, counted as they come."""
+        results = []
+        for result in self.pool(delayed(function)(*each) for each in arguments):
+            results.append(result)
+            self.progress(1)
+        return results
+
+    def _placed(self, base, fitted, candidates) -> list[Candidate]:
+        """Candidates ready to be fitted: periodic ones where their periods lie."""
+        periodic = [c for c in candidates if c.periodic]
+        found = self._run(scan, [(c, base, fitted, self.data.short) for c in periodic])
+        return [c for c in candidates if not c.periodic] + [c for peaks in found for c in peaks]
+
+
+def _continued(data: Data, tried: Tried) -> Tried:
+    return replace(tried, sketched=sketch(data, tried.model, SKETCH, tried.sketched))
+
+
+def _best_forms(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:
+    """The best laws of each effect, best first."""
+    counts: dict[str, int] = {}
+    best = []
+    for t in sorted(tried, key=key or (lambda t: penalised(t.sketched))):
+        counts[t.candidate.effect] = counts.get(t.candidate.effect, 0) + 1
+        if counts[t.candidate.effect] <= most:
+            best.append(t)
+    return best
+
+
+def penalised(fitted: Fitted) -> float:
+    """Sum of squares and the BIC's penalty for the campaign's knobs."""
+    rows = sum(r.size for r in fitted.residuals)
+    count = sum(not knob.per_run for knob in fitted.knobs)
+    return fitted.cost + count * float(np.log(max(rows, 2)))

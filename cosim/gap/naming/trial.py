@@ -1,0 +1,110 @@
+"""One model tried on a campaign: fitted on the runs for fitting, judged on all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.gap.shooting.fit import Fitted, Point, Problem, fit, start, with_columns
+from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.knob import Knob
+
+#: Rounds that the windows' states take to follow parameters that stay as they are.
+_ROUNDS_UNFITTED = 2
+#: Phases, degrees, that a fit may set out from.
+_PHASES = np.arange(0.0, 360.0, 45.0)
+
+
+@dataclass(frozen=True)
+class Data:
+    """The flights of a campaign: for fitting and held out, in long and in short windows."""
+
+    fit: tuple[Flight, ...]
+    short: tuple[Flight, ...]
+    held_out: tuple[Flight, ...]
+
+
+@dataclass(frozen=True)
+class Model:
+    """What is turned and what is set."""
+
+    knobs: tuple[Knob, ...]
+    settings: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A model, fitted and judged.
+
+    Attributes
+    ----------
+    fitted, held_out : the fit, and the held-out runs with its parameters
+    squares, rows : per run, fit runs first: sum of squares and number of residuals
+    """
+
+    model: Model
+    fitted: Fitted
+    held_out: Fitted
+    squares: np.ndarray
+    rows: np.ndarray
+
+    @property
+    def gap(self) -> float:
+        """Root mean square residual of all runs in units of the noise."""
+        return float(np.sqrt(self.squares.sum() / self.rows.sum()))
+
+    @property
+    def gaps(self) -> np.ndarray:
+        """(runs,) the same, run by run."""
+        return np.sqrt(self.squares / self.rows)
+
+    @property
+    def held_out_gap(self) -> float:
+        """Of the runs that were kept back; of all where none was."""
+        return self.held_out.gap() if self.held_out.residuals else self.fitted.gap()
+
+
+def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
+    """A fit in short windows: robust, cheap, and near enough for the long ones."""
+    problem = Problem(data.short, model.knobs, model.settings)
+    point = before.point if before else with_phases(problem, start(data.short, model.knobs))
+    return fit(problem, point, rounds)
+
+
+def try_model(data: Data, model: Model, sketched: Fitted, refit: bool = True) -> Trial:
+    """Fit in long windows from a sketch, and judge; without ``refit`` the sketch is judged."""
+    problem = Problem(data.fit, model.knobs, model.settings)
+    first = start(problem.flights, model.knobs)
+    point = Point(sketched.point.shared, sketched.point.own, first.states)
+    if refit:
+        fitted = with_columns(problem, fit(problem, point))
+    else:
+        fitted = fit(problem, point, _ROUNDS_UNFITTED, fixed=True)
+    held_out = _hold_out(data.held_out, model, fitted)
+    residuals = (*fitted.residuals, *held_out.residuals)
+    squares = np.array([float(r @ r) for r in residuals])
+    return Trial(model, fitted, held_out, squares, np.array([r.size for r in residuals]))
+
+
+def _hold_out(flights: Sequence[Flight], model: Model, fitted: Fitted) -> Fitted:
+    """The held-out runs with the campaign's knobs as fitted; their states and phases are free."""
+    problem = Problem(flights, model.knobs, model.settings)
+    point = start(flights, model.knobs)
+    own = tuple(np.array([k.scaled(k.start) for k in problem.own]) for _ in flights)
+    point = with_phases(problem, Point(fitted.point.shared, own, point.states))
+    return fit(problem, point, fixed=True)
+
+
+def with_phases(problem: Problem, point: Point) -> Point:
+    """Each run's phases where they fit best of a few: a fit finds its way over an eighth of a turn,
+    not over half of one."""
+    if not problem.own:
+        return point
+    own = []
+    for run, states in enumerate(point.states):
+        tries = [np.array([k.scaled(degrees) for k in problem.own]) for degrees in _PHASES]
+        costs = [np.sum(problem.residuals(run, point.shared, t, states) ** 2) for t in tries]
+        own.append(tries[int(np.argmin(costs))])
+    return Point(point.shared, tuple(own), point.states)

@@ -1,0 +1,104 @@
+"""From trials of the catalogue to a verdict: named, class, none, unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.shooting.fit import Fitted
+
+from .search import Search, Tried
+from .trial import Model, Trial
+
+#: The plain model fits when its gap is at most this: what a real contact has beside any model
+#: (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
+PLAIN_FITS = 1.3
+#: A repaired model fits when its gap is at most this, ...
+FITS = 1.5
+#: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
+#: real effect is never quite the catalogue's.
+EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.95, 0.97
+#: Effects cannot be told apart when their gaps, squared, differ by less than this ...
+ALIKE = 0.3
+#: ... and this part of what the better one leaves over the noise.
+ALIKE_PART = 0.1
+#: So many single effects are tried with a second one.
+FIRSTS = 3
+#: Of two effects, each must have taken away this part of what the other leaves, in squares.
+NEEDED = 0.3
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What the search came to.
+
+    Attributes
+    ----------
+    verdict : named, class, none or unknown
+    effects : ids in the order found; for a class its members
+    chosen : the model that repairs it, None for none and unknown
+    ranking : every effect on top of the plain model, best first
+    nearest : the best that there is, whatever the verdict
+    """
+
+    verdict: str
+    effects: tuple[str, ...]
+    chosen: Trial | None
+    ranking: tuple[Tried, ...]
+    nearest: Trial
+
+
+def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[Candidate]):
+    """Look for one effect, then for two: `Finding`."""
+    ranking = tuple(search.on(plain.model, sketched, candidates))
+    done = [t for t in ranking if t.trial is not None]
+    best = done[0]
+    if plain.gap <= PLAIN_FITS:
+        return Finding("none", (), None, ranking, plain)
+    if repaired(plain, best.trial, EXPLAINED_BY_ONE):
+        members = alike(done)
+        verdict = "named" if len(members) == 1 else "class"
+        return Finding(verdict, members, best.trial, ranking, best.trial)
+    pair = _best_pair(search, plain.model, done, candidates)
+    if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
+        effects = (pair[0].candidate.effect, pair[1].candidate.effect)
+        return Finding("named", effects, pair[1].trial, ranking, pair[1].trial)
+    nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.gap)
+    return Finding("unknown", (), None, ranking, nearest)
+
+
+def repaired(plain: Trial, trial: Trial, part: float) -> bool:
+    """Whether nothing but noise, or next to nothing of what there was, is left."""
+    left, before = excess(trial), excess(plain)
+    return left <= FITS**2 - 1.0 or left <= (1.0 - part) * before
+
+
+def excess(trial: Trial) -> float:
+    """Mean square residual over that of the noise."""
+    return max(trial.gap**2 - 1.0, 0.0)
+
+
+def alike(done: Sequence[Tried]) -> tuple[str, ...]:
+    """The effects that repair the model as well as the best one does."""
+    best = done[0].trial
+    most = best.gap**2 + ALIKE + ALIKE_PART * excess(best)
+    return tuple(t.candidate.effect for t in done if t.trial.gap**2 <= most)
+
+
+def _best_pair(
+    search: Search, plain: Model, done: Sequence[Tried], candidates: Sequence[Candidate]
+) -> tuple[Tried, Tried] | None:
+    """The two effects that together leave least, if each is needed beside the other."""
+    pairs = []
+    for first in done[:FIRSTS]:
+        others = [c for c in candidates if c.effect != first.candidate.effect]
+        seconds = search.on(first.model, first.sketched, others)
+        pairs += [(first, second) for second in seconds if second.trial is not None]
+    alone = {t.candidate.effect: excess(t.trial) for t in done}
+    needed = [
+        pair for pair in pairs
+        if excess(pair[1].trial) <= (1.0 - NEEDED) * min(
+            excess(pair[0].trial), alone.get(pair[1].candidate.effect, float("inf")))
+    ]
+    return min(needed, key=lambda pair: pair[1].trial.gap, default=None)

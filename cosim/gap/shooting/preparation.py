@@ -1,0 +1,68 @@
+"""From a measured run to the flight that is shot beside it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+from stickslip import Parameters
+
+from cosim.gap.read import Campaign, MeasuredRun
+
+from .flight import TOLERANCE, Flight
+from .windows import CYCLES, cut
+
+#: Cycles in the short windows in which a fit sets out: hardly a phase to be lost.
+SHORT_CYCLES = 1.2
+
+
+def prepare(
+    campaign: Campaign, runs: Sequence[MeasuredRun], planar: bool, cycles: float = CYCLES
+) -> tuple[Flight, ...]:
+    """Flights of runs with a track. planar: the model moves across and turns as the rig allows."""
+    return tuple(_flight(campaign, run, planar, cycles) for run in runs)
+
+
+def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> Flight:
+    track = run.track
+    known = _known(campaign, run)
+    if not planar:
+        known["rig.free_y"] = known["rig.free_phi"] = 0.0
+    channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
+    across = planar and "y" in channels
+    windows = cut(track, run.sticks, run.surface_speed, period(run), across, cycles)
+    noise = {name: run.noise[name] for name in channels}
+    temperature = known["temperature_dependence.reference_degC"]
+    return Flight(
+        run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows)
+
+
+def _known(campaign: Campaign, run: MeasuredRun) -> dict[str, float]:
+    """Every parameter of the model, what is to be fitted at its default."""
+    with warnings.catch_warnings(action="ignore"):  # friction is for the fit
+        parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
+    return dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
+
+
+def period(run: MeasuredRun) -> float:
+    """Of a stick-slip cycle, or of the strongest oscillation where nothing sticks, s."""
+    onsets = np.array([stick.start for stick in run.sticks])
+    if onsets.size > 3:
+        return float(np.median(np.diff(onsets)))
+    return _strongest_period(run)
+
+
+def _strongest_period(run: MeasuredRun) -> float:
+    """From the spectrum of x, within a factor of four of the free oscillation's."""
+    track = run.track
+    seen = np.isfinite(track.x)
+    time = np.arange(track.time[0], track.time[-1], track.interval)
+    x = np.interp(time, track.time[seen], track.x[seen])
+    free = run.natural_frequency / (2.0 * np.pi)
+    power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(x.size), 8 * x.size))
+    frequency = np.fft.rfftfreq(8 * x.size, track.interval)
+    inside = (frequency > free / 4.0) & (frequency < free * 2.0)
+    if not inside.any():
+        return 1.0 / free
+    return float(1.0 / frequency[inside][power[inside].argmax()])
