@@ -1,0 +1,161 @@
+"""Runs of which only figures are known: figures of a motion, ranges, distances, small campaigns."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.gap.errors import CampaignError
+from cosim.gap.read import Campaign, MeasuredRun, read_campaign
+from cosim.gap.read.tables import Rig
+from cosim.gap.summary import draw_figures, find, find_summary_gap, rows, summary_residuals
+from cosim.gap.summary.exact_model import exact_motion
+from cosim.gap.summary.motion import Motion, figures
+from cosim.gap.summary.observations import observations, predict
+from cosim.gap.summary.score import Target, gap, misfit
+from cosim.gap.summary.table import Draw
+from cosim.gap.summary.ways import Span, not_felt, plain_way, ways
+
+FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
+SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
+POINTS = [(0.10, 0.67, 20.17), (0.25, 1.2, 38.5), (0.05, 2.0, 38.5)]
+
+
+def campaign(values=FRICTION, sds=SDS, points=POINTS) -> Campaign:
+    """Figures without noise of the exact model with ``values``, guided along x."""
+    empty = Campaign("figures", Path("."), Rig(degrees_of_freedom=("x",)), "exact", {}, (), ())
+    runs = []
+    for number, (speed, mass, stiffness) in enumerate(points, 1):
+        run = MeasuredRun(f"run {number}", None, mass, stiffness, speed, -8.0, False)
+        seen = figures(exact_motion(empty.parameters(run), values, None))
+        runs.append(replace(run, summary={name: (seen[name], sd) for name, sd in sds.items()}))
+    return replace(empty, runs=tuple(runs))
+
+
+def swing(amplitude=0.01, mean=0.02, frequency=1.3) -> Motion:
+    time = np.linspace(0.0, 20.0, 4001)
+    x = mean + amplitude * np.sin(2.0 * np.pi * frequency * time)
+    phases = np.array([[0.0, 5.0, 0], [5.0, 12.0, 1], [12.0, 13.0, 0], [13.0, 20.0, 1]])
+    return Motion(time, x, 0.0 * time - 0.003, np.radians(-7.0) * np.ones_like(time), phases)
+
+
+def test_figures_of_a_swing():
+    seen = figures(swing())
+    assert seen["mean_x"] == pytest.approx(0.02, abs=1e-6)  # whole swings, though 20 s are not
+    assert seen["frequency"] == pytest.approx(1.3, rel=1e-4)
+    assert seen["amplitude_x"] == pytest.approx(0.01, rel=1e-3)
+    assert seen["mean_y"] == pytest.approx(-0.003)
+    assert seen["max_rotation_deg"] == pytest.approx(7.0)
+    assert seen["slip_share"] == pytest.approx(14.0 / 20.0)
+    assert (seen["slip_duration"], seen["stick_duration"]) == pytest.approx((7.0, 1.0))
+
+
+def test_a_swing_that_nobody_sees_is_none():
+    assert figures(swing(amplitude=1e-4))["frequency"] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("span", "low", "middle", "high"),
+    [
+        (Span("a.b", 1.0, 3.0), 1.0, 2.0, 3.0),
+        (Span("a.b", 0.01, 1.0, log=True), 0.01, 0.1, 1.0),
+        (Span("a.b", 0.1, 0.5, prior=(0.3, 0.05)), 0.1, 0.3, 0.5),
+    ],
+)
+def test_ends_and_middle_of_a_range(span, low, middle, high):
+    assert [span.at(share) for share in (0.0, 0.5, 1.0)] == pytest.approx([low, middle, high])
+
+
+def test_a_known_number_is_spread_as_it_is_known():
+    span = Span("a.b", 0.15, 0.45, prior=(0.3, 0.05))
+    drawn = np.array([span.at(share) for share in np.linspace(0.0005, 0.9995, 1000)])
+    assert drawn.std() == pytest.approx(0.05, rel=0.02)  # cut at three standard deviations
+    assert span.surprise(0.4) == pytest.approx(4.0)
+
+
+def test_every_effect_of_the_catalogue_is_tried_or_left_out_for_a_reason():
+    study = read_campaign(Path(__file__).parents[2] / "cosim/gap/campaigns/study.toml")
+    tried = {way.effects[-1] for way in ways(study, plain_way(study))}
+    assert len(tried | set(not_felt(study))) == 14
+    assert not tried & set(not_felt(study))
+
+
+def test_an_effect_that_is_off_leaves_the_plain_model():
+    one = campaign()
+    seen = observations(one)
+    bare = predict(one, seen, FRICTION, 0)
+    for way in ways(one, plain_way(one)):
+        off = way.off | FRICTION
+        np.testing.assert_allclose(predict(one, seen, off, 0), bare, atol=1e-12, err_msg=str(way))
+
+
+def test_a_model_that_meets_everything_has_no_misfit():
+    target = Target(np.array([1.0, 2.0]), np.array([0.1, 0.2]))
+    met = Draw(np.zeros(1), {}, 0.0, np.tile(target.sizes, (4, 1)))
+    off = replace(met, shown=met.shown + target.sds)
+    assert misfit(met, target, np.zeros(2)) == 0.0
+    assert misfit(off, target, np.zeros(2)) == pytest.approx(2.0)
+    assert gap(off.mean, target) == pytest.approx(1.0)
+    assert misfit(off, target.without(0), np.zeros(2)) == pytest.approx(1.0)
+
+
+def test_a_scattering_model_pays_for_its_wide_prediction():
+    target = Target(np.array([1.0]), np.array([0.1]))
+    rows = np.array([[0.5], [1.5], [0.5], [1.5]])
+    scattering = Draw(np.zeros(1), {}, 0.0, rows)  # right in the mean
+    near = Draw(np.zeros(1), {}, 0.0, np.full((4, 1), 1.15))  # 1.5 standard deviations off
+    assert misfit(scattering, target, np.zeros(1)) > misfit(near, target, np.zeros(1))
+
+
+def test_residuals_vanish_at_the_truth_and_grow_away_from_it():
+    one = campaign()
+    for run in one.runs:
+        assert summary_residuals(one, run, FRICTION) == pytest.approx(np.zeros(4), abs=1e-9)
+        away = summary_residuals(one, run, FRICTION | {"friction.mu_k": 0.22})
+        assert np.abs(away).max() > 2.0
+
+
+def test_nothing_is_missing_where_nothing_is_and_the_same_seed_says_the_same():
+    one = campaign()
+    first, second = (find_summary_gap(one, seed=3, jobs=2) for _ in range(2))
+    assert first.verdict == "none"
+    assert first.gap_before[0] < 1.0
+    assert first.effects == () and first.extended is None
+    assert json.dumps(rows(first)) == json.dumps(rows(second))
+    assert first.plain.values["friction.mu_k"] == pytest.approx(0.2, abs=0.01)
+
+
+def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
+    few = ("static_strengthening", "film_drag", "spring_hardening")  # all fourteen take long
+    monkeypatch.setattr(
+        find, "ways", lambda *args: tuple(w for w in ways(*args) if w.effects[-1] in few)
+    )
+    hidden = FRICTION | {"static_strengthening.rate": 0.08}
+    one = campaign(hidden, points=[*POINTS, (0.15, 2.0, 68.0)])
+    answer = find_summary_gap(one, seed=1)
+    assert answer.found[0] == "static_strengthening"
+    assert answer.gap_before[0] > 2.0 > 1.0 > answer.gap_after[0]
+    assert answer.chance["p"] <= 0.05
+    assert draw_figures(answer).png[:4] == b"\x89PNG"
+
+
+def test_no_figures_is_refused():
+    one = campaign()
+    bare = replace(one, runs=tuple(replace(run, summary=None) for run in one.runs))
+    with pytest.raises(CampaignError, match="no run has a summary"):
+        find_summary_gap(bare)
+
+
+def test_known_friction_is_read_and_checked(tmp_path):
+    text = '[friction]\nmu_s = [0.3, {}]\n[[run]]\nmass = 1.0\nstiffness = 20.0\n'
+    text += "surface_speed = 0.1\nsummary = {{ mean_x = [0.02, 0.002] }}\n"
+    path = tmp_path / "campaign.toml"
+    path.write_text(text.format("0.01"))
+    assert read_campaign(path).friction == {"mu_s": (0.3, 0.01)}
+    path.write_text(text.format("-0.01"))
+    with pytest.raises(CampaignError, match="friction.*both above 0"):
+        read_campaign(path)

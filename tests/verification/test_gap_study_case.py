@@ -1,0 +1,71 @@
+"""The source study's own case: five printed figures, its scheme as printed, the whole catalogue.
+
+The search is the shipped one with fewer draws. What must come out does not hang on a seed: the
+search was tried with seeds 0 to 4 and with other readings of the standard deviations.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.gap.read import read_campaign
+from cosim.gap.summary import find, find_summary_gap, rows, search
+
+STUDY = Path(__file__).parents[2] / "cosim" / "gap" / "campaigns" / "study.toml"
+
+
+@pytest.fixture(scope="module")
+def answer():
+    with pytest.MonkeyPatch.context() as patch:
+        for module, name, value in (
+            (find, "PLAIN_DRAWS", 8), (find, "PLAIN_CLOSELY", 2), (find, "RANGE_DRAWS", 8),
+            (find, "IN_THE_RUNNING", 1), (find, "FIRST", 8),
+            (search, "MORE", 32), (search, "CLOSELY", 4),
+        ):  # fmt: skip
+            patch.setattr(module, name, value)
+        yield find_summary_gap(read_campaign(STUDY), seed=0, jobs=2)
+
+
+def test_the_one_spring_fault_is_named(answer):
+    assert answer.verdict == "named"
+    assert answer.effects == ("stick_stiffness",)
+    assert answer.chance["p"] <= 0.05
+
+
+def test_it_counts_nearly_all_springs_instead_of_one(answer):
+    assert answer.plain.values["stick_stiffness.ratio"] == 0.25
+    assert answer.extended.values["stick_stiffness.ratio"] > 0.75
+
+
+def test_the_gap_shrinks_by_far_more_than_with_any_other_effect(answer):
+    assert answer.gap_before[0] > 12.0
+    assert answer.gap_after[0] < 3.0
+    assert answer.gap_after[1] < 4.0  # each figure predicted by the others
+    assert all(row.fit_gap > 3.0 * answer.gap_after[0] for row in answer.ranking[1:])
+
+
+def test_other_friction_is_no_way_out(answer):
+    """The study's own repair: coefficients of about a quarter, and still far from the figures."""
+    assert answer.free_friction.gap > 2.0 * answer.gap_after[0]
+
+
+def test_friction_stays_as_it_is_known(answer):
+    for name, (value, sd) in answer.campaign.friction.items():
+        assert abs(answer.extended.values[f"friction.{name}"] - value) < 3.0 * sd
+
+
+def test_five_figures_before_and_after(answer):
+    table = rows(answer)
+    assert len(table) == 5
+    before = np.array([row["models"]["plain fit"]["distance"] for row in table])
+    after = np.array([row["models"]["with stick_stiffness"]["distance"] for row in table])
+    assert np.sqrt(np.mean(before**2)) == pytest.approx(answer.gap_before[0])
+    assert np.sqrt(np.mean(after**2)) == pytest.approx(answer.gap_after[0])
+
+
+def test_what_stays_open_is_said(answer):
+    assert any("mean_y" in figure for figure in answer.open_figures)
+    assert "load_dependence" in answer.not_felt
