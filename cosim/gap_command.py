@@ -69,7 +69,7 @@ def execute(arguments: Namespace) -> int:
             write_text(text, copy)
     print(text if arguments.json == STDOUT else "", end="")
     says = sys.stderr if arguments.json == STDOUT else sys.stdout
-    return _shown(files, gap, folder, arguments.jobs, says)
+    return _shown(files, gap, folder, says)
 
 
 def packaged_campaigns() -> list[str]:
@@ -96,11 +96,11 @@ def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[[int], object
     return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
 
 
-def _shown(files, gap, folder: Path, jobs: int, says) -> int:
+def _shown(files, gap, folder: Path, says) -> int:
     """Figures and page, then the closing lines."""
     try:
         with tqdm(disable=None, unit="figure", leave=False) as bar:
-            files.write_page(gap, folder, folder / PAGE, jobs, bar.update)
+            files.write_page(gap, folder, folder / PAGE, bar.update)
     except KeyboardInterrupt:
         print(f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
               file=sys.stderr)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-
-from joblib import Parallel, delayed
 
 from cosim.atomic import write_bytes, write_text
 from cosim.coupled import own_fmu
@@ -37,7 +35,7 @@ def write_data(gap: Gap | SummaryGap, result: Path, model: Path) -> str:
 
 
 def write_page(
-    gap: Gap | SummaryGap, folder: Path, file: Path, jobs: int, drawn: Callable[[], object]
+    gap: Gap | SummaryGap, folder: Path, file: Path, drawn: Callable[[], object]
 ) -> None:
     """Every figure into the folder, and the page with all of them inside.
 
@@ -45,8 +43,9 @@ def write_page(
     """
     reproduced = [] if isinstance(gap, SummaryGap) else _reproduced(gap)
     pictures: list[Picture] = []
-    for batch in _drawn(_drawers(gap, reproduced), jobs):
+    for draw in _drawers(gap, reproduced):
         with held_interrupts():
+            batch = draw()
             for one in batch:
                 write_bytes(one.png, folder / f"{one.name}.png")
         pictures += batch
@@ -84,9 +83,3 @@ def _one(draw: Callable[..., Picture], *arguments) -> list[Picture]:
 def _atlas(gap: Gap) -> list[Picture]:
     atlas = gap.atlas or residual_atlas([run.track for run in gap.plain.runs])
     return [draw_atlas(atlas)]
-
-
-def _drawn(drawers: list[Callable[[], list[Picture]]], jobs: int) -> Iterator[list[Picture]]:
-    """What they draw, in their order."""
-    with Parallel(n_jobs=jobs, return_as="generator") as pool:
-        yield from pool(delayed(draw)() for draw in drawers)

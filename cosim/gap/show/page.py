@@ -17,7 +17,7 @@ from cosim.studies.drawing import Picture
 from .model_file import model_text
 from .quantities import quantities
 from .reproduction import Reproduced
-from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, verdict
+from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, reason
 
 
 def page(
@@ -36,7 +36,7 @@ def page(
         unit="standard deviations" if figures_only else "noise units",
         pictures={one.name: one for one in pictures},
         reproduced=reproduced,
-        verdict=verdict(gap),
+        reason=reason(gap),
         gap_line=gap_line(gap),
         numbers=fitted_quantities(gap),
         determined=_determined(gap),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -52,6 +53,13 @@ def quantities(
     """Of the keys wanted (all when left out), in the order of ``values``."""
     wanted = values if keys is None else [key for key in values if key in set(keys)]
     return [
-        Quantity(key, float(values[key]), intervals.get(key), *unit_and_meaning(key))
+        Quantity(key, float(values[key]), _interval(intervals.get(key)), *unit_and_meaning(key))
         for key in wanted
     ]
+
+
+def _interval(pair: tuple[float, float] | None) -> tuple[float, float] | None:
+    """None for one that is a point, or reaches to infinity: nothing is known of it."""
+    if pair is None or not 0.0 < pair[1] - pair[0] < math.inf:
+        return None
+    return float(pair[0]), float(pair[1])

@@ -8,7 +8,17 @@ from matplotlib.figure import Figure
 
 from cosim.gap.result import FittedRun, Gap
 from cosim.gap.shooting.preparation import period
-from cosim.studies.drawing import BLUE, GREY, INK, RED, Picture, panels, picture
+from cosim.studies.drawing import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    PURPLE,
+    RED,
+    Picture,
+    panels,
+    picture,
+)
 
 #: Runs that a figure shows: more rows than these nobody reads.
 MOST_RUNS = 8
@@ -17,7 +27,7 @@ CYCLES = 5.0
 SCALES = {"x": (1e3, "x (mm)"), "y": (1e3, "y (mm)"), "phi": (1e3, "φ (mrad)")}
 #: Noise units: linear up to here, logarithmic beyond.
 LINEAR = 3.0
-TICKS = (-1000, -100, -10, 0, 10, 100, 1000)
+TICKS = (-1000, -100, -10, -2, 0, 2, 10, 100, 1000)
 
 
 def shown_runs(gap: Gap) -> list[str]:
@@ -132,7 +142,7 @@ def draw_residuals(gap: Gap) -> Figure:
     figure, axes = panels(
         len(names), len(models), height=1.6, width=11.0, sharey="row", sharex="row"
     )  # fmt: skip
-    colours = {"x": BLUE, "y": RED, "phi": GREY}
+    colours = {"x": INK, "y": GREEN, "phi": PURPLE}
     for row, name in zip(axes, names, strict=True):
         for axis, (label, model) in zip(row, models, strict=True):
             run = model.of(name)
@@ -154,7 +164,7 @@ def draw_residuals(gap: Gap) -> Figure:
 def _noise_scale(axis: Axes, largest: float) -> None:
     axis.set_yscale("symlog", linthresh=LINEAR)
     limit = 1.4 * max(largest, LINEAR)
-    ticks = [tick for tick in TICKS if abs(tick) <= limit]
+    ticks = [tick for tick in TICKS if abs(tick) <= limit and (abs(tick) != 2 or limit < 150.0)]
     axis.set_yticks(ticks, [f"{tick:g}".replace("-", "−") for tick in ticks])
     axis.minorticks_off()
     axis.set_ylim(-limit, limit)

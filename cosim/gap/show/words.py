@@ -14,14 +14,17 @@ SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in CATALOGUE}
 
 
 def verdict(gap: Answer) -> str:
-    """The verdict and what it rests on, one or two sentences."""
+    """The verdict and what it rests on."""
+    return f"{gap.verdict.capitalize()}: {reason(gap)}"
+
+
+def reason(gap: Answer) -> str:
+    """What the verdict's word stands for here, one sentence."""
     if gap.verdict == "none":
-        return "None is missing: the plain model with its numbers fitted leaves only noise."
+        return "the plain model, its numbers fitted, leaves only noise."
     if gap.verdict == "named":
-        return f"Named: {' and '.join(map(described, gap.effects))}."
-    if gap.verdict == "class":
-        return _class(gap)
-    return _unknown(gap)
+        return f"{' and '.join(map(described, gap.effects))}."
+    return _class(gap) if gap.verdict == "class" else _unknown(gap)
 
 
 def described(effect: str) -> str:
@@ -33,16 +36,16 @@ def _class(gap: Answer) -> str:
     groups = [" or ".join(group) for group in gap.classes]
     alone = [e for e in gap.effects if not any(e in group for group in gap.classes)]
     beside = f", beside {' and '.join(alone)}" if alone else ""
-    return f"Class: {'; '.join(groups)}{beside}; these data cannot tell which."
+    return f"{'; '.join(groups)}{beside}; these data cannot tell which."
 
 
 def _unknown(gap: Answer) -> str:
     if gap.effects:
         return (
-            f"Unknown: with {' and '.join(gap.effects)} the model comes nearer, but a disagreement "
+            f"with {' and '.join(gap.effects)} the model comes nearer, but a disagreement "
             "is left that no catalogued effect repairs."
         )
-    return "Unknown: the plain model does not fit, and no catalogued effect repairs it."
+    return "the plain model does not fit, and no catalogued effect repairs it."
 
 
 def gap_line(gap: Answer) -> str:

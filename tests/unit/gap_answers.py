@@ -1,0 +1,67 @@
+"""An answer of the gap workflow, made by hand from real fits of a small campaign."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from gap_campaigns import NOISE, motion, noisy, write_campaign
+
+from cosim.gap import read_campaign
+from cosim.gap.atlas import find_where, residual_atlas
+from cosim.gap.fitted_model import fitted_model
+from cosim.gap.result import Gap, Ranked
+from cosim.gap.shooting.fit import Point, Problem, fit, start
+from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.preparation import prepare
+
+TRUE = {"velocity_weakening": {"linear": 0.8}}
+PLAIN = (
+    Knob("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
+    Knob("friction.mu_k", 0.19, 0.01, 0.0, 2.0),
+    Knob("offset.x", 0.0, 4e-4, prior=4e-4),
+)
+ADDED = Knob("velocity_weakening.linear", 0.7, 0.1, 0.0, 5.0)
+SPEEDS = (0.06, 0.12, 0.2)
+
+
+@cache
+def answer(folder):
+    """velocity_weakening, named, found in three runs of six seconds; the last is held out."""
+    campaign = read_campaign(write(folder))
+    plain = fitted(campaign, PLAIN)
+    extended = fitted(campaign, (*PLAIN, ADDED))
+    intervals = {key: (0.98 * value, 1.02 * value) for key, value in extended.values.items()
+                 if not key.startswith("offset")}
+    extended = replace(extended, intervals=intervals)
+    key = ADDED.key
+    found = Ranked("velocity_weakening", "linear", extended.gap[1], extended.gap[0], 1234.56789,
+                   {key: extended.values[key]}, {key: intervals[key]})
+    other = Ranked("film_drag", "linear", 1.01 * plain.gap[1], plain.gap[0], -3.0,
+                   {"film_drag.coefficient": 0.0}, {"film_drag.coefficient": (0.0, np.inf)})
+    atlas = residual_atlas([run.track for run in plain.runs])
+    determined = {k: (v, 0.9 * v, 1.1 * v) for k, v in plain.values.items() if "friction" in k}
+    return Gap(
+        campaign, "named", ("velocity_weakening",), (), find_where(atlas), (found, other),
+        plain.gap, extended.gap, plain, extended, {"p": 0.005, "draws": 199}, determined,
+        atlas=atlas, remarks=("a remark",),
+    )
+
+
+def write(folder):
+    """A campaign on disk."""
+    runs = []
+    for number, speed in enumerate(SPEEDS):
+        run = motion(speed=speed, duration=6.0, **TRUE)
+        runs.append({"surface_speed": speed, "hold_out": number == len(SPEEDS) - 1,
+                     "columns": {"t": run.time, "x": noisy(run["x"], number)}})
+    return write_campaign(folder, runs, name="cold room, week 3", noise={"x": NOISE})
+
+
+def fitted(campaign, knobs):
+    """Fitted to the runs for fitting, their states to those held out."""
+    problem = Problem(prepare(campaign, campaign.fit_runs, False), knobs)
+    at = fit(problem, start(problem.flights, knobs))
+    held = Problem(prepare(campaign, campaign.held_out_runs, False), knobs)
+    first = start(held.flights, knobs)
+    other = fit(held, Point(at.point.shared, first.own, first.states), fixed=True)
+    return fitted_model(campaign, [(problem, at), (held, other)])

@@ -1,0 +1,111 @@
+"""`stickslip gap`: files, JSON, refusals, interruptions."""
+
+import json
+
+import pytest
+from gap_answers import answer
+from gap_campaigns import write_campaign
+
+from cosim import gap_command
+from cosim.cli import main
+from cosim.gap.show import files
+
+
+@pytest.fixture(scope="module")
+def gap(tmp_path_factory):
+    return answer(tmp_path_factory.mktemp("campaign"))
+
+
+@pytest.fixture
+def found(gap, monkeypatch):
+    """A search that has this answer; the path of its campaign."""
+    asked = []
+    monkeypatch.setattr(gap_command, "_find", lambda *given: asked.append(given) or gap)
+    return str(gap.campaign.path), asked
+
+
+def test_command_leaves_its_files(found, tmp_path, capsys):
+    campaign, asked = found
+    given = ["-o", str(tmp_path / "out"), "--json", str(tmp_path / "copy.json")]
+    assert main(["gap", campaign, *given, "--seed", "7", "--jobs", "1"]) == 0
+    assert asked[0][1:3] == (7, 1)
+    for name in ("gap.json", "model.toml", "report.html", "overlay_x.png"):
+        assert (tmp_path / "out" / name).stat().st_size > 0
+    assert (tmp_path / "copy.json").read_text() == (tmp_path / "out" / "gap.json").read_text()
+    out = capsys.readouterr().out
+    assert out.startswith("cold room, week 3: Named: velocity_weakening")
+    assert str(tmp_path / "out" / "model.toml") in out
+
+
+def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(files, "write_page", lambda *given: None)
+    assert main(["gap", found[0], "-o", str(tmp_path), "--json", "-"]) == 0
+    out, err = capsys.readouterr()
+    assert json.loads(out)["verdict"] == "named"
+    assert "Named: velocity_weakening" in err
+
+
+def test_the_folder_has_the_campaigns_name(found, tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "write_page", lambda *given: None)
+    monkeypatch.chdir(tmp_path)
+    assert main(["gap", found[0]]) == 0
+    assert (tmp_path / "results" / "cold-room-week-3-gap" / "gap.json").is_file()
+
+
+def test_ctrl_c_while_drawing_keeps_the_answer(found, tmp_path, capsys, monkeypatch):
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(files, "draw_gaps", interrupted)
+    assert main(["gap", found[0], "-o", str(tmp_path)]) == 1
+    assert {file.name for file in tmp_path.iterdir()} == {
+        "gap.json", "model.toml", "overlay_x.png",
+    }  # fmt: skip
+    assert "interrupted while drawing" in capsys.readouterr().err
+
+
+def test_ctrl_c_before_there_is_an_answer(gap, tmp_path, capsys, monkeypatch):
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(gap_command, "_find", interrupted)
+    assert main(["gap", str(gap.campaign.path), "-o", str(tmp_path)]) == 1
+    assert "interrupted before there was a result" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_runs_of_figures_alone_have_their_own_way(tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        "cosim.gap.summary.find_summary_gap", lambda campaign, **given: asked.append(campaign)
+    )
+    run = {"summary": {"frequency": [1.7, 0.05]}}
+    campaign = gap_command.read_campaign(write_campaign(tmp_path, [run]))
+    gap_command._find(campaign, 0, 1, lambda count: None)
+    assert asked == [campaign]
+
+
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (["no/such.toml"], "no/such.toml: no such file"),
+        (["study", "--jobs", "0"], "0 is not allowed, allowed is 1 or more"),
+        (["study", "--seed", "-3"], "'-3' is not allowed"),
+        (["study", "--json", "gap_command_is_a_folder"], "is a folder"),
+    ],
+)
+def test_refusals_are_one_line(arguments, said, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "gap_command_is_a_folder").mkdir()
+    try:
+        status = main(["gap", *arguments])
+    except SystemExit as stop:
+        status = stop.code
+    err = capsys.readouterr().err
+    assert (status, err.count("\n")) == (2, 1)
+    assert said in err
+
+
+def test_packaged_campaigns_are_found_by_name():
+    assert "study" in gap_command.packaged_campaigns()
+    assert gap_command._source("study").is_file()
