@@ -10,6 +10,8 @@ from scipy import stats
 
 #: Corners of the polygon over a variable that changes within a run.
 BINS = 8
+#: Part of the values beyond the first and the last corner, where the curve is level.
+EDGE = 0.05
 #: Natural logarithm of the smallest probability that is computed exactly.
 SMALLEST = -600.0
 
@@ -44,12 +46,14 @@ def nodes_of(values: np.ndarray, kind: str) -> np.ndarray:
     kind : "per run", "phase" (0 to 1, once around) or "within"
     """
     values = values[np.isfinite(values)]
+    if not values.size:
+        return values
     if kind == "phase":
         return np.arange(BINS) / BINS
     unique = np.unique(values)
     if kind == "per run" and len(unique) <= BINS:
         return unique
-    return np.unique(np.quantile(values, np.linspace(0.0, 1.0, BINS))) if values.size else unique
+    return np.unique(np.quantile(values, np.linspace(EDGE, 1.0 - EDGE, BINS)))
 
 
 def shares(values: np.ndarray, nodes: np.ndarray, kind: str) -> np.ndarray:

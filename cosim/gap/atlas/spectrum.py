@@ -23,6 +23,8 @@ NYQUIST = 4.0
 FEWEST = 2.0
 #: Rates at the most, and how many are worked on together.
 MOST, TOGETHER = 1000, 250
+#: Samples of a run that are searched for a period.
+SAMPLES = 10000
 #: A period counts where chance makes as strong a one less often than this.
 CHANCE = 0.01
 
@@ -123,7 +125,7 @@ def strongest_period(
     waves = np.zeros((len(rates), len(present)), dtype=complex)
     total, freedom = 0.0, 0
     for place, run in enumerate(present):
-        own = [stretch for stretch in stretches if stretch.track == run]
+        own = _some([stretch for stretch in stretches if stretch.track == run])
         residual = np.concatenate([stretch.free(stretch.residual) for stretch in own])
         level = np.concatenate([_answer(s, np.ones((len(s.rows), 1))) for s in own])[:, 0]
         level = level / np.linalg.norm(level)
@@ -148,6 +150,12 @@ def strongest_period(
         tuple((np.angle(wave) / (2.0 * np.pi)).tolist()),
         min(single + float(np.log10(independent)), 0.0), rates, power / scale,
     )  # fmt: skip
+
+
+def _some(stretches: list[Stretch]) -> list[Stretch]:
+    """Every so many stretches of a long record: enough to see a period, few enough to be quick."""
+    samples = sum(len(stretch.rows) for stretch in stretches)
+    return stretches[:: -(-samples // SAMPLES)]
 
 
 def _span(

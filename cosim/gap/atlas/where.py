@@ -15,6 +15,8 @@ from cosim.gap.atlas.variables import VARIABLES
 CHANCE = 0.01
 #: Variables that are phases: the atlas's period, and its unit.
 PERIODIC = {"time_phase": ("ripple", "s"), "surface_phase": ("pattern", "m of surface")}
+#: Values that are known so many times worse than usual are not quoted.
+UNCLEAR = 3.0
 #: Residuals, in units of the noise, up to which a misfit is of no account.
 SLIGHT = 1.1
 #: Runs are named until this part of what was explained is covered.
@@ -107,7 +109,8 @@ def _sentence(region: Region, runs: tuple[str, ...], others: list[Region], atlas
 
 def _depends(region: Region, found: Dependence, atlas: Atlas) -> str:
     """By how much a region's misfit differs, and most clearly with what."""
-    low, high = int(np.argmin(found.value)), int(np.argmax(found.value))
+    clear = np.flatnonzero(found.error <= UNCLEAR * np.median(found.error))
+    low, high = clear[np.argmin(found.value[clear])], clear[np.argmax(found.value[clear])]
     variable = VARIABLES[found.variable]
     if found.variable in PERIODIC:
         name, what = PERIODIC[found.variable]
