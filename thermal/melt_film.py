@@ -57,10 +57,11 @@ class MeltFilm:
         """
         residences = abs(displacement) / self._length
         kept = 1.0 if residences == 0.0 else -math.expm1(-residences) / residences
-        whole = self.mass + melted
+        # all of it may freeze, but for rounding
+        whole = max(0.0, self.mass + melted)
         stays = min(whole, max(0.0, self.mass * math.exp(-residences) + melted * kept))
         self.mass = stays
         thickness = self.thickness
         self.mass = stays / math.sqrt(1.0 + 2.0 * self._squeeze * thickness**2 * duration)
         self.squeezed += stays - self.mass
-        return max(0.0, whole - stays)
+        return whole - stays
