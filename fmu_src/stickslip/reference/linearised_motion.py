@@ -123,14 +123,9 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
 
     Unless it goes ``to_the_end``, the block stops where the surface's speed is reached.
     """
-    w = np.empty((3, 3))
-    stiffness_over_k(memory.alpha, memory.attachment, w)
-    w *= rig.stiffness / rig.mass
-    w[2] *= rig.mass / rig.inertia
-    prop = np.empty((5, 3, 3))
-    propagator(w, STEP, prop)
-    q1, v1 = np.empty(3), np.empty(3)
-    load1 = np.empty(3)
+    w, prop = np.empty((3, 3)), np.empty((5, 3, 3))
+    _propagate(rig, memory, w, prop)
+    q1, v1, load1 = np.empty(3), np.empty(3), np.empty(3)
     a0, a1 = np.empty(3), np.empty(3)
     begin = t
     past, side, mean = memory.past, memory.side, memory.mean
@@ -175,9 +170,7 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
             t += share * STEP
             record(memory, t, SLIP)
             return t, True
-        memory.q[:] = q1
-        memory.v[:] = v1
-        memory.load[:] = load1
+        memory.q[:], memory.v[:], memory.load[:] = q1, v1, load1
         t = begin + (i + 1) * STEP
         if effects.on:
             remember(rig, effects, past, t, v1, STEP)
@@ -186,6 +179,15 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
         if t >= until:
             return t, False
     return begin + BLOCK, False
+
+
+@njit(cache=True)
+def _propagate(rig, memory, w, prop):
+    """Write W = M^-1 K under the present spring angles, and the step's matrices."""
+    stiffness_over_k(memory.alpha, memory.attachment, w)
+    w *= rig.stiffness / rig.mass
+    w[2] *= rig.mass / rig.inertia
+    propagator(w, STEP, prop)
 
 
 @njit(cache=True)
