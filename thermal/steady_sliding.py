@@ -72,14 +72,16 @@ class _Response(NamedTuple):
 
 
 class SteadySliding:
-    """Belt at a constant speed (m/s, > 0) under constant friction (force, N), from a cold start.
+    """Belt at a constant speed (m/s, > 0) under friction (force when cold, N), from a cold start.
 
     waves: of the Fourier series along the loop; left out, two cells of the belt make the shortest.
+    sensitivity: part of the friction lost for each kelvin of the interface's rise, 1/K.
     `state` tells the present temperatures; ValueError for a speed or force that cannot be.
     """
 
     def __init__(self, parameters: ThermalParameters, speed: float, force: float,
-                 waves: int | None = None, ice: Ice | None = None) -> None:
+                 waves: int | None = None, ice: Ice | None = None,
+                 sensitivity: float = 0.0) -> None:
         if not (math.isfinite(speed) and speed > 0.0):
             raise ValueError(f"speed = {speed:g} m/s must be above 0: the belt slides steadily")
         if not (math.isfinite(force) and force >= 0.0):
@@ -98,7 +100,8 @@ class SteadySliding:
         self._place_rows()
         self.amplitudes: Spectrum = np.zeros(self._rates.shape, dtype=np.complex128)
         self._response = LastDurations(self._respond)
-        self._time = self._into_belt = 0.0
+        self.sensitivity, self._left = sensitivity, 1.0
+        self._time = self._into_belt = self._produced = 0.0
         self._fluxes: Fluxes | None = None
 
     def _place_rows(self) -> None:
@@ -152,7 +155,7 @@ class SteadySliding:
         response, belt = self._response(duration), self.parameters.belt
         means = self._means(response.mean * self.amplitudes)
         contact = eliminate(means, response.rows, self._excess)
-        friction = self.force * self.speed / self.footprint.area
+        friction = self._friction()
         self._fluxes = exchange(
             contact.face, self._ice_face(duration), self.parameters.contact.conductance,
             belt.air_heat_transfer, friction)
@@ -163,7 +166,17 @@ class SteadySliding:
         self.amplitudes += response.forced * load
         self.ice.advance(duration, self._fluxes.ice * self.footprint.area)
         self._into_belt += float(self._fluxes.from_contact.mean()) * duration
+        self._produced += friction * duration
         self._time += duration
+        self._left = max(0.0, 1.0 - self.sensitivity * self._interface())
+
+    def _friction(self) -> float:
+        """Friction heat, W/m2 of contact."""
+        return self._left * self.force * self.speed / self.footprint.area
+
+    def _interface(self) -> float:
+        """Mean rise of the two faces over the contact, K."""
+        return 0.5 * (float(self.strip_means().mean()) + self.ice.face())
 
     def until(self, time: float, coarseness: float = 1.0) -> SlidingState:
         """Advance to a time (s), in steps that follow the loops; the state there.
@@ -185,7 +198,12 @@ class SteadySliding:
         """Go to the steady state; NoSteadyState when the belt gives no heat to anything."""
         takes = any(s.conductance > 0.0 for s in supports(self.parameters.belt, 1.0))
         check_gives_heat(float(self._modes.rates[0]), takes)
+        self._left = 1.0
         self.step(FOREVER)
+        if self.sensitivity > 0.0:
+            # The rises are proportional to the friction, so what it must be follows from one.
+            self._left = 1.0 / (1.0 + self.sensitivity * self._interface())
+            self.step(FOREVER)
         return self.state()
 
     def state(self) -> SlidingState:
@@ -195,16 +213,16 @@ class SteadySliding:
         strips = self.strip_means()
         ice = self.ice.face()
         share = so_far = melting = 0.0
-        friction = self.force * self.speed / self.footprint.area
-        if self._fluxes is not None and friction > 0.0:
-            share = float(self._fluxes.from_contact.mean()) / friction
-            so_far = self._into_belt / (friction * self._time)
+        if self._fluxes is not None and self._produced > 0.0:
+            produced = self._fluxes.ice + self._fluxes.melting + self._fluxes.from_contact.mean()
+            share = float(self._fluxes.from_contact.mean() / produced) if produced > 0.0 else 0.0
+            so_far = self._into_belt / self._produced
             melting = self._fluxes.melting
         slow = self.amplitudes[:, 0].real
         stored = float(self._modes.heat @ slow)
         return SlidingState(
             time=self._time, entry=float(entry), exit=float(exit_),
-            mean_interface=0.5 * (float(strips.mean()) + ice),
+            mean_interface=self._interface(),
             flash_interface=0.5 * (float(strips.max()) + ice), ice_face=ice,
             belt_mean=stored / (self.parameters.belt.capacity_per_area * self.footprint.lane),
             belt_share=share, belt_share_so_far=so_far, melting=melting)

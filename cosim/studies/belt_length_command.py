@@ -18,6 +18,7 @@ from tqdm import tqdm
 
 from cosim.atomic import write_atomically
 from cosim.studies.belt_length import (
+    AIR,
     CAMERA,
     Case,
     DriftMap,
@@ -31,10 +32,11 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.drawing import OutputRefused, Picture, writable
 from thermal import ParameterError
+from thermal.air import NotLaminar
 from thermal.steady import NoSteadyState
 
 DONE, FAILED = 0, 1
-REFUSED = (StudyError, ParameterError, NoSteadyState, OutputRefused)
+REFUSED = (StudyError, ParameterError, NoSteadyState, NotLaminar, OutputRefused)
 RESULT, TABLE = "belt_length.json", "belt_length.csv"
 
 #: Choice -> default, unit, what it is.
@@ -42,7 +44,8 @@ CHOICES: dict[str, tuple[tuple[float, ...], str, str]] = {
     "length": ((1.0, 2.0, 3.0, 4.0), "M", "lengths of the belt, m"),
     "speed": ((0.15, 0.5, 0.82), "V", "speeds of the belt, m/s"),
     "mass": ((1.371,), "M", "masses on the belt, kg"),
-    "h": ((15.0,), "H", "heat transfer to the air on each face of the belt, W/m2K"),
+    "h": ((15.0,), "H", f"heat transfer to the air on each face of the belt, W/m2K; or {AIR}: that"
+                        " of a belt moving through still air"),
     "conductivity": ((0.5,), "K", "conductivities of the belt, W/mK"),
     "friction": ((0.3,), "MU", "kinetic friction coefficients"),
     "ambient": ((-8.0, -16.0), "T", "temperatures of the air, degC"),
@@ -55,8 +58,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     for name, (default, metavar, text) in CHOICES.items():
         shown = " ".join(f"{value:g}" for value in default)
-        parser.add_argument(f"--{name}", metavar=metavar, type=float, nargs="+", default=default,
-                            help=f"{text} (default: {shown})")
+        parser.add_argument(f"--{name}", metavar=metavar, type=_film if name == "h" else float,
+                            nargs="+", default=default, help=f"{text} (default: {shown})")
     parser.add_argument(
         "--limit", metavar="K", type=float, default=CAMERA,
         help=f"drift that is allowed, K (default: {CAMERA:g}, what the camera sees)")
@@ -75,6 +78,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="DIR", default="results/belt-length",
         help="folder of table, numbers and figures (default: results/belt-length)")
+
+
+def _film(text: str) -> float | str:
+    """A number, or AIR."""
+    return AIR if text == AIR else float(text)
 
 
 def execute(arguments: Namespace) -> int:
@@ -152,9 +160,10 @@ def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:
         return
     if study.rows:
         shown = study.table()[[
-            "length [m]", "speed [m/s]", "ambient [degC]", "study [K]", "single pass mended [K]",
-            "drift 20 s [K]", "drift 30 s [K]", "drift steady [K]", "ice 20 s [K]",
-            "belt share 20 s", "seen by camera", "mu change 20 s", "frequency change 20 s",
+            "length [m]", "speed [m/s]", "h [W/m2K]", "ambient [degC]", "study [K]",
+            "single pass mended [K]", "drift 20 s [K]", "drift 30 s [K]", "drift steady [K]",
+            "ice 20 s [K]", "belt share 20 s", "seen by camera", "mu change 20 s",
+            "frequency change 20 s",
         ]]
         print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}"))
     for sentence in verdict(study):

@@ -10,6 +10,7 @@ import pytest
 
 from cosim.studies import belt_length_command
 from cosim.studies.belt_length import (
+    AIR,
     CAMERA,
     Case,
     Options,
@@ -29,6 +30,8 @@ from cosim.studies.belt_length.friction_effect import linear_sensitivity
 from cosim.studies.belt_length.length_speed_map import LENGTHS, SPEEDS
 from cosim.studies.belt_length.shortest import SHORTEST
 from cosim.studies.belt_length.uncertainty import RANGES
+from thermal.air import moving_belt
+from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
 
@@ -64,8 +67,6 @@ def test_drifts_in_the_order_that_they_must_have():
 
 def test_the_studys_resolution_is_good_to_half_a_percent():
     case = Case(1.0, 0.82)
-    from thermal.steady_sliding import SteadySliding
-
     fine = SteadySliding(case.thermal(fine=True), case.speed, case.force).until(20.0)
     assert run_drift(case) == pytest.approx(fine.entry, rel=5e-3)
 
@@ -82,12 +83,14 @@ def test_shortest_belt_meets_the_limit():
 def test_friction_falls_linearly_to_the_melting_point():
     case = Case(1.0, 0.82)
     found = drift(case)
-    effect = friction_effect(case, found)
-    assert effect.mu_change == pytest.approx(-found.interface_run / 8.0)
+    effect = friction_effect(case)
+    assert effect.mu_change == pytest.approx(-effect.interface / 8.0)
+    assert 0.85 * found.run < effect.drift < found.run, "less friction, less heat"
     assert linear_sensitivity(-16.0) == pytest.approx(1.0 / 16.0)
     assert effect.frequency > 0.5 and effect.frequency_change < 0.0
-    unfeeling = friction_effect(case, found, 0.0)
+    unfeeling = friction_effect(case, 0.0)
     assert unfeeling.mu_change == 0.0 and unfeeling.frequency_change == 0.0
+    assert unfeeling.drift == found.run
 
 
 def test_uncertainty_brackets_and_names_the_air():
@@ -111,6 +114,12 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
 def test_ambient_does_not_change_rises_but_friction():
     warm, cold = (asdict(drift(Case(1.0, 0.5, ambient_degC=t))) for t in (-8.0, -16.0))
     assert warm == pytest.approx(cold, rel=1e-9)
+
+
+def test_still_air_takes_its_number_from_speed_and_length():
+    slow, fast = cases(length=(1.0,), speed=(0.15, 0.82), h=(AIR,))
+    assert 5.0 < slow.h < fast.h < 12.0
+    assert fast.h == moving_belt(0.82, 0.5, -8.0)
 
 
 def test_files_and_words(tmp_path, capsys):
@@ -146,6 +155,8 @@ def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
     (("--ambient", 1.0), "ambient.temperature_degC = 1.0"),
     (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
     (("--h", -1.0), "belt.air_heat_transfer = -1.0"),
+    (("--h", "air", "--speed", 100.0), "speed = 100 m/s over a span of 0.5 m"),
+    (("--h", "air", "--length", 0.05), "belt.length = 0.05 m is shorter than the contact"),
     (("--speed", 0.0), "speed = 0: must be above 0"),
     (("--mass", float("nan")), "mass = nan: must be above 0"),
     (("--limit", 0.0), "--limit = 0 K: must be above 0"),

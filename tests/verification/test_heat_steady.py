@@ -163,3 +163,16 @@ def test_ways_that_are_not_whole_cells_are_refused():
 def test_steady_sliding_refuses_what_cannot_be(speed, force, says):
     with pytest.raises(ValueError, match=says):
         SteadySliding(ThermalParameters(), speed, force)
+
+
+def test_friction_that_feels_the_temperature_settles_where_it_must():
+    """theta = theta_0 (1 - s theta), theta_0 the rise under friction that does not feel it."""
+    parameters, s = ThermalParameters(belt=Belt(cell_length=4e-3)), 0.1
+    cold = SteadySliding(parameters, 0.5, 4.0).settle().mean_interface
+    sliding = SteadySliding(parameters, 0.5, 4.0, sensitivity=s)
+    sliding.until(20.0)
+    warm = sliding.settle().mean_interface
+    assert warm == pytest.approx(cold / (1.0 + s * cold), rel=1e-9)
+    for _ in range(3):
+        sliding.step(1e3)
+    assert sliding.state().mean_interface == pytest.approx(warm, rel=1e-6)

@@ -5,12 +5,12 @@ from .drift import CAMERA, Drift, drift, run_drift, steady_drift
 from .friction_effect import FrictionEffect, friction_effect
 from .length_speed_map import DriftMap, drift_map
 from .shortest import shortest_belt
-from .study import Options, Row, Study, cases, work_off
+from .study import AIR, Options, Row, Study, cases, work_off
 from .uncertainty import Uncertainty, uncertainty
 from .verdict import verdict
 
 __all__ = [
-    "CAMERA", "Case", "Drift", "DriftMap", "FrictionEffect", "Options", "Row", "Study",
+    "AIR", "CAMERA", "Case", "Drift", "DriftMap", "FrictionEffect", "Options", "Row", "Study",
     "StudyError", "Uncertainty", "cases", "drift", "drift_map", "friction_effect", "run_drift",
     "shortest_belt", "steady_drift", "uncertainty", "verdict", "work_off",
 ]

@@ -66,13 +66,16 @@ class Case:
         return ThermalParameters.checked(
             {"ambient": {"temperature_degC": self.ambient_degC}, "belt": belt, "contact": contact})
 
-    def sliding(self) -> SteadySliding:
-        """The belt in steady sliding, cold at the start."""
+    def sliding(self, sensitivity: float = 0.0) -> SteadySliding:
+        """The belt in steady sliding, cold at the start.
+
+        sensitivity: part of the friction lost for each kelvin of the interface's rise, 1/K.
+        """
         parameters = self.thermal()
         waves = min(max(FEWEST_WAVES, round(WAVES_PER_METRE * self.length)), MOST_WAVES)
         return SteadySliding(
             parameters, self.speed, self.force, waves,
-            _ice(parameters.ice, parameters.contact.radius, parameters.belt.width))
+            _ice(parameters.ice, parameters.contact.radius, parameters.belt.width), sensitivity)
 
     def as_the_study(self) -> SinglePass:
         """The study's check: all heat to the belt, one pass, kappa as a rate."""

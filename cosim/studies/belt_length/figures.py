@@ -20,8 +20,10 @@ _CURVE, _LOOP = 40, 400
 _FLOOR = 1e-3
 
 
-def _title(case: Case) -> str:
-    said = (f"friction {case.force:.2f} N, h {case.h:g} W/(m² K), belt {case.conductivity:g}"
+def _title(case: Case, films: set[float]) -> str:
+    """What all curves share; the films (W/m2K) may differ where they follow from the speed."""
+    film = " to ".join(f"{h:.3g}" for h in sorted({min(films), max(films)}))
+    said = (f"friction {case.force:.2f} N, h {film} W/(m² K), belt {case.conductivity:g}"
             f" W/(m K), air {case.ambient_degC:g} °C")
     return said.replace("-", "−")
 
@@ -39,7 +41,7 @@ def draw_drift(study: Study) -> Figure:
     ax = axes[0, 0]
     for i, speed in enumerate(speeds):
         colour = SERIES[i % len(SERIES)]
-        case = Case(**(vars(first) | {"speed": speed}))
+        case = _first(study, speed)
         belts = [case.with_length(float(length)) for length in curve]
         ax.plot(curve, _shown([run_drift(one) for one in belts]), color=colour,
                 label=f"{speed:g} m/s, {RUN:g} s")
@@ -51,7 +53,7 @@ def draw_drift(study: Study) -> Figure:
     ax.axhline(study.options.limit, color=INK, linewidth=1.0)
     ax.text(curve[0], study.options.limit, f" limit {study.options.limit:g} K", va="bottom")
     ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="rise [K]",
-           title=_title(first))
+           title=_title(first, {_first(study, speed).h for speed in speeds}))
     ax.set_ylim(bottom=_FLOOR)
     _plain_ticks(ax.xaxis, (0.2, 0.5, 1, 2, 5, 10, 20), curve[0], curve[-1])
     _plain_ticks(ax.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
@@ -59,6 +61,12 @@ def draw_drift(study: Study) -> Figure:
     handles += [Patch(color=GREY, alpha=0.35, label="5–95 % over h, conductivity, conductance")]
     figure.legend(handles=handles, ncols=3, loc="outside upper center")
     return figure
+
+
+def _first(study: Study, speed: float, length: float | None = None) -> Case:
+    """The first case with a speed (and a length)."""
+    return next(row.case for row in study.rows
+                if row.case.speed == speed and length in (None, row.case.length))
 
 
 def _shown(rises: list[float]) -> list[float]:
@@ -85,14 +93,13 @@ def _plain_ticks(axis, places, low: float, high: float) -> None:
          "after 20 s and for ever.")
 def draw_loop(study: Study) -> Figure:
     """One panel a length (four at most), speeds in colour."""
-    first = study.rows[0].case
     speeds = sorted({row.case.speed for row in study.rows})
     lengths = sorted({row.case.length for row in study.rows})[:4]
     figure, axes = panels(len(lengths), 1, height=2.1, width=7.5)
     for ax, length in zip(axes[:, 0], lengths, strict=True):
         x = np.linspace(-0.1 * length, 0.9 * length, _LOOP)
         for i, speed in enumerate(speeds):
-            sliding = Case(**(vars(first) | {"speed": speed, "length": length})).sliding()
+            sliding = _first(study, speed, length).sliding()
             sliding.until(RUN, COARSENESS)
             colour = SERIES[i % len(SERIES)]
             ax.plot(x, sliding.face(x), color=colour, label=f"{speed:g} m/s, {RUN:g} s")
@@ -124,7 +131,7 @@ def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     ax.plot(drift.lengths, drift.lengths / RUN, color="white", linestyle="--", linewidth=1.0)
     ax.set_ylim(drift.speeds[0], drift.speeds[-1])
     ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="speed [m/s]",
-           title=f"{_title(case)}\nwhite: {limit:g} K; dashed: one loop in {RUN:g} s")
+           title=f"{_title(case, {case.h})}\nwhite: {limit:g} K; dashed: one loop in {RUN:g} s")
     _plain_ticks(ax.xaxis, (0.3, 0.5, 1, 2, 5, 10), drift.lengths[0], drift.lengths[-1] * 1.001)
     _plain_ticks(ax.yaxis, (0.05, 0.1, 0.2, 0.5, 1), drift.speeds[0] * 0.999, drift.speeds[-1])
     ax.grid(False)

@@ -1,9 +1,10 @@
 """What the drift does to friction and to the stick-slip motion.
 
 Kinetic friction that falls linearly with the interface temperature, to nothing at the melting
-point, as measured on rock; or with a sensitivity that is given. Quasi-steady: a run of the
-mechanics with the friction that the interface's temperature at 20 s leaves, beside one with that
-of the start. The temperature varies over a stick-slip cycle by far less than over the run.
+point, as measured on rock; or with a sensitivity that is given. Less friction makes less heat, so
+belt and ice are followed once more with the friction that their temperature leaves. Quasi-steady:
+a run of the mechanics with the friction of 20 s beside one with that of the start. The temperature
+varies over a stick-slip cycle by far less than over the run; coupled runs agree.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from functools import lru_cache
 
 from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
 
-from .case import Case
-from .drift import Drift
+from .case import COARSENESS, Case
+from .drift import RUN
 
 MELTING_POINT_DEGC = 0.0
 #: Static over kinetic friction, as measured on the rig (0.2815 and 0.2086).
@@ -27,10 +28,16 @@ _DURATION = 40.0
 
 @dataclass(frozen=True)
 class FrictionEffect:
-    """mu_change: of mu_k over 20 s, relative. frequency: of stick-slip at the start, Hz, and its
-    relative change; None where the block does not stick and slip."""
+    """What a drift of 20 s does, and what that does to the drift.
+
+    mu_change: of mu_k, relative; drift, interface: rises with the friction that is left, K.
+    frequency: of stick-slip at the start, Hz, and its relative change; None where the block does
+    not stick and slip.
+    """
 
     mu_change: float
+    drift: float
+    interface: float
     frequency: float | None
     frequency_change: float | None
 
@@ -58,13 +65,14 @@ def mechanics(speed: float, mass: float, mu_s: float, mu_k: float) -> Parameters
         initial=Initial(vx=speed))
 
 
-def friction_effect(case: Case, drift: Drift, sensitivity: float | None = None) -> FrictionEffect:
+def friction_effect(case: Case, sensitivity: float | None = None) -> FrictionEffect:
     """Of the interface's rise over a run; sensitivity: 1/K, linear to melting when left out."""
     lost = sensitivity if sensitivity is not None else linear_sensitivity(case.ambient_degC)
-    mu_change = -min(1.0, lost * drift.interface_run)
+    warm_belt = case.sliding(lost).until(RUN, COARSENESS)
+    mu_change = -min(1.0, lost * warm_belt.mean_interface)
     mu_s = STATIC_OVER_KINETIC * case.friction
     cold = stick_slip_frequency(case.speed, case.mass, mu_s, case.friction)
     warm = stick_slip_frequency(
         case.speed, case.mass, mu_s, round(case.friction * (1.0 + mu_change), 12))
     change = warm / cold - 1.0 if cold and warm else None
-    return FrictionEffect(mu_change, cold, change)
+    return FrictionEffect(mu_change, warm_belt.entry, warm_belt.mean_interface, cold, change)

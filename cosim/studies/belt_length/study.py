@@ -9,6 +9,8 @@ from itertools import groupby, product
 import pandas as pd
 from joblib import Parallel, delayed
 
+from thermal.air import moving_belt
+
 from .case import Case
 from .drift import Drift, drift, run_drift, steady_drift
 from .friction_effect import FrictionEffect, friction_effect
@@ -46,7 +48,8 @@ class Row:
             "interface 20 s [K]": d.interface_run, "flash 20 s [K]": d.flash_run,
             "belt share 20 s": d.belt_share, "belt share steady": d.belt_share_steady,
             "seen by camera": d.seen_by_camera, "steady melts": d.steady_melts,
-            "mu change 20 s": e.mu_change, "frequency [Hz]": e.frequency,
+            "mu change 20 s": e.mu_change, "drift 20 s, weaker friction [K]": e.drift,
+            "frequency [Hz]": e.frequency,
             "frequency change 20 s": e.frequency_change,
             "shortest belt 20 s [m]": self.shortest_run,
             "shortest belt steady [m]": self.shortest_steady,
@@ -92,11 +95,27 @@ class Study:
         }
 
 
-def cases(**choices: Iterable[float]) -> list[Case]:
-    """Every combination; the lengths of one belt drive lie side by side."""
+#: In place of a number for h: that of a belt moving through still air.
+AIR = "air"
+
+
+def cases(**choices: Iterable[float | str]) -> list[Case]:
+    """Every combination; the lengths of one belt drive lie side by side.
+
+    h may be AIR: each case then has that of its speed and of half its loop, and keeps it where
+    other lengths are tried.
+    """
     names = [name for name in choices if name != "length"] + ["length"]
-    return [Case(**dict(zip(names, values, strict=True)))
+    return [_case(dict(zip(names, values, strict=True)))
             for values in product(*(choices[name] for name in names))]
+
+
+def _case(choice: dict[str, float | str]) -> Case:
+    if choice.get("h") != AIR:
+        return Case(**choice)
+    case = Case(**(choice | {"h": 1.0}))
+    case.thermal()
+    return replace(case, h=moving_belt(case.speed, 0.5 * case.length, case.ambient_degC))
 
 
 def _rows(group: list[Case], options: Options) -> list[Row]:
@@ -108,7 +127,7 @@ def _rows(group: list[Case], options: Options) -> list[Row]:
     for case in group:
         rises = drift(case)
         found.append(Row(
-            case, rises, friction_effect(case, rises, options.sensitivity), *shortest,
+            case, rises, friction_effect(case, options.sensitivity), *shortest,
             uncertainty(case, options.samples) if options.samples else None))
     return found
 
