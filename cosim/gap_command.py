@@ -41,6 +41,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
     )
     parser.add_argument(
+        "--no-page", action="store_true", help=f"only {RESULT} and {MODEL}: no figures, no FMU"
+    )
+    parser.add_argument(
         "--jobs", metavar="N", type=_count, default=2, help="processes (default: 2)"
     )
     parser.add_argument(
@@ -69,7 +72,12 @@ def execute(arguments: Namespace) -> int:
             write_text(text, copy)
     print(text if arguments.json == STDOUT else "", end="")
     says = sys.stderr if arguments.json == STDOUT else sys.stdout
-    return _shown(files, gap, folder, says)
+    if not arguments.no_page and not _drawn(files, gap, folder):
+        return FAILED
+    names = [folder / name for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
+    print("\n".join(files.closing_lines(gap)), file=says)
+    print(f"  files      {', '.join(map(str, names))}", file=says)
+    return DONE
 
 
 def packaged_campaigns() -> list[str]:
@@ -96,18 +104,16 @@ def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[[int], object
     return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
 
 
-def _shown(files, gap, folder: Path, says) -> int:
-    """Figures and page, then the closing lines."""
+def _drawn(files, gap, folder: Path) -> bool:
+    """Figures and page; whether it got so far."""
     try:
         with tqdm(disable=None, unit="figure", leave=False) as bar:
             files.write_page(gap, folder, folder / PAGE, bar.update)
     except KeyboardInterrupt:
         print(f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
               file=sys.stderr)
-        return FAILED
-    print("\n".join(files.closing_lines(gap)), file=says)
-    print(f"  files      {folder / PAGE}, {folder / MODEL}, {folder / RESULT}", file=says)
-    return DONE
+        return False
+    return True
 
 
 @contextmanager

@@ -52,6 +52,12 @@ def test_the_folder_has_the_campaigns_name(found, tmp_path, monkeypatch):
     assert (tmp_path / "results" / "cold-room-week-3-gap" / "gap.json").is_file()
 
 
+def test_numbers_alone(found, tmp_path, capsys):
+    assert main(["gap", found[0], "-o", str(tmp_path), "--no-page"]) == 0
+    assert {file.name for file in tmp_path.iterdir()} == {"gap.json", "model.toml"}
+    assert "report.html" not in capsys.readouterr().out
+
+
 def test_ctrl_c_while_drawing_keeps_the_answer(found, tmp_path, capsys, monkeypatch):
     def interrupted(*given):
         raise KeyboardInterrupt
