@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .block import standing_block
 from .contact import Fluxes, IceFace, exchange
 from .footprint import Footprint
 from .ice import Ice
@@ -88,9 +89,12 @@ class SteadySliding:
             raise ValueError(f"force = {force:g} N must not be negative: friction produces heat")
         belt, contact = parameters.belt, parameters.contact
         self.parameters, self.speed, self.force = parameters, speed, force
-        self.footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
+        if ice is None:
+            self.footprint, self.ice = standing_block(parameters)
+        else:
+            self.ice = ice
+            self.footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
         self._modes = thickness_of(belt, self.footprint.lane)
-        self.ice = ice or standing_ice(parameters, self.footprint)
         self.ice.amplitudes[:] = 0.0
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
         self._wave = 2.0 * np.pi / belt.length * number

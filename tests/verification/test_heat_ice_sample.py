@@ -25,6 +25,7 @@ from thermal.ice_body import IceBody
 from thermal.krylov import response_space
 from thermal.relaxation import mean_decay
 from thermal.sample import Sample, assembled
+from thermal.steady_sliding import SteadySliding
 
 K, RHO, C = 2.2, 917.0, 2050.0
 ALPHA = K / (RHO * C)
@@ -213,3 +214,14 @@ def test_refusals_name_the_key(tmp_path):
             ice=IceParameters(mesh=str(long_base))))
     with pytest.raises(ParameterError, match=r"contact\.length = 0\.05 m and ice\.mesh"):
         ThermalParameters.checked({"ice": {"mesh": str(long_base)}, "contact": {"length": 0.05}})
+
+
+def test_steady_sliding_takes_the_sample(tmp_path):
+    path = write(tmp_path / "cylinder.vtu", *cylinder(4, 4))
+    steady = []
+    for mesh in ("", str(path)):
+        parameters = ThermalParameters(
+            belt=Belt(width=0.1, cell_length=4e-3), ice=IceParameters(mesh=mesh))
+        steady.append(SteadySliding(parameters, 0.5, 2.0).settle().ice_face)
+    assert steady[1] == pytest.approx(steady[0], rel=0.03), "the polygon is 2.6 % smaller"
+    assert steady[1] != steady[0]
