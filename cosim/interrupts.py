@@ -6,6 +6,7 @@ import signal
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 
 #: What asks a process to end: Ctrl-C, `kill`, a terminal that is closed (there is none on Windows).
 REQUESTS = tuple(
@@ -37,3 +38,21 @@ def held_interrupts() -> Iterator[None]:
             signal.signal(number, handler)
         if came:
             signal.raise_signal(came[0])
+
+
+@contextmanager
+def unheard_by_children() -> Iterator[None]:
+    """What is started here never gets the signals that ask to end: they are for us.
+
+    A terminal sends Ctrl-C to all processes of a command, and one that is just starting, or in the
+    middle of its work, would answer with a traceback.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # its start would unblock them
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, REQUESTS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -10,7 +10,6 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, wait
 from contextlib import contextmanager
-from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from queue import SimpleQueue
 from types import TracebackType
@@ -19,7 +18,7 @@ from typing import Any, Self
 import joblib
 from joblib.externals.loky import BrokenProcessPool, ProcessPoolExecutor
 
-from cosim.interrupts import REQUESTS, held_interrupts
+from cosim.interrupts import REQUESTS, held_interrupts, unheard_by_children
 
 from .chunk import Task, Work, compute_chunk
 from .combination import Row
@@ -66,7 +65,7 @@ class LocalWorkers:
         finished: SimpleQueue[Future] = SimpleQueue()
         try:
             with _pool(processes) as submit:
-                with held_interrupts(), _blocked_requests():
+                with held_interrupts(), unheard_by_children():
                     for chunk in chunks:
                         submit(_compute, work, chunk).add_done_callback(finished.put)
                 for _ in chunks:
@@ -104,24 +103,6 @@ def _pool(processes: int) -> Iterator[Callable[..., Future]]:
             late = wait(futures, timeout=STOP_SECONDS).not_done
             pool.shutdown(kill_workers=bool(late))
             heard.close()
-
-
-@contextmanager
-def _blocked_requests() -> Iterator[None]:
-    """What is started here never gets the signals that ask to end: they are for us.
-
-    A terminal sends Ctrl-C to all processes of a command, and one that is just starting would
-    answer with a traceback.
-    """
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    resource_tracker.ensure_running()  # its start would unblock them
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, REQUESTS)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 _STOPPED = threading.Event()

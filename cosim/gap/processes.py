@@ -1,0 +1,23 @@
+"""The processes that a search runs on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from operator import neg
+
+from joblib import Parallel, delayed
+
+from cosim.interrupts import held_interrupts, unheard_by_children
+
+
+@contextmanager
+def processes(jobs: int) -> Iterator[Parallel]:
+    """A pool that gives results in the order of the calls, as they come.
+
+    Its processes do not hear Ctrl-C, which a terminal sends to them too: they end with the block.
+    """
+    with Parallel(n_jobs=jobs, return_as="generator", max_nbytes=None) as pool:
+        with held_interrupts(), unheard_by_children():
+            list(pool(delayed(neg)(number) for number in range(jobs)))  # the first calls start them
+        yield pool
