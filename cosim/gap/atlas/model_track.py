@@ -60,10 +60,10 @@ class ModelTrack:
 
     @cached_property
     def model_sticks(self) -> tuple[Stick, ...]:
-        """Sticks of the model, found as those of the measurement are."""
+        """Sticks of the model, found as those of the measurement are, but followed over gaps."""
         run = self.run
-        track = Track(self.time, self.x)
-        return find_sticks(track, run.surface_speed, run.natural_frequency, run.noise["x"])
+        track, speed, omega = Track(self.time, self.x), run.surface_speed, run.natural_frequency
+        return find_sticks(track, speed, omega, run.noise["x"], gap=math.inf)
 
     @cached_property
     def measured_mode(self) -> np.ndarray:

@@ -25,7 +25,9 @@ SAME_LEVEL, LEFT_BEHIND = 4.0, 0.5
 SAME_SPEED, SPEED_PART = 4.0, 0.2
 
 
-def find_sticks(track: Track, speed: float, omega: float, noise: float) -> tuple[Stick, ...]:
+def find_sticks(
+    track: Track, speed: float, omega: float, noise: float, gap: float = GAP
+) -> tuple[Stick, ...]:
     """Sticks in the order of time.
 
     Parameters
@@ -33,11 +35,12 @@ def find_sticks(track: Track, speed: float, omega: float, noise: float) -> tuple
     speed : of the surface, m/s
     omega : natural frequency, rad/s
     noise : standard deviation of a sample of x, m
+    gap : part of a natural period without samples beyond which a stick is not followed
     """
     there = np.flatnonzero(np.isfinite(track.x))
     time, x = track.time[there], track.x[there]
     noise = max(noise, coloured_noise(time, x, omega))
-    cuts = np.flatnonzero(np.diff(time) > GAP * 2.0 * math.pi / omega) + 1
+    cuts = np.flatnonzero(np.diff(time) > gap * 2.0 * math.pi / omega) + 1
     sticks: list[Stick] = []
     for first, last in pairwise([0, *cuts, len(time)]):
         part = slice(first, last)
