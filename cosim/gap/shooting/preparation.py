@@ -26,7 +26,7 @@ def prepare(
 
 def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> Flight:
     track = run.track
-    known = _known(campaign, run)
+    known = known_parameters(campaign, run)
     if not planar:
         known["rig.free_y"] = known["rig.free_phi"] = 0.0
     channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
@@ -38,7 +38,7 @@ def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -
         run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows)
 
 
-def _known(campaign: Campaign, run: MeasuredRun) -> dict[str, float]:
+def known_parameters(campaign: Campaign, run: MeasuredRun) -> dict[str, float]:
     """Every parameter of the model, what is to be fitted at its default."""
     with warnings.catch_warnings(action="ignore"):  # friction is for the fit
         parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
