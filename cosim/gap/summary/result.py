@@ -77,6 +77,8 @@ class SummaryGap:
     not_felt : effects that these figures cannot tell from none, each with the reason
     open_figures : figures of which the answer cannot tell, each with the reason
     remarks : a line each
+    fits_share : of draws of friction as it is known, the share that fits with the effect as found
+        (within twice the gap); None where the model is smooth, so that it says nothing
     """
 
     campaign: Campaign
@@ -100,3 +102,4 @@ class SummaryGap:
     next_experiment: Mapping | None = None
     empirical: Mapping | None = None
     remarks: tuple[str, ...] = field(default=())
+    fits_share: float | None = None

@@ -12,7 +12,7 @@ from scipy.stats import chi2
 from .result import FittedSummary
 from .score import Target, best, chi_square, distances, gap, misfit, scatter
 from .table import Draw
-from .ways import Way
+from .ways import Span, Way
 
 #: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
 WITHIN = 3.84
@@ -83,6 +83,11 @@ class Trial:
         """Coefficients that nothing is known of: a known one brings its own observation."""
         spans = self.way.spans
         return sum(s.key.startswith("friction.") and s.prior is None for s in spans)
+
+    @property
+    def friction_spans(self) -> tuple[Span, ...]:
+        """What is searched of friction: the first spans of every way."""
+        return tuple(s for s in self.way.spans if s.key.startswith("friction."))
 
     def intervals(self) -> dict[str, tuple[float, float]]:
         """block.parameter -> range over the draws that are nearly as good as the best."""
