@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from cosim.studies.drawing import GREY, INK, SERIES, panels, picture
@@ -43,23 +45,20 @@ def draw_drift(study: Study) -> Figure:
         colour = SERIES[i % len(SERIES)]
         case = _first(study, speed)
         belts = [case.with_length(float(length)) for length in curve]
-        ax.plot(curve, _shown([run_drift(one) for one in belts]), color=colour,
-                label=f"{speed:g} m/s, {RUN:g} s")
-        ax.plot(curve, _shown([steady_drift(one) for one in belts]), "--", color=colour,
-                label="for ever")
+        ax.plot(curve, _shown([run_drift(one) for one in belts]), color=colour)
+        ax.plot(curve, _shown([steady_drift(one) for one in belts]), "--", color=colour)
         ax.plot(curve, _shown([one.as_the_study().temperature_degC(one.length) - one.ambient_degC
-                               for one in belts]), ":", color=colour, label="study, one pass")
+                               for one in belts]), ":", color=colour)
         _bars(ax, study, case, colour)
     ax.axhline(study.options.limit, color=INK, linewidth=1.0)
-    ax.text(curve[0], study.options.limit, f" limit {study.options.limit:g} K", va="bottom")
+    ax.text(curve[-1], study.options.limit, f"limit {study.options.limit:g} K", va="top",
+            ha="right")
     ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="rise [K]",
            title=_title(first, {_first(study, speed).h for speed in speeds}))
     ax.set_ylim(bottom=_FLOOR)
     _plain_ticks(ax.xaxis, (0.2, 0.5, 1, 2, 5, 10, 20), curve[0], curve[-1])
     _plain_ticks(ax.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
-    handles, _ = ax.get_legend_handles_labels()
-    handles += [Patch(color=GREY, alpha=0.35, label="5–95 % over h, conductivity, conductance")]
-    figure.legend(handles=handles, ncols=3, loc="outside upper center")
+    figure.legend(handles=_key(speeds), ncols=4, loc="outside upper center")
     return figure
 
 
@@ -67,6 +66,17 @@ def _first(study: Study, speed: float, length: float | None = None) -> Case:
     """The first case with a speed (and a length)."""
     return next(row.case for row in study.rows
                 if row.case.speed == speed and length in (None, row.case.length))
+
+
+def _key(speeds: list[float]) -> list[Artist]:
+    """Colours say the speed, strokes the model."""
+    handles: list[Artist] = [
+        Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
+        for i, speed in enumerate(speeds)]
+    kinds = {"-": f"after {RUN:g} s", "--": "for ever", ":": "study, one pass"}
+    handles += [Line2D([], [], color=INK, linestyle=style, label=label)
+                for style, label in kinds.items()]
+    return [*handles, Patch(color=GREY, alpha=0.35, label=f"5–95 %, {RUN:g} s")]
 
 
 def _shown(rises: list[float]) -> list[float]:
