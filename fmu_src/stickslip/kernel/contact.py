@@ -80,6 +80,7 @@ def spin_under_load(force: float, moment: float, w: "float[:]") -> float:
     cross_high = force * 2.0 / 3.0  # pure spinning is (0, 2/3)
     t = 0.5
     before = 2.0
+    side = 0
     sweep = 0
     while abs(t - before) > 1e-12 and sweep < 100:
         before = t
@@ -89,11 +90,15 @@ def spin_under_load(force: float, moment: float, w: "float[:]") -> float:
         if cross < 0.0:
             low = t
             cross_low = cross
-            cross_high = 0.5 * cross_high  # Illinois: keeps both ends moving
+            if side == -1:
+                cross_high = 0.5 * cross_high  # Illinois: keeps both ends moving
+            side = -1
         else:
             high = t
             cross_high = cross
-            cross_low = 0.5 * cross_low
+            if side == 1:
+                cross_low = 0.5 * cross_low
+            side = 1
         sweep += 1
     return t
 
@@ -133,9 +138,11 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
 
     The scaled relative acceleration s satisfies m s = T - mu_k N grad P(s), where -T is the
     holding load of `set_holding_load` and P the mean local sliding speed: the minimum of a
-    strictly convex function. It is found by lagged weights, grad P(s) = weight * s in the sliding
-    and in the spinning part with the weights of the last iterate, from the motion to which a load
-    on the limit surface gives way: the nearer the load is to that, the better the start.
+    strictly convex function. Its direction is found by lagged weights, grad P(s) = weight * s in
+    the sliding and in the spinning part with the weights of the last iterate, its size follows
+    from the direction. The start is the motion to which a load on the limit surface gives way: the
+    nearer the load is to that, the better. Where the centre of rotation nears the rim, the weights
+    change so fast that an iterate overshoots; then shorter changes are made.
     """
     limit = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE]
     kappa = p[P_LATERAL]
@@ -145,27 +152,44 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
     tr = -arm * w[W_FRICTION + 2]
     speed = set_yielding_motion(p, limit, w)
     change = 1.0
+    part = 1.0
     sweep = 0
     while speed > 0.0 and change > 1e-13 and sweep < 500:
-        sliding = sqrt(w[W_DIRECTION] * w[W_DIRECTION] + w[W_DIRECTION + 1] * w[W_DIRECTION + 1])
-        spinning = abs(w[W_DIRECTION + 2])
+        dx = w[W_DIRECTION]
+        dy = w[W_DIRECTION + 1]
+        dr = w[W_DIRECTION + 2]
+        sliding = sqrt(dx * dx + dy * dy)
+        spinning = abs(dr)
         disc_friction(sliding, spinning, w)
         slide = 0.0
         spin = 0.0
         if sliding > 0.0:
-            slide = limit * w[W_PAIR] / (speed * sliding)
+            slide = limit * w[W_PAIR] / sliding
         if spinning > 0.0:
-            spin = limit * w[W_PAIR + 1] / (speed * spinning)
-        sx = tx / (p[P_MASS] + slide)
-        sy = ty / (p[P_MASS] + kappa * kappa * slide)
-        sr = tr / (p[P_INERTIA] + arm * arm * spin)
-        speed = sqrt(sx * sx + sy * sy + sr * sr)
-        if speed > 0.0:
-            change = abs(sx / speed - w[W_DIRECTION]) + abs(sy / speed - w[W_DIRECTION + 1])
-            change += abs(sr / speed - w[W_DIRECTION + 2])
-            w[W_DIRECTION] = sx / speed
-            w[W_DIRECTION + 1] = sy / speed
-            w[W_DIRECTION + 2] = sr / speed
+            spin = limit * w[W_PAIR + 1] / spinning
+        drive = tx * dx - slide * dx * dx
+        mass = p[P_MASS] * dx * dx
+        if kappa > 0.0:
+            drive += ty * dy / (kappa * kappa) - slide * dy * dy
+            drive += tr * dr / (arm * arm) - spin * dr * dr
+            mass += p[P_MASS] * dy * dy / (kappa * kappa) + p[P_INERTIA] * dr * dr / (arm * arm)
+        speed = drive / mass
+        sx = tx / (speed * p[P_MASS] + slide)
+        sy = ty / (speed * p[P_MASS] + kappa * kappa * slide)
+        sr = tr / (speed * p[P_INERTIA] + arm * arm * spin)
+        size = sqrt(sx * sx + sy * sy + sr * sr)
+        if speed > 0.0 and size > 0.0:
+            before = change
+            change = abs(sx / size - dx) + abs(sy / size - dy) + abs(sr / size - dr)
+            if change > 0.9 * before and sweep > 0:
+                part = max(0.25, 0.5 * part)
+            dx += part * (sx / size - dx)
+            dy += part * (sy / size - dy)
+            dr += part * (sr / size - dr)
+            size = sqrt(dx * dx + dy * dy + dr * dr)
+            w[W_DIRECTION] = dx / size
+            w[W_DIRECTION + 1] = dy / size
+            w[W_DIRECTION + 2] = dr / size
         sweep += 1
 
 

@@ -89,7 +89,8 @@ def solve_direction(
 ) -> float:
     """Direction n under the loads in ``w``, into ``w[W_CREEP:]``; returns a, m/s^2.
 
-    (qx, qy, qr): s n', in the velocities of the block.
+    (qx, qy, qr): s n', in the velocities of the block. The search ends where a comes to a tenth of
+    what friction gives: that is no creep.
     """
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
@@ -106,7 +107,7 @@ def solve_direction(
     a = 0.0
     more = limit / m
     sweep = 0
-    while abs(more) > 1e-12 * limit / m and sweep < 20:
+    while abs(more) > 1e-12 * limit / m and abs(a) < 0.1 * limit / m and sweep < 20:
         w[W_FRICTION] = hx
         w[W_FRICTION + 1] = hy
         w[W_FRICTION + 2] = hr

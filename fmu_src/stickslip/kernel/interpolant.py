@@ -17,9 +17,12 @@ from .layout import (
     ALL_STAGES,
     BETWEEN,
     BLOCK,
+    DISTANCE,
     EXTRA_POWERS,
+    HEAT,
     HERE,
     MODE,
+    NEXT,
     P_TABLEAU,
     POWERS,
     SHOWN,
@@ -102,6 +105,9 @@ def interpolate(
         y = ((y + z[at + 4 * STATES]) * t + z[at + 3 * STATES]) * r
         y = ((y + z[at + 2 * STATES]) * t + z[at + STATES]) * r
         z[target + 1 + i] += (y + z[at]) * t
+    # where a step wins less than the unit of the error test, the polynomial may overshoot its ends
+    z[target + HEAT] = min(max(z[target + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
+    z[target + DISTANCE] = min(max(z[target + DISTANCE], z[HERE + DISTANCE]), z[NEXT + DISTANCE])
     if z[target + MODE] == STICK:
         follow_surface(p, u, z, w, target)
 
