@@ -162,14 +162,12 @@ def test_a_melting_state_continues_bit_for_bit():
     parameters = ThermalParameters(
         ambient=Ambient(temperature_degC=-1.0), belt=Belt(cell_length=4e-3), ice=Ice(height=0.02))
     model = BeltIceModel(parameters)
-    drive(model, 150)
+    drive(model, 100)
     kept = model.state()
-    drive(model, 150)
+    drive(model, 100)
+    end = model.state()
     assert model.ice.melted_depth > 1e-5, "the modes have been formed anew"
     for other in (BeltIceModel(parameters), model):
         other.restore(kept)
-        drive(other, 150)
-    fresh = BeltIceModel(parameters)
-    fresh.restore(kept)
-    drive(fresh, 150)
-    assert np.array_equal(fresh.state(), model.state())
+        drive(other, 100)
+        assert np.array_equal(other.state(), end)
