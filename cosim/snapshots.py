@@ -22,6 +22,7 @@ class Snapshots:
     interval: s; a picture is taken of the first state shown at or after each multiple of it.
     folder: must exist; None writes no files. views: also keep the fields of belt and ice, as
     `views` (time in s, what is seen), evenly spread over the run, for an animation.
+    `contact_length`: along the belt, m.
     """
 
     def __init__(self, interval: float, folder: str | Path | None = None, views: bool = False):
@@ -33,6 +34,7 @@ class Snapshots:
         self._view_every = 1 if views else 0
         self.views: list[tuple[float, RigView]] = []
         self.position = np.empty(0)
+        self.contact_length = float("nan")
 
     def __call__(self, time: float, model: BeltIceModel) -> None:
         """Take a picture when one is due."""
@@ -51,6 +53,7 @@ class Snapshots:
         if self._view_every and len(self._taken) % self._view_every == 0:
             self._keep_view(time, model)
         self.position, temperature = model.belt_profile()
+        self.contact_length = model.footprint.length
         self._taken.append((time, temperature, model.contact_position))
 
     def _keep_view(self, time: float, model: BeltIceModel) -> None:

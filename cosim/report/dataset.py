@@ -32,13 +32,15 @@ MECHANICS_ALONE = {*Parameters.model_fields, "run"}
 class BeltSnapshots(Protocol):
     """The belt's contact face at some times, in its own (material) coordinate.
 
-    time (k,) s; position (n,) m; temperature (k, n) degC; contact (k,) m, the contact's centre.
+    time (k,) s; position (n,) m; temperature (k, n) degC; contact (k,) m, the contact's centre;
+    contact_length m, along the belt.
     """
 
     time: Any
     position: Any
     temperature: Any
     contact: Any
+    contact_length: float
 
 
 def run_dataset(
@@ -171,7 +173,8 @@ def _snapshots(snapshots: BeltSnapshots) -> xr.Dataset:
             ),
             "contact_position": (
                 "snapshot_time", np.asarray(snapshots.contact, float),
-                {"units": "m", "long_name": "centre of the contact on the belt"},
+                {"units": "m", "long_name": "centre of the contact on the belt",
+                 "contact_length": float(snapshots.contact_length)},
             ),
         },
         coords={

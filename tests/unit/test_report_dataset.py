@@ -83,7 +83,8 @@ def made_coupled(surface: str) -> tuple[CoupledResult, SimpleNamespace]:
     )
     times, profiles, contacts = zip(*pictures, strict=True)
     return result, SimpleNamespace(
-        time=times, position=model.belt_profile()[0], temperature=profiles, contact=contacts)
+        time=times, position=model.belt_profile()[0], temperature=profiles, contact=contacts,
+        contact_length=model.footprint.length)
 
 
 def coupled_dataset(surface: str = "belt") -> xr.Dataset:

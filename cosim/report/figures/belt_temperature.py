@@ -9,8 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from thermal.footprint import Footprint
-
 from ..blocks import thermal_of, value_of
 from ..heat_numbers import ambient_degC
 from ..style import GREY, line, plain_ticks, readable, styled, title
@@ -62,10 +60,8 @@ def _contact_strip(
     times: NDArray[np.float64],
     shades: NDArray[np.float64],
 ) -> None:
-    parameters = thermal_of(dataset)
-    length = parameters.belt.length
-    contact = parameters.contact
-    extent = Footprint(contact.radius, parameters.belt.width, contact.strips).length
+    length = thermal_of(dataset).belt.length
+    extent = dataset["contact_position"].attrs["contact_length"]
     for row, (centre, colour) in enumerate(zip(centres, shades, strict=True)):
         begin = (centre - 0.5 * extent) % length
         pieces = [(begin, min(extent, length - begin))]
