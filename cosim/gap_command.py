@@ -17,6 +17,7 @@ from tqdm import tqdm
 from cosim.atomic import write_text
 from cosim.folders import OutputRefused, writable
 from cosim.gap import Campaign, CampaignError, read_campaign
+from cosim.gap.example import write_example
 from cosim.interrupts import held_interrupts
 
 DONE, FAILED = 0, 1
@@ -29,7 +30,8 @@ REFUSED = (CampaignError, OutputRefused)
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument(
-        "campaign", help="TOML file, a folder with campaign.toml, or a packaged campaign: "
+        "campaign", nargs="?",
+        help="TOML file, a folder with campaign.toml, or a packaged campaign: "
         f"{', '.join(packaged_campaigns())}",
     )
     parser.add_argument(
@@ -39,6 +41,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
+    )
+    parser.add_argument(
+        "--write-example", metavar="DIR",
+        help="write a small campaign there to try this command on, and do nothing else",
     )
     parser.add_argument(
         "--no-page", action="store_true", help=f"only {RESULT} and {MODEL}: no figures, no FMU"
@@ -54,6 +60,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(arguments: Namespace) -> int:
     """Read, find, write, report; 0, or 1 when stopped. Raises what is in `REFUSED`."""
+    if arguments.write_example is not None:
+        print(write_example(Path(arguments.write_example)))
+        return DONE
+    if arguments.campaign is None:
+        raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
     with held_interrupts():
         files = import_module("cosim.gap.show.files")
     campaign = read_campaign(_source(arguments.campaign))

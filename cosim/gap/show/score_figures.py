@@ -39,7 +39,8 @@ def draw_ranking(gap: Gap | SummaryGap) -> Figure:
     axis.barh(names, values, color=[_colour(gap, name) for name in names], height=0.7)
     for place, name in enumerate(names):
         over = "beyond " if best[name] > limit else ""
-        axis.text(values[place], place, f" {over}{best[name]:.3g}", va="center", fontsize=8.0)
+        axis.text(values[place], place, f" {over}{best[name]:.3g}", va="center", fontsize=8.0,
+                  bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4})
     axis.axvline(1.0, color=INK, linewidth=1.0, label="measurement noise")
     axis.axvline(gap.gap_before[1], color=GREY, linestyle="--", label="plain model")
     axis.invert_yaxis()

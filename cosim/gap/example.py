@@ -1,0 +1,61 @@
+"""A small campaign to try the workflow on: made by the model, noise added, its effect not told."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import tomli_w
+from stickslip import Parameters, simulate
+
+from cosim.atomic import write_text
+from cosim.folders import writable
+
+#: Of the tracker, m.
+NOISE = 2e-4
+MASS, STIFFNESS, NATURAL_LENGTH = 0.87, 38.5, 0.17
+SPEEDS = (0.06, 0.10, 0.15, 0.25)
+#: s
+DURATION, INTERVAL = 10.0, 0.01
+HIDDEN = {"velocity_weakening": {"linear": 0.8}}
+CAMPAIGN = "campaign.toml"
+
+
+def write_example(folder: Path, seed: int = 0) -> Path:
+    """A campaign of four runs, the last held out, in a folder that is made; its TOML file.
+
+    Raises OutputRefused where the folder cannot be written to.
+    """
+    names = [f"run{number:02d}.csv" for number in range(1, len(SPEEDS) + 1)]
+    writable(folder, (CAMPAIGN, *names))
+    random = np.random.default_rng(seed)
+    for name, speed in zip(names, SPEEDS, strict=True):
+        run = simulate(_parameters(speed), DURATION, INTERVAL)
+        x = run["x"] + NOISE * random.standard_normal(run.time.size)
+        rows = [f"{t:.6g},{value:.7f}" for t, value in zip(run.time, x, strict=True)]
+        write_text("\n".join(["t,x", *rows]) + "\n", folder / name)
+    return write_text(_campaign(names), folder / CAMPAIGN)
+
+
+def _campaign(names: Sequence[str]) -> str:
+    """The last run is held out."""
+    known = {
+        "name": "example",
+        "rig": {"spring_natural_length": NATURAL_LENGTH},
+        "noise": {"x": NOISE},
+    }
+    lines = [tomli_w.dumps(known)]
+    for name, speed in zip(names, SPEEDS, strict=True):
+        run = {"file": name, "mass": MASS, "stiffness": STIFFNESS, "surface_speed": speed,
+               "hold_out": name == names[-1]}  # fmt: skip
+        lines.append(f"[[run]]\n{tomli_w.dumps(run)}")
+    return "\n".join(lines)
+
+
+def _parameters(speed: float) -> Parameters:
+    return Parameters(
+        rig={"mass": MASS, "spring_natural_length": NATURAL_LENGTH},
+        springs={"stiffness": STIFFNESS}, friction={"mu_s": 0.30, "mu_k": 0.22},
+        surface={"speed": speed}, **HIDDEN,
+    )  # fmt: skip
