@@ -8,7 +8,9 @@ between 90 K and melting:
     rho = 917 (1 - 1.17e-4 T) kg/m3,          T in degC.
 
 Colder ice conducts better and stores less, so the effusivity, which is what a contact that warms
-up feels, moves by only 2 % from -16 to 0 degC; the thermal model takes constants.
+up feels, moves by only 1 % from -16 to 0 degC. With the properties of either end all along, the
+rises of belt and ice after 20 s differ by 0.5 %, the heat's shares by 0.003: the thermal model
+takes constants.
 """
 
 from __future__ import annotations

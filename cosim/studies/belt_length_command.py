@@ -11,7 +11,6 @@ import os
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from dataclasses import asdict
 from pathlib import Path
 
 from tqdm import tqdm
@@ -26,7 +25,8 @@ from cosim.studies.belt_length import (
     Study,
     StudyError,
     cases,
-    drift_map,
+    empty_map,
+    fill_map,
     verdict,
     work_off,
 )
@@ -91,13 +91,14 @@ def execute(arguments: Namespace) -> int:
     wanted, options = _asked(arguments)
     folder = Path(arguments.output)
     writable(folder)
-    study, grid, status = Study(options), None, DONE
+    study, status = Study(options), DONE
+    grid = empty_map(arguments.map) if arguments.map else None
     try:
         with tqdm(total=len(wanted) + arguments.map**2, disable=None, unit="case",
                   leave=False) as bar:
             work_off(study, wanted, arguments.jobs, bar.update)
-            if arguments.map:
-                grid = drift_map(wanted[0], arguments.map, arguments.jobs, bar.update)
+            if grid is not None:
+                fill_map(grid, wanted[0], arguments.jobs, bar.update)
     except KeyboardInterrupt:
         print(f"error: interrupted; {len(study.rows)} of {len(wanted)} cases are kept in {folder}",
               file=sys.stderr)
@@ -136,7 +137,12 @@ def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
 def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
     numbers = study.as_dict() | {"verdict": verdict(study)}
     if grid is not None:
-        numbers["map"] = {name: values.tolist() for name, values in asdict(grid).items()}
+        numbers["map"] = {
+            "lengths": grid.lengths.tolist(), "speeds": grid.speeds.tolist(),
+            # JSON has no NaN; where a stopped map did not come is null
+            "drift": [[value if math.isfinite(value) else None for value in row]
+                      for row in grid.drift.tolist()],
+        }
     text = json.dumps(numbers, indent=1)
     write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
     table = study.table()

@@ -17,7 +17,8 @@ from cosim.studies.belt_length import (
     Study,
     cases,
     drift,
-    drift_map,
+    empty_map,
+    fill_map,
     friction_effect,
     run_drift,
     shortest_belt,
@@ -102,7 +103,8 @@ def test_uncertainty_brackets_and_names_the_air():
 
 
 def test_drift_map_rises_with_speed_and_falls_with_length():
-    found = drift_map(Case(1.0, 0.82), 4, 1)
+    found = empty_map(4)
+    fill_map(found, Case(1.0, 0.82), 1)
     assert found.lengths[[0, -1]] == pytest.approx(LENGTHS)
     assert found.speeds[[0, -1]] == pytest.approx(SPEEDS)
     assert np.all(np.diff(found.drift, axis=0) <= 1e-6)
@@ -126,6 +128,7 @@ def test_files_and_words(tmp_path, capsys):
     assert call("--length", 1, 2, "--speed", 0.15, 0.82, "--ambient", -8, "-o", tmp_path,
                 *FAST) == 0
     said = capsys.readouterr().out
+    assert 'C13, "1 m of belt is enough": holds at 0.15 m/s, not at 0.82 m/s.' in said
     assert "At 0.82 m/s 1 m of belt does not suffice" in said
     assert "At 0.15 m/s 1 m of belt suffices" in said
     numbers = json.loads((tmp_path / "belt_length.json").read_text())
@@ -185,6 +188,18 @@ def test_ctrl_c_keeps_the_cases_that_are_done(tmp_path, monkeypatch, capsys):
     numbers = json.loads((tmp_path / "belt_length.json").read_text())
     assert not numbers["complete"] and len(numbers["cases"]) == 2
     assert len(pd.read_csv(tmp_path / "belt_length.csv")) == 2
+
+
+def test_ctrl_c_keeps_the_part_of_the_map_that_is_done(tmp_path, monkeypatch):
+    def stopped(grid, case, jobs, progress):
+        grid.drift[0] = 1.0
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(belt_length_command, "fill_map", stopped)
+    assert call("--length", 1, "--speed", 0.5, "--ambient", -8, "-o", tmp_path, "--samples", 0,
+                "--jobs", 1, "--map", 2) == 1
+    numbers = json.loads((tmp_path / "belt_length.json").read_text())
+    assert numbers["complete"] and numbers["map"]["drift"] == [[1.0, 1.0], [None, None]]
 
 
 def test_verdict_says_when_it_cannot_say():

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
+from thermal import Belt, Ice, ThermalParameters
 from thermal.air import LAMINAR, SAKIADIS_AIR, NotLaminar, moving_belt
 from thermal.properties import ice_properties
+from thermal.steady_sliding import SteadySliding
 
 
 def nusselt(prandtl):
@@ -68,3 +70,18 @@ def test_effusivity_of_ice_hardly_moves():
     assert cold.effusivity / warm.effusivity == pytest.approx(1.01, abs=0.005)
     with pytest.raises(ValueError, match="temperature = 1 degC"):
         ice_properties(1.0)
+
+
+@pytest.mark.parametrize(("length", "speed"), [(1.0, 0.15), (1.0, 0.82), (4.0, 0.82)])
+def test_constant_properties_of_ice_cost_half_a_percent(length, speed):
+    """-16 degC all along against 0 degC all along: more than a run between them can differ."""
+    states = [
+        SteadySliding(
+            ThermalParameters(belt=Belt(length=length, cell_length=2e-3),
+                              ice=Ice(**ice_properties(temperature)._asdict())),
+            speed, 4.03).until(20.0)
+        for temperature in (-16.0, 0.0)
+    ]
+    assert states[0].entry == pytest.approx(states[1].entry, rel=6e-3)
+    assert states[0].ice_face == pytest.approx(states[1].ice_face, rel=6e-3)
+    assert states[0].belt_share_so_far == pytest.approx(states[1].belt_share_so_far, abs=3e-3)

@@ -3,7 +3,7 @@
 from .case import Case, StudyError
 from .drift import CAMERA, Drift, drift, run_drift, steady_drift
 from .friction_effect import FrictionEffect, friction_effect
-from .length_speed_map import DriftMap, drift_map
+from .length_speed_map import DriftMap, empty_map, fill_map
 from .shortest import shortest_belt
 from .study import AIR, Options, Row, Study, cases, work_off
 from .uncertainty import Uncertainty, uncertainty
@@ -11,6 +11,6 @@ from .verdict import verdict
 
 __all__ = [
     "AIR", "CAMERA", "Case", "Drift", "DriftMap", "FrictionEffect", "Options", "Row", "Study",
-    "StudyError", "Uncertainty", "cases", "drift", "drift_map", "friction_effect", "run_drift",
-    "shortest_belt", "steady_drift", "uncertainty", "verdict", "work_off",
+    "StudyError", "Uncertainty", "cases", "drift", "empty_map", "fill_map", "friction_effect",
+    "run_drift", "shortest_belt", "steady_drift", "uncertainty", "verdict", "work_off",
 ]

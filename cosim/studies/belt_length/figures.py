@@ -51,8 +51,8 @@ def draw_drift(study: Study) -> Figure:
                                for one in belts]), ":", color=colour)
         _bars(ax, study, case, colour)
     ax.axhline(study.options.limit, color=INK, linewidth=1.0)
-    ax.text(curve[-1], study.options.limit, f"limit {study.options.limit:g} K", va="top",
-            ha="right")
+    ax.text(1.01, study.options.limit, f"limit\n{study.options.limit:g} K", va="center",
+            transform=ax.get_yaxis_transform())
     ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="rise [K]",
            title=_title(first, {_first(study, speed).h for speed in speeds}))
     ax.set_ylim(bottom=_FLOOR)

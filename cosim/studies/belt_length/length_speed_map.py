@@ -29,14 +29,17 @@ def _column(case: Case, speeds: NDArray[np.float64]) -> list[float]:
     return [run_drift(replace(case, speed=float(speed))) for speed in speeds]
 
 
-def drift_map(case: Case, points: int, jobs: int,
-              progress: Callable[[int], None] = lambda done: None) -> DriftMap:
-    """points x points cases, evenly in the logarithm; in `jobs` processes."""
-    lengths, speeds = np.geomspace(*LENGTHS, points), np.geomspace(*SPEEDS, points)
-    drift = np.full((points, points), np.nan)
+def empty_map(points: int) -> DriftMap:
+    """points x points places, evenly in the logarithm, with nothing known."""
+    return DriftMap(np.geomspace(*LENGTHS, points), np.geomspace(*SPEEDS, points),
+                    np.full((points, points), np.nan))
+
+
+def fill_map(grid: DriftMap, case: Case, jobs: int,
+             progress: Callable[[int], None] = lambda done: None) -> None:
+    """Drifts of a case on other belts, in `jobs` processes; what interrupts it leaves the rest."""
     columns = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_column)(case.with_length(float(length)), speeds) for length in lengths)
+        delayed(_column)(case.with_length(float(length)), grid.speeds) for length in grid.lengths)
     for i, column in enumerate(columns):
-        drift[i] = column
-        progress(points)
-    return DriftMap(lengths, speeds, drift)
+        grid.drift[i] = column
+        progress(grid.speeds.size)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, field, fields, replace
-from itertools import groupby, product
+from functools import lru_cache
+from itertools import product
 
 import pandas as pd
 from joblib import Parallel, delayed
@@ -118,32 +119,30 @@ def _case(choice: dict[str, float | str]) -> Case:
     return replace(case, h=moving_belt(case.speed, 0.5 * case.length, case.ambient_degC))
 
 
-def _rows(group: list[Case], options: Options) -> list[Row]:
-    """Cases that differ in their length alone: the shortest belt is theirs together."""
-    first = group[0]
-    found = []
-    shortest = tuple(
-        shortest_belt(first, options.limit, one) for one in (run_drift, steady_drift))
-    for case in group:
-        rises = drift(case)
-        found.append(Row(
-            case, rises, friction_effect(case, options.sensitivity), *shortest,
-            uncertainty(case, options.samples) if options.samples else None))
-    return found
+def _row(case: Case, options: Options) -> Row:
+    return Row(
+        case, drift(case), friction_effect(case, options.sensitivity),
+        *_shortest(case.with_length(1.0), options.limit),
+        uncertainty(case, options.samples) if options.samples else None)
+
+
+@lru_cache(maxsize=64)
+def _shortest(case: Case, limit: float) -> tuple[float | None, float | None]:
+    """For a run and for ever; the same for cases that differ in their length alone."""
+    return shortest_belt(case, limit, run_drift), shortest_belt(case, limit, steady_drift)
 
 
 def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
-    """Fill the study's rows; whatever interrupts it, the rows until then stay."""
-    groups = [list(group) for _, group in groupby(wanted, lambda case: replace(case, length=1.0))]
-    for rows in _in_processes(groups, study.options, jobs):
-        study.rows += rows
-        progress(len(rows))
+    """Fill the study's rows, in order; whatever interrupts it, the rows until then stay."""
+    for row in _in_processes(wanted, study.options, jobs):
+        study.rows.append(row)
+        progress(1)
     study.complete = True
 
 
-def _in_processes(groups: list[list[Case]], options: Options, jobs: int) -> Iterator[list[Row]]:
+def _in_processes(wanted: list[Case], options: Options, jobs: int) -> Iterator[Row]:
     if jobs == 1:
-        yield from (_rows(group, options) for group in groups)
+        yield from (_row(case, options) for case in wanted)
         return
     yield from Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_rows)(group, options) for group in groups)
+        delayed(_row)(case, options) for case in wanted)

@@ -21,17 +21,31 @@ def _claim(rows: list[Row]) -> list[str]:
     """Does 1 m do? By speed, the other choices taken together."""
     if not rows:
         return [f"A belt of {CLAIMED_LENGTH:g} m was not among the lengths: no verdict on C13."]
-    said = []
+    said, words = [], {}
     for speed in sorted({row.case.speed for row in rows}):
         drifts = [row.drift.run for row in rows if row.case.speed == speed]
         low, high = min(drifts), max(drifts)
-        word = ("suffices" if high <= CAMERA else "does not suffice" if low > CAMERA
-                else "suffices in some of the cases")
+        word = words[speed] = (
+            "suffices" if high <= CAMERA else "does not suffice" if low > CAMERA
+            else "suffices in some of the cases")
         said.append(
             f"At {speed:g} m/s {CLAIMED_LENGTH:g} m of belt {word}: after {RUN:g} s it meets the"
             f" ice {_span(low, high)} K warmer than the air{_doubt(rows, speed)}; the camera sees"
             f" {CAMERA:g} K.")
-    return said
+    return [_summary(words), *said]
+
+
+def _summary(words: dict[float, str]) -> str:
+    """The claim in one sentence; words: by speed."""
+    holds = [speed for speed, word in words.items() if word == "suffices"]
+    if len(holds) == len(words):
+        return f'C13, "{CLAIMED_LENGTH:g} m of belt is enough": holds at the speeds asked for.'
+    if not holds:
+        return (f'C13, "{CLAIMED_LENGTH:g} m of belt is enough": does not hold at any of the speeds'
+                " asked for in all cases.")
+    return (f'C13, "{CLAIMED_LENGTH:g} m of belt is enough": holds at'
+            f" {', '.join(f'{speed:g}' for speed in holds)} m/s, not at"
+            f" {', '.join(f'{speed:g}' for speed in words if speed not in holds)} m/s.")
 
 
 def _doubt(rows: list[Row], speed: float) -> str:
