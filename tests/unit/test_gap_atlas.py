@@ -128,6 +128,28 @@ def test_static_friction_that_grows_with_rest():
     assert np.all(np.abs(found.value - law) < 4.0 * found.error + 0.03)
 
 
+def test_springs_that_harden():
+    """A force against the position, by its shape: a slip's own level says nothing of position."""
+    cubic, stretch = 1e3, 0.03  # N/m3; m, of springs of 0.17 m between points 0.20 m apart
+    effect = {"spring_hardening": {"cubic": cubic}}
+    atlas = residual_atlas(tracks(effect, {"mu_k": 0.19}, speeds=(0.06, 0.12)))
+    slip = region(atlas, "x", "slip")
+    assert slip.dependences[0].variable == "position"
+    found = dependence(slip, "position")
+    law = -2.0 * cubic * ((stretch + found.centre) ** 3 - (stretch - found.centre) ** 3)
+    left = found.value - law
+    left -= np.average(left, weights=found.error**-2.0)
+    # the force is taken where the measured block is; the model's is up to a tenth elsewhere
+    assert np.all(np.abs(left) < 4.0 * found.error + 0.1 * np.ptp(law))
+
+
+def test_a_place_that_follows_the_friction_is_no_dependence_on_place():
+    """Friction that drifts moves the block: not because of where the block is."""
+    effect = {"run_in": {"change": -0.2, "distance": 0.5}}
+    slip = region(residual_atlas(tracks({"mu_k": 0.22, **effect}, {"mu_k": 0.19})), "x", "slip")
+    assert dependence(slip, "position").log10_p > 0.05 * dependence(slip, "distance").log10_p
+
+
 def test_friction_that_drifts():
     effect = {"run_in": {"change": -0.2, "distance": 0.5}}
     where = find_where(residual_atlas(tracks({"mu_k": 0.22, **effect}, {"mu_k": 0.19})))

@@ -153,13 +153,14 @@ def _dependence(
     if len(nodes) < 2:
         return None
     normals = source.normals(
-        lambda piece: shares(variables[piece.track][name][piece.rows], nodes, kind)
+        lambda piece: shares(variables[piece.track][name][piece.rows], nodes, kind),
+        level=VARIABLES[name].follows,
     )
     sums = _sum(normals)
     curve, level = sums.solve(), sums.solve(np.ones((len(nodes), 1)))
     if curve.count < 2:
         return None
-    freedom = (curve.count - 1, sums.freedom - curve.count)
+    freedom = (curve.count - level.count, sums.freedom - curve.count)
     statistic = _ratio(level.misfit - curve.misfit, curve.misfit, freedom)
     known = curve.known
     found = Dependence(

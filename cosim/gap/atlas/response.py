@@ -18,6 +18,8 @@ from scipy.integrate import cumulative_trapezoid
 
 #: A bin counts where it is known at least this well, relative to the best known one.
 KNOWN = 1e-6
+#: Combinations of inputs that are known this much worse than the best one are not told apart.
+TOGETHER = 1e-8
 
 
 @dataclass(frozen=True)
@@ -43,23 +45,33 @@ class Stretch:
     nuisance: np.ndarray = field(repr=False)
     respond: Callable[[np.ndarray], np.ndarray] = field(repr=False)
 
-    def free(self, columns: np.ndarray) -> np.ndarray:
-        """Columns less what the motion at the start can explain."""
-        return columns - self.nuisance @ (self.nuisance.T @ columns)
+    def free(self, columns: np.ndarray, level: bool = False) -> np.ndarray:
+        """Columns less what the motion at the start can explain, and a constant input if asked."""
+        columns = columns - self.nuisance @ (self.nuisance.T @ columns)
+        if not level:
+            return columns
+        constant = self.free(self.respond(np.ones((len(self.rows), 1)))[:, 0])
+        constant = constant / max(float(np.linalg.norm(constant)), 1e-300)
+        return columns - np.tensordot(constant, constant @ columns, axes=0)
 
 
 @dataclass(frozen=True)
 class Answer:
-    """Least squares over all stretches: values, their covariance, misfit left, what was fitted."""
+    """Least squares over all stretches.
+
+    Attributes
+    ----------
+    values, covariance : (b,), (b, b) of the inputs
+    misfit : sum of squares that is left
+    known : (b,) whether the data say anything of an input
+    count : how many numbers were fitted; fewer than inputs where some only go together
+    """
 
     values: np.ndarray
     covariance: np.ndarray
     misfit: float
     known: np.ndarray
-
-    @property
-    def count(self) -> int:
-        return int(np.count_nonzero(self.known))
+    count: int
 
 
 @dataclass(frozen=True)
@@ -82,16 +94,18 @@ class Normal:
     def solve(self, combine: np.ndarray | None = None) -> Answer:
         """Values of the inputs, or of fewer that are combinations (b, c) of them."""
         square, right = self.square, self.right
+        least = KNOWN * max(float(np.max(np.diag(square), initial=0.0)), 1e-300)
         if combine is not None:
             square, right = combine.T @ square @ combine, combine.T @ right
-        size = np.diag(square)
-        known = size > KNOWN * max(float(np.max(size, initial=0.0)), 1e-300)
+        known = np.diag(square) > least
         values, covariance = np.full(len(right), np.nan), np.full(square.shape, np.nan)
-        inverse = np.linalg.pinv(square[np.ix_(known, known)], hermitian=True)
+        part = square[np.ix_(known, known)]
+        inverse = np.linalg.pinv(part, rcond=TOGETHER, hermitian=True)
         values[known] = inverse @ right[known]
         covariance[np.ix_(known, known)] = inverse
         misfit = self.total - float(right[known] @ values[known])
-        return Answer(values, covariance, max(misfit, 0.0), known)
+        count = int(np.linalg.matrix_rank(inverse, hermitian=True)) if part.size else 0
+        return Answer(values, covariance, max(misfit, 0.0), known, count)
 
 
 def slip_stretch(
@@ -124,19 +138,19 @@ def stick_stretch(
 
 
 def normal_equations(
-    stretches: Sequence[Stretch], inputs: Callable[[Stretch], np.ndarray]
+    stretches: Sequence[Stretch], inputs: Callable[[Stretch], np.ndarray], level: bool = False
 ) -> list[Normal]:
-    """Of each stretch, for inputs (n, b) at its samples."""
+    """Of each stretch, for inputs (n, b) at its samples; ``level``: each has its own constant."""
     found = []
     for stretch in stretches:
-        columns = stretch.free(stretch.respond(inputs(stretch)) / stretch.noise)
-        residual = stretch.free(stretch.residual)
+        columns = stretch.free(stretch.respond(inputs(stretch)) / stretch.noise, level)
+        residual = stretch.free(stretch.residual, level)
         found.append(
             Normal(
                 columns.T @ columns,
                 columns.T @ residual,
                 float(residual @ residual),
-                len(residual) - stretch.nuisance.shape[1],
+                len(residual) - stretch.nuisance.shape[1] - level,
             )
         )
     return found

@@ -43,10 +43,15 @@ class Source:
         """(p,) number of the run of each piece."""
         return np.array([piece.track for piece in self.pieces], dtype=int)
 
-    def normals(self, inputs: Callable[[Stretch | Points], np.ndarray]) -> list[Normal]:
-        """Normal equations of each piece, for inputs (n, b) at its samples."""
+    def normals(
+        self, inputs: Callable[[Stretch | Points], np.ndarray], level: bool = False
+    ) -> list[Normal]:
+        """Normal equations of each piece, for inputs (n, b) at its samples.
+
+        level : of a stretch, only what changes within it counts
+        """
         if not self.pieces or isinstance(self.pieces[0], Stretch):
-            return normal_equations(self.pieces, inputs)
+            return normal_equations(self.pieces, inputs, level)
         return [_normal_of_points(points, inputs(points)) for points in self.pieces]
 
     def at_samples(self, variables: Sequence[Mapping[str, np.ndarray]], name: str) -> np.ndarray:

@@ -18,17 +18,26 @@ SMOOTHED = 0.15
 
 @dataclass(frozen=True)
 class Variable:
-    """``label`` as in a sentence; ``kind``: "within" a run, one value "per run", or a "phase"."""
+    """A variable.
+
+    Attributes
+    ----------
+    label : as in a sentence
+    kind : "within" a run, one value "per run", or a "phase"
+    follows : it follows the friction itself, as the block stands where friction and springs
+        balance; only its changes within a slip then say anything
+    """
 
     label: str
     unit: str
     kind: str = "within"
     logarithmic: bool = False
+    follows: bool = False
 
 
 VARIABLES = {
     "sliding_speed": Variable("the sliding speed", "m/s"),
-    "position": Variable("the block's position", "m"),
+    "position": Variable("the block's position", "m", follows=True),
     "time": Variable("the time in the run", "s"),
     "distance": Variable("the distance slid", "m"),
     "surface_position": Variable("the place on the surface", "m"),
