@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
-from joblib import Parallel
 
 from cosim.gap.atlas import find_where, residual_atlas
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.fitted_model import fitted_model
+from cosim.gap.processes import processes
 from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
 from cosim.gap.shooting.fit import Problem
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+from cosim.gap.shooting.thinning import thinned
 
 from .across import moves_across
 from .chance import chance
@@ -34,6 +36,8 @@ def find_gap(
     seed : of the bootstrap; the same seed gives the same answer. progress : called with 1 after
     every model tried. Runs of which only figures are known are left to `find_summary_gap`.
     """
+    runs = tuple(thinned(run) if run.track is not None else run for run in campaign.runs)
+    campaign = replace(campaign, runs=runs)
     fit_runs = [run for run in campaign.fit_runs if run.track is not None]
     held_out = [run for run in campaign.held_out_runs if run.track is not None]
     planar = moves_across(campaign)
@@ -47,7 +51,7 @@ def find_gap(
     plain = try_model(data, base, sketched)
     laws = candidates(scales([*fit_runs, *held_out], plain.fitted.values["friction.mu_k"]))
     felt = [law for law in laws if planar or not law.lateral]
-    with Parallel(n_jobs=jobs, return_as="generator", max_nbytes=None) as pool:
+    with processes(jobs) as pool:
         search = Search(data, pool, progress)
         finding = judge(search, plain, sketched, felt)
         ranking = search.judged(finding.ranking)

@@ -6,16 +6,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.gap.read import Campaign, MeasuredRun
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.read import Campaign, MeasuredRun, cycle_features
+from cosim.gap.read.stick_remarks import SPEED_ERRORS, SPEED_PART
+from cosim.gap.shooting.knob import SPEED_OFFSET, Knob
 
 GRAVITY = 9.81
 #: The tracker's zero is known to this many standard deviations of its noise.
 _ZERO = 2.0
+#: The surface's speed, where it is off at all, is off by about this part.
+_SPEED = 0.03
 
 
 def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
-    """mu_s, mu_k and the tracker's zero, from where the data put them or as they are known."""
+    """mu_s, mu_k, the tracker's zero and, where sticks tell that it is off, the surface's speed.
+
+    They start where the data put them, or as they are known.
+    """
     runs = [run for run in campaign.fit_runs if run.track is not None]
     knobs = []
     for name, guess in zip(("mu_s", "mu_k"), first_guess(runs), strict=True):
@@ -25,7 +31,18 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]
             knobs.append(Knob(f"offset.{channel}", 0.0, zero, prior=zero))
+    if any(_speed_is_off(run) for run in runs):
+        knobs.append(Knob(SPEED_OFFSET, 0.0, 0.02, per_run=True, prior=_SPEED))
     return tuple(knobs)
+
+
+def _speed_is_off(run: MeasuredRun) -> bool:
+    """Whether the block, in stick, moves at another speed than the surface's set-point."""
+    if not any(np.isfinite(stick.start_sd) for stick in run.sticks):
+        return False
+    speed = cycle_features(run).stick_speed
+    off = abs(speed.value - run.surface_speed)
+    return off > max(SPEED_ERRORS * speed.error, SPEED_PART * abs(run.surface_speed))
 
 
 def first_guess(runs: Sequence[MeasuredRun]) -> tuple[float, float]:

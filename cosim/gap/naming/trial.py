@@ -69,8 +69,8 @@ class Trial:
 def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
     """A fit in short windows: robust, cheap, and near enough for the long ones."""
     problem = Problem(data.short, model.knobs, model.settings)
-    point = before.point if before else with_phases(problem, start(data.short, model.knobs))
-    return fit(problem, point, rounds)
+    point = before.point if before else start(data.short, model.knobs)
+    return fit(problem, with_phases(problem, point), rounds)
 
 
 def try_model(data: Data, model: Model, sketched: Fitted, refit: bool = True) -> Trial:
@@ -79,7 +79,7 @@ def try_model(data: Data, model: Model, sketched: Fitted, refit: bool = True) ->
     first = start(problem.flights, model.knobs)
     point = Point(sketched.point.shared, sketched.point.own, first.states)
     if refit:
-        fitted = with_columns(problem, fit(problem, point))
+        fitted = with_columns(problem, _fit(problem, point))
     else:
         fitted = fit(problem, point, _ROUNDS_UNFITTED, fixed=True)
     held_out = _hold_out(data.held_out, model, fitted)
@@ -97,14 +97,29 @@ def _hold_out(flights: Sequence[Flight], model: Model, fitted: Fitted) -> Fitted
     return fit(problem, point, fixed=True)
 
 
+def _fit(problem: Problem, point: Point) -> Fitted:
+    """A fit; where there are phases, a second one from wherever they fit best after the first."""
+    fitted = fit(problem, with_phases(problem, point))
+    again = with_phases(problem, fitted.point)
+    return fit(problem, again) if again is not fitted.point else fitted
+
+
 def with_phases(problem: Problem, point: Point) -> Point:
-    """Each run's phases where they fit best of a few: a fit finds its way over an eighth of a turn,
-    not over half of one."""
-    if not problem.own:
+    """Each run's phases where they fit best of a few, its present one included.
+
+    A fit finds its way over an eighth of a turn, not over half of one.
+    """
+    turned = [j for j, knob in enumerate(problem.own) if knob.key.endswith("phase_deg")]
+    if not turned:
         return point
     own = []
-    for run, states in enumerate(point.states):
-        tries = [np.array([k.scaled(degrees) for k in problem.own]) for degrees in _PHASES]
+    for run, (now, states) in enumerate(zip(point.own, point.states, strict=True)):
+        tries = [now]
+        for degrees in _PHASES:
+            tries.append(now.copy())
+            tries[-1][turned] = [problem.own[j].scaled(degrees) for j in turned]
         costs = [np.sum(problem.residuals(run, point.shared, t, states) ** 2) for t in tries]
         own.append(tries[int(np.argmin(costs))])
+    if all(a is b for a, b in zip(own, point.own, strict=True)):
+        return point
     return Point(point.shared, tuple(own), point.states)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fit import Fitted
 
 from .search import Search, Tried
-from .trial import Model, Trial
+from .trial import Trial
 
 #: The plain model fits when its gap is at most this: what a real contact has beside any model
 #: (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
@@ -19,12 +21,15 @@ FITS = 1.5
 #: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
 #: real effect is never quite the catalogue's.
 EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.95, 0.97
+#: Where no second effect helps, one that has taken away this part alone is named all the same, if
+#: no other comes near: none takes away more than this part of it.
+DOMINANT, RIVAL = 0.85, 0.5
 #: Effects cannot be told apart when their gaps, squared, differ by less than this ...
 ALIKE = 0.3
 #: ... and this part of what the better one leaves over the noise.
 ALIKE_PART = 0.1
-#: So many single effects are tried with a second one.
-FIRSTS = 3
+#: So many single effects are tried with a second one, if they take away this part alone.
+FIRSTS, WORTH_A_SECOND = 3, 0.2
 #: Of two effects, each must have taken away this part of what the other leaves, in squares.
 NEEDED = 0.3
 
@@ -60,10 +65,12 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         members = alike(done)
         verdict = "named" if len(members) == 1 else "class"
         return Finding(verdict, members, best.trial, ranking, best.trial)
-    pair = _best_pair(search, plain.model, done, candidates)
+    pair = _best_pair(search, plain, done, candidates)
     if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
         effects = (pair[0].candidate.effect, pair[1].candidate.effect)
         return Finding("named", effects, pair[1].trial, ranking, pair[1].trial)
+    if _dominates(plain, done):
+        return Finding("named", (best.candidate.effect,), best.trial, ranking, best.trial)
     nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.gap)
     return Finding("unknown", (), None, ranking, nearest)
 
@@ -72,6 +79,16 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
     """Whether nothing but noise, or next to nothing of what there was, is left."""
     left, before = excess(trial), excess(plain)
     return left <= FITS**2 - 1.0 or left <= (1.0 - part) * before
+
+
+def explained(plain: Trial, trial: Trial) -> float:
+    """Part of the plain model's excess that is gone."""
+    return 1.0 - excess(trial) / excess(plain) if excess(plain) > 0.0 else 0.0
+
+
+def _dominates(plain: Trial, done: Sequence[Tried]) -> bool:
+    parts = [explained(plain, t.trial) for t in done]
+    return parts[0] >= DOMINANT and all(part <= RIVAL * parts[0] for part in parts[1:])
 
 
 def excess(trial: Trial) -> float:
@@ -87,18 +104,21 @@ def alike(done: Sequence[Tried]) -> tuple[str, ...]:
 
 
 def _best_pair(
-    search: Search, plain: Model, done: Sequence[Tried], candidates: Sequence[Candidate]
+    search: Search, plain: Trial, done: Sequence[Tried], candidates: Sequence[Candidate]
 ) -> tuple[Tried, Tried] | None:
     """The two effects that together leave least, if each is needed beside the other."""
-    pairs = []
-    for first in done[:FIRSTS]:
-        others = [c for c in candidates if c.effect != first.candidate.effect]
-        seconds = search.on(first.model, first.sketched, others)
-        pairs += [(first, second) for second in seconds if second.trial is not None]
+    firsts = [t for t in done if explained(plain, t.trial) >= WORTH_A_SECOND]
     alone = {t.candidate.effect: excess(t.trial) for t in done}
-    needed = [
-        pair for pair in pairs
-        if excess(pair[1].trial) <= (1.0 - NEEDED) * min(
-            excess(pair[0].trial), alone.get(pair[1].candidate.effect, float("inf")))
-    ]
+    needed: list[tuple[Tried, Tried]] = []
+    for first in firsts[:FIRSTS]:
+        others = [c for c in candidates if c.effect != first.candidate.effect]
+        for second in search.on(first.model, first.sketched, others):
+            if second.trial is None:
+                continue
+            other = alone.get(second.candidate.effect, np.inf)
+            if excess(second.trial) <= (1.0 - NEEDED) * min(excess(first.trial), other):
+                needed.append((first, second))
+        best = min(needed, key=lambda pair: pair[1].trial.gap, default=None)
+        if best and repaired(plain, best[1].trial, EXPLAINED_BY_TWO):
+            return best
     return min(needed, key=lambda pair: pair[1].trial.gap, default=None)

@@ -162,7 +162,18 @@ class Problem:
         states = states.copy()
         for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
             states[:, axis] -= offsets.get(key, 0.0)
-        return flight.residuals(flight.fly(values, states), offsets)
+        rows = flight.residuals(flight.fly(values, states), offsets)
+        return np.concatenate([rows, self._known_of_own(own)])
+
+    def _known_of_own(self, own) -> np.ndarray:
+        """Rows for what is known beforehand of a run's own knobs."""
+        known = [(k, s) for k, s in zip(self.own, own, strict=True) if k.prior is not None]
+        return np.array([(k.value(s) - k.start) / k.prior for k, s in known])
+
+    def _owner(self, run: int) -> np.ndarray:
+        """(rows,) window of each row; what is known beforehand is put to the first."""
+        own = sum(k.prior is not None for k in self.own)
+        return np.concatenate([self.flights[run].window_of_rows(), np.zeros(own, dtype=int)])
 
     def all_residuals(self, point: Point) -> tuple[np.ndarray, ...]:
         """Of every run."""
@@ -190,7 +201,7 @@ class Problem:
     def _by_state(self, run, at, residuals):
         """Every window's rows and derivatives; windows do not overlap, so one run tells all."""
         flight = self.flights[run]
-        owner = flight.window_of_rows()
+        owner = self._owner(run)
         by_axis = {}
         for axis in sorted({axis for w in flight.windows for axis in w.free}):
             states = at[2].copy()
@@ -221,7 +232,7 @@ class Problem:
 
     def _follow(self, run, shared, own, states, move, before):
         """States after their step, shortened in the windows that it would throw off course."""
-        owner = self.flights[run].window_of_rows()
+        owner = self._owner(run)
         count = len(self.flights[run].windows)
         reach = np.ones(count)
         taken = states + move

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from stickslip.kernel import layout
 from stickslip.packing import pack
-from stickslip.restarted import Restart, simulate_restarted
+from stickslip.restarted import Force, Restart, simulate_restarted
 
+from .knob import SPEED_OFFSET
 from .windows import Window
 
 #: Columns of the model's output that a tracker can see.
@@ -61,16 +62,19 @@ class Flight:
         return replace(
             self, time=self.time[:last], channels=channels, windows=self.windows[:count])
 
-    def fly(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+    def fly(
+        self, values: Mapping[str, float], states: np.ndarray, force: Force | None = None
+    ) -> np.ndarray:
         """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
         flat = dict(self.known)
         flat.update(values)
+        speed = self.speed * (1.0 + flat.pop(SPEED_OFFSET, 0.0))
         p = np.array(pack(flat))
         restarts = [
             Restart(window.first, state, window.hold_since)
             for window, state in zip(self.windows, states, strict=True)
         ]
-        return simulate_restarted(p, self.speed, self.temperature, self.time, restarts)
+        return simulate_restarted(p, speed, self.temperature, self.time, restarts, force)
 
     def residuals(self, outputs: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
         """(rows,) model less measurement over noise, channel by channel, without missing ones."""
