@@ -104,7 +104,7 @@ class Scenario(Parameters):
                 f"belt.length = {self.belt.length:g} m cannot be given for a slab: one turn is "
                 f"2 pi rig.slab_radius = {turn:g} m; leave it out"
             )
-        given = self.belt.model_dump(exclude_unset=True)
+        given = {key: getattr(self.belt, key) for key in self.belt.model_fields_set}
         # not model_copy: the length stays "not given", and is not written back
         belt = self.belt.model_construct(**given)
         belt.__dict__["length"] = turn

@@ -69,12 +69,29 @@ def describe_faults(report: ValidationError, model: type[BaseModel]) -> str:
 
 def _describe(key: str, faults: list[dict[str, Any]], keys: dict[str, FieldInfo]) -> str:
     fault = faults[0]
+    table = _table_of_list(fault["loc"], keys)
+    if table is not None:
+        *_, number, entry = fault["loc"]
+        if fault["type"] == "missing":
+            needed = allowed(entry, known_keys(table)[entry])
+            return f"{key}[{number + 1}].{entry}: missing, needed is {needed}"
+        inner = _describe(entry, [fault | {"loc": (entry,)}], known_keys(table))
+        return f"{key}[{number + 1}].{inner}"
     if fault["type"] == "value_error":
         return _of_several_keys(key, str(fault["ctx"]["error"]), keys)
     if fault["type"] == "extra_forbidden":
         return f"{key}: no such key, {_known_instead(key, keys)}"
     wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
+
+
+def _table_of_list(loc: tuple[Any, ...], keys: dict[str, FieldInfo]) -> type[BaseModel] | None:
+    """The kind of table when `block.key.number.entry` is an entry of a list's table."""
+    field = keys.get(".".join(map(str, loc[:2])))
+    if len(loc) != 4 or field is None or get_origin(field.annotation) is not tuple:
+        return None
+    kind = get_args(field.annotation)[0]
+    return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
 
 
 def _of_several_keys(block: str, message: str, keys: dict[str, FieldInfo]) -> str:
@@ -136,6 +153,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
 
 
 def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
+    if isinstance(entries[0], type) and issubclass(entries[0], BaseModel):
+        return f"a list of tables with {', '.join(entries[0].model_fields)}"
     if entries[-1] is Ellipsis:
         return f"a list of {_allowed_type(entries[0], (), unit)}"
     return f"a list of {len(entries)} numbers{unit and f' in{unit}'}"
