@@ -121,20 +121,12 @@ def strongest_period(
     rates = _grid(spans)
     if not rates.size:
         return None
-    gains = np.zeros((len(rates), len(present)))
-    waves = np.zeros((len(rates), len(present)), dtype=complex)
-    total, freedom = 0.0, 0
-    for place, run in enumerate(present):
-        own = _some([stretch for stretch in stretches if stretch.track == run])
-        residual = np.concatenate([stretch.free(stretch.residual) for stretch in own])
-        level = np.concatenate([_answer(s, np.ones((len(s.rows), 1))) for s in own])[:, 0]
-        level = level / np.linalg.norm(level)
-        residual = residual - level * (level @ residual)
-        total += float(residual @ residual)
-        freedom += len(residual) - 1 - sum(stretch.nuisance.shape[1] for stretch in own)
-        for part in np.array_split(np.arange(len(rates)), -(-len(rates) // TOGETHER)):
-            found = _sinusoids(own, along[run], rates[part], level, residual)
-            gains[part, place], waves[part, place] = found
+    found = [
+        _in_run(_some([s for s in stretches if s.track == run]), along[run], rates)
+        for run in present
+    ]
+    gains, waves = (np.stack(parts, axis=1) for parts in zip(*(f[:2] for f in found), strict=True))
+    total, freedom = sum(f[2] for f in found), sum(f[3] for f in found)
     power = gains.sum(axis=1)
     best = int(np.argmax(power))
     pair = (2 * len(present), freedom - 2 * len(present))
@@ -150,6 +142,21 @@ def strongest_period(
         tuple((np.angle(wave) / (2.0 * np.pi)).tolist()),
         min(single + float(np.log10(independent)), 0.0), rates, power / scale,
     )  # fmt: skip
+
+
+def _in_run(
+    own: Sequence[Stretch], along: np.ndarray, rates: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, float, int]:
+    """Of one run, for each rate: what it explains, its wave; sum of squares, freedom."""
+    residual = np.concatenate([stretch.free(stretch.residual) for stretch in own])
+    level = np.concatenate([_answer(s, np.ones((len(s.rows), 1))) for s in own])[:, 0]
+    level = level / np.linalg.norm(level)
+    residual = residual - level * (level @ residual)
+    parts = np.array_split(rates, -(-len(rates) // TOGETHER))
+    found = [_sinusoids(own, along, part, level, residual) for part in parts]
+    gains, waves = (np.concatenate(each) for each in zip(*found, strict=True))
+    freedom = len(residual) - 1 - sum(stretch.nuisance.shape[1] for stretch in own)
+    return gains, waves, float(residual @ residual), freedom
 
 
 def _some(stretches: list[Stretch]) -> list[Stretch]:
@@ -186,7 +193,7 @@ def _sinusoids(
     own: Sequence[Stretch], along: np.ndarray, rates: np.ndarray, level: np.ndarray,
     residual: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """What a sinusoid of each rate explains of a run's misfit; its amplitude and phase."""
+    """What a sinusoid of each rate explains of a run's misfit, and amplitude e^(i phase)."""
     columns = []
     for stretch in own:
         angle = 2.0 * np.pi * np.outer(along[stretch.rows], rates)
