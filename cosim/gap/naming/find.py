@@ -10,12 +10,12 @@ import numpy as np
 from cosim.gap.atlas import find_where, residual_atlas
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.fitted_model import fitted_model
-from cosim.gap.processes import processes
 from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
 from cosim.gap.shooting.fit import Problem
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.thinning import thinned
+from cosim.processes import processes
 
 from .across import moves_across
 from .chance import chance
@@ -51,8 +51,8 @@ def find_gap(
     plain = try_model(data, base, sketched)
     laws = candidates(scales([*fit_runs, *held_out], plain.fitted.values["friction.mu_k"]))
     felt = [law for law in laws if planar or not law.lateral]
-    with processes(jobs) as pool:
-        search = Search(data, pool, progress)
+    with processes(jobs) as mapped:
+        search = Search(data, mapped, progress)
         finding = judge(search, plain, sketched, felt)
         ranking = search.judged(finding.ranking)
     return _answer(campaign, data, plain, finding, ranking, seed)

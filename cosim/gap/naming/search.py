@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fit import Fitted
 from cosim.gap.shooting.knob import Knob
+from cosim.processes import Map
 
 from .scan import scan
 from .trial import Data, Model, Trial, sketch, try_model
@@ -50,10 +50,10 @@ def moved(knob: Knob, fitted: dict[str, float]) -> Knob:
 
 
 class Search:
-    """Tries candidates on top of base models, on the processes of a pool that yields in order."""
+    """Tries candidates on top of base models, as ``mapped`` does it."""
 
-    def __init__(self, data: Data, pool: Parallel, progress: Progress | None = None):
-        self.data, self.pool = data, pool
+    def __init__(self, data: Data, mapped: Map, progress: Progress | None = None):
+        self.data, self.mapped = data, mapped
         self.progress = progress or (lambda count: None)
 
     def on(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
@@ -86,7 +86,7 @@ class Search:
     def _run(self, function, arguments) -> list:
         """Every call's result in order, counted as they come."""
         results = []
-        for result in self.pool(delayed(function)(*each) for each in arguments):
+        for result in self.mapped(function, arguments):
             results.append(result)
             self.progress(1)
         return results
