@@ -13,8 +13,11 @@ from .model import BeltIceModel
 from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
 from .rig_view import RigView, rig_view
 from .single_pass import SinglePass
+from .steady import NoSteadyState, settle
+from .steady_sliding import SteadySliding
 
 __all__ = [
     "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "MeshError",
-    "ParameterError", "RigView", "SinglePass", "ThermalParameters", "rig_view",
+    "NoSteadyState", "ParameterError", "RigView", "SinglePass", "SteadySliding",
+    "ThermalParameters", "rig_view", "settle",
 ]

@@ -67,6 +67,8 @@ def eliminate(free: Array, response: Array, excess: Array) -> Eliminated:
     supports' strips, W/m2K.
     """
     contact = free.size - excess.size
+    if excess.size == 0:
+        return Eliminated(BeltFace(free, response), np.zeros(0), np.zeros((0, contact)))
     matrix = np.eye(excess.size) + excess[:, None] * response[contact:, contact:]
     right = excess[:, None] * np.column_stack((free[contact:], response[contact:, :contact]))
     solved = np.linalg.solve(matrix, right)
