@@ -6,21 +6,24 @@ contact, the way slid, the place on the surface - goes on from the model's own p
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .compiled import compiled_kernel
 from .kernel.layout import (
+    BLOCK,
     DONE,
     E_CAPACITY,
     E_FIRST,
     E_WIDTH,
     HERE,
     HOLD_SINCE,
+    MODE,
     O_SIZE,
     SHOWN,
+    U_FORCE_X,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -32,6 +35,8 @@ from .kernel.layout import (
 )
 
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
+#: A block of the model's state (see `layout`) -> external force along x, N.
+Force = Callable[[Sequence[float]], float]
 
 
 @dataclass(frozen=True)
@@ -53,12 +58,14 @@ class Restart:
 
 def simulate_restarted(
     p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
-    restarts: Sequence[Restart],
+    restarts: Sequence[Restart], force: Force | None = None,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
     p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
     The first restart is at row 0. Rows are NaN from where the model gave up to the next restart.
+    force : from the model's own state, constant from one time to the next: extrapolated to the
+    middle of the interval, so that the error is of second order in it.
     """
     kernel = compiled_kernel()
     p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
@@ -72,8 +79,26 @@ def simulate_restarted(
     ends = [restart.row for restart in restarts[1:]] + [len(times)]
     for restart, end in zip(restarts, ends, strict=True):
         _set(kernel, p, u, z, w, e, times[restart.row], restart)
-        kernel.record(p, u, z, w, e, times, o, restart.row, end - restart.row)
+        if force is None:
+            kernel.record(p, u, z, w, e, times, o, restart.row, end - restart.row)
+        else:
+            _record_forced(kernel, p, u, z, w, e, times, o, (restart.row, end), force)
     return o.reshape(-1, O_SIZE)
+
+
+def _record_forced(kernel, p, u, z, w, e, times: np.ndarray, o, rows, force: Force) -> None:
+    """Row by row, each under the force that the row before has set."""
+    before, mode = None, None
+    for row in range(*rows):
+        if kernel.record(p, u, z, w, e, times, o, row, 1) != 1:
+            break
+        block = z[SHOWN : SHOWN + BLOCK].tolist()
+        now = u[U_FORCE_X] = force(block)
+        if before is not None and mode == block[MODE] and row + 1 < len(times):
+            growth = (now - before) / (times[row] - times[row - 1])
+            u[U_FORCE_X] += 0.5 * growth * (times[row + 1] - times[row])
+        before, mode = now, block[MODE]
+    u[U_FORCE_X] = 0.0
 
 
 def _set(kernel, p, u, z, w, e, time: float, restart: Restart) -> None:
