@@ -14,7 +14,9 @@ from cosim.gap.shooting.knob import Knob
 #: Rounds that the windows' states take to follow parameters that stay as they are.
 _ROUNDS_UNFITTED = 2
 #: Phases, degrees, that a fit may set out from.
-_PHASES = np.arange(0.0, 360.0, 45.0)
+_PHASES = np.arange(0.0, 360.0, 30.0)
+#: Fits that may follow one whose phases turned out to be better elsewhere.
+_REPEATS = 3
 
 
 @dataclass(frozen=True)
@@ -98,10 +100,14 @@ def _hold_out(flights: Sequence[Flight], model: Model, fitted: Fitted) -> Fitted
 
 
 def _fit(problem: Problem, point: Point) -> Fitted:
-    """A fit; where there are phases, a second one from wherever they fit best after the first."""
+    """A fit; where there are phases, again from wherever they fit best after the one before."""
     fitted = fit(problem, with_phases(problem, point))
-    again = with_phases(problem, fitted.point)
-    return fit(problem, again) if again is not fitted.point else fitted
+    for _ in range(_REPEATS):
+        again = with_phases(problem, fitted.point)
+        if again is fitted.point:
+            break
+        fitted = fit(problem, again)
+    return fitted
 
 
 def with_phases(problem: Problem, point: Point) -> Point:
