@@ -85,7 +85,7 @@ class BeltIceModel:
         def solve(ice_face: IceFace) -> Fluxes:
             return exchange(
                 seen.contact.face, ice_face, self.parameters.contact.conductance,
-                self.parameters.belt.air_heat_transfer, heat / (duration * area))
+                self.parameters.belt.film, heat / (duration * area))
 
         fluxes, sinking, recession = self.meltwater.exchange(duration, displacement, solve)
         given = self.track.advance(

@@ -9,6 +9,8 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from .air import NotLaminar, moving_belt
+
 #: Highest temperature at which the block is still ice, degC.
 MELTING_POINT_DEGC = 0.0
 
@@ -69,6 +71,9 @@ class Belt(Block):
     conductivity: float = quantity(0.5, "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
     air_heat_transfer: float = quantity(
         15.0, "W/(m2.K)", "heat transfer to the air, on each free face", ge=0.0, le=1e4)
+    still_air_speed: float = quantity(
+        0.0, "m/s", "speed of the belt through still air, from which its heat transfer then follows"
+        " in place of air_heat_transfer; 0: that number holds", ge=0.0, le=1e3)
     layers: tuple[Layer, ...] = Field(
         (), max_length=10,
         description="layers from the contact face to the back, in place of thickness, density,"
@@ -94,6 +99,17 @@ class Belt(Block):
     def cells(self) -> int:
         """Cells along the loop, at least eight."""
         return max(8, round(self.length / self.cell_length))
+
+    @property
+    def film(self) -> float:
+        """Heat transfer to the air on each free face, W/m2K: given, or of a moving belt.
+
+        The belt's spans between its rollers are half a loop; air at -8 degC, since 8 K change
+        it by 3 %.
+        """
+        if self.still_air_speed == 0.0:
+            return self.air_heat_transfer
+        return moving_belt(self.still_air_speed, 0.5 * self.length, width=self.width)
 
     @property
     def stack(self) -> tuple[Layer, ...]:
@@ -203,6 +219,14 @@ class ThermalParameters(Block):
             raise ValueError(
                 f"contact.length = {contact.length:g} m makes a contact of {area:g} m2, more than"
                 f" the ice's face of {face:g} m2: take a larger contact.radius")
+        return self
+
+    @model_validator(mode="after")
+    def _air_is_laminar(self) -> Self:
+        try:
+            _ = self.belt.film
+        except NotLaminar as error:
+            raise ValueError(f"belt.still_air_speed: {error}") from None
         return self
 
     @model_validator(mode="after")

@@ -56,7 +56,7 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
     melting = MELTING_POINT_DEGC - parameters.ambient.temperature_degC
     fluxes = exchange(
         seen.contact.face, IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),
-        parameters.contact.conductance, parameters.belt.air_heat_transfer,
+        parameters.contact.conductance, parameters.belt.film,
         heat / (duration * area))
     if fluxes.melting > 0.0:
         raise NoSteadyState(

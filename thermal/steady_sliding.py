@@ -120,7 +120,7 @@ class SteadySliding:
         self._on = [on == face for face in (0, 1) if np.any(on == face)]
         self._faces = self._modes.faces[:len(self._on)]
         self._excess = np.concatenate([np.zeros(0)] + [
-            np.full(s.edges.size - 1, s.conductance - belt.air_heat_transfer) for s in beneath])
+            np.full(s.edges.size - 1, s.conductance - belt.film) for s in beneath])
         self._rows = self._areas[:, None] * (
             np.sinc(np.outer(lengths, self._wave) / (2.0 * np.pi))
             * np.exp(-1j * np.outer(middles, self._wave)))
@@ -162,7 +162,7 @@ class SteadySliding:
         friction = self._friction()
         self._fluxes = exchange(
             contact.face, self._ice_face(duration), self.parameters.contact.conductance,
-            belt.air_heat_transfer, friction)
+            belt.film, friction)
         powers = contact.fluxes(self._fluxes.belt)
         self.amplitudes *= response.decay
         load = sum(np.outer(face, powers[on] @ self._rows[on])

@@ -82,4 +82,4 @@ def _solved(layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> 
 
 def thickness_of(belt: BeltParameters, lane: float) -> Thickness:
     """The modes of a belt; those of belts that differ in length alone are solved once."""
-    return _solved(belt.stack, belt.air_heat_transfer, belt.elements, lane)
+    return _solved(belt.stack, belt.film, belt.elements, lane)

@@ -42,7 +42,7 @@ class Track:
         self.belt = Belt(parameters, footprint.lane)
         self._footprint = footprint
         self._supports = supports(parameters, footprint.length / footprint.strips)
-        self._air = parameters.air_heat_transfer
+        self._air = parameters.film
         strips = [np.diff(support.edges) for support in self._supports]
         self._conductances = np.concatenate([np.zeros(0)] + [
             np.full(lengths.size, support.conductance)

@@ -1,6 +1,7 @@
 import pytest
 
 from thermal import ParameterError, ThermalParameters
+from thermal.air import moving_belt
 
 
 def test_defaults_are_the_rig():
@@ -21,6 +22,15 @@ def test_every_number_states_its_unit():
 
 @pytest.mark.parametrize(("blocks", "says"), [
     ({"belt": {"thickness": 0.0}}, "belt.thickness = 0.0: Input should be greater than 0"),
+    ({"belt": {"still_air_speed": 50.0}}, "belt.still_air_speed: speed = 50 m/s over a span of"),
+    ({"belt": {"still_air_speed": -1.0}}, "belt.still_air_speed = -1.0"),
+    ({"belt": {"rollers": 20}}, "too short for a railing of 0 m and 20 rollers"),
+    ({"belt": {"railing_length": 1.5}}, "too short for a railing of 1.5 m"),
+    ({"belt": {"layers": [{"thickness": 1e-3}]}}, "belt.layers.0.density"),
+    ({"belt": {"layers": [dict.fromkeys(
+        ("thickness", "density", "heat_capacity", "conductivity"), 0.1)], "density": 1.0}},
+     "belt.density = 1 and belt.layers are both given"),
+    ({"contact": {"length": 0.5}}, "more than the ice's face"),
     ({"belt": {"length": 0.07}}, "shorter than the contact"),
     ({"belt": {"cell_length": 1e-7}}, "more than 200000 cells"),
     ({"belt": {"conductivity": float("nan")}}, "belt.conductivity = nan"),
@@ -36,3 +46,9 @@ def test_bad_input_is_refused_in_one_line(blocks, says):
         ThermalParameters.checked(blocks)
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+def test_air_of_a_moving_belt_takes_the_place_of_the_number():
+    belt = ThermalParameters.checked({"belt": {"still_air_speed": 0.82}}).belt
+    assert belt.film == moving_belt(0.82, 0.5)
+    assert ThermalParameters().belt.film == 15.0

@@ -135,11 +135,11 @@ def run_tutorial(relaxation, tolerance, cells=4):
     return error, iterations
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-11])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
 def test_partitioned_heat_errs_by_the_tolerance_alone(tolerance):
-    """P2 and backward Euler hold the solution exactly."""
-    error, _ = run_tutorial("aitken", tolerance)
-    assert error < 20.0 * tolerance
+    """P2 and backward Euler hold the solution exactly: what the iteration leaves is the error."""
+    error, _ = run_tutorial(0.4, tolerance)
+    assert 1e-2 * tolerance < error < 10.0 * tolerance
 
 
 def test_partitioned_heat_converges_at_once_with_one_half():
@@ -192,8 +192,8 @@ def test_water_and_steel_end_where_the_whole_does(on_water):
     assert heats == pytest.approx(list(HEAT_AFTER.values()), rel=1e-8)
 
 
-@pytest.mark.parametrize(("relaxation", "most"), [(1.0, 14), (0.5, 36), (0.76447, 4),
-                                                  ("aitken", 4)])
+@pytest.mark.parametrize(("relaxation", "most"), [(1.0, 14), (0.5, 16), (0.76447, 3),
+                                                  ("aitken", 3)])
 def test_iterations_of_water_and_steel(relaxation, most):
     """Contraction 0.3081 with the temperature given to the water."""
     assert run_slabs(True, relaxation, steps=1)[2] <= most
@@ -203,4 +203,4 @@ def test_temperature_given_to_the_steel_diverges_unless_relaxed():
     """Contraction 3.246: the side of the larger effusivity must not be the one that is given it."""
     with pytest.raises(NotConverged):
         run_slabs(False, 1.0, steps=1)
-    assert run_slabs(False, "aitken", steps=1)[2] <= 4
+    assert run_slabs(False, "aitken", steps=1)[2] <= 3
