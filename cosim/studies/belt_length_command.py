@@ -58,7 +58,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     for name, (default, metavar, text) in CHOICES.items():
         shown = " ".join(f"{value:g}" for value in default)
-        parser.add_argument(f"--{name}", metavar=metavar, type=_film if name == "h" else float,
+        parser.add_argument(f"--{name}", metavar=metavar, type=number_or_air if name == "h" else float,
                             nargs="+", default=default, help=f"{text} (default: {shown})")
     parser.add_argument(
         "--limit", metavar="K", type=float, default=CAMERA,
@@ -80,7 +80,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="folder of table, numbers and figures (default: results/belt-length)")
 
 
-def _film(text: str) -> float | str:
+def number_or_air(text: str) -> float | str:
     """A number, or AIR."""
     return AIR if text == AIR else float(text)
 

@@ -202,6 +202,14 @@ def test_ctrl_c_keeps_the_part_of_the_map_that_is_done(tmp_path, monkeypatch):
     assert numbers["complete"] and numbers["map"]["drift"] == [[1.0, 1.0], [None, None]]
 
 
+def test_verdict_tells_of_melting():
+    study = Study(Options(CAMERA, samples=0))
+    work_off(study, cases(length=(1.0,), speed=(3.0,), mass=(20.0,), ambient_degC=(-1.0,)), 1,
+             lambda done: None)
+    assert study.rows[0].drift.steady_melts
+    assert "In 1 of 1 cases the ice face comes to melt" in verdict(study)[-1]
+
+
 def test_verdict_says_when_it_cannot_say():
     study = Study(Options(CAMERA, samples=0))
     assert verdict(study) == ["Nothing was computed, so nothing can be said."]

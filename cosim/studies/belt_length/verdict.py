@@ -14,7 +14,8 @@ def verdict(study: Study) -> list[str]:
     if not study.rows:
         return ["Nothing was computed, so nothing can be said."]
     rows = [row for row in study.rows if row.case.length == CLAIMED_LENGTH]
-    return [*_claim(rows), *_shortest(study), *_study_number(study), *_influence(study)]
+    return [*_claim(rows), *_shortest(study), *_study_number(study), *_influence(study),
+            *_melting(study)]
 
 
 def _claim(rows: list[Row]) -> list[str]:
@@ -102,6 +103,14 @@ def _influence(study: Study) -> list[str]:
     return [f"Of what is not known the {words[first.key]} matters most ({first.total:.0%} of the"
             f" variance of the drift on {row.case.length:g} m at {row.case.speed:g} m/s, which lies"
             f" between {row.uncertainty.low:.2g} and {row.uncertainty.high:.2g} K)."]
+
+
+def _melting(study: Study) -> list[str]:
+    melts = sum(row.drift.steady_melts for row in study.rows)
+    if not melts:
+        return []
+    return [f"In {melts} of {len(study.rows)} cases the ice face comes to melt and stays at 0 degC;"
+            " the water between ice and belt is left out of these drifts."]
 
 
 def _span(low: float, high: float) -> str:
