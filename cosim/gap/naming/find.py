@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.gap.atlas import find_where, residual_atlas
+from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.read import Campaign
@@ -50,12 +51,19 @@ def find_gap(
     sketched = sketch(data, base, SKETCH)
     plain = try_model(data, base, sketched)
     laws = candidates(scales([*fit_runs, *held_out], plain.fitted.values["friction.mu_k"]))
-    felt = [law for law in laws if planar or not law.lateral]
+    felt = [law for law in laws if _is_felt(law, campaign, planar)]
     with processes(jobs) as mapped:
         search = Search(data, mapped, progress)
         finding = judge(search, plain, sketched, felt)
         ranking = search.judged(finding.ranking)
     return _answer(campaign, data, plain, finding, ranking, seed)
+
+
+def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:
+    """Whether the campaign could tell the law from the plain model at all."""
+    if law.effect == "stick_stiffness":  # along x it is another mu_s
+        return "mu_s" in campaign.friction
+    return planar or not law.lateral
 
 
 def _answer(
@@ -118,10 +126,10 @@ def _remarks(campaign: Campaign, tried: set[str]) -> tuple[str, ...]:
         seen = any("y" in run.track.channels for run in campaign.runs if run.track is not None)
         why = "no motion across was seen" if seen else "y was not measured"
         lines.append(f"{', '.join(silent)}: not tried, as {why}")
-    if "mu_s" not in campaign.friction:
+    if "stick_stiffness" not in tried:
         lines.append(
-            "stick_stiffness: along x it is the same as another mu_s; a campaign that states mu_s "
-            "under [friction] can tell"
+            "stick_stiffness: not tried, as along x it is the same as another mu_s; a campaign "
+            "that states mu_s under [friction] can tell"
         )
     if any(run.track is None for run in campaign.runs):
         lines.append("runs of which only figures are known were not used")

@@ -29,7 +29,8 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
     knobs = []
     for name, guess in zip(("mu_s", "mu_k"), first_guess(runs), strict=True):
         value, deviation = campaign.friction.get(name, (guess, None))
-        knobs.append(Knob(f"friction.{name}", value, 0.05 * guess, 0.0, 20.0, prior=deviation))
+        low = 0.3 * guess if name == "mu_s" else 0.0
+        knobs.append(Knob(f"friction.{name}", value, 0.05 * guess, low, 20.0, prior=deviation))
     for channel in ("x", "y") if planar else ("x",):
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]

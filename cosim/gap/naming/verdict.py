@@ -28,10 +28,15 @@ DOMINANT, RIVAL = 0.85, 0.5
 ALIKE = 0.3
 #: ... and this part of what the better one leaves over the noise.
 ALIKE_PART = 0.1
-#: So many single effects are tried with a second one, if they take away this part alone.
-FIRSTS, WORTH_A_SECOND = 3, 0.2
+#: So many single effects are tried with a second one, if they take away this part alone; the
+#: best few are whatever they take away.
+FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
 #: Of two effects, each must have taken away this part of what the other leaves, in squares.
 NEEDED = 0.3
+
+
+#: Friction across the motion comes with every effect that moves a block off its line.
+PART_OF_OTHERS = "lateral_friction"
 
 
 @dataclass(frozen=True)
@@ -100,14 +105,28 @@ def alike(done: Sequence[Tried]) -> tuple[str, ...]:
     """The effects that repair the model as well as the best one does."""
     best = done[0].trial
     most = best.gap**2 + ALIKE + ALIKE_PART * excess(best)
-    return tuple(t.candidate.effect for t in done if t.trial.gap**2 <= most)
+    members = tuple(t.candidate.effect for t in done if t.trial.gap**2 <= most)
+    if PART_OF_OTHERS in members:  # then what the others add to it is of no use
+        has_it = {t.candidate.effect for t in done if f"{PART_OF_OTHERS}.ratio" in t.model.settings}
+        members = tuple(m for m in members if m == PART_OF_OTHERS or m not in has_it)
+    return members
+
+
+def _simplest_first(done: Sequence[Tried]) -> list[Tried]:
+    """Best first, but an effect that is part of others before those that are no better."""
+    kept = alike(done)
+    return sorted(done, key=lambda t: PART_OF_OTHERS not in kept or t.candidate.effect not in kept)
 
 
 def _best_pair(
     search: Search, plain: Trial, done: Sequence[Tried], candidates: Sequence[Candidate]
 ) -> tuple[Tried, Tried] | None:
     """The two effects that together leave least, if each is needed beside the other."""
-    firsts = [t for t in done if explained(plain, t.trial) >= WORTH_A_SECOND]
+    ordered = _simplest_first(done)
+    firsts = [
+        t for i, t in enumerate(ordered)
+        if i < AT_LEAST or explained(plain, t.trial) >= WORTH_A_SECOND
+    ]
     alone = {t.candidate.effect: excess(t.trial) for t in done}
     needed: list[tuple[Tried, Tried]] = []
     for first in firsts[:FIRSTS]:

@@ -23,6 +23,9 @@ _STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
 #: Converged when a step promises to lower the sum of squares by less than this.
 _ENOUGH = 0.02
 _MOST_ROUNDS = 25
+#: Longest step of a round, in steps of a knob: a parameter that is thrown to where the motion does
+#: not feel it any more never comes back.
+_LONGEST = 4.0
 #: A window whose sum of squares grows by more than this was thrown off course by its own step.
 _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 
@@ -307,7 +310,8 @@ def _step(problem: Problem, point: Point, columns: Sequence[Columns], damping: f
         right = right - left.T @ c.residuals
     diagonal = np.diag(matrix)
     matrix = matrix + damping * np.diag(diagonal + 1e-12 * diagonal.max() + 1e-300)
-    return np.linalg.lstsq(matrix, right, rcond=None)[0]
+    step = np.linalg.lstsq(matrix, right, rcond=None)[0]
+    return step * min(1.0, _LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
 
 
 def with_columns(problem: Problem, fitted: Fitted) -> Fitted:
