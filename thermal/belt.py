@@ -20,7 +20,6 @@ from scipy.fft import irfft, rfft
 from scipy.sparse import coo_matrix
 from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
-from .grading import graded as graded
 from .parameters import Belt as BeltParameters
 from .relaxation import LastDurations, decay, mean_decay, mean_response
 from .thickness import thickness_of

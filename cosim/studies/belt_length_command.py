@@ -58,8 +58,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     for name, (default, metavar, text) in CHOICES.items():
         shown = " ".join(f"{value:g}" for value in default)
-        parser.add_argument(f"--{name}", metavar=metavar, type=number_or_air if name == "h" else float,
-                            nargs="+", default=default, help=f"{text} (default: {shown})")
+        kind = number_or_air if name == "h" else float
+        parser.add_argument(f"--{name}", metavar=metavar, type=kind, nargs="+", default=default,
+                            help=f"{text} (default: {shown})")
     parser.add_argument(
         "--limit", metavar="K", type=float, default=CAMERA,
         help=f"drift that is allowed, K (default: {CAMERA:g}, what the camera sees)")
