@@ -16,7 +16,7 @@ from cosim.scenario import Scenario
 from thermal import Ambient
 
 from .quantities import unit_and_meaning
-from .words import gap_line, verdict
+from .words import formula, gap_line, verdict
 
 #: Enough that the motion is the fitted one for longer than any window.
 DIGITS = 12
@@ -125,7 +125,10 @@ def _header(gap: Gap | SummaryGap, run: str) -> list[str]:
     if gap.verdict == "class":
         said.append("The block below is the member of the class that fits best.")
     if gap.empirical:
-        said.append("The empirical formula of the report is no part of it.")
+        said.append(
+            "Not part of the model, as no parameter stands for it: the empirical formula for what "
+            f"is left, an external force along x in SI units, {formula(gap)}"
+        )
     lines = [line for text in said for line in textwrap.wrap(text, 96)]
     usage = [
         "",

@@ -1,0 +1,166 @@
+"""From a campaign without a name to a formula with its gap."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from cosim.gap.atlas.spectrum import Period, strongest_period
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.naming.search import extended
+from cosim.gap.naming.trial import Data, Trial, sketch, try_model
+from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.shooting.knob import Knob
+
+from .features import Feature, library
+from .regression import Formula, formulas
+from .stretches import Slip, holding, slips_of
+from .term import Term, forced, formula, key
+
+#: What a break-away takes, over kinetic friction, where no break-away was seen.
+_UNSEEN_RATIO = 1.3
+#: Rounds of the fit in short windows with the force acting.
+_ROUNDS = 4
+#: The formula is kept when it takes away this part of the held-out gap's excess, in squares.
+_WORTH = 0.1
+#: Part of what fewer terms leave of the held-out runs' slips that a further term must take away.
+_EARNED = 0.1
+#: Highest frequency that is looked for, in free vibrations: a block hardly follows faster ones.
+_HIGHEST = 4.0
+#: A step of a coefficient, part of what the regression gave.
+_STEP = 0.1
+
+
+def empirical_term(
+    campaign: Campaign, data: Data, base: Trial
+) -> dict[str, Any] | None:
+    """A formula for the force along x that a model lacks, or None where none helps.
+
+    base : the model that is left, fitted to `data`. The features are chosen by sparse regression on
+    the measured slips of the runs for fitting, their number by the held-out runs; the force then
+    acts in the model, from the model's own state, and coefficients and friction are refitted. It is
+    kept only where the held-out gap becomes smaller. (The held-out runs choose among a handful of
+    formulas: their gap is not quite as independent as that of a named effect.)
+    Keys: kind ("empirical"), formula, terms ([{feature, coefficient, unit}]), parameters (friction,
+    refitted with it), fit_gap_before, fit_gap_after, held_out_gap_before, held_out_gap_after, text.
+    """
+    names = {flight.name for flight in data.fit}
+    fit_runs = [run for run in campaign.runs if run.name in names]
+    names = {flight.name for flight in data.held_out}
+    held_out = [run for run in campaign.runs if run.name in names]
+    fit_slips, held_slips = slips_of(fit_runs), slips_of(held_out)
+    if not fit_slips:
+        return None
+    found = formulas(fit_slips, held_slips, _library(fit_slips, fit_runs))
+    for best in _promising(found):
+        trial = _closed_loop(data, base, best, fit_runs)
+        if _worth(base, trial):
+            return _described(base, trial, best)
+    return None
+
+
+def _promising(found: Sequence[Formula]) -> list[Formula]:
+    """The one that the held-out runs choose, and a single term should that one fail in the model.
+
+    A term must earn its place: without taking away a part of what fewer terms leave, it is noise.
+    """
+    best = found[0]
+    for one in found[1:]:
+        if one.left_held_out < (1.0 - _EARNED) * best.left_held_out:
+            best = one
+    if not best.features:
+        return []
+    return [best] if len(best.features) == 1 else [best, found[1]]
+
+
+def _library(slips: Sequence[Slip], runs: Sequence[MeasuredRun]) -> list[Feature]:
+    """With the strongest periods in time and along the surface, where there are any."""
+    stretches = [slip.stretch for slip in slips]
+    along_time = [run.track.time for run in runs]
+    places = [_by_run(slips, i, len(run.track.time)) for i, run in enumerate(runs)]
+    fastest = _HIGHEST * max(run.natural_frequency for run in runs) / (2.0 * np.pi)
+    slowest = min(abs(run.surface_speed) for run in runs) or np.inf
+    rates = [
+        _strongest(strongest_period(stretches, along_time), fastest),
+        _strongest(strongest_period(stretches, places), fastest / slowest),
+    ]
+    signs = {np.sign(run.surface_speed) for run in runs}
+    x = np.concatenate([slip.moment.x for slip in slips])
+    reach = tuple(float(end) for end in np.percentile(x, (0.5, 99.5)))
+    return library(len(signs - {0.0}) > 1, reach, *rates)
+
+
+def _strongest(period: Period | None, highest: float) -> float | None:
+    """Rate of the strongest period that a block can follow; whether it is real is for the gap."""
+    if period is None:
+        return None
+    followed = period.rates <= highest
+    if not followed.any():
+        return None
+    return float(period.rates[followed][period.power[followed].argmax()])
+
+
+def _by_run(slips: Sequence[Slip], run: int, count: int) -> np.ndarray:
+    """(n,) place on the surface at the samples of a run; those outside all stretches are NaN."""
+    place = np.full(count, np.nan)
+    for slip in slips:
+        if slip.stretch.track == run:
+            place[slip.stretch.rows] = slip.moment.place
+    return place
+
+
+def _closed_loop(
+    data: Data, base: Trial, best: Formula, runs: Sequence[MeasuredRun]
+) -> Trial:
+    """The force in the model: fitted in short windows, judged in long ones."""
+    flights = [
+        tuple(forced(flight, best.features) for flight in part)
+        for part in (data.fit, data.short, data.held_out)
+    ]
+    knobs = tuple(
+        Knob(key(i), float(c), _STEP * abs(float(c))) for i, c in enumerate(best.coefficients)
+    )
+    acting = Data(*flights)
+    model = extended(base.model, Candidate("empirical", "formula", knobs), _friction(best, runs))
+    return try_model(acting, model, sketch(acting, model, _ROUNDS), refit=False)
+
+
+def _friction(best: Formula, runs: Sequence[MeasuredRun]) -> dict[str, float]:
+    """Where the fit starts: kinetic from the slips, static from the break-aways under the force."""
+    seen = holding(runs, lambda m: sum(
+        c * f.of(m) for c, f in zip(best.coefficients, best.features, strict=True)))
+    mu_s = float(np.median(seen)) if seen else _UNSEEN_RATIO * best.mu_k
+    return {"friction.mu_k": best.mu_k, "friction.mu_s": max(mu_s, best.mu_k)}
+
+
+def _worth(base: Trial, trial: Trial) -> bool:
+    before, after = (max(t.held_out_gap**2 - 1.0, 0.0) for t in (base, trial))
+    return after < (1.0 - _WORTH) * before
+
+
+def _described(base: Trial, trial: Trial, best: Formula) -> dict[str, Any]:
+    values = trial.fitted.values
+    terms = [Term(f, float(values[key(i)])) for i, f in enumerate(best.features)]
+    text = formula(terms)
+    gaps = {
+        "fit_gap_before": base.fitted.gap(), "fit_gap_after": trial.fitted.gap(),
+        "held_out_gap_before": base.held_out_gap, "held_out_gap_after": trial.held_out_gap,
+    }  # fmt: skip
+    return {
+        "kind": "empirical",
+        "formula": text,
+        "terms": [
+            {"feature": t.feature.name or "1", "coefficient": t.coefficient,
+             "unit": t.feature.unit} for t in terms
+        ],  # fmt: skip
+        "parameters": {
+            name: float(value) for name, value in values.items() if name.startswith("friction.")
+        },
+        **{name: float(value) for name, value in gaps.items()},
+        "text": (
+            f"{text} (empirical, no catalogued effect; held-out gap {base.held_out_gap:.3g} "
+            f"to {trial.held_out_gap:.3g})"
+        ),
+    }

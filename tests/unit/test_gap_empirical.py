@@ -1,0 +1,152 @@
+"""The empirical formula: regression on the measured slips, the force in the model's own loop."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from blind.hidden import Hidden, State  # noqa: E402
+from blind.motion import walk  # noqa: E402
+from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
+
+from cosim.gap.empirical import Term, empirical_term, library  # noqa: E402
+from cosim.gap.empirical.features import FRICTION, Moment  # noqa: E402
+from cosim.gap.empirical.regression import formulas  # noqa: E402
+from cosim.gap.empirical.stretches import holding, rows_of, slips_of  # noqa: E402
+from cosim.gap.empirical.term import forced, formula, key  # noqa: E402
+from cosim.gap.naming.plain import plain_knobs  # noqa: E402
+from cosim.gap.naming.trial import Data, Model, sketch, try_model  # noqa: E402
+from cosim.gap.read import read_campaign  # noqa: E402
+from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare  # noqa: E402
+
+SPEEDS = (0.05, 0.12, 0.08)
+BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}
+
+
+def campaign_of(folder, tracks, hold_out=2):
+    """A campaign of motions (time, x) at SPEEDS; one is held out."""
+    runs = [
+        {"surface_speed": speed, "hold_out": i == hold_out,
+         "columns": {"t": time, "x": noisy(x, i)}}
+        for i, (speed, (time, x)) in enumerate(zip(SPEEDS, tracks, strict=True))
+    ]  # fmt: skip
+    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+
+
+def simulated(**effect):
+    seen = [motion(speed=speed, duration=8.0, **effect) for speed in SPEEDS]
+    return [(one.time, one["x"]) for one in seen]
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    return campaign_of(tmp_path_factory.mktemp("plain"), simulated())
+
+
+@pytest.fixture(scope="module")
+def damped(tmp_path_factory):
+    tracks = simulated(structural_damping={"coefficient": 3.0})
+    return campaign_of(tmp_path_factory.mktemp("damped"), tracks)
+
+
+def fitted(campaign):
+    fit, held = campaign.fit_runs, campaign.held_out_runs
+    data = Data(
+        prepare(campaign, fit, False), prepare(campaign, fit, False, SHORT_CYCLES),
+        prepare(campaign, held, False),
+    )  # fmt: skip
+    base = Model(plain_knobs(campaign, False), {})
+    return data, try_model(data, base, sketch(data, base, 8))
+
+
+def test_without_an_effect_friction_leaves_noise(plain):
+    columns, seen = rows_of(slips_of(plain.runs), [FRICTION])
+    (mu_k,) = np.linalg.lstsq(columns, seen, rcond=None)[0]
+    assert mu_k == pytest.approx(0.2, rel=0.01)
+    assert np.std(seen - columns[:, 0] * mu_k) == pytest.approx(1.0, abs=0.06)
+
+
+def test_static_friction_from_the_break_aways(plain):
+    assert np.median(holding(plain.runs, lambda m: 0.0 * m.x)) == pytest.approx(0.3, rel=0.01)
+
+
+def test_regression_finds_a_damper(damped):
+    slips, held = slips_of(damped.fit_runs), slips_of(damped.held_out_runs)
+    none, one, *_ = formulas(slips, held, library(False, (-0.01, 0.04)))
+    assert not none.features and none.left_held_out > 1.5
+    # on a belt at few speeds v - x' is another word for -x'
+    assert one.features[0].name in ("vx", "sliding")
+    assert abs(one.coefficients[0]) == pytest.approx(3.0, rel=0.1)
+    assert one.left_held_out == pytest.approx(1.0, abs=0.1)
+
+
+def test_features_that_only_both_directions_tell_are_left_out():
+    names = [feature.name for feature in library(False, (-0.01, 0.04))]
+    assert "N" in BY_NAME and "N" not in names
+    assert "direction·x" in BY_NAME and "direction·x" not in names
+    assert len(library(False, (-0.01, 0.04), 1.5, 4.0)) == len(names) + 4
+
+
+def test_every_feature_is_the_same_at_a_moment_and_at_many():
+    random = np.random.default_rng(3)
+    many = Moment(*random.uniform(0.1, 2.0, (8, 5)))
+    for feature in library(True, (-0.02, 0.04), 1.3, 7.0):
+        single = [feature.of(Moment(*row)) for row in np.array(many).T.tolist()]
+        assert feature.of(many) == pytest.approx(single, rel=1e-12)
+
+
+def test_formula_in_words():
+    terms = [Term(BY_NAME["x"], -12.345), Term(BY_NAME[""], 0.25), Term(FRICTION, -0.01)]
+    assert formula(terms) == "F_x = -12.35 N/m · x + 0.25 N - 0.01 · direction·N"
+
+
+@pytest.mark.parametrize(
+    ("name", "effect"),
+    [("vx", {"structural_damping.coefficient": 1.5}), ("x", {"springs.stiffness": 40.0})],
+)
+def test_force_in_the_loop_is_second_order(plain, name, effect):
+    """Against the kernel's own effect: a damper, stiffer springs (four of them, 1.5 N/m more)."""
+    errors = []
+    coefficient = -1.5 if name == "vx" else -4.0 * (40.0 - 38.5)
+    for every in (4, 2, 1):
+        flight = prepare(plain, plain.runs[:1], False)[0].first(1)
+        rows = np.arange(0, len(flight.time), every)
+        window = flight.windows[0].__class__(0, len(rows), flight.windows[0].state, (), np.nan)
+        thin = forced(flight, [BY_NAME[name]]).__class__(
+            flight.name, flight.known, flight.speed, flight.temperature, flight.time[rows],
+            {}, {}, (window,), features=(BY_NAME[name],))  # fmt: skip
+        values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
+        state = np.array([[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]])
+        reference = super(type(thin), thin).fly(values | effect, state)[:, 0]
+        x = thin.fly(values | {key(0): coefficient}, state)[:, 0]
+        half = rows < 40  # before the first corner
+        errors.append(np.abs(x - reference)[half].max())
+    assert errors[-1] < 0.2 * NOISE
+    for coarse, fine in zip(errors, errors[1:], strict=False):
+        assert 2.5 < coarse / fine < 6.0
+
+
+def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
+    tracks = []
+    for speed in SPEEDS:
+        rig = Hidden(speed=speed, mu_s=0.27, mu_k=0.2, resonator_mass=0.2,
+                     resonator_stiffness=90.0, resonator_damping=0.05)
+        path = walk(rig, State(vx=speed), False, 1e-5, 8000)[::10]
+        tracks.append((0.01 * np.arange(len(path)), path[:, 0]))
+    campaign = campaign_of(tmp_path, tracks)
+    data, base = fitted(campaign)
+    found = empirical_term(campaign, data, base)
+    assert found["kind"] == "empirical"
+    assert found["held_out_gap_before"] == base.held_out_gap > 5.0
+    assert found["held_out_gap_after"] < 0.5 * base.held_out_gap
+    assert {term["feature"] for term in found["terms"]} & {"x", "x³"}
+    assert found["formula"].startswith("F_x =")
+    assert "empirical" in found["text"]
+
+
+def test_nothing_is_proposed_where_nothing_is_missing(plain):
+    data, base = fitted(plain)
+    assert empirical_term(plain, data, base) is None
