@@ -81,13 +81,24 @@ def execute(arguments: Namespace) -> int:
         text = files.write_data(gap, folder / RESULT, folder / MODEL)
         if copy is not None:
             write_text(text, copy)
-    print(text if arguments.json == STDOUT else "", end="")
-    says = sys.stderr if arguments.json == STDOUT else sys.stdout
-    if not arguments.no_page and not _drawn(files, gap, folder):
+    if arguments.json == STDOUT:
+        print(text, end="")
+    return _shown(files, gap, folder, arguments)
+
+
+def _shown(files, gap, folder: Path, arguments: Namespace) -> int:
+    """Figures and page where they are wanted, then the closing lines."""
+    flown = []
+    try:
+        if not arguments.no_page:
+            flown = _drawn(files, gap, folder)
+    except KeyboardInterrupt:
+        print(f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
+              file=sys.stderr)
         return FAILED
-    names = [folder / name for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
-    print("\n".join(files.closing_lines(gap)), file=says)
-    print(f"  files      {', '.join(map(str, names))}", file=says)
+    names = [str(folder / name) for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
+    lines = [*files.closing_lines(gap, flown), f"  files      {', '.join(names)}"]
+    print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
     return DONE
 
 
@@ -115,16 +126,10 @@ def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[[int], object
     return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
 
 
-def _drawn(files, gap, folder: Path) -> bool:
-    """Figures and page; whether it got so far."""
-    try:
-        with tqdm(disable=None, unit="figure", leave=False) as bar:
-            files.write_page(gap, folder, folder / PAGE, bar.update)
-    except KeyboardInterrupt:
-        print(f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
-              file=sys.stderr)
-        return False
-    return True
+def _drawn(files, gap, folder: Path) -> list:
+    """Figures and page; what the FMU did."""
+    with tqdm(disable=None, unit="figure", leave=False) as bar:
+        return files.write_page(gap, folder, folder / PAGE, bar.update)
 
 
 @contextmanager

@@ -35,10 +35,11 @@ def test_command_leaves_its_files(found, tmp_path, capsys):
     out = capsys.readouterr().out
     assert out.startswith("cold room, week 3: Named: velocity_weakening")
     assert str(tmp_path / "out" / "model.toml") in out
+    assert "fmu        gap in its runs' first windows: run03" in out
 
 
 def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(files, "write_page", lambda *given: None)
+    monkeypatch.setattr(files, "write_page", lambda *given: [])
     assert main(["gap", found[0], "-o", str(tmp_path), "--json", "-"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["verdict"] == "named"
@@ -46,7 +47,7 @@ def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, mo
 
 
 def test_the_folder_has_the_campaigns_name(found, tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "write_page", lambda *given: None)
+    monkeypatch.setattr(files, "write_page", lambda *given: [])
     monkeypatch.chdir(tmp_path)
     assert main(["gap", found[0]]) == 0
     assert (tmp_path / "results" / "cold-room-week-3-gap" / "gap.json").is_file()

@@ -122,6 +122,14 @@ def test_model_of_a_slab_turns_about_its_centre(gap):
     assert scenario.mechanics.flat()["turning_surface.curvature"] == pytest.approx(1.6)
 
 
+def test_a_surface_that_is_faster_than_it_says_is_so_in_the_model(gap):
+    values = {**gap.extended.values, "offset.speed": 0.1}
+    faster = replace(gap, extended=replace(gap.extended, values=values))
+    scenario = scenario_of(faster, shown_run(faster))
+    assert scenario.surface.speed == pytest.approx(1.1 * SPEEDS[-1])
+    assert "offset.speed = 0.1" in "\n".join(closing_lines(faster))
+
+
 def test_a_warm_room_is_left_to_the_default(gap):
     run = shown_run(gap)
     warm = replace(run.track.run, ambient_degC=21.0)
@@ -180,6 +188,8 @@ def test_numbers_are_those_of_the_model_that_is_left(gap):
 def test_page_is_whole_by_itself(gap, tmp_path, extended):
     if not extended:
         gap = replace(gap, verdict="unknown", effects=(), extended=None, gap_after=gap.gap_before)
+    else:
+        gap = replace(gap, next_experiment={"text": "slower", "separates": [["a", "b", 7.25]]})
     drawn = []
     write_page(gap, tmp_path, tmp_path / "report.html", lambda: drawn.append(1))
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
@@ -191,3 +201,4 @@ def test_page_is_whole_by_itself(gap, tmp_path, extended):
     assert "http" not in html and "None" not in html.split("<h2>")[1]
     assert gap.where.text.split(";")[0].replace("'", "&#39;") in html
     assert "velocity_weakening" in html and "film_drag" in html and "a remark" in html
+    assert ("7.25" in html) == extended

@@ -14,11 +14,12 @@ from cosim.gap.summary import SummaryGap
 from cosim.interrupts import held_interrupts
 from cosim.studies.drawing import Picture
 
+from .flown import Reproduced
 from .model_file import model_text
 from .model_file import safe_name as safe_name
 from .numbers import as_json
 from .page import page
-from .reproduction import Reproduced, reproduce, reproduced_runs
+from .reproduction import reproduce, reproduced_runs
 from .reproduction_figure import draw_reproduction
 from .run_figures import draw_residuals, overlays
 from .score_figures import draw_gaps, draw_parameters, draw_ranking
@@ -36,8 +37,8 @@ def write_data(gap: Gap | SummaryGap, result: Path, model: Path) -> str:
 
 def write_page(
     gap: Gap | SummaryGap, folder: Path, file: Path, drawn: Callable[[], object]
-) -> None:
-    """Every figure into the folder, and the page with all of them inside.
+) -> list[Reproduced]:
+    """Every figure into the folder, and the page with all of them inside; what the FMU did.
 
     drawn: called after each figure. Between two figures a KeyboardInterrupt passes.
     """
@@ -51,6 +52,7 @@ def write_page(
         pictures += batch
         drawn()
     write_text(page(gap, pictures, reproduced), file)
+    return reproduced
 
 
 def _reproduced(gap: Gap) -> list[Reproduced]:

@@ -11,6 +11,7 @@ import tomli_w
 
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.result import FittedRun, Gap
+from cosim.gap.shooting.knob import SPEED_OFFSET
 from cosim.gap.summary import SummaryGap
 from cosim.scenario import Scenario
 from thermal import Ambient
@@ -43,6 +44,7 @@ def scenario_of(gap: Gap, run: FittedRun) -> Scenario:
     measured = run.track.run
     tables = _known(gap.campaign, measured)
     tables["rig"]["degrees_of_freedom"] = gap.model.degrees_of_freedom
+    tables["surface"]["speed"] *= 1.0 + gap.model.values.get(SPEED_OFFSET, 0.0)
     _put(tables, gap.model.parameters(run))
     tables["initial"] = dict(zip(STATE, run.start, strict=True))
     interval = _digits(measured.track.interval, 6)

@@ -14,9 +14,9 @@ from cosim.gap.summary import SummaryGap
 from cosim.inline import inline
 from cosim.studies.drawing import Picture
 
+from .flown import Reproduced
 from .model_file import model_text
 from .quantities import quantities
-from .reproduction import Reproduced
 from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, reason
 
 

@@ -9,10 +9,11 @@ from typing import Any
 
 from cosim.scenario import Scenario
 
-#: Of the tracker, not of the model.
-TRACKER = {
+#: Of the tracker and the drive, not of the model.
+OFFSETS = {
     "offset.x": ("m", "zero of the tracker along x"),
     "offset.y": ("m", "zero of the tracker along y"),
+    "offset.speed": ("", "part by which the surface is faster than its set-point"),
 }
 PLAIN = ("friction.mu_s", "friction.mu_k")
 
@@ -39,8 +40,8 @@ class Quantity:
 
 def unit_and_meaning(key: str) -> tuple[str, str]:
     """Of `block.parameter`; the unit is "" for a pure number."""
-    if key in TRACKER:
-        return TRACKER[key]
+    if key in OFFSETS:
+        return OFFSETS[key]
     block, _, name = key.partition(".")
     field = Scenario.model_fields[block].annotation.model_fields[name]
     unit = (field.json_schema_extra or {}).get("unit", "1")

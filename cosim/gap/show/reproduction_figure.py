@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from cosim.gap.result import Gap
 from cosim.studies.drawing import INK, RED, panels, picture
 
-from .reproduction import Reproduced
+from .flown import Reproduced
 from .run_figures import SCALES, channels
 
 CAPTION = (

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from stickslip import CATALOGUE
 
 from cosim.gap.result import Gap
 from cosim.gap.summary import SummaryGap
 
+from .flown import Reproduced
 from .quantities import PLAIN, Quantity, quantities
 
+#: Of the tracker; said where everything is.
+ZEROS = ("offset.x", "offset.y")
 Answer = Gap | SummaryGap
 SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in CATALOGUE}
 
@@ -59,7 +64,7 @@ def gap_line(gap: Answer) -> str:
 
 
 def fitted_quantities(gap: Answer) -> list[Quantity]:
-    """The numbers of the model that is left: friction first, then what was added."""
+    """The numbers of the model that is left: friction, then what was added, fitted or set."""
     if isinstance(gap, SummaryGap):
         model = gap.extended or gap.plain
         intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
@@ -70,9 +75,10 @@ def fitted_quantities(gap: Answer) -> list[Quantity]:
     model = gap.model
     intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
     intervals = model.intervals or (intervals if gap.extended is None else {})
-    shown = [key for key in model.values if not key.startswith("offset.")]
+    values = {**model.values, **model.settings}
+    shown = [key for key in values if key not in ZEROS]
     shown.sort(key=lambda key: key not in PLAIN)
-    return quantities({key: model.values[key] for key in shown}, intervals)
+    return quantities({key: values[key] for key in shown}, intervals)
 
 
 def next_experiment(gap: Answer) -> str:
@@ -89,13 +95,16 @@ def next_experiment(gap: Answer) -> str:
     return ", ".join(parts)
 
 
-def closing_lines(gap: Answer) -> list[str]:
-    """What is said at the end, on a terminal."""
+def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[str]:
+    """What is said at the end, on a terminal; the FMU's flights where there were any."""
     lines = [f"{gap.campaign.name}: {verdict(gap)}", f"  gap        {gap_line(gap)}"]
     lines.append(f"  where      {gap.where.text}")
     numbers = fitted_quantities(gap)
     if numbers:
         lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}")
+    if reproduced:
+        flights = [f"{one.name} {one.gap:.3g} ({one.time[-1]:.3g} s)" for one in reproduced]
+        lines.append(f"  fmu        gap in its runs' first windows: {', '.join(flights)}")
     if gap.empirical:
         lines.append(f"  formula    {formula(gap)}")
     if gap.next_experiment:
