@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -107,7 +108,8 @@ def _scenario(campaign: Campaign, tables: dict[str, dict[str, Any]]) -> Scenario
         block: {key: _rounded(value) for key, value in entries.items()}
         for block, entries in tables.items()
     }
-    return Scenario.from_tables({"name": f"{safe_name(campaign.name)}-model", **rounded})
+    with warnings.catch_warnings(action="ignore"):  # of friction that the fit decided on
+        return Scenario.from_tables({"name": f"{safe_name(campaign.name)}-model", **rounded})
 
 
 def _rounded(value: Any) -> Any:
