@@ -52,6 +52,9 @@ FRICTION = Feature("direction·N", "1", lambda m: m.direction * m.load)
 #: Widths of bumps, parts of the way that the block covers.
 _WIDTHS = (0.08, 0.2)
 
+#: Not from the slips, but from break-aways that need another force one way than the other.
+HELD = Feature("N while held", "1", lambda m: m.load * (m.direction == 0.0))
+
 #: A force by position (springs, magnets, a bent scale), by velocity (dampers, air), by sliding
 #: speed (films), each also growing with time (what softens or melts), with the way slid, the load.
 #: The hold time is not among them: it decides when a stick ends, which is no force that acts in

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,21 +15,25 @@ from cosim.gap.naming.trial import Data, Trial, sketch, try_model
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.shooting.knob import Knob
 
-from .features import Feature, library
+from .features import HELD, Feature, library
 from .regression import Formula, formulas
 from .stretches import Slip, holding, slips_of
 from .term import Term, forced, formula, key
 
 #: What a break-away takes, over kinetic friction, where no break-away was seen.
 _UNSEEN_RATIO = 1.3
+#: Break-aways differ between the two directions when they do by this part.
+_UNLIKE = 0.05
 #: Rounds of the fit in short windows with the force acting.
 _ROUNDS = 4
 #: The formula is kept when it takes away this part of the held-out gap's excess, in squares.
-_WORTH = 0.1
-#: Part of what fewer terms leave of the held-out runs' slips that a further term must take away.
+_WORTH = 0.2
+#: Part of what fewer terms leave of the held-out runs that further terms must take away.
 _EARNED = 0.1
 #: Highest frequency that is looked for, in free vibrations: a block hardly follows faster ones.
 _HIGHEST = 4.0
+#: A held-out gap at which no other formula is tried.
+_ENOUGH = 1.5
 #: A step of a coefficient, part of what the regression gave.
 _STEP = 0.1
 
@@ -54,15 +59,20 @@ def empirical_term(
     if not fit_slips:
         return None
     found = formulas(fit_slips, held_slips, _library(fit_slips, fit_runs))
-    for best in _promising(found):
-        trial = _closed_loop(data, base, best, fit_runs)
-        if _worth(base, trial):
-            return _described(base, trial, best)
-    return None
+    acting: list[tuple[Trial, tuple[Feature, ...]]] = []
+    for one in _promising(found):
+        acting.append(_closed_loop(data, base, one, fit_runs))
+        if acting[-1][0].held_out_gap <= _ENOUGH:
+            break
+    trial, features = base, ()
+    for tried, terms in sorted(acting, key=lambda pair: len(pair[1])):
+        if tried.held_out_gap < (1.0 - _EARNED) * trial.held_out_gap:
+            trial, features = tried, terms
+    return _described(base, trial, features) if _worth(base, trial) else None
 
 
 def _promising(found: Sequence[Formula]) -> list[Formula]:
-    """The one that the held-out runs choose, and a single term should that one fail in the model.
+    """The one that the held-out runs choose, and one with another number of terms beside it.
 
     A term must earn its place: without taking away a part of what fewer terms leave, it is noise.
     """
@@ -72,7 +82,7 @@ def _promising(found: Sequence[Formula]) -> list[Formula]:
             best = one
     if not best.features:
         return []
-    return [best] if len(best.features) == 1 else [best, found[1]]
+    return [best, found[1]] if len(best.features) > 1 else found[1:3]
 
 
 def _library(slips: Sequence[Slip], runs: Sequence[MeasuredRun]) -> list[Feature]:
@@ -113,8 +123,9 @@ def _by_run(slips: Sequence[Slip], run: int, count: int) -> np.ndarray:
 
 def _closed_loop(
     data: Data, base: Trial, best: Formula, runs: Sequence[MeasuredRun]
-) -> Trial:
-    """The force in the model: fitted in short windows, judged in long ones."""
+) -> tuple[Trial, tuple[Feature, ...]]:
+    """The force in the model, fitted in short windows and judged in long ones; its features."""
+    friction, best = _friction(best, runs)
     flights = [
         tuple(forced(flight, best.features) for flight in part)
         for part in (data.fit, data.short, data.held_out)
@@ -123,16 +134,28 @@ def _closed_loop(
         Knob(key(i), float(c), _STEP * abs(float(c))) for i, c in enumerate(best.coefficients)
     )
     acting = Data(*flights)
-    model = extended(base.model, Candidate("empirical", "formula", knobs), _friction(best, runs))
-    return try_model(acting, model, sketch(acting, model, _ROUNDS), refit=False)
+    model = extended(base.model, Candidate("empirical", "formula", knobs), friction)
+    trial = try_model(acting, model, sketch(acting, model, _ROUNDS), refit=False)
+    return trial, best.features
 
 
-def _friction(best: Formula, runs: Sequence[MeasuredRun]) -> dict[str, float]:
-    """Where the fit starts: kinetic from the slips, static from the break-aways under the force."""
-    seen = holding(runs, lambda m: sum(
-        c * f.of(m) for c, f in zip(best.coefficients, best.features, strict=True)))
-    mu_s = float(np.median(seen)) if seen else _UNSEEN_RATIO * best.mu_k
-    return {"friction.mu_k": best.mu_k, "friction.mu_s": max(mu_s, best.mu_k)}
+def _friction(best: Formula, runs: Sequence[MeasuredRun]) -> tuple[dict[str, float], Formula]:
+    """Where the fit starts: kinetic from the slips, static from the break-aways under the force.
+
+    Where these differ between the two directions of the surface, the formula gets a term for it.
+    """
+    def force(m):
+        return sum(c * f.of(m) for c, f in zip(best.coefficients, best.features, strict=True))
+
+    ways = [[run for run in runs if np.sign(run.surface_speed) == sign] for sign in (1.0, -1.0)]
+    seen = [float(np.median(found)) for way in ways if (found := holding(way, force))]
+    mu_s = float(np.mean(seen)) if seen else _UNSEEN_RATIO * best.mu_k
+    friction = {"friction.mu_k": best.mu_k, "friction.mu_s": max(mu_s, best.mu_k)}
+    if len(seen) < 2 or abs(seen[0] - seen[1]) < _UNLIKE * mu_s:
+        return friction, best
+    terms = (*best.features, HELD)
+    coefficients = np.append(best.coefficients, 0.5 * (seen[0] - seen[1]))
+    return friction, replace(best, features=terms, coefficients=coefficients)
 
 
 def _worth(base: Trial, trial: Trial) -> bool:
@@ -140,9 +163,9 @@ def _worth(base: Trial, trial: Trial) -> bool:
     return after < (1.0 - _WORTH) * before
 
 
-def _described(base: Trial, trial: Trial, best: Formula) -> dict[str, Any]:
+def _described(base: Trial, trial: Trial, features: Sequence[Feature]) -> dict[str, Any]:
     values = trial.fitted.values
-    terms = [Term(f, float(values[key(i)])) for i, f in enumerate(best.features)]
+    terms = [Term(f, float(values[key(i)])) for i, f in enumerate(features)]
     text = formula(terms)
     gaps = {
         "fit_gap_before": base.fitted.gap(), "fit_gap_after": trial.fitted.gap(),

@@ -43,21 +43,30 @@ class Formula:
 def formulas(
     fit: Sequence[Slip], held_out: Sequence[Slip], features: Sequence[Feature]
 ) -> list[Formula]:
-    """One for each number of terms, none included; regressed on ``fit``, judged on ``held_out``."""
+    """One for each number of terms, none included; regressed on ``fit``, judged on ``held_out``.
+
+    The single term is the one that leaves least in both; the next ones are added greedily.
+    """
     columns, seen = rows_of(fit, [FRICTION, *features])
     judged = rows_of(held_out, [FRICTION, *features]) if held_out else (columns, seen)
-    found = []
-    for chosen in _orders(columns, seen):
-        which = [0, *(i + 1 for i in chosen)]
-        solved = np.linalg.lstsq(_scaled(columns[:, which])[0], seen, rcond=1e-10)[0]
-        solved = solved / _scaled(columns[:, which])[1]
-        left = [
-            float(np.sqrt(np.mean((rows - part[:, which] @ solved) ** 2)))
-            for part, rows in ((columns, seen), judged)
-        ]
-        terms = tuple(features[i] for i in chosen)
-        found.append(Formula(terms, solved[1:], float(solved[0]), *left))
+    every = (columns, seen), judged
+    found = [_solved(every, features, chosen) for chosen in _orders(columns, seen)]
+    if len(found) > 1:
+        alone = [_solved(every, features, [i]) for i in _useful(columns)[0]]
+        found[1] = min(alone, key=lambda one: np.hypot(one.left_fit, one.left_held_out))
     return found
+
+
+def _solved(every, features: Sequence[Feature], chosen: Sequence[int]) -> Formula:
+    """Friction and the chosen features; ``every`` : columns and rows to fit, and to judge."""
+    which = [0, *(i + 1 for i in chosen)]
+    scaled, size = _scaled(every[0][0][:, which])
+    solved = np.linalg.lstsq(scaled, every[0][1], rcond=1e-10)[0] / size
+    left = [
+        float(np.sqrt(np.mean((seen - columns[:, which] @ solved) ** 2)))
+        for columns, seen in every
+    ]
+    return Formula(tuple(features[i] for i in chosen), solved[1:], float(solved[0]), *left)
 
 
 def _scaled(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -65,17 +74,23 @@ def _scaled(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return columns / size, size
 
 
-def _orders(columns: np.ndarray, seen: np.ndarray) -> list[list[int]]:
-    """Features of the best formulas with no, one, two ... terms; friction is in all of them."""
-    from pysindy import FROLS  # takes a second to import, and few campaigns need it
-
+def _useful(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Features that are not another word for friction; (r, f) without it; friction's direction."""
     friction = columns[:, :1] / np.linalg.norm(columns[:, 0])
     whole = _scaled(columns[:, 1:])[0]
     free, own = _scaled(whole - friction @ (friction.T @ whole))
     useful = np.flatnonzero(own > _OWN)
-    rest = seen - friction[:, 0] * (friction[:, 0] @ seen)
+    return useful, free[:, useful], friction[:, 0]
+
+
+def _orders(columns: np.ndarray, seen: np.ndarray) -> list[list[int]]:
+    """Features of the best formulas with no, one, two ... terms; friction is in all of them."""
+    from pysindy import FROLS  # takes a second to import, and few campaigns need it
+
+    useful, free, friction = _useful(columns)
+    rest = seen - friction * (friction @ seen)
     # the triangle of a QR factorisation holds the same regression in as many rows as columns
-    triangle = np.linalg.qr(np.column_stack([free[:, useful], rest]), mode="r")
+    triangle = np.linalg.qr(np.column_stack([free, rest]), mode="r")
     search = FROLS(max_iter=MOST_TERMS, alpha=0.0)
     search.fit(triangle[:, :-1], triangle[:, -1])
     return [[int(useful[i]) for i in np.flatnonzero(terms[0])] for terms in search.history_]
