@@ -128,6 +128,8 @@ def _header(gap: Gap | SummaryGap, run: str) -> list[str]:
     ]
     if gap.verdict == "class":
         said.append("The block below is the member of the class that fits best.")
+    if gap.campaign.scheme == "study":
+        said.append("Fitted in the source study's scheme: the exact model moves otherwise on them.")
     if gap.empirical:
         said.append(
             "Not part of the model, as no parameter stands for it: the empirical formula for what "

@@ -84,6 +84,7 @@ def _of_figures(gap: SummaryGap) -> dict[str, Any]:
         "free_friction": gap.free_friction,
         "not_felt": gap.not_felt,
         "open_figures": gap.open_figures,
+        "fits_share": gap.fits_share,
     }
 
 

@@ -55,11 +55,13 @@ def _unknown(gap: Answer) -> str:
 
 def gap_line(gap: Answer) -> str:
     """Before and after, held out and fit."""
-    unit = "standard deviations" if isinstance(gap, SummaryGap) else "noise units"
+    figures = isinstance(gap, SummaryGap)
+    unit = "standard deviations" if figures else "noise units"
+    one = "what the observations leave open" if figures else "measurement noise"
     (fit, held), (fit_after, held_after) = gap.gap_before, gap.gap_after
     return (
         f"held out {held:.3g} → {held_after:.3g} {unit}, "
-        f"fit {fit:.3g} → {fit_after:.3g} (1 is measurement noise)"
+        f"fit {fit:.3g} → {fit_after:.3g} (1 is {one})"
     )
 
 
@@ -69,7 +71,7 @@ def fitted_quantities(gap: Answer) -> list[Quantity]:
         model = gap.extended or gap.plain
         intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
         for row in gap.ranking:
-            if gap.extended is not None and row.effect in gap.effects:
+            if row.effect in gap.found:
                 intervals |= row.intervals
         return quantities(model.values, intervals)
     model = gap.model
