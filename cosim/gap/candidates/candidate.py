@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from cosim.gap.shooting.knob import Knob
 
@@ -28,6 +28,11 @@ class Candidate:
     settings: Mapping[str, float] = field(default_factory=dict)
     lateral: bool = False
     periodic: str = ""
+
+    def at(self, period: float) -> Candidate:
+        """A periodic candidate that starts at a frequency, or wavelength."""
+        knobs = (replace(k, start=period) if k.key == self.periodic else k for k in self.knobs)
+        return replace(self, knobs=tuple(knobs))
 
     @property
     def size(self) -> int:

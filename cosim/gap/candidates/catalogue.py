@@ -115,19 +115,26 @@ def _structural_damping(s: Scales):
         Knob("structural_damping.coefficient", drag, drag, 0.0, 100.0 * drag),))
 
 
+#: Amplitudes from which ripples and patterns set out: a small one may be lost among other minima.
+_AMPLITUDES = (0.05, 0.2)
+
+
 def _speed_ripple(s: Scales):
-    yield Candidate("speed_ripple", "sine", (
-        Knob("speed_ripple.amplitude", 0.05, 0.05, 0.0, 1.0),
-        Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0),
-        Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)), periodic="speed_ripple.frequency")
+    for size in _AMPLITUDES:
+        yield Candidate("speed_ripple", "sine", (
+            Knob("speed_ripple.amplitude", size, 0.05, 0.0, 1.0),
+            Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0),
+            Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)),
+            periodic="speed_ripple.frequency")
 
 
 def _surface_pattern(s: Scales):
-    yield Candidate("surface_pattern", "sine", (
-        Knob("surface_pattern.amplitude", 0.05, 0.05, 0.0, 1.0),
-        Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
-        Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True)),
-        periodic="surface_pattern.wavelength")
+    for size in _AMPLITUDES:
+        yield Candidate("surface_pattern", "sine", (
+            Knob("surface_pattern.amplitude", size, 0.05, 0.0, 1.0),
+            Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
+            Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True)),
+            periodic="surface_pattern.wavelength")
 
 
 def _load_dependence(s: Scales):

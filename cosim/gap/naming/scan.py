@@ -8,7 +8,6 @@ periodogram.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -32,14 +31,14 @@ _LONGEST, _SAMPLES = 0.7, 8
 _RUNS, _POINTS = 2, 200
 #: A surface is best looked at where this much of it passes: long and short waves both show, m.
 _PASSING = 1.2
-#: Periods handed on to the fit.
+#: Periods found.
 _PEAKS = 2
 
 
 def scan(
     candidate: Candidate, model: Model, fitted: Fitted, flights: Sequence[Flight]
-) -> list[Candidate]:
-    """The candidate with its strongest periods in place; ``fitted``: the flights without it."""
+) -> list[float]:
+    """The strongest frequencies (Hz) or wavelengths (m); ``fitted``: the flights without any."""
     on_surface = candidate.periodic == "surface_pattern.wavelength"
     chosen = _telling(flights, fitted, on_surface)
     pieces = [_Scanned(candidate, model, fitted, flights, i, _PIECE) for i in chosen]
@@ -51,7 +50,7 @@ def scan(
         fine = grid[i] + np.arange(-_STEPS, _STEPS + 1) * _FINE * step
         fine = fine[fine > 0.0]
         best = fine[_power(wholes, fine, on_surface).argmax()]
-        found.append(_started(candidate, 1.0 / best if on_surface else best))
+        found.append(float(1.0 / best if on_surface else best))
     return found
 
 
@@ -115,11 +114,3 @@ def _peaks(power: np.ndarray) -> list[int]:
     padded = np.concatenate([[-np.inf], power, [-np.inf]])
     top = np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] >= padded[2:]))
     return sorted(top, key=lambda i: -power[i])[:_PEAKS]
-
-
-def _started(candidate: Candidate, value: float) -> Candidate:
-    knobs = tuple(
-        replace(k, start=float(value)) if k.key == candidate.periodic else k
-        for k in candidate.knobs
-    )
-    return replace(candidate, knobs=knobs)

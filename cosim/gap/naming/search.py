@@ -22,6 +22,9 @@ SKETCHED, FINALISTS = 7, 5
 #: ... at most so many of one effect.
 FORMS = 2
 
+#: A fit that ended nearer to a bound than this has run into it.
+_INSIDE = 1.02
+
 Progress = Callable[[int], object]
 
 
@@ -43,8 +46,13 @@ def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Mod
 
 
 def moved(knob: Knob, fitted: dict[str, float]) -> Knob:
-    """The knob starting where it was fitted; one with a prior stays centred on it."""
+    """The knob starting where it was fitted, if that is inside its range.
+
+    One with a prior stays centred on it.
+    """
     if knob.prior is not None or knob.key not in fitted:
+        return knob
+    if not knob.low * _INSIDE < fitted[knob.key] < knob.high / _INSIDE:
         return knob
     return replace(knob, start=min(max(fitted[knob.key], knob.low), knob.high))
 
@@ -91,11 +99,15 @@ class Search:
             self.progress(1)
         return results
 
-    def _placed(self, base, fitted, candidates) -> list[Candidate]:
+    def _placed(self, base: Model, fitted: Fitted, candidates) -> list[Candidate]:
         """Candidates ready to be fitted: periodic ones where their periods lie."""
-        periodic = [c for c in candidates if c.periodic]
-        found = self._run(scan, [(c, base, fitted, self.data.short) for c in periodic])
-        return [c for c in candidates if not c.periodic] + [c for peaks in found for c in peaks]
+        periods = {c.periodic: c for c in candidates if c.periodic}
+        peaks = self._run(scan, [(c, base, fitted, self.data.short) for c in periods.values()])
+        found = dict(zip(periods, peaks, strict=True))
+        placed = [c for c in candidates if not c.periodic]
+        for c in candidates:
+            placed += [c.at(period) for period in found.get(c.periodic, ())]
+        return placed
 
 
 def _continued(data: Data, tried: Tried) -> Tried:

@@ -113,19 +113,23 @@ def _fit(problem: Problem, point: Point) -> Fitted:
 def with_phases(problem: Problem, point: Point) -> Point:
     """Each run's phases where they fit best of a few, its present one included.
 
-    A fit finds its way over an eighth of a turn, not over half of one.
+    A fit finds its way over an eighth of a turn, not over half of one. All are judged from the
+    states read off the data: fitted ones have made up for the present phase.
     """
     turned = [j for j, knob in enumerate(problem.own) if knob.key.endswith("phase_deg")]
     if not turned:
         return point
-    own = []
-    for run, (now, states) in enumerate(zip(point.own, point.states, strict=True)):
+    own, states = list(point.own), list(point.states)
+    for run, now in enumerate(point.own):
         tries = [now]
         for degrees in _PHASES:
             tries.append(now.copy())
             tries[-1][turned] = [problem.own[j].scaled(degrees) for j in turned]
-        costs = [np.sum(problem.residuals(run, point.shared, t, states) ** 2) for t in tries]
-        own.append(tries[int(np.argmin(costs))])
+        first = problem.flights[run].starts
+        costs = [np.sum(problem.residuals(run, point.shared, t, first) ** 2) for t in tries]
+        best = int(np.argmin(costs))
+        if best > 0:
+            own[run], states[run] = tries[best], first
     if all(a is b for a, b in zip(own, point.own, strict=True)):
         return point
-    return Point(point.shared, tuple(own), point.states)
+    return Point(point.shared, tuple(own), tuple(states))
