@@ -147,6 +147,25 @@ def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
     assert "empirical" in found["text"]
 
 
+def test_friction_that_differs_by_direction(tmp_path):
+    """Half the difference acts one way at all times: in slip, and another part of it in stick."""
+    runs = []
+    for i, speed in enumerate((0.05, -0.08, 0.06, -0.05, 0.1)):
+        mass = 1.4 if i == 2 else 0.87
+        rig = Hidden(speed=speed, mass=mass, mu_s=0.27, mu_k=0.2, asymmetry=0.3)
+        path = walk(rig, State(vx=speed), False, 1e-5, 8000)[::10, 0]
+        columns = {"t": 0.01 * np.arange(len(path)), "x": noisy(path, i)}
+        entry = {"surface_speed": speed, "mass": mass, "hold_out": i > 2}
+        runs.append(entry | {"columns": columns})
+    campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": NOISE}))
+    data, base = fitted(campaign)
+    found = empirical_term(campaign, data, base)
+    size = {term["feature"]: term["coefficient"] for term in found["terms"]}
+    assert set(size) == {"N", "N while held"}
+    assert abs(size["N"]) == pytest.approx(0.5 * 0.3 * 0.2, rel=0.1)
+    assert found["held_out_gap_after"] < 2.0 < found["held_out_gap_before"]
+
+
 def test_nothing_is_proposed_where_nothing_is_missing(plain):
     data, base = fitted(plain)
     assert empirical_term(plain, data, base) is None

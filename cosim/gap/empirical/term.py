@@ -11,6 +11,7 @@ from stickslip.kernel import layout
 from stickslip.packing import pack
 
 from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.knob import SPEED_OFFSET
 
 from .features import Feature, Moment
 
@@ -63,9 +64,10 @@ class ForcedFlight(Flight):
         rest = {name: value for name, value in values.items() if not name.startswith(BLOCK)}
         coefficients = [values.get(key(i), 0.0) for i in range(len(self.features))]
         of = [feature.of for feature in self.features]
+        speed = self.speed * (1.0 + values.get(SPEED_OFFSET, 0.0))
 
         def force(block: Sequence[float]) -> float:
-            moment = moment_of(block, self.speed, self.load)
+            moment = moment_of(block, speed, self.load)
             return sum(c * one(moment) for c, one in zip(coefficients, of, strict=True))
 
         return super().fly(rest, states, force)
