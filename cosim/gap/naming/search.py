@@ -22,6 +22,8 @@ SKETCHED, FINALISTS = 7, 5
 #: ... at most so many of one effect.
 FORMS = 2
 
+#: Starts of mu_s, as parts of mu_k, of fits that are tried once more.
+_MU_S_STARTS = (1.1, 1.3, 1.6)
 #: A fit that ended nearer to a bound than this has run into it.
 _INSIDE = 1.02
 
@@ -83,6 +85,18 @@ class Search:
         rest = [t for t in _best_forms([*sketches, *tried], 1) if t.candidate.effect not in seen]
         return done + rest
 
+    def polished(self, tried: Sequence[Tried]) -> list[Tried]:
+        """Trials once more, from several values of mu_s, as they end best; best first.
+
+        Where nothing sticks in most windows, a fit may have left mu_s in a place that the motion
+        does not feel, and an effect unrecognised for it.
+        """
+        again = [replace(t, model=m) for t in tried for m in _other_starts(t)]
+        again = self._run(_sketched, [(self.data, t) for t in again])
+        trials = self._run(try_model, [(self.data, t.model, t.sketched) for t in again])
+        done = [replace(t, trial=trial) for t, trial in zip(again, trials, strict=True)]
+        return _best_forms([*tried, *done], 1, lambda t: t.trial.gap)
+
     def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
         """Those that were ruled out early judged as well, by what little fit they had."""
         early = [t for t in tried if t.trial is None]
@@ -112,6 +126,25 @@ class Search:
 
 def _continued(data: Data, tried: Tried) -> Tried:
     return replace(tried, sketched=sketch(data, tried.model, SKETCH, tried.sketched))
+
+
+def _sketched(data: Data, tried: Tried) -> Tried:
+    return replace(tried, sketched=sketch(data, tried.model, SKETCH))
+
+
+def _other_starts(tried: Tried) -> list[Model]:
+    """The model starting where it was fitted, but for mu_s."""
+    values = tried.trial.fitted.values
+    models = []
+    for factor in _MU_S_STARTS:
+        knobs = []
+        for knob in tried.model.knobs:
+            if knob.key == "friction.mu_s" and knob.prior is None:
+                knobs.append(replace(knob, start=factor * values["friction.mu_k"]))
+            else:
+                knobs.append(knob if knob.per_run else moved(knob, values))
+        models.append(Model(tuple(knobs), tried.model.settings))
+    return models
 
 
 def _best_forms(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:

@@ -31,6 +31,8 @@ ALIKE_PART = 0.1
 #: So many single effects are tried with a second one, if they take away this part alone; the
 #: best few are whatever they take away.
 FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
+#: So many effects are tried once more when the best one does not repair the model.
+POLISHED = 2
 #: Of two effects, each must have taken away this part of what the other leaves, in squares.
 NEEDED = 0.3
 
@@ -55,17 +57,21 @@ class Finding:
     verdict: str
     effects: tuple[str, ...]
     chosen: Trial | None
-    ranking: tuple[Tried, ...]
+    ranking: Sequence[Tried]
     nearest: Trial
 
 
 def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[Candidate]):
     """Look for one effect, then for two: `Finding`."""
-    ranking = tuple(search.on(plain.model, sketched, candidates))
+    ranking = search.on(plain.model, sketched, candidates)
     done = [t for t in ranking if t.trial is not None]
     best = done[0]
     if plain.gap <= PLAIN_FITS:
         return Finding("none", (), None, ranking, plain)
+    if not repaired(plain, best.trial, EXPLAINED_BY_ONE):
+        done = _merged(search.polished(done[:POLISHED]), done)
+        best = done[0]
+        ranking = [*done, *(t for t in ranking if t.trial is None)]
     if repaired(plain, best.trial, EXPLAINED_BY_ONE):
         members = alike(done)
         verdict = "named" if len(members) == 1 else "class"
@@ -78,6 +84,13 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         return Finding("named", (best.candidate.effect,), best.trial, ranking, best.trial)
     nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.gap)
     return Finding("unknown", (), None, ranking, nearest)
+
+
+def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
+    """The polished ones in place of what they were, best first."""
+    effects = {t.candidate.effect for t in better}
+    rest = [t for t in done if t.candidate.effect not in effects]
+    return sorted([*better, *rest], key=lambda t: t.trial.gap)
 
 
 def repaired(plain: Trial, trial: Trial, part: float) -> bool:
