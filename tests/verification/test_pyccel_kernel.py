@@ -5,6 +5,7 @@ Skipped where pyccel (the extra `native`) or a C compiler is missing. The compar
 """
 
 import importlib.util
+import os
 import random
 import shutil
 import subprocess
@@ -15,11 +16,15 @@ from effect_cases import IDS, draw_parameters
 from kernel_steps import largest_step_difference, memory_of
 from stickslip.compiled import kernel_source
 
-pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("pyccel") is None
-    or not any(shutil.which(name) for name in ("gcc", "cc", "clang")),
-    reason="no pyccel (pip install 'stickslip[native]') or no C compiler",
-)
+pytestmark = [
+    pytest.mark.skipif(
+        importlib.util.find_spec("pyccel") is None
+        or not any(shutil.which(name) for name in ("gcc", "cc", "clang")),
+        reason="no pyccel (pip install 'stickslip[native]') or no C compiler",
+    ),
+    # compiled once, whatever the number of workers
+    pytest.mark.xdist_group("kernel in C"),
+]
 SETS, STEPS = 10, 60
 NAME = "kernel_in_c"
 # the command `pyccel` of this very interpreter, wherever its script may be
@@ -31,9 +36,11 @@ def translated(tmp_path_factory):
     """The flattened kernel, translated to C, compiled, imported."""
     folder = tmp_path_factory.mktemp("pyccel")
     (folder / f"{NAME}.py").write_text(kernel_source(), encoding="utf-8")
+    # pyccel names its folder after the worker of a parallel run, if there is one
+    environment = {k: v for k, v in os.environ.items() if k != "PYTEST_XDIST_WORKER"}
     done = subprocess.run(
         [sys.executable, "-c", PYCCEL, "compile", f"{NAME}.py", "--language", "c"],
-        cwd=folder, capture_output=True, text=True,
+        cwd=folder, env=environment, capture_output=True, text=True,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert (folder / "__pyccel__" / f"{NAME}.c").exists()
