@@ -16,15 +16,11 @@ from effect_cases import IDS, draw_parameters
 from kernel_steps import largest_step_difference, memory_of
 from stickslip.compiled import kernel_source
 
-pytestmark = [
-    pytest.mark.skipif(
-        importlib.util.find_spec("pyccel") is None
-        or not any(shutil.which(name) for name in ("gcc", "cc", "clang")),
-        reason="no pyccel (pip install 'stickslip[native]') or no C compiler",
-    ),
-    # compiled once, whatever the number of workers
-    pytest.mark.xdist_group("kernel in C"),
-]
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("pyccel") is None
+    or not any(shutil.which(name) for name in ("gcc", "cc", "clang")),
+    reason="no pyccel (pip install 'stickslip[native]') or no C compiler",
+)
 SETS, STEPS = 10, 60
 NAME = "kernel_in_c"
 # the command `pyccel` of this very interpreter, wherever its script may be
