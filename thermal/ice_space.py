@@ -41,8 +41,8 @@ _CHUNK = 1000
 class IceSpace:
     """n trial functions on N degrees of freedom; power for amplitude 1 in W, heat in J.
 
-    trial (N, n); capacity (n, n) J/K; factors (n, n) of the forms in the module's equation, W/K:
-    across, upwards, side, top; sinking (n, n), W/K for V = 1 m/s; contact (n,): mean over the
+    trial (N, n); capacity (n, n) J/K; factors (up to n, n) of the forms in the module's equation,
+    W/K: across, upwards, side, top; sinking (n, n), W/K for V = 1 m/s; contact (n,): mean over the
     contact, K, and load of 1 W on it; heat (n,) J/K; side_air, top_air (n,) W/K. height: H0, m;
     area: of the contact, m2; whole_capacity: of the block before it melts, J/K.
     """
@@ -63,7 +63,7 @@ class IceSpace:
     whole_capacity: float
 
     def factor(self, shrink: float) -> Array:
-        """Factor (4 n, n) of everything that takes heat away, at J = shrink."""
+        """Factor (up to 4 n, n) of everything that takes heat away, at J = shrink."""
         return np.concatenate(
             (self.across, self.upwards / shrink, self.side, self.top / np.sqrt(shrink)))
 
@@ -170,8 +170,13 @@ def _gradients(basis: CellBasis, weight: Array, components, trial: Array) -> Ite
 
 
 def _factor(rows: Iterator[Array], columns: int) -> Array:
-    """Triangle R (columns, columns) with R^T R the sum of r^T r over all rows r."""
-    triangle = np.zeros((columns, columns))
+    """R (up to columns, columns) with R^T R the sum of r^T r over all rows r.
+
+    Few rows, as those of a film, are their own factor; more are made a triangle.
+    """
+    factor = np.zeros((0, columns))
     for block in rows:
-        triangle = np.linalg.qr(np.concatenate((triangle, block)), mode="r")
-    return triangle
+        factor = np.concatenate((factor, block))
+        if len(factor) > columns:
+            factor = np.linalg.qr(factor, mode="r")
+    return factor

@@ -1,6 +1,8 @@
 """The command line in this process: arguments, refusals, closing lines."""
 
 import os
+import subprocess
+import sys
 from importlib.metadata import version
 
 import pytest
@@ -145,3 +147,17 @@ def test_our_warnings_are_one_line_each_and_come_once(capsys):
 def test_every_command_has_a_module():
     for command in ("run", "simulate", "build"):
         assert arguments.parser([command]).parse_args([command]).command == command
+
+
+@pytest.mark.parametrize(("given", "used"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_runs_beside_each_other_do_not_wait_for_each_others_threads(given, used):
+    """BLAS reads its number of threads when numpy is imported, which must come after."""
+    environment = {k: v for k, v in os.environ.items() if k != "OPENBLAS_NUM_THREADS"} | given
+    program = (
+        "import os, sys; from cosim.cli import main; assert 'numpy' not in sys.modules;"
+        "main(['simulate', 'nix.toml']); assert 'numpy' in sys.modules;"
+        "print(os.environ['OPENBLAS_NUM_THREADS'])")
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True)
+    assert done.stdout.strip() == used
+    assert done.stderr.startswith("error: nix.toml: no such file") and done.stderr.count("\n") == 1
