@@ -313,7 +313,7 @@ class RateAndState(Block):
     creep_speed: float = quantity(
         1e-6,
         "m/s",
-        "speed below which the contact counts as at rest",
+        "v_c, the law's sqrt(v^2 + v_c^2) for v: at rest it is as at this speed",
         ge=1e-9,
         typical=(1e-7, 1e-5),
     )

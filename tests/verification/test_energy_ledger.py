@@ -48,6 +48,31 @@ def test_closed_over_thirty_seconds(rig):
         assert len(run.events) > 200
 
 
+@pytest.mark.parametrize("free", [("x", "y"), ("x", "phi"), ("x",)])
+@pytest.mark.parametrize("run_up", [0.0, 0.5])
+def test_guided_on_a_turning_surface(free, run_up):
+    """A block that cannot follow the surface's turn slides on it as soon as that turns."""
+    run = simulate(
+        Parameters(
+            rig=Rig(surface="slab", slab_radius=0.9, degrees_of_freedom=free),
+            lateral_friction=LateralFriction(ratio=1.0),
+            surface=Surface(speed=0.3, run_up_time=run_up),
+            initial=Initial(x=0.005, y=0.008, phi=0.1),
+        ),
+        3.0,
+    )
+    assert run.complete
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
+    turning = run["surface_speed_actual"] / 0.9
+    assert np.all(run["mode"][1:] == 1)
+    if "phi" not in free:
+        np.testing.assert_array_equal(run["omega"], 0.0)
+        # friction resists the spin that the guide imposes: M (omega - turning) < 0
+        assert np.all(run["friction_moment"][1:] * -turning[1:] < 0.0)
+    else:
+        np.testing.assert_array_equal(run["vy"], 0.0)
+
+
 parameters = st.builds(
     lambda mass, stiffness, mu_s, ratio_k, ratio, speed, natural, x, y, phi: Parameters(
         rig=Rig(mass=mass, spring_natural_length=natural),

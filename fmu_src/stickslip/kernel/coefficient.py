@@ -104,10 +104,13 @@ def has_state_law(p: "float[:]") -> bool:
 def rate_and_state(p: "float[:]", age: float, speed: float) -> float:
     """What speed and age of the contact add to mu_k: a ln(v / v*) + b ln(v* theta / D).
 
-    Dieterich (1979) with the ageing law theta' = 1 - v theta / D; below the creep speed the value
-    at the creep speed, which is also what a contact at rest holds.
+    Dieterich (1979) with the ageing law theta' = 1 - v theta / D. With the creep speed v_c,
+    sqrt(v^2 + v_c^2) stands for v: the law has a value at rest, which is also what a contact at
+    rest holds, and is smooth on the way there. (Cut off at v_c instead, it has an edge on which a
+    slowly loaded slip stays, and no step across an edge passes the error test.)
     """
-    v = max(speed, p[P_CREEP_SPEED]) / p[P_STATE_SPEED]
+    creep = p[P_CREEP_SPEED]
+    v = sqrt(speed * speed + creep * creep) / p[P_STATE_SPEED]
     aged = max(age, 1e-12) * p[P_STATE_SPEED] / p[P_STATE_DISTANCE]
     return p[P_DIRECT] * log(v) + p[P_EVOLUTION] * log(aged)
 
@@ -158,12 +161,17 @@ def local_coefficient(p: "float[:]", u: "float[:]", mu: float, speed: float) -> 
     return mu
 
 
-def onset_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
-    """mu_k at the first instant of a slip."""
+def slow_coefficient(p: "float[:]", u: "float[:]", w: "float[:]", speed: float) -> float:
+    """mu_k of a slip whose speed (m/s) is small to every law but rate_and_state."""
     mu = local_coefficient(p, u, kinetic_coefficient(p, u, w), 0.0)
     if has_state_law(p):
-        mu = max(0.0, mu + rate_and_state(p, w[W_STATE + AGE], 0.0))
+        mu = max(0.0, mu + rate_and_state(p, w[W_STATE + AGE], speed))
     return mu
+
+
+def onset_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """mu_k at the first instant of a slip."""
+    return slow_coefficient(p, u, w, 0.0)
 
 
 def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:

@@ -6,7 +6,6 @@ from .coefficient import holding_coefficient, onset_coefficient
 from .disc import disc_friction
 from .layout import (
     OMEGA,
-    P_CREEP_SPEED,
     P_FREE_PHI,
     P_FREE_Y,
     P_INERTIA,
@@ -119,10 +118,11 @@ def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
 def holding_ratio(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     """Load over what the contact can hold; the block breaks away where it reaches 1.
 
-    Takes the load from `set_holding_load`. A contact without friction holds nothing: 2.
+    Takes the load from `set_holding_load`. A contact without friction holds nothing: 2. Nor does
+    one that guides keep from following a turning surface: it slides, and has no friction to spare.
     """
     limit = holding_coefficient(p, u, w) * p[P_NORMAL_FORCE]
-    if limit == 0.0:
+    if limit == 0.0 or scaled_sliding_speed(p, w) > rest_speed(p, u):
         return 2.0
     kappa = p[P_LATERAL]
     fx = w[W_FRICTION] / limit
@@ -245,10 +245,9 @@ def rest_speed(p: "float[:]", u: "float[:]") -> float:
     Below it the direction of friction is frozen, and one smooth step lands the block on the
     surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m.
     It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
-    and passes rest at a distance never reaches it exactly, however small the distance. With
-    rate_and_state it is the creep speed, at which that law ends.
+    and passes rest at a distance never reaches it exactly, however small the distance.
     """
-    return max(1e-6 * speed_scale(p, u), p[P_CREEP_SPEED])
+    return 1e-6 * speed_scale(p, u)
 
 
 def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):

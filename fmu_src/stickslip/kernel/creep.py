@@ -19,7 +19,7 @@ at the same sigma.
 
 from math import sqrt
 
-from .coefficient import has_state_law, onset_coefficient
+from .coefficient import onset_coefficient, slow_coefficient
 from .contact import (
     rest_speed,
     scaled_sliding_speed,
@@ -28,6 +28,7 @@ from .contact import (
     set_yielding_motion,
     speed_scale,
 )
+from .disc import disc_friction
 from .friction import friction_at_onset, friction_in_slip
 from .layout import (
     OMEGA,
@@ -49,6 +50,7 @@ from .layout import (
     W_FRICTION,
     W_LOAD,
     W_MEAN_SPEED,
+    W_PAIR,
     W_SLIDING,
     W_SLOPES,
     W_STATE,
@@ -68,11 +70,11 @@ CREEP_ACCELERATION = 0.01
 
 
 def can_creep(p: "float[:]") -> bool:
-    """Is the direction of sliding free to turn, and friction at small speed that of the onset?"""
+    """Is the direction of sliding free to turn?"""
     guided = p[P_FREE_Y] == 0.0 or p[P_FREE_PHI] == 0.0
     if guided and p[P_CURVATURE] != 0.0:  # a turning surface carries nothing along the guides
         return False
-    return p[P_LATERAL] > 0.0 and not has_state_law(p)
+    return p[P_LATERAL] > 0.0
 
 
 def sliding_inertia(p: "float[:]", w: "float[:]", at: int) -> float:
@@ -84,12 +86,21 @@ def sliding_inertia(p: "float[:]", w: "float[:]", at: int) -> float:
     return p[P_MASS] * (nx * nx + ny * ny) + p[P_INERTIA] * nr * nr
 
 
+def mean_part(w: "float[:]") -> float:
+    """Mean local sliding speed over the scaled sliding speed, along ``w[W_CREEP:]``."""
+    sliding = sqrt(w[W_CREEP] * w[W_CREEP] + w[W_CREEP + 1] * w[W_CREEP + 1])
+    spinning = abs(w[W_CREEP + 2])
+    disc_friction(sliding, spinning, w)
+    return w[W_PAIR] * sliding + w[W_PAIR + 1] * spinning
+
+
 def solve_direction(
-    p: "float[:]", u: "float[:]", w: "float[:]", qx: float, qy: float, qr: float
+    p: "float[:]", u: "float[:]", w: "float[:]", speed: float, qx: float, qy: float, qr: float
 ) -> float:
     """Direction n under the loads in ``w``, into ``w[W_CREEP:]``; returns a, m/s^2.
 
-    (qx, qy, qr): s n', in the velocities of the block. The search ends where a comes to a tenth of
+    ``speed`` is the mean local sliding speed, (qx, qy, qr) is s n', in the velocities of the
+    block. The search ends where a comes to a tenth of
     what friction gives: that is no creep.
     """
     kappa = p[P_LATERAL]
@@ -103,7 +114,7 @@ def solve_direction(
     ex = w[W_DIRECTION]
     ey = w[W_DIRECTION + 1]
     er = w[W_DIRECTION + 2]
-    limit = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE]
+    limit = slow_coefficient(p, u, w, speed) * p[P_NORMAL_FORCE]
     a = 0.0
     more = limit / m
     sweep = 0
@@ -128,10 +139,11 @@ def solve_direction(
 
 def set_creep_direction(p: "float[:]", u: "float[:]", w: "float[:]", sigma: float) -> float:
     """Direction n of a creep at the moment in ``w``, into ``w[W_CREEP:]``; returns a, m/s^2."""
-    a = solve_direction(p, u, w, 0.0, 0.0, 0.0)
+    a = solve_direction(p, u, w, 0.0, 0.0, 0.0, 0.0)
     speed = sigma / sqrt(sliding_inertia(p, w, W_CREEP))
     if speed <= 0.0:
         return a
+    mean = speed * mean_part(w)
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
     ahead = LOOK_AHEAD / p[P_RATE]
@@ -147,7 +159,7 @@ def set_creep_direction(p: "float[:]", u: "float[:]", w: "float[:]", sigma: floa
     w[W_STATE + Y] = y + ahead * p[P_FREE_Y] * (w[W_SURFACE + 1] + speed * ny / kappa)
     w[W_STATE + PHI] = phi + ahead * p[P_FREE_PHI] * (w[W_SURFACE + 2] + speed * nr / arm)
     set_contact(p, u, w, W_STATE)
-    solve_direction(p, u, w, 0.0, 0.0, 0.0)
+    solve_direction(p, u, w, mean, 0.0, 0.0, 0.0)
     qx = speed * (w[W_CREEP] - nx) / ahead
     qy = speed * (w[W_CREEP + 1] - ny) / (kappa * ahead)
     qr = speed * (w[W_CREEP + 2] - nr) / (arm * ahead)
@@ -156,7 +168,7 @@ def set_creep_direction(p: "float[:]", u: "float[:]", w: "float[:]", sigma: floa
     w[W_STATE + Y] = y
     w[W_STATE + PHI] = phi
     set_contact(p, u, w, W_STATE)
-    return solve_direction(p, u, w, qx, qy, qr)
+    return solve_direction(p, u, w, mean, qx, qy, qr)
 
 
 def sliding_energy(p: "float[:]", w: "float[:]") -> float:
@@ -200,7 +212,7 @@ def set_creeping_motion(p: "float[:]", u: "float[:]", w: "float[:]", out: int) -
         sy = speed * w[W_CREEP + 1]
         friction_in_slip(p, u, w, speed * nx, sy, speed * w[W_CREEP + 2])
     else:
-        friction_at_onset(p, u, w, nx, w[W_CREEP + 1], w[W_CREEP + 2])
+        friction_at_onset(p, u, w, nx, w[W_CREEP + 1], w[W_CREEP + 2], 0.0)
         w[W_MEAN_SPEED] = 0.0
     fx = w[W_LOAD] + w[W_FRICTION] - m * w[W_SURFACE + 3]
     fy = w[W_LOAD + 1] + w[W_FRICTION + 1] - m * w[W_SURFACE + 4]

@@ -94,21 +94,28 @@ def log_event(z: "float[:]", e: "float[:]", block: int):
     e[E_COUNT] = count + 1.0
 
 
-def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Let the contact slide, in the direction that the loads in ``w`` ask for."""
-    set_holding_load(p, w)
-    set_onset_direction(p, u, w)
-    z[block + MODE] = SLIP
-    z[block + CREEPING] = 0.0
-    for i in range(3):
-        z[block + DIRECTION + i] = w[W_DIRECTION + i]
-
-
 def set_direction(p: "float[:]", z: "float[:]", w: "float[:]", block: int, speed: float):
     """Remember the direction of sliding, from the sliding velocity in ``w``."""
     z[block + DIRECTION] = w[W_SLIDING] / speed
     z[block + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
     z[block + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+
+
+def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+    """Let the contact slide, in the direction that the loads in ``w`` ask for.
+
+    Where guides make it slide already, that is the direction.
+    """
+    z[block + MODE] = SLIP
+    z[block + CREEPING] = 0.0
+    speed = scaled_sliding_speed(p, w)
+    if speed > rest_speed(p, u):
+        set_direction(p, z, w, block, speed)
+    else:
+        set_holding_load(p, w)
+        set_onset_direction(p, u, w)
+        for i in range(3):
+            z[block + DIRECTION + i] = w[W_DIRECTION + i]
 
 
 def stop_sliding(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):

@@ -13,8 +13,8 @@ from .coefficient import (
     has_state_law,
     kinetic_coefficient,
     local_coefficient,
-    onset_coefficient,
     rate_and_state,
+    slow_coefficient,
 )
 from .disc import add_local_law, disc_friction
 from .layout import (
@@ -51,10 +51,16 @@ def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
         w[W_FRICTION + 2] = moment
 
 
-def friction_at_onset(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
-    """Friction against a slip that has a direction but no speed yet, into ``w[W_FRICTION:]``."""
-    mu = onset_coefficient(p, u, w)
-    disc_friction(sqrt(sx * sx + sy * sy), abs(sr), w)
+def friction_at_onset(
+    p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, speed: float
+):
+    """Friction against a slip that has a direction, but next to no ``speed`` (m/s) yet.
+
+    (sx, sy, sr) is the direction. Writes force and moment to ``w[W_FRICTION:]``.
+    """
+    sliding = sqrt(sx * sx + sy * sy)
+    disc_friction(sliding, abs(sr), w)
+    mu = slow_coefficient(p, u, w, speed * (w[W_PAIR] * sliding + w[W_PAIR + 1] * abs(sr)))
     w[W_PAIR] *= mu
     w[W_PAIR + 1] *= mu
     set_friction(p, w, sx, sy, sr)

@@ -105,9 +105,6 @@ def interpolate(
         y = ((y + z[at + 4 * STATES]) * t + z[at + 3 * STATES]) * r
         y = ((y + z[at + 2 * STATES]) * t + z[at + STATES]) * r
         z[target + 1 + i] += (y + z[at]) * t
-    # where a step wins less than the unit of the error test, the polynomial may overshoot its ends
-    z[target + HEAT] = min(max(z[target + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
-    z[target + DISTANCE] = min(max(z[target + DISTANCE], z[HERE + DISTANCE]), z[NEXT + DISTANCE])
     if z[target + MODE] == STICK:
         follow_surface(p, u, z, w, target)
 
@@ -168,8 +165,14 @@ def approach(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", time: f
 
 
 def look_inside(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", time: float):
-    """The moment ``time`` of the step from HERE to NEXT, into SHOWN."""
+    """The moment ``time`` of the step from HERE to NEXT, into SHOWN.
+
+    What only grows stays between its ends: where friction dies away within the step, either way of
+    getting there errs by more than the step's last joules.
+    """
     if z[Z_SMOOTH] == 1.0:
         interpolate(p, u, z, w, SHOWN, time)
     else:
         approach(p, u, z, w, time)
+    z[SHOWN + HEAT] = min(max(z[SHOWN + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
+    z[SHOWN + DISTANCE] = min(max(z[SHOWN + DISTANCE], z[HERE + DISTANCE]), z[NEXT + DISTANCE])

@@ -57,8 +57,9 @@ def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
         sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
         friction_in_slip(p, u, w, sx, sy, sr)
     else:
-        friction_at_onset(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2])
-        w[W_MEAN_SPEED] = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(p, w)
+        friction_at_onset(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2], speed)
+        w[W_MEAN_SPEED] = speed
 
 
 def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int) -> float:
@@ -78,8 +79,8 @@ def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
         w[W_MEAN_SPEED] = 0.0
         w[W_STATE + VX] = w[W_SURFACE]
         if p[P_LATERAL] > 0.0:
-            w[W_STATE + VY] = w[W_SURFACE + 1]
-            w[W_STATE + OMEGA] = w[W_SURFACE + 2]
+            w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
+            w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
     set_rates_of_place(p, w, out)
     w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
     w[out + VY - 1] = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]

@@ -13,6 +13,8 @@ from .layout import (
     MODE,
     OMEGA,
     P_FEEDING,
+    P_FREE_PHI,
+    P_FREE_Y,
     P_LATERAL,
     P_MASS,
     P_RADIUS,
@@ -150,9 +152,10 @@ def close_step(
 
 
 def follow_surface(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Give the block the surface's velocity exactly, where friction holds it.
+    """Give the block the surface's velocity exactly, where friction holds it and it is free.
 
-    Leaves the surface's motion and the (now zero) sliding velocity at that moment in ``w``.
+    Leaves the surface's motion and the sliding velocity at that moment in ``w``: zero, but for what
+    guides keep from following.
     """
     for i in range(BLOCK):
         w[W_STATE + i] = z[block + i]
@@ -160,8 +163,8 @@ def follow_surface(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", b
     z[block + VX] = w[W_SURFACE]
     w[W_STATE + VX] = w[W_SURFACE]
     if p[P_LATERAL] > 0.0:
-        z[block + VY] = w[W_SURFACE + 1]
-        z[block + OMEGA] = w[W_SURFACE + 2]
-        w[W_STATE + VY] = w[W_SURFACE + 1]
-        w[W_STATE + OMEGA] = w[W_SURFACE + 2]
+        z[block + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
+        z[block + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+        w[W_STATE + VY] = z[block + VY]
+        w[W_STATE + OMEGA] = z[block + OMEGA]
     set_sliding_velocity(w, W_STATE)
