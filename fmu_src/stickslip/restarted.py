@@ -58,7 +58,7 @@ class Restart:
 
 def simulate_restarted(
     p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
-    restarts: Sequence[Restart], force: Force | None = None,
+    restarts: Sequence[Restart], force: Force | None = None, creep: float = 0.0,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
@@ -66,6 +66,9 @@ def simulate_restarted(
     The first restart is at row 0. Rows are NaN from where the model gave up to the next restart.
     force : from the model's own state, constant from one time to the next: extrapolated to the
     middle of the interval, so that the error is of second order in it.
+    creep : speed at which the surface leaves the block behind in stick when it is about to break
+    away, m/s; at a smaller load in proportion to it, as of a contact that is sheared before it
+    slides. Of first order in the interval between times.
     """
     kernel = compiled_kernel()
     p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
@@ -80,7 +83,9 @@ def simulate_restarted(
     for restart, end in zip(restarts, ends, strict=True):
         _set(kernel, p, u, z, w, e, times[restart.row], restart)
         if force is None:
-            kernel.record(p, u, z, w, e, times, o, restart.row, end - restart.row)
+            count = end - restart.row
+            kernel.record_creeping(p, u, z, w, e, times, o, restart.row, count, creep)
+            u[U_SPEED] = speed
         else:
             _record_forced(kernel, p, u, z, w, e, times, o, (restart.row, end), force)
     return o.reshape(-1, O_SIZE)

@@ -18,9 +18,9 @@ from cosim.gap.empirical.regression import formulas  # noqa: E402
 from cosim.gap.empirical.stretches import holding, rows_of, slips_of  # noqa: E402
 from cosim.gap.empirical.term import forced, formula, key  # noqa: E402
 from cosim.gap.naming.plain import plain_knobs  # noqa: E402
-from cosim.gap.naming.trial import Data, Model, sketch, try_model  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare  # noqa: E402
+from cosim.gap.shooting.trial import Data, Model, sketch, try_model  # noqa: E402
 
 SPEEDS = (0.05, 0.12, 0.08)
 BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}

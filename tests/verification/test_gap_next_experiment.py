@@ -18,14 +18,15 @@ from blind.motion import walk  # noqa: E402
 from gap_campaigns import NOISE, noisy, write_campaign  # noqa: E402
 
 from cosim.gap.candidates.catalogue import candidates  # noqa: E402
+from cosim.gap.candidates.extend import extended  # noqa: E402
 from cosim.gap.experiment import Member, next_experiment  # noqa: E402
 from cosim.gap.naming.plain import plain_knobs  # noqa: E402
 from cosim.gap.naming.scales import scales  # noqa: E402
-from cosim.gap.naming.search import Tried, extended  # noqa: E402
-from cosim.gap.naming.trial import Data, Model, sketch, try_model  # noqa: E402
+from cosim.gap.naming.search import Tried  # noqa: E402
 from cosim.gap.naming.verdict import FITS, alike  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare  # noqa: E402
+from cosim.gap.shooting.trial import Data, Model, sketch, try_model  # noqa: E402
 
 PAIR = ("film_drag", "structural_damping")
 HIDDEN = {

@@ -10,10 +10,10 @@ import numpy as np
 
 from cosim.gap.atlas.spectrum import Period, strongest_period
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.naming.search import extended
-from cosim.gap.naming.trial import Data, Trial, sketch, try_model
+from cosim.gap.candidates.extend import extended
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.trial import Data, Trial, sketch, try_model
 
 from .features import HELD, Feature, library
 from .regression import Formula, formulas

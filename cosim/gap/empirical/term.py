@@ -10,8 +10,8 @@ import numpy as np
 from stickslip.kernel import layout
 from stickslip.packing import pack
 
+from cosim.gap.shooting.drive import driven_speed
 from cosim.gap.shooting.flight import Flight
-from cosim.gap.shooting.knob import SPEED_OFFSET
 
 from .features import Feature, Moment
 
@@ -64,7 +64,7 @@ class ForcedFlight(Flight):
         rest = {name: value for name, value in values.items() if not name.startswith(BLOCK)}
         coefficients = [values.get(key(i), 0.0) for i in range(len(self.features))]
         of = [feature.of for feature in self.features]
-        speed = self.speed * (1.0 + values.get(SPEED_OFFSET, 0.0))
+        speed = driven_speed(self.speed, values)
 
         def force(block: Sequence[float]) -> float:
             moment = moment_of(block, speed, self.load)

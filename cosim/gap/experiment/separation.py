@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.gap.naming.trial import with_phases
 from cosim.gap.shooting.fit import Columns, Point, Problem
 from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.trial import with_phases
 
 from .member import Member
 from .rehearsal import problem_of

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.shooting.fit import Fitted, Problem, with_columns
-
-from .trial import Data, Trial
+from cosim.gap.shooting.trial import Data, Trial
 
 DRAWS = 199
 
@@ -55,7 +54,9 @@ def _law(data: Data, trial: Trial, plain_knobs: int) -> _Law:
 
 
 def _stacked(fitted: Fitted) -> np.ndarray:
-    return np.concatenate([c.left(c.shared) for c in fitted.columns])
+    shared = sum(not knob.per_run for knob in fitted.knobs)
+    none = np.empty((0, shared))
+    return np.concatenate([none, *(c.left(c.shared) for c in fitted.columns)])
 
 
 def _best_gain(laws: Sequence[_Law], random: np.random.Generator) -> float:

@@ -10,12 +10,15 @@ import numpy as np
 from cosim.gap.atlas import find_where, residual_atlas
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import candidates
+from cosim.gap.empirical import empirical_term
+from cosim.gap.experiment import Member, next_experiment
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
 from cosim.gap.shooting.fit import Problem
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.thinning import thinned
+from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
 from cosim.processes import processes
 
 from .across import moves_across
@@ -24,7 +27,6 @@ from .intervals import determined, intervals
 from .plain import plain_knobs
 from .scales import scales
 from .search import SKETCH, Search, Tried
-from .trial import Data, Model, Trial, sketch, try_model
 from .verdict import Finding, judge
 
 
@@ -56,7 +58,7 @@ def find_gap(
         search = Search(data, mapped, progress)
         finding = judge(search, plain, sketched, felt)
         ranking = search.judged(finding.ranking)
-    return _answer(campaign, data, plain, finding, ranking, seed)
+    return _answer(campaign, data, plain, finding, ranking, seed, planar)
 
 
 def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:
@@ -67,18 +69,21 @@ def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:
 
 
 def _answer(
-    campaign: Campaign, data: Data, plain: Trial, finding: Finding, ranking, seed: int
+    campaign: Campaign, data: Data, plain: Trial, finding: Finding, ranking, seed: int,
+    planar: bool,
 ) -> Gap:
     finalists = [t.trial for t in finding.ranking if t.trial is not None]
     before = _fitted_model(campaign, data, plain)
     after = _fitted_model(campaign, data, finding.chosen) if finding.chosen else None
     tried = {t.candidate.effect for t in ranking}
+    atlas = residual_atlas([run.track for run in before.runs])
+    unnamed = finding.verdict == "unknown"
     return Gap(
         campaign=campaign,
         verdict=finding.verdict,
         effects=finding.effects,
         classes=(finding.effects,) if finding.verdict == "class" else (),
-        where=find_where(residual_atlas([run.track for run in before.runs])),
+        where=find_where(atlas),
         ranking=tuple(_ranked(plain, t, finding.nearest.gap) for t in ranking),
         gap_before=before.gap,
         gap_after=(after or before).gap,
@@ -87,8 +92,23 @@ def _answer(
         chance=chance(data, plain, finalists, seed),
         determined=determined(plain),
         seed=seed,
+        atlas=atlas,
+        next_experiment=_separating(campaign, finding, planar),
+        empirical=empirical_term(campaign, data, plain) if unnamed else None,
         remarks=_remarks(campaign, tried),
     )
+
+
+def _separating(campaign: Campaign, finding: Finding, planar: bool) -> dict | None:
+    """The run that would tell the members of a class apart."""
+    if finding.verdict != "class":
+        return None
+    members = [
+        Member(t.candidate.effect, t.model.knobs, t.model.settings, t.trial.fitted)
+        for t in finding.ranking
+        if t.trial is not None and t.candidate.effect in finding.effects
+    ]
+    return next_experiment(campaign, members, planar)
 
 
 def _fitted_model(campaign: Campaign, data: Data, trial: Trial) -> FittedModel:

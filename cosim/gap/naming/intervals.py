@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .trial import Trial
+from cosim.gap.shooting.trial import Trial
 
 #: Standard deviations of a 95 % interval.
 _NINETY_FIVE = 1.96

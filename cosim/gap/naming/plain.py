@@ -8,7 +8,8 @@ import numpy as np
 
 from cosim.gap.read import Campaign, MeasuredRun, cycle_features
 from cosim.gap.read.stick_remarks import SPEED_ERRORS, SPEED_PART
-from cosim.gap.shooting.knob import SPEED_OFFSET, Knob
+from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET
+from cosim.gap.shooting.knob import Knob
 
 GRAVITY = 9.81
 #: The tracker's zero is known to this many standard deviations of its noise.
@@ -18,10 +19,12 @@ _ZERO = 2.0
 _STICKS = 5
 #: The surface's speed, where it is off at all, is off by about this part.
 _SPEED = 0.03
+#: A set-point is kept to this part; creeps are alike within this part.
+_SET_POINT, _ALIKE = 0.003, 0.5
 
 
 def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
-    """mu_s, mu_k, the tracker's zero and, where sticks tell that it is off, the surface's speed.
+    """mu_s, mu_k, the tracker's zero and, where sticks tell of it, how the surface runs.
 
     They start where the data put them, or as they are known.
     """
@@ -35,10 +38,51 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]
             knobs.append(Knob(f"offset.{channel}", 0.0, zero, prior=zero))
+    return (*knobs, *drive_knobs(runs))
+
+
+def drive_knobs(runs: Sequence[MeasuredRun]) -> tuple[Knob, ...]:
+    """What sticks tell of the surface's speed: nothing, one creep for all, or each run its own."""
     sticking = [run for run in runs if len(run.sticks) >= _STICKS]
-    if 2 * sum(_speed_is_off(run) for run in sticking) > len(sticking):
-        knobs.append(Knob(SPEED_OFFSET, 0.0, 0.02, per_run=True, prior=_SPEED))
-    return tuple(knobs)
+    off = sum(_speed_is_off(run) for run in sticking)
+    creep = common_creep(sticking) if off else None
+    if creep is not None:
+        value, error = creep  # as measured: what a model lacks would be put down to it
+        return (Knob(CREEP, value, error, value - 3.0 * error, value + 3.0 * error, prior=error),)
+    if 2 * off > len(sticking):
+        return (Knob(SPEED_OFFSET, 0.0, 0.02, per_run=True, prior=_SPEED),)
+    return ()
+
+
+def common_creep(runs: Sequence[MeasuredRun]) -> tuple[float, float] | None:
+    """Creep at break-away, m/s, that lets all runs' sticks lag as they do, and its error.
+
+    A contact is sheared before it slides, in proportion to its load: the lag of a stick is that of
+    its mean load. None where the runs do not agree in it.
+    """
+    lag, error, load = np.array([_lag(run) for run in runs]).T
+    seen = np.isfinite(lag) & np.isfinite(error) & (load > 0.0)
+    lag, error, load = lag[seen], error[seen], load[seen]
+    if not lag.size:
+        return None
+    precision = float(np.sum((load / error) ** 2))
+    creep = float(np.sum(lag * load / error**2)) / precision
+    of_mean = precision**-0.5
+    alike = np.abs(lag - creep * load) <= np.maximum(SPEED_ERRORS * error, _ALIKE * creep * load)
+    return (creep, of_mean) if creep > SPEED_ERRORS * of_mean and alike.all() else None
+
+
+def _lag(run: MeasuredRun) -> tuple[float, float, float]:
+    """How much slower than the surface sticks are, m/s, its error, and their mean load.
+
+    The load is a part of that at break-away.
+    """
+    sign = 1.0 if run.surface_speed >= 0.0 else -1.0
+    speed = cycle_features(run).stick_speed
+    ends = np.array([[run.track.x[s.first], run.track.x[s.last]] for s in run.sticks])
+    load = float(np.nanmedian(ends.mean(axis=1)) / np.nanmedian(ends[:, 1]))
+    error = float(np.hypot(speed.error, _SET_POINT * run.surface_speed))
+    return sign * (run.surface_speed - speed.value), error, load
 
 
 def _speed_is_off(run: MeasuredRun) -> bool:

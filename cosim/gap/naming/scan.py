@@ -14,8 +14,7 @@ import numpy as np
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fit import Fitted, Point, Problem
 from cosim.gap.shooting.flight import Flight
-
-from .trial import Model
+from cosim.gap.shooting.trial import Model
 
 #: Amplitude of the ripple that is tried; small against 1, large against the integrator's error.
 _SMALL = 1e-3

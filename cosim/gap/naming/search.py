@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.shooting.fit import Fitted
 from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
 from cosim.processes import Map
 
 from .scan import scan
-from .trial import Data, Model, Trial, sketch, try_model
 
 #: Rounds of the first look at every law, and of the sketch of those that do well in it.
 GLANCE, SKETCH = 2, 8
@@ -24,8 +25,6 @@ FORMS = 2
 
 #: Starts of mu_s, as parts of mu_k, of fits that are tried once more.
 _MU_S_STARTS = (1.1, 1.3, 1.6)
-#: A fit that ended nearer to a bound than this has run into it.
-_INSIDE = 1.02
 
 Progress = Callable[[int], object]
 
@@ -38,25 +37,6 @@ class Tried:
     model: Model
     sketched: Fitted
     trial: Trial | None = None
-
-
-def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Model:
-    """The base, starting where it was fitted, with the candidate's knobs."""
-    taken = {knob.key for knob in candidate.knobs}
-    kept = tuple(moved(knob, fitted) for knob in base.knobs if knob.key not in taken)
-    return Model(kept + candidate.knobs, {**base.settings, **candidate.settings})
-
-
-def moved(knob: Knob, fitted: dict[str, float]) -> Knob:
-    """The knob starting where it was fitted, if that is inside its range.
-
-    One with a prior stays centred on it.
-    """
-    if knob.prior is not None or knob.key not in fitted:
-        return knob
-    if not knob.low * _INSIDE < fitted[knob.key] < knob.high / _INSIDE:
-        return knob
-    return replace(knob, start=min(max(fitted[knob.key], knob.low), knob.high))
 
 
 class Search:
@@ -85,13 +65,15 @@ class Search:
         rest = [t for t in _best_forms([*sketches, *tried], 1) if t.candidate.effect not in seen]
         return done + rest
 
-    def polished(self, tried: Sequence[Tried]) -> list[Tried]:
-        """Trials once more, from several values of mu_s, as they end best; best first.
+    def polished(self, tried: Sequence[Tried], candidates: Sequence[Candidate]) -> list[Tried]:
+        """Trials once more, from several values of mu_s and by the effect's other laws, best first.
 
         Where nothing sticks in most windows, a fit may have left mu_s in a place that the motion
-        does not feel, and an effect unrecognised for it.
+        does not feel, and an effect unrecognised for it. A law with one number more finds its way
+        from where the simpler one ended.
         """
         again = [replace(t, model=m) for t in tried for m in _other_starts(t)]
+        again += [law for t in tried for law in _other_laws(t, candidates)]
         again = self._run(_sketched, [(self.data, t) for t in again])
         trials = self._run(try_model, [(self.data, t.model, t.sketched) for t in again])
         done = [replace(t, trial=trial) for t, trial in zip(again, trials, strict=True)]
@@ -145,6 +127,21 @@ def _other_starts(tried: Tried) -> list[Model]:
                 knobs.append(knob if knob.per_run else moved(knob, values))
         models.append(Model(tuple(knobs), tried.model.settings))
     return models
+
+
+def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
+    """The effect's other laws, as far as they can be said with the numbers fitted."""
+    values = {**tried.model.settings, **tried.trial.fitted.values}
+    own = {knob.key for knob in tried.candidate.knobs}
+    settings = {k: v for k, v in tried.model.settings.items() if k not in tried.candidate.settings}
+    base = Model(tuple(k for k in tried.model.knobs if k.key not in own), settings)
+    laws: dict[tuple[Knob, ...], Tried] = {}
+    for law in candidates:
+        if law.effect == tried.candidate.effect and law.form != tried.candidate.form:
+            law = replace(law, knobs=tuple(moved(knob, values) for knob in law.knobs))
+            model = extended(base, law, values)
+            laws.setdefault(law.knobs, replace(tried, candidate=law, model=model))
+    return list(laws.values())
 
 
 def _best_forms(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:

@@ -9,9 +9,9 @@ import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.trial import Trial
 
 from .search import Search, Tried
-from .trial import Trial
 
 #: The plain model fits when its gap is at most this: what a real contact has beside any model
 #: (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
@@ -31,7 +31,7 @@ ALIKE_PART = 0.1
 #: So many single effects are tried with a second one, if they take away this part alone; the
 #: best few are whatever they take away.
 FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
-#: So many effects are tried once more when the best one does not repair the model.
+#: So many effects are tried once more when the best one leaves more than noise.
 POLISHED = 2
 #: Of two effects, each must have taken away this part of what the other leaves, in squares.
 NEEDED = 0.3
@@ -68,8 +68,8 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
     best = done[0]
     if plain.gap <= PLAIN_FITS:
         return Finding("none", (), None, ranking, plain)
-    if not repaired(plain, best.trial, EXPLAINED_BY_ONE):
-        done = _merged(search.polished(done[:POLISHED]), done)
+    if best.trial.gap > PLAIN_FITS:
+        done = _merged(search.polished(done[:POLISHED], candidates), done)
         best = done[0]
         ranking = [*done, *(t for t in ranking if t.trial is None)]
     if repaired(plain, best.trial, EXPLAINED_BY_ONE):

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 #: Knobs of the tracker, not of the model: where its zero lies.
 OFFSETS = ("offset.x", "offset.y")
-#: Part by which the surface is faster than its set-point.
-SPEED_OFFSET = "offset.speed"
 
 
 @dataclass(frozen=True)
@@ -17,7 +15,7 @@ class Knob:
 
     Attributes
     ----------
-    key : `block.parameter` of the model, one of OFFSETS (m), or SPEED_OFFSET
+    key : `block.parameter` of the model, one of OFFSETS (m), or of the drive
     start : first guess
     step : change that is felt but small: scale of the fit and of its differences
     low, high : bounds

@@ -12,7 +12,7 @@ import tomli_w
 
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.knob import SPEED_OFFSET
+from cosim.gap.shooting.drive import driven_speed
 from cosim.gap.summary import SummaryGap
 from cosim.scenario import Scenario
 from thermal import Ambient
@@ -45,7 +45,8 @@ def scenario_of(gap: Gap, run: FittedRun) -> Scenario:
     measured = run.track.run
     tables = _known(gap.campaign, measured)
     tables["rig"]["degrees_of_freedom"] = gap.model.degrees_of_freedom
-    tables["surface"]["speed"] *= 1.0 + gap.model.values.get(SPEED_OFFSET, 0.0)
+    fitted = {**gap.model.values, **run.own}
+    tables["surface"]["speed"] = driven_speed(measured.surface_speed, fitted)
     _put(tables, gap.model.parameters(run))
     tables["initial"] = dict(zip(STATE, run.start, strict=True))
     interval = _digits(measured.track.interval, 6)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.gap.shooting.fit import Fitted, Point, Problem, fit, start, with_columns
-from cosim.gap.shooting.flight import Flight
-from cosim.gap.shooting.knob import Knob
+from .fit import Fitted, Point, Problem, fit, start, with_columns
+from .flight import Flight
+from .knob import Knob
 
 #: Rounds that the windows' states take to follow parameters that stay as they are.
 _ROUNDS_UNFITTED = 2
@@ -80,7 +80,8 @@ def try_model(data: Data, model: Model, sketched: Fitted, refit: bool = True) ->
     problem = Problem(data.fit, model.knobs, model.settings)
     first = start(problem.flights, model.knobs)
     point = Point(sketched.point.shared, sketched.point.own, first.states)
-    if refit:
+    if refit:  # states first: parameters would make up for those that are merely read off
+        point = fit(problem, with_phases(problem, point), _ROUNDS_UNFITTED, fixed=True).point
         fitted = with_columns(problem, _fit(problem, point))
     else:
         fitted = fit(problem, point, _ROUNDS_UNFITTED, fixed=True)
