@@ -31,20 +31,22 @@ from .layout import (
 )
 
 
-def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
+def set_friction(
+    p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, sliding: float
+):
     """Friction from the coefficients in ``w[W_PAIR:]`` (force, moment), into ``w[W_FRICTION:]``.
 
-    (sx, sy, sr) is the scaled sliding velocity, of which only the direction counts here.
+    (sx, sy, sr) is the scaled sliding velocity, of which only the direction counts here;
+    ``sliding`` is the length of (sx, sy).
     """
-    force = p[P_NORMAL_FORCE] * w[W_PAIR]
     moment = p[P_NORMAL_FORCE] * w[W_PAIR + 1] * p[P_LATERAL] * p[P_RADIUS]
-    sliding = sqrt(sx * sx + sy * sy)
     w[W_FRICTION] = 0.0
     w[W_FRICTION + 1] = 0.0
     w[W_FRICTION + 2] = 0.0
     if sliding > 0.0:
-        w[W_FRICTION] = -force * sx / sliding
-        w[W_FRICTION + 1] = -force * p[P_LATERAL] * sy / sliding
+        drag = p[P_NORMAL_FORCE] * w[W_PAIR] / sliding
+        w[W_FRICTION] = -drag * sx
+        w[W_FRICTION + 1] = -drag * p[P_LATERAL] * sy
     if sr > 0.0:
         w[W_FRICTION + 2] = -moment
     elif sr < 0.0:
@@ -63,7 +65,7 @@ def friction_at_onset(
     mu = slow_coefficient(p, u, w, speed * (w[W_PAIR] * sliding + w[W_PAIR + 1] * abs(sr)))
     w[W_PAIR] *= mu
     w[W_PAIR + 1] *= mu
-    set_friction(p, w, sx, sy, sr)
+    set_friction(p, w, sx, sy, sr, sliding)
 
 
 def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
@@ -90,7 +92,7 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
     w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
         add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
-    set_friction(p, w, sx, sy, sr)
+    set_friction(p, w, sx, sy, sr, sliding)
     if p[P_FILM] != 0.0:
         kappa = p[P_LATERAL]
         w[W_FRICTION] -= p[P_FILM] * sx

@@ -21,6 +21,7 @@ from .layout import (
     EXTRA_POWERS,
     HEAT,
     HERE,
+    LATE,
     MODE,
     NEXT,
     P_TABLEAU,
@@ -69,8 +70,8 @@ def set_interpolant(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
     for stage in range(STAGES, ALL_STAGES):
         add_stage(p, u, z, w, HERE, stage)
     for i in range(STATES):
-        change = 0.0
-        for stage in range(STAGES):
+        change = p[P_TABLEAU + T_B] * w[W_SLOPES + i]
+        for stage in range(LATE, STAGES):
             change += p[P_TABLEAU + T_B + stage] * w[W_SLOPES + stage * STATES + i]
         first = w[W_SLOPES + i]
         last = w[W_SLOPES + STAGES * STATES + i]
@@ -80,8 +81,8 @@ def set_interpolant(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
     for power in range(EXTRA_POWERS):
         row = P_TABLEAU + T_D + power * ALL_STAGES
         for i in range(STATES):
-            total = 0.0
-            for stage in range(ALL_STAGES):
+            total = p[row] * w[W_SLOPES + i]
+            for stage in range(LATE, ALL_STAGES):
                 total += p[row + stage] * w[W_SLOPES + stage * STATES + i]
             z[Z_DENSE + (POWERS - EXTRA_POWERS + power) * STATES + i] = h * total
     z[Z_SMOOTH] = 0.0

@@ -149,6 +149,7 @@ STAGES = 12  # of a step
 ALL_STAGES = 16  # with the slope at its end and those that only the interpolant needs
 POWERS = 7  # coefficients of the interpolant for each state
 EXTRA_POWERS = 4  # those that need the further stages
+LATE = 5  # stages 1 ... LATE - 1 feed later stages only: no result takes their slopes
 T_A = 0  # ALL_STAGES x ALL_STAGES, row by row
 T_B = 192  # the row that gives the end of the step
 T_C = 256

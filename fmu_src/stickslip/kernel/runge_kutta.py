@@ -10,6 +10,7 @@ from .layout import (
     DIRECTION,
     DISTANCE,
     HEAT,
+    LATE,
     MODE,
     OMEGA,
     P_FEEDING,
@@ -133,10 +134,11 @@ def close_step(
     error5 = 0.0
     error3 = 0.0
     for i in range(STATES):
-        change = 0.0
-        e5 = 0.0
-        e3 = 0.0
-        for stage in range(STAGES):
+        slope = w[W_SLOPES + i]
+        change = p[P_TABLEAU + T_B] * slope
+        e5 = p[P_TABLEAU + T_E5] * slope
+        e3 = p[P_TABLEAU + T_E3] * slope
+        for stage in range(LATE, STAGES):
             slope = w[W_SLOPES + stage * STATES + i]
             change += p[P_TABLEAU + T_B + stage] * slope
             e5 += p[P_TABLEAU + T_E5 + stage] * slope

@@ -94,18 +94,26 @@ def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
     """
     c = cos(w[state + PHI])
     s = sin(w[state + PHI])
+    x = w[state + X]
+    y = w[state + Y]
+    force_x = 0.0
+    force_y = 0.0
+    moment = 0.0
     for i in range(4):
         bx = p[P_ATTACH + 2 * i]
         by = p[P_ATTACH + 2 * i + 1]
         arm_x = c * bx - s * by
         arm_y = s * bx + c * by
-        dx = p[P_ANCHOR + 2 * i] - w[state + X] - arm_x
-        dy = p[P_ANCHOR + 2 * i + 1] - w[state + Y] - arm_y
+        dx = p[P_ANCHOR + 2 * i] - x - arm_x
+        dy = p[P_ANCHOR + 2 * i + 1] - y - arm_y
         length = sqrt(dx * dx + dy * dy)
         pull = spring_tension(p, length - p[P_NATURAL_LENGTH]) / length
-        w[W_LOAD] += pull * dx
-        w[W_LOAD + 1] += pull * dy
-        w[W_LOAD + 2] += pull * (arm_x * dy - arm_y * dx)
+        force_x += pull * dx
+        force_y += pull * dy
+        moment += pull * (arm_x * dy - arm_y * dx)
+    w[W_LOAD] += force_x
+    w[W_LOAD + 1] += force_y
+    w[W_LOAD + 2] += moment
 
 
 def add_damping(p: "float[:]", w: "float[:]", state: int):
