@@ -14,13 +14,15 @@ LABELS = {
     PRINTED_MODEL: "scheme as printed", MENDED_MODEL: "scheme mended", EXACT_MODEL: "exact model"
 }
 COLOURS = {PRINTED_MODEL: RED, MENDED_MODEL: BLUE, EXACT_MODEL: GREEN}
+# the scheme mended and the exact model often coincide: the one shows as a rim about the other
+WIDER = {MENDED_MODEL: {"linewidth": 4.0, "markersize": 9.0}}
 
 
 def by_model(ax: Axes, x, series: dict[str, list[float]], scale: float = 1.0, **style) -> None:
     """One line a model over ``x``."""
     for model, values in series.items():
-        style = {"marker": "o"} | style
-        ax.plot(x, scale * np.asarray(values), color=COLOURS[model], label=LABELS[model], **style)
+        line = {"marker": "o"} | style | WIDER.get(model, {})
+        ax.plot(x, scale * np.asarray(values), color=COLOURS[model], label=LABELS[model], **line)
 
 
 def study_line(ax: Axes, value: float, label: str) -> None:
