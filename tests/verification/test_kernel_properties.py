@@ -66,8 +66,6 @@ def test_time_has_no_origin(seed, on, start):
 @given(seeds, effects)
 def test_friction_never_drives_the_sliding(seed, on):
     """Power of the shown friction on the shown relative motion, at every sample; and the heat."""
-    if {"rate_and_state"} < set(on):
-        on = ("rate_and_state",)  # together with a local law: see below
     parameters = draw_parameters(on, random.Random(seed))
     run = simulate(parameters, 2.0, 0.005)
     speed, curvature = run["surface_speed_actual"], parameters.turning_surface.curvature
