@@ -71,7 +71,8 @@ def _velocity_weakening(s: Scales):
         yield Candidate("velocity_weakening", name, (knob,))
     peak = Knob("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
     for share in (0.3, 1.0):
-        speed = Knob("velocity_weakening.stribeck_speed", share * s.speed, 0.4, 1e-4 * s.speed,
+        # over a much smaller speed it would be another mu_s, not a law of the sliding speed
+        speed = Knob("velocity_weakening.stribeck_speed", share * s.speed, 0.4, 0.1 * s.speed,
                      1e2 * s.speed, log=True)
         yield Candidate("velocity_weakening", "stribeck", (peak, speed))
 
@@ -155,5 +156,6 @@ def _spring_misalignment(s: Scales):
 
 
 def _stick_stiffness(s: Scales):
-    yield Candidate("stick_stiffness", "part of the springs", (
-        Knob("stick_stiffness.ratio", 0.8, 0.15, 0.05, 1.0),))
+    for part in (0.8, 0.5, 0.3):
+        yield Candidate("stick_stiffness", "part of the springs", (
+            Knob("stick_stiffness.ratio", part, 0.15, 0.05, 1.0),))

@@ -12,6 +12,8 @@ from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET
 from cosim.gap.shooting.knob import Knob
 
 GRAVITY = 9.81
+#: A friction coefficient that is stated is not this many of its standard deviations off.
+_KNOWN = 4.0
 #: The tracker's zero is known to this many standard deviations of its noise.
 _ZERO = 2.0
 #: Sticks that tell a surface's speed; one that is off is so in most runs: a ripple is another
@@ -32,8 +34,10 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
     knobs = []
     for name, guess in zip(("mu_s", "mu_k"), first_guess(runs), strict=True):
         value, deviation = campaign.friction.get(name, (guess, None))
-        low = 0.3 * guess if name == "mu_s" else 0.0
-        knobs.append(Knob(f"friction.{name}", value, 0.05 * guess, low, 20.0, prior=deviation))
+        low, high = (0.3 * guess if name == "mu_s" else 0.0), 20.0
+        if deviation is not None:  # what is known stays known
+            low, high = max(value - _KNOWN * deviation, 0.0), value + _KNOWN * deviation
+        knobs.append(Knob(f"friction.{name}", value, 0.05 * guess, low, high, prior=deviation))
     for channel in ("x", "y") if planar else ("x",):
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]

@@ -25,7 +25,7 @@ EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.95, 0.97
 #: no other comes near: none takes away more than this part of it.
 DOMINANT, RIVAL = 0.85, 0.5
 #: Effects cannot be told apart when their gaps, squared, differ by less than this ...
-ALIKE = 0.3
+ALIKE = 0.08
 #: ... and this part of what the better one leaves over the noise.
 ALIKE_PART = 0.1
 #: So many single effects are tried with a second one, if they take away this part alone; the

@@ -309,9 +309,28 @@ def _step(problem: Problem, point: Point, columns: Sequence[Columns], damping: f
         matrix = matrix + left.T @ left
         right = right - left.T @ c.residuals
     diagonal = np.diag(matrix)
-    matrix = matrix + damping * np.diag(diagonal + 1e-12 * diagonal.max() + 1e-300)
-    step = np.linalg.lstsq(matrix, right, rcond=None)[0]
+    matrix = matrix + damping * np.diag(diagonal + 1e-12 * diagonal.max(initial=0.0) + 1e-300)
+    step = _inside(problem, point.shared, matrix, right)
     return step * min(1.0, _LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
+
+
+def _inside(problem: Problem, shared: np.ndarray, matrix: np.ndarray, right: np.ndarray):
+    """Solution of the normal equations; a knob that would leave its range by it stays at its end.
+
+    The others then make the best of it, which a step cut off afterwards would not.
+    """
+    step, free = np.zeros(right.size), np.ones(right.size, dtype=bool)
+    while free.any():
+        held = matrix[np.ix_(free, ~free)] @ step[~free]
+        step[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], right[free] - held, rcond=None)[0]
+        reach = np.array([knob.inside(s) for knob, s in zip(
+            problem.shared, shared + step, strict=True)]) - shared
+        out = free & (np.abs(reach - step) > 1e-12 * (1.0 + np.abs(step)))
+        if not out.any():
+            break
+        step[out] = reach[out]
+        free &= ~out
+    return step
 
 
 def with_columns(problem: Problem, fitted: Fitted) -> Fitted:
