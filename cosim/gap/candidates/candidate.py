@@ -7,6 +7,14 @@ from dataclasses import dataclass, field, replace
 
 from cosim.gap.shooting.knob import Knob
 
+#: Part of its usual start that a faint effect has.
+_FAINT = 0.1
+
+
+def _is_strength(knob: Knob) -> bool:
+    """Whether the knob says how much of an effect there is: it may be nothing."""
+    return not (knob.log or knob.per_run) and knob.low <= 0.0 <= knob.high
+
 
 @dataclass(frozen=True)
 class Candidate:
@@ -32,6 +40,16 @@ class Candidate:
     def at(self, period: float) -> Candidate:
         """A periodic candidate that starts at a frequency, or wavelength."""
         knobs = (replace(k, start=period) if k.key == self.periodic else k for k in self.knobs)
+        return replace(self, knobs=tuple(knobs))
+
+    @property
+    def can_be_faint(self) -> bool:
+        """Whether it can be all but absent: a start from which no fit is thrown off course."""
+        return self.faint() != self
+
+    def faint(self) -> Candidate:
+        """The same law, starting as next to nothing."""
+        knobs = (replace(k, start=_FAINT * k.start) if _is_strength(k) else k for k in self.knobs)
         return replace(self, knobs=tuple(knobs))
 
     @property

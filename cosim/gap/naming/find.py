@@ -15,7 +15,7 @@ from cosim.gap.experiment import Member, next_experiment
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
-from cosim.gap.shooting.fit import Problem
+from cosim.gap.shooting.fit import Fitted, Problem
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.thinning import thinned
 from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
@@ -24,6 +24,7 @@ from cosim.processes import processes
 from .across import moves_across
 from .chance import chance
 from .intervals import determined, intervals
+from .other_starts import other_starts
 from .plain import plain_knobs
 from .scales import scales
 from .search import SKETCH, Search, Tried
@@ -50,7 +51,7 @@ def find_gap(
         prepare(campaign, held_out, planar),
     )
     base = Model(plain_knobs(campaign, planar), {})
-    sketched = sketch(data, base, SKETCH)
+    sketched = _sketched(data, base)
     plain = try_model(data, base, sketched)
     laws = candidates(scales([*fit_runs, *held_out], plain.fitted.values["friction.mu_k"]))
     felt = [law for law in laws if _is_felt(law, campaign, planar)]
@@ -59,6 +60,13 @@ def find_gap(
         finding = judge(search, plain, sketched, felt)
         ranking = search.judged(finding.ranking)
     return _answer(campaign, data, plain, finding, ranking, seed, planar)
+
+
+def _sketched(data: Data, base: Model) -> Fitted:
+    """The plain model in short windows, from whichever mu_s ends best."""
+    first = sketch(data, base, SKETCH)
+    again = [sketch(data, model, SKETCH) for model in other_starts(base, first.values)]
+    return min([first, *again], key=lambda fitted: fitted.cost)
 
 
 def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:

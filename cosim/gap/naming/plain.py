@@ -16,6 +16,8 @@ GRAVITY = 9.81
 _KNOWN = 4.0
 #: The tracker's zero is known to this many standard deviations of its noise.
 _ZERO = 2.0
+#: It is not further off than so many: a mu_k that swings a block about another place is no zero.
+_ZERO_MOST = 10.0
 #: Sticks that tell a surface's speed; one that is off is so in most runs: a ripple is another
 #: matter, and may look so in some.
 _STICKS = 5
@@ -41,7 +43,8 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
     for channel in ("x", "y") if planar else ("x",):
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]
-            knobs.append(Knob(f"offset.{channel}", 0.0, zero, prior=zero))
+            most = _ZERO_MOST * campaign.noise[channel]
+            knobs.append(Knob(f"offset.{channel}", 0.0, zero, -most, most, prior=zero))
     return (*knobs, *drive_knobs(runs))
 
 

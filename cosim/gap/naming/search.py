@@ -14,6 +14,7 @@ from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
 from cosim.processes import Map
 
+from .other_starts import other_starts
 from .scan import scan
 
 #: Rounds of the first look at every law, and of the sketch of those that do well in it.
@@ -22,9 +23,6 @@ GLANCE, SKETCH = 2, 8
 SKETCHED, FINALISTS = 7, 5
 #: ... at most so many of one effect.
 FORMS = 2
-
-#: Starts of mu_s, as parts of mu_k, of fits that are tried once more.
-_MU_S_STARTS = (1.1, 1.3, 1.6)
 
 Progress = Callable[[int], object]
 
@@ -52,8 +50,9 @@ class Search:
         fitted : the base in short windows.
         """
         placed = self._placed(base, fitted, candidates)
+        placed += [c.faint() for c in placed if c.can_be_faint]
         models = [extended(base, c, fitted.values) for c in placed]
-        glances = self._run(sketch, [(self.data, m, GLANCE) for m in models])
+        glances = self._run(sketch, [(self.data, m, GLANCE, None, fitted) for m in models])
         tried = [Tried(c, m, g) for c, m, g in zip(placed, models, glances, strict=True)]
         chosen = _best_forms(tried, FORMS)[:SKETCHED]
         sketches = self._run(_continued, [(self.data, t) for t in chosen])
@@ -72,7 +71,8 @@ class Search:
         does not feel, and an effect unrecognised for it. A law with one number more finds its way
         from where the simpler one ended.
         """
-        again = [replace(t, model=m) for t in tried for m in _other_starts(t)]
+        again = [replace(t, model=model) for t in tried
+                 for model in other_starts(t.model, t.trial.fitted.values)]
         again += [law for t in tried for law in _other_laws(t, candidates)]
         again = self._run(_sketched, [(self.data, t) for t in again])
         trials = self._run(try_model, [(self.data, t.model, t.sketched) for t in again])
@@ -112,21 +112,6 @@ def _continued(data: Data, tried: Tried) -> Tried:
 
 def _sketched(data: Data, tried: Tried) -> Tried:
     return replace(tried, sketched=sketch(data, tried.model, SKETCH))
-
-
-def _other_starts(tried: Tried) -> list[Model]:
-    """The model starting where it was fitted, but for mu_s."""
-    values = tried.trial.fitted.values
-    models = []
-    for factor in _MU_S_STARTS:
-        knobs = []
-        for knob in tried.model.knobs:
-            if knob.key == "friction.mu_s" and knob.prior is None:
-                knobs.append(replace(knob, start=factor * values["friction.mu_k"]))
-            else:
-                knobs.append(knob if knob.per_run else moved(knob, values))
-        models.append(Model(tuple(knobs), tried.model.settings))
-    return models
 
 
 def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:

@@ -68,10 +68,20 @@ class Trial:
         return self.held_out.gap() if self.held_out.residuals else self.fitted.gap()
 
 
-def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
-    """A fit in short windows: robust, cheap, and near enough for the long ones."""
+def sketch(
+    data: Data, model: Model, rounds: int, before: Fitted | None = None, base: Fitted | None = None
+) -> Fitted:
+    """A fit in short windows: robust, cheap, and near enough for the long ones.
+
+    before : the same model's, to go on from; base : a simpler model's, from whose states it starts,
+    and from its values where a knob's start is what is known beforehand
+    """
     problem = Problem(data.short, model.knobs, model.settings)
     point = before.point if before else start(data.short, model.knobs)
+    if base is not None:
+        known = [k.scaled(base.values.get(k.key, k.start)) if k.prior else s
+                 for k, s in zip(problem.shared, point.shared, strict=True)]
+        point = Point(np.array(known), point.own, base.point.states)
     return fit(problem, with_phases(problem, point), rounds)
 
 
