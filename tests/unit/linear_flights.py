@@ -1,0 +1,103 @@
+"""Flights whose model is linear: what a fit should come to is a matter of linear algebra.
+
+A flight's residuals are A shared + B own + C states - d. `Problem` asks for no more of a flight
+than this one has, so a fit of many windows and runs can be held against one joint least squares.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cosim.gap.shooting.fit import Problem, with_columns
+from cosim.gap.shooting.trial import Model, Trial
+from cosim.gap.shooting.windows import Window
+
+#: Free numbers of every window's state: position and velocity.
+FREE = (0, 3)
+
+
+@dataclass(frozen=True)
+class LinearFlight:
+    """One run.
+
+    by_key : `block.parameter` -> (rows,) derivative of the residuals; by_state : (rows, 2) by the
+    state of the window that a row belongs to; data : (rows,)
+    """
+
+    by_key: dict
+    by_state: np.ndarray
+    data: np.ndarray
+    windows: tuple
+
+    @property
+    def starts(self):
+        return np.zeros((len(self.windows), 6))
+
+    def fly(self, values, states):
+        rows = sum(self.by_key[key] * value for key, value in values.items())
+        return rows + np.sum(self.by_state * states[:, FREE][self.window_of_rows()], axis=1)
+
+    def residuals(self, outputs, offsets):
+        assert not offsets
+        return outputs - self.data
+
+    def window_of_rows(self):
+        sizes = [window.last - window.first for window in self.windows]
+        return np.repeat(np.arange(len(sizes)), sizes)
+
+
+def linear_flight(random, knobs, data, windows=3):
+    """With derivatives that are drawn, and data: (rows,), or a noise of one at so many rows."""
+    data = random.standard_normal(data) if isinstance(data, int) else data
+    ends = np.linspace(0, data.size, windows + 1).astype(int)
+    cuts = tuple(Window(int(first), int(last), np.zeros(6), FREE, np.nan)
+                 for first, last in zip(ends[:-1], ends[1:], strict=True))
+    by_key = {knob.key: random.standard_normal(data.size) for knob in knobs}
+    return LinearFlight(by_key, random.standard_normal((data.size, len(FREE))), data, cuts)
+
+
+def joint(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+    """Matrix and right-hand side of everything at once, priors as rows.
+
+    Unknowns, unscaled: the campaign's knobs, then of every run its own and its windows' states.
+    """
+    shared, own = problem.shared, problem.own
+    per_run = [len(own) + len(FREE) * len(flight.windows) for flight in problem.flights]
+    before = len(shared) + np.concatenate([[0], np.cumsum(per_run)])
+    rows, right = [], []
+    for flight, first in zip(problem.flights, before, strict=False):
+        block = np.zeros((flight.data.size, before[-1]))
+        for column, knob in enumerate(shared):
+            block[:, column] = flight.by_key[knob.key]
+        for column, knob in enumerate(own, first):
+            block[:, column] = flight.by_key[knob.key]
+        for row, window in enumerate(flight.window_of_rows()):
+            at = first + len(own) + len(FREE) * window
+            block[row, at : at + len(FREE)] = flight.by_state[row]
+        rows.append(block)
+        right.append(flight.data)
+        rows.append(_known(own, first, before[-1]))
+        right.append(_wanted(own))
+    rows.append(_known(shared, 0, before[-1]))
+    right.append(_wanted(shared))
+    return np.concatenate(rows), np.concatenate(right)
+
+
+def _known(knobs, first, width):
+    rows = np.zeros((len(knobs), width))
+    for number, knob in enumerate(knobs):
+        if knob.prior is not None:
+            rows[number, first + number] = 1.0 / knob.prior
+    return rows
+
+
+def _wanted(knobs):
+    return np.array([0.0 if k.prior is None else k.start / k.prior for k in knobs])
+
+
+def trial_of(problem, fitted):
+    """A fit as a trial of a campaign that holds no run out."""
+    squares = np.array([r @ r for r in fitted.residuals])
+    rows = np.array([r.size for r in fitted.residuals])
+    model = Model(problem.knobs, problem.settings)
+    return Trial(model, with_columns(problem, fitted), replace(fitted, residuals=()), squares, rows)

@@ -1,0 +1,110 @@
+"""The fit of linear models: one right answer, known from one joint least squares.
+
+Elimination of what belongs to runs and windows, bounds, and what is known beforehand.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from linear_flights import FREE, joint, linear_flight, trial_of
+from scipy.optimize import lsq_linear
+
+from cosim.gap.naming.intervals import intervals
+from cosim.gap.shooting.fit import Problem, fit, start
+from cosim.gap.shooting.knob import Knob
+
+SHARED = (Knob("a.a", 0.0, 0.1), Knob("a.b", 0.0, 3.0))
+OWN = Knob("a.own", 0.0, 0.2, per_run=True)
+
+
+def linear(knobs, runs=3, rows=60, seed=3):
+    random = np.random.default_rng(seed)
+    return Problem([linear_flight(random, knobs, rows) for _ in range(runs)], knobs)
+
+
+def check_joint(problem):
+    """The fit of a linear problem beside all unknowns at once, within the same bounds."""
+    found = fit(problem, start(problem.flights, problem.knobs))
+    matrix, right = joint(problem)
+    count = len(problem.shared)
+    low, high = np.full(matrix.shape[1], -np.inf), np.full(matrix.shape[1], np.inf)
+    low[:count] = [knob.low for knob in problem.shared]
+    high[:count] = [knob.high for knob in problem.shared]
+    best = lsq_linear(matrix, right, (low, high), tol=1e-12, lsq_solver="exact", method="bvls").x
+    # a round leaves of a distance what its damping is, 1e-3 at first, and less in the next ones
+    assert list(found.values.values()) == pytest.approx(best[:count], abs=1e-4)
+    rest = best[count:]
+    width = len(problem.own) + len(FREE) * 3
+    for run in range(len(problem.flights)):
+        part = rest[run * width : (run + 1) * width]
+        assert list(found.own_values(run).values()) == pytest.approx(
+            part[: len(problem.own)], abs=1e-4)
+        states = found.point.states[run][:, FREE].ravel()
+        assert states == pytest.approx(part[len(problem.own) :], abs=1e-4)
+    return found
+
+
+def test_elimination_is_the_joint_least_squares():
+    check_joint(linear(SHARED))
+
+
+def test_elimination_with_knobs_of_the_runs_is_the_joint_least_squares():
+    check_joint(linear((*SHARED, OWN)))
+    check_joint(linear((*SHARED, OWN, replace(OWN, key="a.second"))))
+
+
+@pytest.mark.parametrize("prior", [1e-3, 0.1, 10.0])
+def test_what_is_known_beforehand_weighs_as_one_more_measurement(prior):
+    known = replace(SHARED[0], start=2.0, prior=prior)
+    own = replace(OWN, start=-1.0, prior=prior)
+    check_joint(linear((known, SHARED[1])))
+    check_joint(linear((*SHARED, own)))
+    check_joint(linear((known, SHARED[1], own)))
+
+
+@pytest.mark.parametrize("high", [-0.05, 0.0, 0.02])
+def test_bounds_are_kept_as_a_bounded_least_squares_keeps_them(high):
+    least = replace(SHARED[0], start=high - 0.1, high=high)
+    found = check_joint(linear((least, SHARED[1], OWN), seed=4))
+    assert found.values["a.a"] == pytest.approx(high, abs=1e-12)
+
+
+def test_two_bounds_at_once():
+    low = replace(SHARED[0], start=-0.2, high=-0.1)
+    high = replace(SHARED[1], start=0.2, low=0.1)
+    check_joint(linear((low, high, replace(SHARED[0], key="a.c"))))
+
+
+def test_a_knob_that_nothing_feels_stays_where_it_is():
+    problem = linear((*SHARED, Knob("a.silent", 7.0, 1.0)))
+    for flight in problem.flights:
+        flight.by_key["a.silent"][:] = 0.0
+    found = fit(problem, start(problem.flights, problem.knobs))
+    without = Problem(problem.flights, SHARED)
+    assert found.values["a.silent"] == pytest.approx(7.0, abs=1e-6)
+    assert found.cost == pytest.approx(fit(without, start(without.flights, SHARED)).cost)
+
+
+def test_intervals_of_a_linear_model_are_those_of_its_joint_least_squares():
+    known = replace(SHARED[0], start=0.3, prior=0.2)
+    problem = linear((known, SHARED[1], OWN))
+    found = fit(problem, start(problem.flights, problem.knobs))
+    matrix, _ = joint(problem)
+    # neighbouring rows of a model that does not fit tell less, what is known beforehand does not
+    matrix[: -len(problem.shared)] /= max(found.gap(), 1.0)
+    deviation = np.sqrt(np.diag(np.linalg.inv(matrix.T @ matrix)))
+    for number, (low, high) in enumerate(intervals(trial_of(problem, found)).values()):
+        assert (high - low) / (2.0 * 1.96) == pytest.approx(deviation[number], rel=1e-6)
+
+
+@pytest.mark.parametrize("knob", [
+    Knob("a.a", 0.3, 0.02, 0.1, 2.0), Knob("a.a", 0.3, 0.5, 1e-3, 10.0, log=True),
+    Knob("a.a", 0.3, 0.5)])
+def test_scale_of_a_knob(knob):
+    assert knob.value(knob.scaled(0.3)) == pytest.approx(0.3, rel=1e-14)
+    assert knob.inside(knob.scaled(0.3)) == knob.scaled(0.3)
+    for end in (knob.low, knob.high):
+        if np.isfinite(end):
+            beyond = knob.scaled(end) + (100.0 if end == knob.high else -100.0)
+            assert knob.value(knob.inside(beyond)) == pytest.approx(end, rel=1e-12)
