@@ -19,7 +19,7 @@ at the same sigma.
 
 from math import sqrt
 
-from .coefficient import onset_coefficient, slow_coefficient
+from .coefficient import has_state_law, onset_coefficient, slow_coefficient
 from .contact import (
     rest_speed,
     scaled_sliding_speed,
@@ -143,7 +143,10 @@ def set_creep_direction(p: "float[:]", u: "float[:]", w: "float[:]", sigma: floa
     speed = sigma / sqrt(sliding_inertia(p, w, W_CREEP))
     if speed <= 0.0:
         return a
-    mean = speed * mean_part(w)
+    mean = 0.0
+    if has_state_law(p):  # what the contact holds is known once its speed is
+        mean = speed * mean_part(w)
+        a = solve_direction(p, u, w, mean, 0.0, 0.0, 0.0)
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
     ahead = LOOK_AHEAD / p[P_RATE]
