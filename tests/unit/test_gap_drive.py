@@ -1,0 +1,228 @@
+"""How fast the surface is for the block: what sticks tell of it, and what the fit makes of that."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from gap_campaigns import KNOWN, NOISE, noisy, write_campaign
+from linear_flights import trial_of
+from stickslip import Parameters
+from stickslip.restarted import Restart, simulate_restarted
+
+from cosim.gap import MeasuredRun, Stick, Track, read_campaign
+from cosim.gap.naming.intervals import intervals
+from cosim.gap.naming.plain import common_creep, drive_knobs, first_guess, plain_knobs
+from cosim.gap.read.stick_remarks import SPEED_PART
+from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET, driven_speed
+from cosim.gap.shooting.fit import Problem, fit, start
+from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.preparation import prepare
+
+SPEEDS = (0.02, 0.04, 0.08)
+#: Where blocks break away and stick again, m, and samples, s.
+HIGH, LOW, INTERVAL = 0.017, 0.007, 0.002
+SMALL = 1e-5
+
+
+def sawtooth(speed, lag, sticks=8, seed=0, noise=SMALL):
+    """A run whose block sticks from LOW to HIGH and snaps back.
+
+    lag : load, as a part of that at break-away -> m/s by which the surface leaves the block behind
+    """
+    sign = np.sign(speed)
+    x, held, times = LOW, [], []
+    values = []
+    while len(held) < sticks:
+        first = len(values)
+        while x < HIGH:
+            values.append(x)
+            x += INTERVAL * (abs(speed) - lag(x / HIGH))
+        held.append((first, len(values) - 1))
+        values += list(LOW + (HIGH - LOW) * np.linspace(1.0, 0.0, 40) ** 2)[1:-1]
+        x = LOW
+    times = INTERVAL * np.arange(len(values))
+    x = sign * noisy(np.array(values), seed, noise)
+    found = tuple(Stick(times[a], times[b], a, b, INTERVAL, INTERVAL) for a, b in held)
+    return MeasuredRun(f"run {speed} {seed}", None, KNOWN["mass"], KNOWN["stiffness"], speed, -8.0,
+                       False, Track(times, x), noise={"x": noise}, sticks=found)
+
+
+def creeping(creep, speeds=SPEEDS):
+    return [sawtooth(speed, lambda load: creep * load, seed=i) for i, speed in enumerate(speeds)]
+
+
+def running_slow(part, speeds=SPEEDS):
+    return [sawtooth(speed, lambda load, lag=part * speed: abs(lag) * np.sign(part), seed=i)
+            for i, speed in enumerate(speeds)]
+
+
+def test_driven_speed_is_the_set_point_and_a_part_of_it():
+    assert driven_speed(0.2, {}) == 0.2
+    assert driven_speed(0.2, {SPEED_OFFSET: 0.03, CREEP: 1e-3}) == pytest.approx(0.206, rel=1e-15)
+    assert driven_speed(-0.2, {SPEED_OFFSET: -0.5}) == pytest.approx(-0.1, rel=1e-15)
+
+
+@pytest.mark.parametrize("creep", [1e-3, 2e-3, 4e-3])
+def test_lags_in_proportion_to_the_load_are_one_creep(creep):
+    found, error = common_creep(creeping(creep))
+    # a stick's line is told at its middle, the load from its ends: they differ in the second order
+    assert found == pytest.approx(creep, rel=0.1)
+    assert 0.0 < error < 0.1 * creep
+
+
+def test_a_surface_that_runs_the_other_way_creeps_alike():
+    found, _ = common_creep(creeping(2e-3, tuple(-v for v in SPEEDS)))
+    assert found == pytest.approx(common_creep(creeping(2e-3))[0], rel=1e-2)
+
+
+def test_nothing_lags_no_creep():
+    assert common_creep(creeping(0.0)) is None
+    assert drive_knobs(creeping(0.0)) == ()
+
+
+def test_runs_that_disagree_have_no_common_creep():
+    assert common_creep([*creeping(2e-3), sawtooth(0.06, lambda load: 0.0, seed=7)]) is None
+    # a set-point that is off by one part everywhere: other lags at other speeds
+    assert common_creep(running_slow(0.1, (0.01, 0.04, 0.16))) is None
+
+
+def test_blocks_ahead_of_their_surface_do_not_creep():
+    assert common_creep(running_slow(-0.1)) is None
+
+
+def test_creep_has_one_knob_as_it_was_measured():
+    (knob,) = drive_knobs(creeping(2e-3))
+    value, error = common_creep(creeping(2e-3))
+    assert (knob.key, knob.per_run, knob.start, knob.prior) == (CREEP, False, value, error)
+    assert knob.low < value < knob.high
+
+
+def test_a_speed_that_is_off_has_a_knob_in_every_run():
+    (knob,) = drive_knobs(running_slow(0.1, (0.01, 0.04, 0.16)))
+    assert (knob.key, knob.per_run, knob.start) == (SPEED_OFFSET, True, 0.0)
+    assert knob.prior > 0.0
+
+
+def test_speeds_that_are_as_they_were_set_have_none():
+    assert drive_knobs(creeping(0.0)) == ()
+    assert drive_knobs(running_slow(0.5 * SPEED_PART)) == ()  # as good as a set-point is
+    assert drive_knobs([]) == ()
+
+
+def test_one_run_of_many_that_is_off_is_another_matter():
+    ahead = [running_slow(0.0)[0], running_slow(0.0)[1], running_slow(-0.1)[2]]
+    assert drive_knobs(ahead) == ()
+
+
+def test_runs_with_few_sticks_are_not_asked():
+    few = [replace(run, sticks=run.sticks[:2]) for run in creeping(2e-3)]
+    assert drive_knobs(few) == ()
+
+
+# The same by the kernel, through files.
+
+CREEPING = 2e-3
+
+
+def kernel_run(speed, offset=0.0, creep=0.0, duration=8.0):
+    """Time and x of a block on a surface that is not as fast as it was set to be, or creeps."""
+    parameters = Parameters(
+        rig={"mass": KNOWN["mass"], "spring_natural_length": 0.17},
+        springs={"stiffness": KNOWN["stiffness"]}, friction={"mu_s": 0.3, "mu_k": 0.2})
+    time = np.arange(0.0, duration, 0.01)
+    first = [Restart(0, np.array([0.0, 0.0, 0.0, speed, 0.0, 0.0]))]
+    outputs = simulate_restarted(parameters.pack(), speed * (1.0 + offset), -8.0, time, first,
+                                 creep=creep)
+    return time, outputs[:, 0]
+
+
+def kernel_campaign(folder, offsets=(0.0, 0.0, 0.0), creep=0.0):
+    runs = []
+    for seed, (speed, offset) in enumerate(zip((0.03, 0.05, 0.08), offsets, strict=True)):
+        time, x = kernel_run(speed, offset, creep)
+        runs.append({"surface_speed": speed, "hold_out": seed == 1,
+                     "columns": {"t": time, "x": noisy(x, seed)}})
+    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+
+
+def by_key(campaign):
+    return {knob.key: knob for knob in plain_knobs(campaign, False)}
+
+
+def test_plain_knobs_of_a_creeping_contact(tmp_path):
+    knobs = by_key(kernel_campaign(tmp_path, creep=CREEPING))
+    assert set(knobs) == {"friction.mu_s", "friction.mu_k", "offset.x", CREEP}
+    knob = knobs[CREEP]
+    assert abs(knob.start - CREEPING) < 4.0 * knob.prior < 0.5 * CREEPING
+
+
+def test_plain_knobs_of_a_surface_as_it_was_set(tmp_path):
+    knobs = by_key(kernel_campaign(tmp_path))
+    assert set(knobs) == {"friction.mu_s", "friction.mu_k", "offset.x"}
+
+
+def test_plain_knobs_of_surfaces_each_at_a_speed_of_its_own(tmp_path):
+    knobs = by_key(kernel_campaign(tmp_path, offsets=(0.05, 0.0, -0.06)))
+    assert knobs[SPEED_OFFSET].per_run and CREEP not in knobs
+
+
+def test_speed_of_every_run_is_found(tmp_path):
+    offsets = (0.05, 0.0, -0.06)
+    campaign = kernel_campaign(tmp_path, offsets=offsets)
+    knobs = plain_knobs(campaign, False)
+    problem = Problem(prepare(campaign, campaign.fit_runs, False), knobs)
+    found = fit(problem, start(problem.flights, knobs))
+    assert found.gap() == pytest.approx(1.0, abs=0.1)  # of 1600 samples: 0.02, and the fit's
+    for run, offset in enumerate((offsets[0], offsets[2])):
+        # a stick of half a second in 0.2 mm of noise: a part in a hundred of 0.03 m/s
+        assert found.own_values(run)[SPEED_OFFSET] == pytest.approx(offset, abs=0.01)
+    check_within(problem, found, {"friction.mu_s": 0.3, "friction.mu_k": 0.2})
+
+
+def check_within(problem, found, values):
+    """Not further off than 1.7 times the reach of a 95 % interval: once in a thousand."""
+    for key, (low, high) in intervals(trial_of(problem, found)).items():
+        if key in values:
+            assert abs(found.values[key] - values[key]) < 1.7 * 0.5 * (high - low)
+
+
+def test_creep_is_found_again_by_the_fit(tmp_path):
+    campaign = kernel_campaign(tmp_path, creep=CREEPING)
+    knobs = plain_knobs(campaign, False)
+    problem = Problem(prepare(campaign, campaign.fit_runs, False), knobs)
+    found = fit(problem, start(problem.flights, knobs))
+    assert found.gap() == pytest.approx(1.0, abs=0.1)
+    assert found.values[CREEP] == pytest.approx(CREEPING, rel=0.15)
+    rigid = [knob for knob in knobs if knob.key != CREEP]
+    without = Problem(problem.flights, rigid)
+    assert fit(without, start(problem.flights, rigid)).gap() > 1.2 * found.gap()
+
+
+def test_a_flight_with_an_offset_is_one_on_a_faster_surface(tmp_path):
+    campaign = kernel_campaign(tmp_path)
+    flight = prepare(campaign, campaign.runs, False)[0]
+    faster = replace(flight, speed=flight.speed * 1.04)
+    states = flight.starts
+    np.testing.assert_array_equal(
+        flight.fly({SPEED_OFFSET: 0.04}, states), faster.fly({}, states))
+    assert np.abs(flight.fly({}, states) - faster.fly({}, states))[:, 0].max() > NOISE
+
+
+def test_the_tracker_s_zero_moves_with_the_data(tmp_path):
+    campaign = kernel_campaign(tmp_path)
+    knobs = (Knob("offset.x", 0.0, NOISE),)
+    flights = prepare(campaign, campaign.fit_runs, False)
+    moved = [replace(f, channels={"x": f.channels["x"] + 5.0 * NOISE}) for f in flights]
+    found = []
+    for flown in (flights, moved):
+        problem = Problem(flown, knobs, {"friction.mu_s": 0.3, "friction.mu_k": 0.2})
+        found.append(fit(problem, start(flown, knobs)))
+    before, after = (fitted.values["offset.x"] for fitted in found)
+    assert after - before == pytest.approx(5.0 * NOISE, rel=0.01)
+    assert found[1].cost == pytest.approx(found[0].cost, abs=0.05)  # each stops within 0.02
+    check_within(problem, found[1], {"offset.x": 5.0 * NOISE})
+
+
+def test_first_guesses_are_near_what_was_put_in(tmp_path):
+    mu_s, mu_k = first_guess(kernel_campaign(tmp_path).runs)
+    assert mu_s == pytest.approx(0.3, rel=0.05) and mu_k == pytest.approx(0.2, rel=0.05)

@@ -1,0 +1,244 @@
+"""From trials to a verdict, by trials whose gaps are made up."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.naming.search import Tried
+from cosim.gap.naming.verdict import (
+    ALIKE,
+    ALIKE_PART,
+    DOMINANT,
+    EXPLAINED_BY_ONE,
+    EXPLAINED_BY_TWO,
+    FITS,
+    NEEDED,
+    PART_OF_OTHERS,
+    PLAIN_FITS,
+    RIVAL,
+    alike,
+    excess,
+    explained,
+    judge,
+    repaired,
+)
+from cosim.gap.shooting.fit import Fitted, Point
+from cosim.gap.shooting.trial import Model, Trial
+
+ROWS = 1000
+FAR = 10.0
+#: A little beyond, or within, a threshold.
+MORE, LESS = 1.01, 0.99
+ACROSS = {f"{PART_OF_OTHERS}.ratio": 1.0}
+
+
+def trial(gap, settings=None):
+    """Of a model that leaves so many units of the noise, in one fitted and one held-out run."""
+    fitted = Fitted((), Point(np.zeros(0), (), ()), (np.full(ROWS, gap),))
+    squares = np.full(2, ROWS * gap**2)
+    return Trial(Model((), settings or {}), fitted, fitted, squares, np.full(2, ROWS))
+
+
+def after(part, before=FAR):
+    """A trial that has taken away a part of what a gap of `before` has over the noise."""
+    return trial(np.sqrt(1.0 + (1.0 - part) * (before**2 - 1.0)))
+
+
+def tried(effect, at, settings=None):
+    """An effect with a trial, or a gap; None: ruled out by a shorter look."""
+    at = trial(at, settings) if isinstance(at, float | int) else at
+    model = Model((), settings or {})
+    return Tried(Candidate(effect, "law", (), settings or {}), model, SKETCHED, at)
+
+
+SKETCHED = trial(FAR).fitted
+
+
+@dataclass
+class MadeUp:
+    """Answers as `Search` does: what was made up for the plain model, or on top of an effect.
+
+    second : effect -> trials on top of it
+    """
+
+    first: list
+    second: dict = field(default_factory=dict)
+    polish: list = field(default_factory=list)
+    asked: list = field(default_factory=list)
+
+    def on(self, base, fitted, candidates):
+        on_top = {id(t.model): self.second.get(t.candidate.effect, [])
+                  for t in [*self.first, *self.polish]}
+        offered = {c.effect for c in candidates}
+        answer = on_top.get(id(base), self.first)
+        self.asked.append((base, offered))
+        assert id(base) not in on_top or all(t.candidate.effect in offered for t in answer)
+        done = [t for t in answer if t.trial is not None]
+        rest = [t for t in answer if t.trial is None]
+        return sorted(done, key=lambda t: t.trial.gap) + rest
+
+    def polished(self, chosen, candidates):
+        better = {t.candidate.effect: t for t in self.polish}
+        return sorted((better.get(t.candidate.effect, t) for t in chosen),
+                      key=lambda t: t.trial.gap)
+
+
+def finding(first, plain=FAR, **more):
+    search = MadeUp(first, **more)
+    candidates = [t.candidate for t in first]
+    return judge(search, trial(plain), SKETCHED, candidates), search
+
+
+def test_measures():
+    assert excess(trial(2.0)) == pytest.approx(3.0) and excess(trial(0.9)) == 0.0
+    assert explained(trial(FAR), after(0.8)) == pytest.approx(0.8)
+    assert explained(trial(1.0), trial(1.0)) == 0.0  # nothing was there to be explained
+
+
+def test_a_model_is_repaired_when_noise_is_left_or_next_to_nothing_of_what_was():
+    assert repaired(trial(FAR), trial(LESS * FITS), EXPLAINED_BY_ONE)
+    assert repaired(trial(100.0), after(1.0 - LESS * (1.0 - EXPLAINED_BY_ONE), 100.0),
+                    EXPLAINED_BY_ONE)
+    assert not repaired(trial(100.0), after(1.0 - MORE * (1.0 - EXPLAINED_BY_ONE), 100.0),
+                        EXPLAINED_BY_ONE)
+    small = MORE * FITS  # a gap that was small before is not repaired by what is left of it
+    assert not repaired(trial(1.2 * small), trial(small), EXPLAINED_BY_ONE)
+
+
+def test_a_plain_model_that_fits_lacks_nothing_whatever_fits_better():
+    found, _ = finding([tried("film_drag", 1.0)], plain=LESS * PLAIN_FITS)
+    assert (found.verdict, found.effects, found.chosen) == ("none", (), None)
+    assert found.nearest.gap == pytest.approx(LESS * PLAIN_FITS)
+    assert [t.candidate.effect for t in found.ranking] == ["film_drag"]
+
+
+def test_one_effect_is_named():
+    found, _ = finding([tried("run_in", 5.0), tried("film_drag", 1.02), tried("speed_ripple", 7.0)])
+    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+    assert found.chosen.gap == found.nearest.gap == pytest.approx(1.02)
+    order = [t.candidate.effect for t in found.ranking]
+    assert order == ["film_drag", "run_in", "speed_ripple"]
+
+
+def test_effects_that_do_as_well_are_a_class():
+    most = np.sqrt(1.02**2 + LESS * ALIKE)
+    first = [tried("structural_damping", most), tried("film_drag", 1.02), tried("run_in", 5.0)]
+    found, _ = finding(first)
+    assert (found.verdict, found.effects) == ("class", ("film_drag", "structural_damping"))
+    assert found.chosen.gap == pytest.approx(1.02)  # the member that fits best
+
+
+def test_effects_are_told_apart_by_more_than_their_fit_s_own_misfit():
+    best = trial(1.4)
+    allowed = ALIKE + ALIKE_PART * excess(best)
+    for part, members in ((LESS, 2), (MORE, 1)):
+        other = trial(np.sqrt(best.gap**2 + part * allowed))
+        assert len(alike([tried("film_drag", best), tried("run_in", other)])) == members
+
+
+def test_friction_across_alone_is_named_when_others_add_nothing_to_it():
+    with_it = tried("turning_surface", 1.0, ACROSS)
+    without = tried("spring_misalignment", 1.0)
+    alone = tried(PART_OF_OTHERS, 1.01, ACROSS)
+    assert alike([with_it, alone]) == (PART_OF_OTHERS,)
+    assert alike([with_it, without]) == ("turning_surface", "spring_misalignment")
+    # one that does as well without any friction across is a member
+    assert set(alike([with_it, alone, without])) == {PART_OF_OTHERS, "spring_misalignment"}
+    # what friction across alone does not repair is for the others
+    far = tried(PART_OF_OTHERS, 5.0, ACROSS)
+    assert alike([with_it, far]) == ("turning_surface",)
+
+
+def test_an_effect_tried_once_more_counts_as_it_then_fits():
+    first = [tried("film_drag", 3.0), tried("run_in", 5.0)]
+    found, _ = finding(first, polish=[tried("run_in", 1.02)])
+    assert (found.verdict, found.effects) == ("named", ("run_in",))
+    assert [t.candidate.effect for t in found.ranking] == ["run_in", "film_drag"]
+    assert len(found.ranking) == 2
+
+
+def test_effects_that_were_ruled_out_early_are_ranked_last():
+    found, _ = finding([tried("film_drag", 5.0), tried("run_in", None), tried("speed_ripple", 2.0)])
+    assert [t.candidate.effect for t in found.ranking] == ["speed_ripple", "film_drag", "run_in"]
+
+
+def two_effects(pair, one=0.6, other=0.5):
+    """film_drag and run_in, each with a part alone, and a trial of both."""
+    first = [tried("film_drag", after(one)), tried("run_in", after(other)),
+             tried("speed_ripple", after(0.0))]
+    return finding(first, second={"film_drag": [tried("run_in", pair)],
+                                  "run_in": [tried("film_drag", pair)]})
+
+
+def test_two_effects_are_named_where_both_repair_it():
+    found, search = two_effects(trial(1.02))
+    assert (found.verdict, found.effects) == ("named", ("film_drag", "run_in"))
+    assert found.chosen.gap == pytest.approx(1.02)
+    for _, offered in search.asked[1:]:  # a second one is another one
+        assert len(offered) == 2
+
+
+def test_two_effects_must_leave_less_than_one_must():
+    parts = [1.0 - factor * (1.0 - EXPLAINED_BY_TWO) for factor in (LESS, MORE)]
+    verdicts = []
+    for part in parts:
+        first = [tried("film_drag", after(0.6, 100.0)), tried("run_in", after(0.5, 100.0))]
+        pair = tried("run_in", after(part, 100.0))
+        verdicts.append(finding(first, plain=100.0, second={"film_drag": [pair]})[0].verdict)
+    assert verdicts == ["named", "unknown"]
+
+
+def test_both_effects_of_a_pair_are_needed():
+    """A second effect that takes little from the first one's rest is no name."""
+    alone = (FITS**2 - 1.0) / np.sqrt(1.0 - NEEDED)  # no repair
+    plain = np.sqrt(1.0 + 2.0 * alone)
+    verdicts = []
+    for factor in (LESS, MORE):
+        pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED) * alone))
+        assert repaired(trial(plain), pair, EXPLAINED_BY_TWO)
+        first = [tried("film_drag", after(0.5, plain)), tried("run_in", after(0.45, plain))]
+        found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]})
+        verdicts.append(found.verdict)
+    assert verdicts == ["named", "unknown"]
+
+
+def test_one_effect_that_dominates_is_named_though_something_is_left():
+    strong = 0.5 * (DOMINANT + EXPLAINED_BY_ONE)
+    plain = 30.0
+    first = [tried("film_drag", after(strong, plain)),
+             tried("run_in", after(LESS * RIVAL * strong, plain))]
+    found, _ = finding(first, plain=plain)
+    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+    assert found.chosen.gap == pytest.approx(after(strong, plain).gap)
+
+
+@pytest.mark.parametrize("strong, rival", [
+    (LESS * DOMINANT, 0.0), (0.5 * (DOMINANT + EXPLAINED_BY_ONE), MORE * RIVAL)])
+def test_no_name_without_a_repair_or_with_a_rival(strong, rival):
+    plain = 30.0
+    first = [tried("film_drag", after(strong, plain)),
+             tried("run_in", after(rival * strong, plain))]
+    found, _ = finding(first, plain=plain)
+    assert (found.verdict, found.effects, found.chosen) == ("unknown", (), None)
+    assert found.nearest.gap == pytest.approx(after(strong, plain).gap)
+
+
+def test_nothing_helps():
+    found, _ = finding([tried("film_drag", FAR), tried("run_in", 1.1 * FAR)])
+    assert (found.verdict, found.effects, found.chosen) == ("unknown", (), None)
+
+
+def test_what_is_nearest_may_be_a_pair():
+    found, _ = two_effects(after(0.9), one=0.4, other=0.4)
+    assert found.verdict == "unknown" and found.nearest.gap == pytest.approx(after(0.9).gap)
+
+
+def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
+    """A good effect on top of a poor one does well: the poor one has no part in it."""
+    good = tried("run_in", after(0.8))
+    poor = tried("film_drag", after(0.3))
+    pair = after(1.0 - (1.0 - 0.8) * MORE * (1.0 - NEEDED))
+    found, _ = finding([good, poor], second={"film_drag": [tried("run_in", pair)]})
+    assert found.verdict == "unknown" and found.nearest.gap == pytest.approx(good.trial.gap)
