@@ -12,6 +12,7 @@ from cosim.gap.atlas.atlas import Atlas
 from cosim.gap.atlas.model_track import ModelTrack
 from cosim.gap.atlas.where import Where
 from cosim.gap.read import Campaign
+from cosim.gap.shooting.drive import model_parameters
 
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "unknown")
@@ -99,6 +100,7 @@ class FittedModel:
     def parameters(self, run: FittedRun) -> dict[str, float]:
         """`block.parameter` -> value for one run: fitted, set, its own; not the tracker's zero."""
         every = {**self.settings, **self.values, **run.own}
+        every = model_parameters(run.track.run.surface_speed, every)
         return {key: value for key, value in every.items() if not key.startswith("offset.")}
 
 

@@ -97,6 +97,9 @@ class ThermalWeakening(Block):
     relaxation_time: float = quantity(
         5.0, "s", "time in which recent heat is forgotten", gt=0, typical=(0.3, 30.0)
     )
+    curvature: float = quantity(
+        -1.0, "1", "of the decline of mu_k: -1 linear, 0 exponential, 1 hyperbolic", ge=-1, le=1
+    )
 
 
 class RunIn(Block):

@@ -61,6 +61,7 @@ SLOTS = {
     "film_drag.root_coefficient": "P_FILM_ROOT",
     "thermal_weakening.per_joule": "P_WEAKENING",
     "thermal_weakening.relaxation_time": "P_RELAXATION",
+    "thermal_weakening.curvature": "P_WEAKENING_CURVATURE",
     "run_in.change": "P_RUN_IN",
     "run_in.distance": "P_RUN_IN_DISTANCE",
     "spring_hardening.cubic": "P_CUBIC",
@@ -130,7 +131,8 @@ def pack(values: dict[str, float]) -> list[float]:
     _set_surface(p, values)
     _set_scales(p)
     p[P_QUADRATURE:P_TABLEAU] = quadrature_tables()
-    p[P_TABLEAU:] = flat_tableau()
+    tableau = flat_tableau()
+    p[P_TABLEAU : P_TABLEAU + len(tableau)] = tableau
     return p
 
 

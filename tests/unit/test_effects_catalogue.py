@@ -42,6 +42,8 @@ def test_off_is_the_plain_model(effect):
         for name, field in effect.block.model_fields.items()
         if name not in effect.switch
     }
+    if effect.id == "thermal_weakening":
+        others["curvature"] = 0.5
     if effect.id == "rate_and_state":
         others["initial_age"] = 3.0
     planar = {"lateral_friction": {"ratio": 1.0}, "initial": {"vx": 0.15, "y": 0.005}}

@@ -81,6 +81,14 @@ CASES = {
         {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6}},
         {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * s[WARMTH])), "relaxation": 0.6},
     ),
+    "thermal_weakening, exponential": (
+        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "curvature": 0.0}},
+        {"kinetic": kinetic(lambda u, s: np.exp(-0.8 * s[WARMTH])), "relaxation": 0.6},
+    ),
+    "thermal_weakening, hyperbolic": (
+        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "curvature": 1.0}},
+        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 0.8 * s[WARMTH])), "relaxation": 0.6},
+    ),
     "run_in": (
         {"run_in": {"change": -0.4, "distance": 0.15}},
         {"kinetic": kinetic(lambda u, s: 1.0 - 0.4 * (1.0 - np.exp(-s[DISTANCE] / 0.15)))},

@@ -93,6 +93,8 @@ def _thermal_weakening(s: Scales):
         weak = Knob("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
         memory = Knob("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True)
         yield Candidate("thermal_weakening", "relaxing", (weak, memory))
+    bend = Knob("thermal_weakening.curvature", 0.0, 0.3, -1.0, 1.0)
+    yield Candidate("thermal_weakening", "relaxing, bent", (weak, memory, bend))
 
 
 def _run_in(s: Scales):
@@ -127,6 +129,11 @@ def _speed_ripple(s: Scales):
             Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0),
             Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)),
             periodic="speed_ripple.frequency")
+        yield Candidate("speed_ripple", "sine of a roller", (
+            Knob("speed_ripple.amplitude", size, 0.05, 0.0, 1.0),
+            Knob("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
+            Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)),
+            periodic="speed_ripple.wavelength")
 
 
 def _surface_pattern(s: Scales):

@@ -38,8 +38,8 @@ def scan(
     candidate: Candidate, model: Model, fitted: Fitted, flights: Sequence[Flight]
 ) -> list[float]:
     """The strongest frequencies (Hz) or wavelengths (m); ``fitted``: the flights without any."""
-    on_surface = candidate.periodic == "surface_pattern.wavelength"
-    chosen = _telling(flights, fitted, on_surface)
+    on_surface = candidate.periodic.endswith(".wavelength")
+    chosen = _telling(flights, fitted, candidate.effect == "surface_pattern")
     pieces = [_Scanned(candidate, model, fitted, flights, i, _PIECE) for i in chosen]
     wholes = [_Scanned(candidate, model, fitted, flights, i, 1.0) for i in chosen]
     grid, step = _grid([piece.flight for piece in pieces], on_surface)

@@ -20,7 +20,7 @@ PLAIN_FITS = 1.3
 FITS = 1.5
 #: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
 #: real effect is never quite the catalogue's.
-EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.95, 0.97
+EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.85
 #: Where no second effect helps, one that has taken away this part alone is named all the same, if
 #: no other comes near: none takes away more than this part of it.
 DOMINANT, RIVAL = 0.85, 0.5
@@ -117,12 +117,16 @@ def excess(trial: Trial) -> float:
 def alike(done: Sequence[Tried]) -> tuple[str, ...]:
     """The effects that repair the model as well as the best one does."""
     best = done[0].trial
-    most = best.gap**2 + ALIKE + ALIKE_PART * excess(best)
-    members = tuple(t.candidate.effect for t in done if t.trial.gap**2 <= most)
+    members = tuple(t.candidate.effect for t in done if t.trial.gap**2 <= _as_good(best))
     if PART_OF_OTHERS in members:  # then what the others add to it is of no use
         has_it = {t.candidate.effect for t in done if f"{PART_OF_OTHERS}.ratio" in t.model.settings}
         members = tuple(m for m in members if m == PART_OF_OTHERS or m not in has_it)
     return members
+
+
+def _as_good(best: Trial) -> float:
+    """Square of the gap that is as good as the best one."""
+    return best.gap**2 + ALIKE + ALIKE_PART * excess(best)
 
 
 def _simplest_first(done: Sequence[Tried]) -> list[Tried]:
@@ -152,5 +156,24 @@ def _best_pair(
                 needed.append((first, second))
         best = min(needed, key=lambda pair: pair[1].trial.gap, default=None)
         if best and repaired(plain, best[1].trial, EXPLAINED_BY_TWO):
-            return best
+            return _simplest_pair(search, best, done, candidates)
     return min(needed, key=lambda pair: pair[1].trial.gap, default=None)
+
+
+def _simplest_pair(
+    search: Search, pair: tuple[Tried, Tried], done: Sequence[Tried],
+    candidates: Sequence[Candidate],
+) -> tuple[Tried, Tried]:
+    """Friction across the motion in place of what brings it along, if that is as good."""
+    across = [t for t in pair if f"{PART_OF_OTHERS}.ratio" in t.candidate.settings]
+    if not across or across[0].candidate.effect == PART_OF_OTHERS:
+        return pair
+    (other,) = (t for t in pair if t is not across[0])
+    alone = next((t for t in done if t.candidate.effect == other.candidate.effect), None)
+    plainer = [c for c in candidates if c.effect == PART_OF_OTHERS]
+    if alone is None or not plainer:
+        return pair
+    (simpler,) = search.on(alone.model, alone.sketched, plainer)
+    if simpler.trial.gap**2 <= _as_good(pair[1].trial):
+        return alone, simpler
+    return pair

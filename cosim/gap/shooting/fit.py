@@ -20,8 +20,9 @@ from .knob import OFFSETS, Knob
 _PART = 1e-2
 #: Steps of the windows' states: positions m (and rad), velocities m/s (and rad/s).
 _STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
-#: Converged when a step promises to lower the sum of squares by less than this.
-_ENOUGH = 0.02
+#: Converged when a step lowers the sum of squares by less than this, and than this part of what it
+#: is above that of noise: a model that does not fit need not do so to the last digit.
+_ENOUGH, _PART_OF_EXCESS = 0.02, 1e-3
 _MOST_ROUNDS = 25
 #: Longest step of a round, in steps of a knob: a parameter that is thrown to where the motion does
 #: not feel it any more never comes back.
@@ -273,6 +274,7 @@ def fit(problem: Problem, point: Point, rounds: int = _MOST_ROUNDS, fixed: bool 
     """The best point from a first one; ``fixed``: only what belongs to the runs moves."""
     residuals = problem.all_residuals(point)
     cost, damping = _cost(problem, point, residuals), 1e-3
+    rows = sum(r.size for r in residuals)
     for _ in range(rounds):
         free = [] if fixed else range(len(problem.shared))
         columns = [problem.columns(i, point, r, free) for i, r in enumerate(residuals)]
@@ -283,7 +285,7 @@ def fit(problem: Problem, point: Point, rounds: int = _MOST_ROUNDS, fixed: bool 
             tried, new = problem.tried(point, step, columns)
             new_cost = _cost(problem, tried, new)
             if new_cost < cost:
-                gained = cost - new_cost > max(_ENOUGH, 1e-6 * cost)
+                gained = cost - new_cost > max(_ENOUGH, _PART_OF_EXCESS * (new_cost - rows))
                 point, residuals, cost = tried, new, new_cost
                 damping = max(damping * 0.2, 1e-9)
                 break

@@ -10,7 +10,7 @@ from stickslip.kernel import layout
 from stickslip.packing import pack
 from stickslip.restarted import Force, Restart, simulate_restarted
 
-from .drive import CREEP, SPEED_OFFSET, driven_speed
+from .drive import CREEP, SPEED_OFFSET, driven_speed, model_parameters
 from .windows import Window
 
 #: Columns of the model's output that a tracker can see.
@@ -66,8 +66,7 @@ class Flight:
         self, values: Mapping[str, float], states: np.ndarray, force: Force | None = None
     ) -> np.ndarray:
         """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
-        flat = dict(self.known)
-        flat.update(values)
+        flat = {**self.known, **model_parameters(self.speed, values)}
         drive = {key: flat.pop(key, 0.0) for key in (SPEED_OFFSET, CREEP)}
         speed, creep = driven_speed(self.speed, drive), drive[CREEP]
         p = np.array(pack(flat))

@@ -36,6 +36,7 @@ from .layout import (
     P_STRIBECK,
     P_STRIBECK_SPEED,
     P_WEAKENING,
+    P_WEAKENING_CURVATURE,
     STICK,
     TIME,
     TRAVEL,
@@ -81,16 +82,25 @@ def feels_temperature(p: "float[:]") -> bool:
     return linear or p[P_ASPERITY] != 0.0
 
 
+def warm_factor(loss: float, curvature: float) -> float:
+    """What is left of mu_k: (1 + c loss)^(-1/c); c = -1 is linear, 0 exponential, 1 hyperbolic."""
+    if curvature == 0.0:
+        return exp(-loss)
+    left = 1.0 + curvature * loss
+    return left ** (-1.0 / curvature) if left > 0.0 else 0.0
+
+
 def kinetic_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     """mu_k before any dependence on the sliding speed, at the moment in ``w[W_STATE:]``.
 
     Linear in the interface temperature up to the melting point (0 degC, temperature_dependence),
-    linear in the recent heat (thermal_weakening), approaching a final value with the distance slid
-    (run_in).
+    falling with the recent heat (thermal_weakening), approaching a final value with the distance
+    slid (run_in).
     """
     mu = p[P_MU_K] * surface_factor(p, w)
     mu *= 1.0 - p[P_SENSITIVITY] * (ice_temperature(u) - p[P_REFERENCE])
-    mu *= max(0.0, 1.0 - p[P_WEAKENING] * w[W_STATE + WARMTH])
+    if p[P_WEAKENING] != 0.0:
+        mu *= warm_factor(p[P_WEAKENING] * w[W_STATE + WARMTH], p[P_WEAKENING_CURVATURE])
     if p[P_RUN_IN] != 0.0:
         mu *= 1.0 + p[P_RUN_IN] * (1.0 - exp(-w[W_STATE + DISTANCE] / p[P_RUN_IN_DISTANCE]))
     return max(0.0, mu)

@@ -140,7 +140,8 @@ P_MELT_FILM = 172  # melt_film, s/m
 P_FEEDING = 173  # integrated numbers that the motion depends on: MOVING or REMEMBERED
 P_QUADRATURE = 174  # nodes and weights for friction that varies over the disc, see disc
 P_TABLEAU = 214  # the Runge-Kutta coefficients, see tableau
-P_SIZE = 574
+P_WEAKENING_CURVATURE = 574  # of the law of thermal_weakening
+P_SIZE = 575
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
