@@ -13,7 +13,13 @@ from cosim.gap import MeasuredRun, Stick, Track, read_campaign
 from cosim.gap.naming.intervals import intervals
 from cosim.gap.naming.plain import common_creep, drive_knobs, first_guess, plain_knobs
 from cosim.gap.read.stick_remarks import SPEED_PART
-from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET, driven_speed
+from cosim.gap.shooting.drive import (
+    CREEP,
+    RIPPLE_LENGTH,
+    SPEED_OFFSET,
+    driven_speed,
+    model_parameters,
+)
 from cosim.gap.shooting.fit import Problem, fit, start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import prepare
@@ -60,6 +66,15 @@ def test_driven_speed_is_the_set_point_and_a_part_of_it():
     assert driven_speed(0.2, {}) == 0.2
     assert driven_speed(0.2, {SPEED_OFFSET: 0.03, CREEP: 1e-3}) == pytest.approx(0.206, rel=1e-15)
     assert driven_speed(-0.2, {SPEED_OFFSET: -0.5}) == pytest.approx(-0.1, rel=1e-15)
+
+
+@pytest.mark.parametrize("speed", [0.2, -0.2])
+def test_a_roller_s_ripple_has_the_frequency_of_its_turns(speed):
+    given = {"speed_ripple.amplitude": 0.1, RIPPLE_LENGTH: 0.05}
+    assert model_parameters(speed, given) == pytest.approx(
+        {"speed_ripple.amplitude": 0.1, "speed_ripple.frequency": 4.0}, rel=1e-15)
+    assert RIPPLE_LENGTH in given
+    assert model_parameters(speed, {"friction.mu_k": 0.2}) == {"friction.mu_k": 0.2}
 
 
 @pytest.mark.parametrize("creep", [1e-3, 2e-3, 4e-3])

@@ -1,0 +1,277 @@
+"""What the catalogue offers: every effect, with laws that the model knows, inside their ranges."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
+from stickslip import Parameters
+
+from cosim.gap import read_campaign
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.extend import extended, moved
+from cosim.gap.naming.other_starts import other_starts
+from cosim.gap.naming.plain import plain_knobs
+from cosim.gap.naming.scales import scales
+from cosim.gap.naming.search import Search, Tried
+from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET, model_parameters
+from cosim.gap.shooting.fit import Fitted, Point, Problem, fit, start
+from cosim.gap.shooting.knob import OFFSETS, Knob
+from cosim.gap.shooting.preparation import prepare
+from cosim.gap.shooting.trial import Data, Model, Trial, try_model
+
+EFFECTS = (
+    "lateral_friction", "turning_surface", "static_strengthening", "velocity_weakening",
+    "film_drag", "thermal_weakening", "run_in", "spring_hardening", "structural_damping",
+    "speed_ripple", "surface_pattern", "load_dependence", "spring_misalignment", "stick_stiffness",
+)
+SIDEWAYS = {"lateral_friction", "turning_surface", "spring_misalignment"}
+SCALES = Scales(speed=0.15, distance=3.0, heat=5.0, duration=20.0, stiffness=38.5, travel=0.02,
+                mass=0.87, force=8.5)
+OFFERED = candidates(SCALES)
+EVERY = [pytest.param(c, id=f"{c.effect} {c.form} {i}") for i, c in enumerate(OFFERED)]
+KEYS = set(Parameters().flat())
+
+
+def test_every_effect_is_offered_in_the_catalogue_s_order():
+    assert tuple(dict.fromkeys(c.effect for c in OFFERED)) == EFFECTS
+
+
+def test_effects_across_the_motion_are_known_as_such():
+    assert {c.effect for c in OFFERED if c.lateral} == SIDEWAYS
+    assert all(c.lateral for c in OFFERED if c.effect in SIDEWAYS)
+
+
+def test_no_law_is_offered_twice_from_the_same_place():
+    seen = [(c.effect, c.form, c.knobs, tuple(c.settings.items())) for c in OFFERED]
+    assert len(set(seen)) == len(seen)
+
+
+@pytest.mark.parametrize("candidate", EVERY)
+def test_a_candidate_speaks_the_model_s_language(candidate):
+    keys = [knob.key for knob in candidate.knobs]
+    said = model_parameters(SCALES.speed, {**candidate.settings, **dict.fromkeys(keys, 1.0)})
+    assert set(said) <= KEYS | {CREEP, SPEED_OFFSET}
+    assert len(set(keys)) == len(keys) and not set(keys) & set(candidate.settings)
+    assert any(key.startswith(f"{candidate.effect}.") for key in [*keys, *candidate.settings])
+    assert candidate.size == sum(not knob.per_run for knob in candidate.knobs)
+
+
+def parameters(values):
+    """The model with what is fitted and set; ValidationError where it allows none such."""
+    tables = {"rig": {"spring_natural_length": 0.17}, "friction": {"mu_s": 0.3, "mu_k": 0.2}}
+    for key, value in model_parameters(SCALES.speed, values).items():
+        block, name = key.split(".")
+        tables.setdefault(block, {})[name] = value
+    return Parameters(**tables)
+
+
+@pytest.mark.parametrize("candidate", EVERY)
+def test_starts_lie_inside_ranges_that_the_model_allows(candidate):
+    starts = {knob.key: knob.start for knob in candidate.knobs}
+    values = {**candidate.settings, **starts}
+    given, flat = model_parameters(SCALES.speed, values), parameters(values).flat()
+    assert {key: flat[key] for key in given} == pytest.approx(given)
+    for knob in candidate.knobs:
+        assert knob.step > 0.0 and knob.low < knob.start < knob.high
+        assert knob.inside(knob.scaled(knob.start)) == knob.scaled(knob.start)
+        assert knob.low > 0.0 or not knob.log
+        for end in (knob.low, knob.high):
+            if np.isfinite(end):
+                parameters({**candidate.settings, **starts, knob.key: end})
+
+
+@pytest.mark.parametrize("candidate", EVERY)
+def test_a_candidate_changes_the_model_at_its_start(candidate, flight):
+    """It can be flown, and is felt: a step of each of its knobs moves the block."""
+    started = {**candidate.settings, **{k.key: k.start for k in candidate.knobs}}
+    plain = flight.fly(FRICTION, flight.starts)
+    with_it = flight.fly({**FRICTION, **started}, flight.starts)
+    assert np.isfinite(with_it).all()
+    seen = slice(0, 6)
+    assert np.abs(with_it[:, seen] - plain[:, seen]).max() > 1e-6
+    for knob in candidate.knobs:
+        near = knob.value(knob.scaled(knob.start) + 0.1)
+        stepped = flight.fly({**FRICTION, **started, knob.key: near}, flight.starts)
+        assert np.abs(stepped[:, seen] - with_it[:, seen]).max() > 1e-9
+
+
+FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
+
+
+@pytest.fixture(scope="module")
+def campaign(tmp_path_factory):
+    run = motion(duration=4.0)
+    columns = {"t": run.time, "x": noisy(run["x"], 1), "y": noisy(run["y"], 2)}
+    folder = tmp_path_factory.mktemp("campaign")
+    return read_campaign(write_campaign(folder, [{"columns": columns}], noise={"x": NOISE}))
+
+
+@pytest.fixture(scope="module")
+def flight(campaign):
+    return prepare(campaign, campaign.runs, True)[0]
+
+
+def test_scales_are_those_of_the_runs(campaign):
+    (run,) = campaign.runs
+    found = scales([run], 0.2)
+    assert (found.speed, found.mass, found.stiffness) == (0.06, KNOWN["mass"], KNOWN["stiffness"])
+    assert found.duration == pytest.approx(4.0)
+    assert found.distance == pytest.approx(0.24) and found.force == pytest.approx(8.5347)
+    assert found.heat == pytest.approx(0.2 * 8.5347 * 0.24)
+    assert {c.effect for c in candidates(found)} == set(EFFECTS)
+
+
+@pytest.mark.parametrize("candidate", EVERY)
+def test_faint_is_the_same_law_with_less_of_it(candidate):
+    faint = candidate.faint()
+    assert replace(faint, knobs=candidate.knobs) == candidate
+    for knob, fainter in zip(candidate.knobs, faint.knobs, strict=True):
+        assert replace(fainter, start=knob.start) == knob
+        if knob.log or knob.per_run or not knob.low <= 0.0 <= knob.high:
+            assert fainter.start == knob.start
+        else:
+            assert abs(fainter.start) < 0.5 * abs(knob.start) or knob.start == 0.0
+            assert fainter.start * knob.start >= 0.0
+    assert candidate.can_be_faint == (faint != candidate)
+
+
+def test_every_strength_can_be_faint():
+    cannot = {c.effect for c in OFFERED if not c.can_be_faint}
+    assert cannot == {"lateral_friction", "stick_stiffness"}  # no number, and a part of springs
+
+
+def test_a_periodic_candidate_starts_at_a_period():
+    periodic = [c for c in OFFERED if c.periodic]
+    assert {c.effect for c in periodic} == {"speed_ripple", "surface_pattern"}
+    for c in periodic:
+        at = {k.key: k.start for k in c.at(3.5).knobs}
+        before = {k.key: k.start for k in c.knobs}
+        assert at == {**before, c.periodic: 3.5} and c.periodic in before
+        assert any(k.per_run and k.key.endswith("phase_deg") for k in c.knobs)
+
+
+# A model with a candidate added to it.
+
+BASE = Model((
+    Knob("friction.mu_s", 0.3, 0.01, 0.1, 20.0),
+    Knob("friction.mu_k", 0.2, 0.01, 0.0, 20.0),
+    Knob("offset.x", 0.0, 4e-4, prior=4e-4),
+    Knob("film_drag.coefficient", 0.5, 0.5, 0.0, 500.0),
+), {"load_dependence.reference_force": 8.0})
+FITTED = {"friction.mu_s": 0.35, "friction.mu_k": 0.15, "offset.x": 1e-4,
+          "film_drag.coefficient": 2.0}
+RATE = Candidate("static_strengthening", "logarithmic",
+                 (Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0),),
+                 {"static_strengthening.hold_time": 0.01})
+
+
+def starts(model):
+    return {knob.key: knob.start for knob in model.knobs}
+
+
+def test_an_extended_model_starts_where_the_base_was_fitted():
+    model = extended(BASE, RATE, FITTED)
+    # what is known beforehand stays centred on what is known
+    assert starts(model) == {**FITTED, "offset.x": 0.0, "static_strengthening.rate": 0.03}
+    assert model.settings == {**BASE.settings, **RATE.settings}
+    assert model.knobs[-1] is RATE.knobs[0]  # after those of the base
+    for knob, before in zip(model.knobs, BASE.knobs, strict=False):
+        assert replace(knob, start=before.start) == before
+
+
+def test_a_candidate_s_own_knobs_replace_the_base_s():
+    again = Candidate("film_drag", "linear", (replace(BASE.knobs[3], start=7.0),))
+    model = extended(BASE, again, FITTED)
+    assert [k.key for k in model.knobs].count("film_drag.coefficient") == 1
+    assert starts(model)["film_drag.coefficient"] == 7.0
+
+
+@pytest.mark.parametrize("value", [0.0, 500.0])
+def test_a_fit_that_ran_into_a_bound_starts_anew(value):
+    assert moved(BASE.knobs[3], {"film_drag.coefficient": value}) == BASE.knobs[3]
+
+
+def test_a_mu_s_that_is_not_felt_starts_where_it_is():
+    for mu_s in (0.10, 0.15, 0.151):
+        model = extended(BASE, RATE, {**FITTED, "friction.mu_s": mu_s})
+        assert starts(model)["friction.mu_s"] > 1.1 * FITTED["friction.mu_k"]
+        assert starts(model)["friction.mu_k"] == FITTED["friction.mu_k"]
+
+
+def test_other_starts_differ_in_mu_s_alone():
+    models = other_starts(BASE, FITTED)
+    values = [starts(model)["friction.mu_s"] for model in models]
+    assert len(models) > 1 and values == sorted(set(values))
+    assert all(value > FITTED["friction.mu_k"] for value in values)
+    for model in models:
+        rest = {**starts(model), "friction.mu_s": 0.0}
+        assert rest == {**FITTED, "offset.x": 0.0, "friction.mu_s": 0.0}
+    known = replace(BASE.knobs[0], prior=0.01)
+    for model in other_starts(Model((known, *BASE.knobs[1:]), {}), FITTED):
+        assert starts(model)["friction.mu_s"] == known.start
+
+
+# A second look: the effect's other laws, from where the simpler one ended.
+
+
+def fake_trial(model, values):
+    knobs = model.knobs
+    shared = np.array([k.scaled(values.get(k.key, k.start)) for k in knobs if not k.per_run])
+    fitted = Fitted(knobs, Point(shared, (), ()), (np.ones(9),))
+    return Trial(model, fitted, fitted, np.array([9.0]), np.array([9]))
+
+
+def second_look(candidate, values):
+    """The models that a polish of this effect tries, as candidates."""
+    asked = []
+
+    def mapped(function, arguments):
+        for each in arguments:
+            if function is try_model:
+                yield fake_trial(each[1], values)
+            else:
+                asked.append(each[1])
+                yield each[1]
+
+    model = extended(Model(BASE.knobs[:3], {}), candidate, FITTED)
+    first = Tried(candidate, model, None, fake_trial(model, values))
+    Search(Data((), (), ()), mapped).polished([first], OFFERED)
+    return asked
+
+
+def test_other_laws_are_those_of_the_same_effect():
+    simple = next(c for c in OFFERED if c.form == "linear" and c.effect == "velocity_weakening")
+    values = {**FITTED, simple.knobs[0].key: 1.5}
+    asked = [t for t in second_look(simple, values) if t.candidate.form != "linear"]
+    forms = {c.form for c in OFFERED if c.effect == "velocity_weakening"}
+    assert {t.candidate.effect for t in asked} == {"velocity_weakening"}
+    assert {t.candidate.form for t in asked} == forms - {"linear"}
+    for t in asked:
+        keys = [knob.key for knob in t.model.knobs]
+        assert simple.knobs[0].key not in keys and len(set(keys)) == len(keys)
+        assert starts(t.model)["friction.mu_k"] == FITTED["friction.mu_k"]
+
+
+def test_a_law_with_one_number_more_starts_where_the_simpler_one_ended():
+    simple = next(c for c in OFFERED if c.form == "logarithmic")
+    values = {**FITTED, "static_strengthening.rate": 0.07}
+    asked = [t for t in second_look(simple, values) if t.candidate.form != "logarithmic"]
+    (again,) = asked  # from the same numbers it is the same, whichever start it was offered with
+    assert again.candidate.form == "logarithmic after an onset"
+    at = starts(again.model)
+    assert at["static_strengthening.rate"] == pytest.approx(0.07)
+    assert at["static_strengthening.hold_time"] == simple.settings["static_strengthening.hold_time"]
+    assert "static_strengthening.hold_time" not in again.model.settings
+
+
+def test_plain_knobs_start_inside_their_ranges_and_fit(campaign):
+    """On top of them every candidate stands: the keys do not meet."""
+    knobs = plain_knobs(campaign, True)
+    plain = {knob.key for knob in knobs}
+    assert plain <= KEYS | set(OFFSETS) | {CREEP, SPEED_OFFSET}
+    assert not plain & {knob.key for c in OFFERED for knob in c.knobs}
+    problem = Problem(prepare(campaign, campaign.runs, False),
+                      [knob for knob in knobs if knob.key != "offset.y"])
+    assert fit(problem, start(problem.flights, problem.knobs)).gap() < 1.2
