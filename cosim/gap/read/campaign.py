@@ -155,7 +155,9 @@ def _with_hold_outs(
     held = [run.name for run in runs if run.hold_out]
     if held:
         return runs, [f"no run is marked hold_out; held out by rule: {', '.join(held)}"]
-    return runs, []
+    alone = [run.name for run in runs if run.track is not None]
+    return runs, [f"no run is held out, {name} is the only one with a track: the model is judged "
+                  "by what it was fitted to" for name in alone]
 
 
 def _with_noise(
