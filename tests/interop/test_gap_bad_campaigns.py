@@ -120,7 +120,6 @@ def test_a_single_run_gets_a_verdict(tmp_path, capsys):
     assert "no run is held out" in err
 
 
-@pytest.mark.xfail(strict=True, reason="a mu_s that was only seen to hold slips in a held-out run")
 def test_runs_without_any_slip_get_a_verdict(tmp_path, capsys):
     runs = [run_of(1, 0.001), run_of(2, 0.0015)]
     status, err, answer = said(tmp_path, capsys, runs, noise=KNOWN_NOISE)

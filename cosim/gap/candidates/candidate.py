@@ -45,7 +45,7 @@ class Candidate:
     @property
     def can_be_faint(self) -> bool:
         """Whether it can be all but absent: a start from which no fit is thrown off course."""
-        return self.faint() != self
+        return not self.periodic and self.faint() != self
 
     def faint(self) -> Candidate:
         """The same law, starting as next to nothing."""

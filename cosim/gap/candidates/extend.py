@@ -20,7 +20,7 @@ def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Mod
     fitted = _holding(fitted)
     taken = {knob.key for knob in candidate.knobs}
     kept = tuple(moved(knob, fitted) for knob in base.knobs if knob.key not in taken)
-    return Model(kept + candidate.knobs, {**base.settings, **candidate.settings})
+    return Model(kept + candidate.knobs, {**base.settings, **candidate.settings}, base.added + 1)
 
 
 def _holding(fitted: dict[str, float]) -> dict[str, float]:

@@ -135,7 +135,7 @@ def _closed_loop(
     )
     acting = Data(*flights)
     model = extended(base.model, Candidate("empirical", "formula", knobs), friction)
-    trial = try_model(acting, model, sketch(acting, model, _ROUNDS), refit=False)
+    trial = try_model(acting, model, sketch(acting, model, _ROUNDS), rounds=0)
     return trial, best.features
 
 

@@ -30,7 +30,8 @@ class _Law:
 
 def chance(data: Data, plain: Trial, trials: Sequence[Trial], seed: int) -> dict[str, float]:
     """p of the best law's gain on the held-out runs, and the draws that it rests on."""
-    laws = [_law(data, trial, len(plain.model.knobs)) for trial in trials]
+    shared = sum(not knob.per_run for knob in plain.model.knobs)
+    laws = [_law(data, trial, shared) for trial in trials]
     random = np.random.default_rng(seed)
     gains = [_best_gain(laws, random) for _ in range(DRAWS)]
     observed = max(_gain(plain, trial) for trial in trials)
@@ -74,5 +75,8 @@ def _cost(law: _Law, turned: np.ndarray, noise: np.ndarray, kept_back: np.ndarra
     left = law.fit[:, turned]
     normal = left.T @ left + np.diag(law.weight[turned] ** 2)
     step = -np.linalg.lstsq(normal, left.T @ noise, rcond=1e-12)[0]
-    moved = kept_back + law.held_out[:, turned] @ step
+    if kept_back.size:
+        moved = kept_back + law.held_out[:, turned] @ step
+    else:  # nothing is held out: what counts is the fit itself
+        moved = noise + left @ step
     return float(moved @ moved)

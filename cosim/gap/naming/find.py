@@ -31,6 +31,10 @@ from .search import SKETCH, Search, Tried
 from .verdict import Finding, judge
 
 
+#: Another start must leave less than this part of the sum of squares: mu_s may be felt nowhere.
+_CLEARLY = 0.99
+
+
 def find_gap(
     campaign: Campaign, *, seed: int = 0, jobs: int = 2,
     progress: Callable[[int], object] | None = None,
@@ -66,7 +70,8 @@ def _sketched(data: Data, base: Model) -> Fitted:
     """The plain model in short windows, from whichever mu_s ends best."""
     first = sketch(data, base, SKETCH)
     again = [sketch(data, model, SKETCH) for model in other_starts(base, first.values)]
-    return min([first, *again], key=lambda fitted: fitted.cost)
+    best = min(again, key=lambda fitted: fitted.cost)
+    return best if best.cost < _CLEARLY * first.cost else first
 
 
 def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:

@@ -24,4 +24,4 @@ def _from(model: Model, values: Mapping[str, float], mu_s: float) -> Model:
             knobs.append(replace(knob, start=mu_s))
         else:
             knobs.append(knob if knob.per_run else moved(knob, values))
-    return Model(tuple(knobs), model.settings)
+    return replace(model, knobs=tuple(knobs))

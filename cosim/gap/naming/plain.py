@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.gap.read import Campaign, MeasuredRun, cycle_features
-from cosim.gap.read.stick_remarks import SPEED_ERRORS, SPEED_PART
+from cosim.gap.read.stick_remarks import SPEED_ERRORS, SPEED_PART, never_slips
 from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET
 from cosim.gap.shooting.knob import Knob
 
@@ -33,8 +33,9 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
     They start where the data put them, or as they are known.
     """
     runs = [run for run in campaign.fit_runs if run.track is not None]
+    everywhere = [run for run in campaign.runs if run.track is not None]
     knobs = []
-    for name, guess in zip(("mu_s", "mu_k"), first_guess(runs), strict=True):
+    for name, guess in zip(("mu_s", "mu_k"), first_guess(runs, everywhere), strict=True):
         value, deviation = campaign.friction.get(name, (guess, None))
         low, high = (0.3 * guess if name == "mu_s" else 0.0), 20.0
         if deviation is not None:  # what is known stays known
@@ -67,7 +68,7 @@ def common_creep(runs: Sequence[MeasuredRun]) -> tuple[float, float] | None:
     A contact is sheared before it slides, in proportion to its load: the lag of a stick is that of
     its mean load. None where the runs do not agree in it.
     """
-    lag, error, load = np.array([_lag(run) for run in runs]).T
+    lag, error, load = np.array([_lag(run) for run in runs]).reshape(-1, 3).T
     seen = np.isfinite(lag) & np.isfinite(error) & (load > 0.0)
     lag, error, load = lag[seen], error[seen], load[seen]
     if not lag.size:
@@ -99,8 +100,13 @@ def _speed_is_off(run: MeasuredRun) -> bool:
     return off > max(SPEED_ERRORS * speed.error, SPEED_PART * abs(run.surface_speed))
 
 
-def first_guess(runs: Sequence[MeasuredRun]) -> tuple[float, float]:
-    """mu_s from where sticks end, mu_k from about where the block swings between two sticks."""
+def first_guess(
+    runs: Sequence[MeasuredRun], everywhere: Sequence[MeasuredRun] = ()
+) -> tuple[float, float]:
+    """mu_s from where sticks end, mu_k from about where the block swings between two sticks.
+
+    Where no run slips, mu_s is more than any load that was held in the runs ``everywhere``.
+    """
     holding, sliding = [], []
     for run in runs:
         per_metre = run.total_stiffness / (run.mass * GRAVITY)
@@ -114,4 +120,8 @@ def first_guess(runs: Sequence[MeasuredRun]) -> tuple[float, float]:
             sliding.append(per_metre * np.mean(seen[seen.size // 4 :]))
     mu_k = max(float(np.median(np.abs(sliding))), 1e-3)
     mu_s = float(np.median(np.abs(holding))) if holding else 1.3 * mu_k
+    if everywhere and all(never_slips(run) for run in everywhere):
+        held = [run.total_stiffness * np.nanmax(np.abs(run.track.x)) / (run.mass * GRAVITY)
+                for run in everywhere]
+        mu_s = 1.3 * max(held)
     return max(mu_s, 1.05 * mu_k), mu_k

@@ -11,11 +11,12 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.shooting.fit import Fitted
 from cosim.gap.shooting.knob import Knob
-from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
+from cosim.gap.shooting.trial import Data, Model, Trial, finished, sketch, try_model
 from cosim.processes import Map
 
 from .other_starts import other_starts
 from .scan import scan
+from .screen import gains
 
 #: Rounds of the first look at every law, and of the sketch of those that do well in it.
 GLANCE, SKETCH = 2, 8
@@ -23,6 +24,10 @@ GLANCE, SKETCH = 2, 8
 SKETCHED, FINALISTS = 7, 5
 #: ... at most so many of one effect.
 FORMS = 2
+#: Rounds in long windows before the best few, so many, are fitted to the end.
+FIRST, FINISHED = 6, 2
+#: On top of a first effect, so many laws are looked at.
+PROMISING = 10
 
 Progress = Callable[[int], object]
 
@@ -50,6 +55,8 @@ class Search:
         fitted : the base in short windows.
         """
         placed = self._placed(base, fitted, candidates)
+        if base.added:
+            placed = self._promising(base, fitted, placed)
         placed += [c.faint() for c in placed if c.can_be_faint]
         models = [extended(base, c, fitted.values) for c in placed]
         glances = self._run(sketch, [(self.data, m, GLANCE, None, fitted) for m in models])
@@ -57,9 +64,7 @@ class Search:
         chosen = _best_forms(tried, FORMS)[:SKETCHED]
         sketches = self._run(_continued, [(self.data, t) for t in chosen])
         chosen = _best_forms(sketches, FORMS)[:FINALISTS]
-        trials = self._run(try_model, [(self.data, t.model, t.sketched) for t in chosen])
-        done = [replace(t, trial=trial) for t, trial in zip(chosen, trials, strict=True)]
-        done = _best_forms(done, 1, lambda t: t.trial.gap)
+        done = self._tried(chosen)
         seen = {t.candidate.effect for t in done}
         rest = [t for t in _best_forms([*sketches, *tried], 1) if t.candidate.effect not in seen]
         return done + rest
@@ -75,17 +80,34 @@ class Search:
                  for model in other_starts(t.model, t.trial.fitted.values)]
         again += [law for t in tried for law in _other_laws(t, candidates)]
         again = self._run(_sketched, [(self.data, t) for t in again])
-        trials = self._run(try_model, [(self.data, t.model, t.sketched) for t in again])
-        done = [replace(t, trial=trial) for t, trial in zip(again, trials, strict=True)]
-        return _best_forms([*tried, *done], 1, lambda t: t.trial.gap)
+        return _best_forms([*tried, *self._tried(again)], 1, lambda t: t.trial.gap)
 
     def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
         """Those that were ruled out early judged as well, by what little fit they had."""
         early = [t for t in tried if t.trial is None]
-        trials = self._run(try_model, [(self.data, t.model, t.sketched, False) for t in early])
+        trials = self._run(try_model, [(self.data, t.model, t.sketched, 0) for t in early])
         late = [replace(t, trial=trial) for t, trial in zip(early, trials, strict=True)]
         late.sort(key=lambda t: t.trial.gap)
         return (*(t for t in tried if t.trial is not None), *late)
+
+    def _tried(self, sketched: Sequence[Tried]) -> list[Tried]:
+        """The best law of each effect in long windows, best first; the best few to the end."""
+        trials = self._run(try_model, [(self.data, t.model, t.sketched, FIRST) for t in sketched])
+        done = [replace(t, trial=trial) for t, trial in zip(sketched, trials, strict=True)]
+        done = _best_forms(done, 1, lambda t: t.trial.gap)
+        trials = self._run(finished, [(self.data, t.trial) for t in done[:FINISHED]])
+        ended = [replace(t, trial=trial) for t, trial in zip(done, trials, strict=False)]
+        return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.gap)
+
+    def _promising(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+    ) -> list[Candidate]:
+        """Those whose answer goes best with what is left; periodic ones, which have phases, all."""
+        kept = [c for c in candidates if c.periodic]
+        laws = [c for c in candidates if not c.periodic]
+        explained = gains(self.data.short, base, fitted, laws, self.mapped)
+        best = np.argsort(-explained, kind="stable")[:PROMISING]
+        return kept + [laws[i] for i in sorted(best)]
 
     def _run(self, function, arguments) -> list:
         """Every call's result in order, counted as they come."""
@@ -119,7 +141,8 @@ def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
     values = {**tried.model.settings, **tried.trial.fitted.values}
     own = {knob.key for knob in tried.candidate.knobs}
     settings = {k: v for k, v in tried.model.settings.items() if k not in tried.candidate.settings}
-    base = Model(tuple(k for k in tried.model.knobs if k.key not in own), settings)
+    knobs = tuple(k for k in tried.model.knobs if k.key not in own)
+    base = Model(knobs, settings, tried.model.added - 1)
     laws: dict[tuple[Knob, ...], Tried] = {}
     for law in candidates:
         if law.effect == tried.candidate.effect and law.form != tried.candidate.form:

@@ -21,7 +21,7 @@ SCATTER, LONG = 1.25, 20
 def stick_remarks(run: MeasuredRun) -> list[str]:
     """Remarks on a run whose sticks are found, without its name."""
     if not any(math.isfinite(stick.start_sd) for stick in run.sticks):
-        if sum(stick.duration for stick in run.sticks) > ALL_STICK * run.track.duration:
+        if never_slips(run):
             return ["no slip is seen, it says nothing of kinetic friction"]
         return ["no stick is seen after the start"]
     remarks = []
@@ -39,6 +39,13 @@ def stick_remarks(run: MeasuredRun) -> list[str]:
             "noise of a sample: creep, or noise that is not white"
         )
     return remarks
+
+
+def never_slips(run: MeasuredRun) -> bool:
+    """Whether the block goes with the surface all the time."""
+    if any(math.isfinite(stick.start_sd) for stick in run.sticks):
+        return False
+    return sum(stick.duration for stick in run.sticks) > ALL_STICK * run.track.duration
 
 
 def line_scatter(run: MeasuredRun) -> float:

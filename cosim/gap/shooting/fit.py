@@ -23,7 +23,7 @@ _STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
 #: Converged when a step lowers the sum of squares by less than this, and than this part of what it
 #: is above that of noise: a model that does not fit need not do so to the last digit.
 _ENOUGH, _PART_OF_EXCESS = 0.02, 1e-3
-_MOST_ROUNDS = 25
+MOST_ROUNDS = 25
 #: Longest step of a round, in steps of a knob: a parameter that is thrown to where the motion does
 #: not feel it any more never comes back.
 _LONGEST = 4.0
@@ -270,7 +270,7 @@ class Problem:
         return weight * (shared - centre), weight
 
 
-def fit(problem: Problem, point: Point, rounds: int = _MOST_ROUNDS, fixed: bool = False) -> Fitted:
+def fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS, fixed: bool = False) -> Fitted:
     """The best point from a first one; ``fixed``: only what belongs to the runs moves."""
     residuals = problem.all_residuals(point)
     cost, damping = _cost(problem, point, residuals), 1e-3

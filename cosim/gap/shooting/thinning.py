@@ -10,6 +10,8 @@ from cosim.gap.read import MeasuredRun, Stick, Track
 
 #: Most samples and cycles of a run: beyond them more data cost time and tell nothing new.
 MOST_SAMPLES, MOST_CYCLES = 3000, 60
+#: Most swings of the free oscillator, if that leaves so many cycles.
+MOST_SWINGS, FEWEST_CYCLES = 600, 10
 #: Samples kept on either side of a corner, where the motion tells most.
 _CORNER = 8
 
@@ -17,7 +19,8 @@ _CORNER = 8
 def thinned(run: MeasuredRun) -> MeasuredRun:
     """The run as it is, or its first cycles with few of the samples inside long sticks."""
     track = run.track
-    end = run.sticks[MOST_CYCLES].first if len(run.sticks) > MOST_CYCLES else track.time.size
+    cycles = _cycles(run)
+    end = run.sticks[cycles].first if len(run.sticks) > cycles else track.time.size
     if end <= MOST_SAMPLES:
         return run if end == track.time.size else _with_rows(run, np.arange(end))
     idle = np.zeros(end, dtype=bool)
@@ -29,6 +32,13 @@ def thinned(run: MeasuredRun) -> MeasuredRun:
     if rows.size > 2 * MOST_SAMPLES:  # hardly a stick to thin
         rows = rows[:: -(-rows.size // (2 * MOST_SAMPLES))]
     return _with_rows(run, rows)
+
+
+def _cycles(run: MeasuredRun) -> int:
+    """How many are looked at: long sticks of a fast oscillator cost the model many steps."""
+    first = run.track.time[0]
+    swings = np.array([s.start - first for s in run.sticks]) * run.natural_frequency / (2.0 * np.pi)
+    return int(np.clip(np.searchsorted(swings, MOST_SWINGS), FEWEST_CYCLES, MOST_CYCLES))
 
 
 def _with_rows(run: MeasuredRun, rows: np.ndarray) -> MeasuredRun:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .fit import Fitted, Point, Problem, fit, start, with_columns
+from .fit import MOST_ROUNDS, Fitted, Point, Problem, fit, start, with_columns
 from .flight import Flight
 from .knob import Knob
 
@@ -34,6 +34,7 @@ class Model:
 
     knobs: tuple[Knob, ...]
     settings: dict[str, float]
+    added: int = 0  # effects on top of the plain model
 
 
 @dataclass(frozen=True)
@@ -85,16 +86,28 @@ def sketch(
     return fit(problem, with_phases(problem, point), rounds)
 
 
-def try_model(data: Data, model: Model, sketched: Fitted, refit: bool = True) -> Trial:
-    """Fit in long windows from a sketch, and judge; without ``refit`` the sketch is judged."""
+def try_model(
+    data: Data, model: Model, sketched: Fitted, rounds: int = MOST_ROUNDS
+) -> Trial:
+    """Fit in long windows from a sketch, and judge; in no ``rounds`` the sketch is judged."""
     problem = Problem(data.fit, model.knobs, model.settings)
     first = start(problem.flights, model.knobs)
     point = Point(sketched.point.shared, sketched.point.own, first.states)
-    if refit:  # states first: parameters would make up for those that are merely read off
+    if rounds:  # states first: parameters would make up for those that are merely read off
         point = fit(problem, with_phases(problem, point), _ROUNDS_UNFITTED, fixed=True).point
-        fitted = with_columns(problem, _fit(problem, point))
+        fitted = with_columns(problem, _fit(problem, point, rounds))
     else:
         fitted = fit(problem, point, _ROUNDS_UNFITTED, fixed=True)
+    return _judged(data, model, fitted)
+
+
+def finished(data: Data, trial: Trial) -> Trial:
+    """A trial whose fit is carried on to its end."""
+    problem = Problem(data.fit, trial.model.knobs, trial.model.settings)
+    return _judged(data, trial.model, with_columns(problem, _fit(problem, trial.fitted.point)))
+
+
+def _judged(data: Data, model: Model, fitted: Fitted) -> Trial:
     held_out = _hold_out(data.held_out, model, fitted)
     residuals = (*fitted.residuals, *held_out.residuals)
     squares = np.array([float(r @ r) for r in residuals])
@@ -110,14 +123,17 @@ def _hold_out(flights: Sequence[Flight], model: Model, fitted: Fitted) -> Fitted
     return fit(problem, point, fixed=True)
 
 
-def _fit(problem: Problem, point: Point) -> Fitted:
-    """A fit; where there are phases, again from wherever they fit best after the one before."""
-    fitted = fit(problem, with_phases(problem, point))
-    for _ in range(_REPEATS):
+def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
+    """A fit; where there are phases, again from wherever they fit best after the one before.
+
+    In fewer ``rounds`` it is a first look, and is not repeated.
+    """
+    fitted = fit(problem, with_phases(problem, point), rounds)
+    for _ in range(_REPEATS if rounds == MOST_ROUNDS else 0):
         again = with_phases(problem, fitted.point)
         if again is fitted.point:
             break
-        fitted = fit(problem, again)
+        fitted = fit(problem, again, rounds)
     return fitted
 
 
