@@ -30,7 +30,6 @@ from .scales import scales
 from .search import SKETCH, Search, Tried
 from .verdict import Finding, judge
 
-
 #: Another start must leave less than this part of the sum of squares: mu_s may be felt nowhere.
 _CLEARLY = 0.99
 
