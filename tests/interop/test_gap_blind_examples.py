@@ -14,11 +14,11 @@ import pytest
 EXAMPLES = Path(__file__).resolve().parents[3] / "shared" / "data" / "blind_examples"
 pytestmark = pytest.mark.skipif(not EXAMPLES.is_dir(), reason="measured data are not here")
 
-NAMES = ("e1", "e2", "e3", "e4", "e5")
-#: Held-out gap that counts as a gap, and that counts as closed. It is 1 for noise and 1.5 for a
-#: model that is asked to be no nearer; a contact that creeps before it slides, as in these, is in
-#: no law of the catalogue, and two held-out runs scatter by a twentieth.
-OPEN, CLOSED = 2.0, 1.6
+#: The fifth, of which nobody knows a name, takes as long as the others together: it is asked in
+#: tests/benchmarks/blind_examples.py.
+NAMES = ("e1", "e2", "e3", "e4")
+#: Held-out gap, 1 for noise, that counts as a gap and that counts as closed.
+OPEN, CLOSED = 2.0, 1.5
 #: Rows of a run, with the header, that are enough to compare two answers byte by byte.
 SHORT = 401
 
@@ -64,16 +64,14 @@ def test_the_verdict_is_the_right_one(name, found, answers):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_gap_is_as_the_verdict_says(name, found, answers):
-    """Closed by what was named; open, and left so, where nothing has a name."""
+    """Closed by what was named, or never open."""
     gap = answer_in(found(name))["gap"]
     before, after = gap["before"]["held_out"], gap["after"]["held_out"]
     verdict = answers[name]["verdict"]
     if verdict == "named":
         assert before >= OPEN and after <= CLOSED
-    elif verdict == "none":
-        assert after == before <= CLOSED
     else:
-        assert after == before >= OPEN
+        assert verdict == "none" and after == before <= CLOSED
 
 
 def test_the_extended_model_is_a_scenario(found, tmp_path):
@@ -97,11 +95,11 @@ def short(tmp_path_factory):
 
 
 def test_the_same_input_gives_the_same_bytes(short, tmp_path):
-    """With one process, with two, and once more: a shorter e1, so that three runs are no wait."""
+    """With one process and with two: a shorter e1, so that it is no wait."""
     written = []
-    for number, jobs in enumerate((1, 2, 2)):
+    for number, jobs in enumerate((1, 2)):
         folder = tmp_path / str(number)
         done = stickslip("gap", short, "-o", folder, "--no-page", "--jobs", jobs)
         assert done.returncode == 0, done.stderr
         written.append([(folder / name).read_bytes() for name in ("gap.json", "model.toml")])
-    assert written[0] == written[1] == written[2]
+    assert written[0] == written[1]
