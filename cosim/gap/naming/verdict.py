@@ -95,13 +95,22 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
 
 def repaired(plain: Trial, trial: Trial, part: float) -> bool:
     """Whether nothing but noise, or next to nothing of what there was, is left."""
-    left, before = excess(trial), excess(plain)
-    return left <= FITS**2 - 1.0 or left <= (1.0 - part) * before
+    return excess(trial) <= FITS**2 - 1.0 or explained(plain, trial) >= part
 
 
 def explained(plain: Trial, trial: Trial) -> float:
-    """Part of the plain model's excess that is gone."""
-    return 1.0 - excess(trial) / excess(plain) if excess(plain) > 0.0 else 0.0
+    """Part of the plain model's excess that is gone, in all runs and in those fitted alone.
+
+    A number that the fitted runs hardly feel may happen to help a run that was held out.
+    """
+    parts = [_gone(plain.gap, trial.gap)]
+    if plain.fitted.gap() > PLAIN_FITS:
+        parts.append(_gone(plain.fitted.gap(), trial.fitted.gap()))
+    return min(parts)
+
+
+def _gone(before: float, after: float) -> float:
+    return 1.0 - max(after**2 - 1.0, 0.0) / (before**2 - 1.0) if before > 1.0 else 0.0
 
 
 def _dominates(plain: Trial, done: Sequence[Tried]) -> bool:
