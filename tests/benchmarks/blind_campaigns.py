@@ -79,14 +79,17 @@ def cells(kinds, count, first: int, ids, sizes) -> Iterator[Cell]:
 
 
 def ask(campaign: Path, folder: Path) -> tuple[dict | None, str, float]:
-    """The product's answer to a folder of files, its last words, and seconds: the one place."""
+    """The product's answer to a folder of files, its last words, and seconds: the one place.
+
+    On one core each, without the page: several campaigns are asked side by side.
+    """
     answer = folder / "answer.json"
     command = [sys.executable, "-m", "cosim", "gap", str(campaign), "-o", str(folder / "report")]
     begin = time.perf_counter()
     one_core = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     try:
         done = subprocess.run(
-            [*command, "--json", str(answer)],
+            [*command, "--json", str(answer), "--jobs", "1", "--no-page"],
             capture_output=True,
             text=True,
             timeout=LIMIT,
