@@ -24,6 +24,8 @@ EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.85
 #: Where no second effect helps, one that has taken away this part alone is named all the same, if
 #: no other comes near: none takes away more than this part of it.
 DOMINANT, RIVAL = 0.85, 0.5
+#: So many times the part that is gone from the fitted runs may be gone from all.
+FELT_BY_FITTED = 2.0
 #: Effects cannot be told apart when their gaps, squared, differ by less than this ...
 ALIKE = 0.08
 #: ... and this part of what the better one leaves over the noise.
@@ -99,14 +101,15 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
 
 
 def explained(plain: Trial, trial: Trial) -> float:
-    """Part of the plain model's excess that is gone, in all runs and in those fitted alone.
+    """Part of the plain model's excess that is gone from all runs.
 
-    A number that the fitted runs hardly feel may happen to help a run that was held out.
+    It counts no more than so many times what is gone from those fitted: a number that they hardly
+    feel may happen to help a run that was held out.
     """
-    parts = [_gone(plain.gap, trial.gap)]
-    if plain.fitted.gap() > PLAIN_FITS:
-        parts.append(_gone(plain.fitted.gap(), trial.fitted.gap()))
-    return min(parts)
+    gone = _gone(plain.gap, trial.gap)
+    if plain.fitted.gap() <= PLAIN_FITS:
+        return gone
+    return min(gone, FELT_BY_FITTED * _gone(plain.fitted.gap(), trial.fitted.gap()))
 
 
 def _gone(before: float, after: float) -> float:
