@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from stickslip.kernel.layout import BLOCK, MODE, SLIP, STICK
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -16,7 +17,7 @@ from cosim.gap.empirical import Term, empirical_term, library  # noqa: E402
 from cosim.gap.empirical.features import FRICTION, Moment  # noqa: E402
 from cosim.gap.empirical.regression import formulas  # noqa: E402
 from cosim.gap.empirical.stretches import holding, rows_of, slips_of  # noqa: E402
-from cosim.gap.empirical.term import forced, formula, key  # noqa: E402
+from cosim.gap.empirical.term import forced, formula, key, moment_of  # noqa: E402
 from cosim.gap.naming.plain import plain_knobs  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare  # noqa: E402
@@ -169,3 +170,13 @@ def test_friction_that_differs_by_direction(tmp_path):
 def test_nothing_is_proposed_where_nothing_is_missing(plain):
     data, base = fitted(plain)
     assert empirical_term(plain, data, base) is None
+
+
+def test_a_fitted_speed_has_a_direction():
+    """A speed that comes out of a fit is numpy's, whose truths have no difference."""
+    block = [0.0] * BLOCK
+    block[MODE] = SLIP
+    assert moment_of(block, np.float64(0.1), 6.0).direction == 1.0
+    assert moment_of(block, np.float64(-0.1), 6.0).direction == -1.0
+    block[MODE] = STICK
+    assert moment_of(block, np.float64(0.1), 6.0).direction == 0.0

@@ -77,7 +77,7 @@ def moment_of(block: Sequence[float], speed: float, load: float) -> Moment:
     """Of the model's state."""
     vx, slips = block[layout.VX], block[layout.MODE] == layout.SLIP
     sliding = speed - vx if slips else 0.0
-    direction = (sliding > 0.0) - (sliding < 0.0)
+    direction = float(sliding > 0.0) - float(sliding < 0.0)  # numpy's truths have no difference
     place = abs(block[layout.TRAVEL] - block[layout.X])
     return Moment(
         block[layout.X], vx, sliding, direction, block[layout.TIME], block[layout.DISTANCE], place,
