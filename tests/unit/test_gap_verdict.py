@@ -11,6 +11,7 @@ from cosim.gap.naming.verdict import (
     ALIKE,
     ALIKE_PART,
     DOMINANT,
+    EXPLAINED_AT_LEAST,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
     FITS,
@@ -255,3 +256,23 @@ def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
     pair = after(1.0 - (1.0 - strong) * MORE * (1.0 - NEEDED))
     found, _ = finding([good, poor], second={"film_drag": [tried("run_in", pair)]})
     assert found.verdict == "unknown" and found.nearest.gap == pytest.approx(good.trial.gap)
+
+
+def test_a_little_that_nothing_explains_is_nothing():
+    """Between what fits and what is repaired, an effect has a name for half of it at least."""
+    between = 0.5 * (PLAIN_FITS + FITS)
+    weak = after(LESS * EXPLAINED_AT_LEAST, between)
+    assert weak.gap < FITS
+    found, _ = finding([tried("film_drag", weak)], plain=between)
+    assert (found.verdict, found.effects) == ("none", ())
+    found, _ = finding([tried("film_drag", after(0.9, between))], plain=between)
+    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+
+
+def test_what_only_held_out_runs_feel_explains_nothing():
+    """A number that the fitted runs hardly feel helps a held-out run by chance."""
+    plain = trial(FAR)
+    fitted = Fitted((), plain.fitted.point, (np.full(ROWS, 0.99 * FAR),))
+    lucky = Trial(Model((), {}), fitted, plain.fitted, plain.squares * 0.01, plain.rows)
+    assert explained(plain, lucky) < 0.05 < EXPLAINED_BY_ONE
+    assert not repaired(plain, lucky, EXPLAINED_BY_ONE)

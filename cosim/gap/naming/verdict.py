@@ -21,6 +21,8 @@ FITS = 1.5
 #: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
 #: real effect is never quite the catalogue's.
 EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.85
+#: What takes away less than this part has no name, however little there was.
+EXPLAINED_AT_LEAST = 0.5
 #: Where no second effect helps, one that has taken away this part alone is named all the same, if
 #: no other comes near: none takes away more than this part of it.
 DOMINANT, RIVAL = 0.85, 0.5
@@ -78,6 +80,8 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         members = alike(done)
         verdict = "named" if len(members) == 1 else "class"
         return Finding(verdict, members, best.trial, ranking, best.trial)
+    if plain.gap <= FITS:  # next to nothing, and nothing explains it
+        return Finding("none", (), None, ranking, plain)
     pair = _best_pair(search, plain, done, candidates)
     if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
         effects = (pair[0].candidate.effect, pair[1].candidate.effect)
@@ -97,7 +101,8 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
 
 def repaired(plain: Trial, trial: Trial, part: float) -> bool:
     """Whether nothing but noise, or next to nothing of what there was, is left."""
-    return excess(trial) <= FITS**2 - 1.0 or explained(plain, trial) >= part
+    gone = explained(plain, trial)
+    return gone >= part or (gone >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
 
 
 def explained(plain: Trial, trial: Trial) -> float:
