@@ -68,7 +68,7 @@ def simulate_restarted(
     middle of the interval, so that the error is of second order in it.
     creep : speed at which the surface leaves the block behind in stick when it is about to break
     away, m/s; at a smaller load in proportion to it, as of a contact that is sheared before it
-    slides. Of first order in the interval between times.
+    slides. Of first order in the interval between times; not beside a ``force``.
     """
     kernel = compiled_kernel()
     p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)

@@ -85,9 +85,8 @@ def record_creeping(
         return record(p, u, z, w, e, times, o, first, count)
     speed = u[U_SPEED]
     for i in range(first, first + count):
-        if advance(p, u, z, w, e, times[i]) != DONE:
+        if record(p, u, z, w, e, times, o, i, 1) == 0:
             return i - first
-        show(p, u, z, w, o, O_SIZE * i)
         if o[O_SIZE * i + O_MODE] == STICK:
             load = o[O_SIZE * i + O_FRICTION_X] / (p[P_MU_S] * p[P_NORMAL_FORCE])
             slower = speed - floor(20.0 * load + 0.5) / 20.0 * creep
