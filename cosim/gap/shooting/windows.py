@@ -84,28 +84,29 @@ def _window(track, first: int, last: int, stick, speed: float, planar: bool) -> 
     state = np.full(6, np.nan)
     if first == 0:
         state[:] = 0.0  # a block that nobody has turned; what is measured is put in its place
+    across = ()
+    if planar:  # friction along x alone leaves a block that sticks free to swing across
+        _fill_moving(track, first, state, track.y, 1)
+        across = (1, 4)
     if stick is None:
-        _fill_moving(track, first, state, planar)
-        free = (0, 3) + ((1, 4) if planar else ())
-        return Window(first, last, state, free, np.nan)
+        _fill_moving(track, first, state, track.x, 0)
+        return Window(first, last, state, (0, 3, *across), np.nan)
     rows = slice(stick.first, stick.last + 1)
     time = track.time[rows] - track.time[stick.first]
     state[0] = np.nanmean(track.x[rows] - speed * time)
-    if planar:
-        state[1] = np.nanmean(track.y[rows])
-    return Window(first, last, state, (0,) + ((1,) if planar else ()), stick.start)
+    return Window(first, last, state, (0, *across), stick.start)
 
 
-def _fill_moving(track, first: int, state: np.ndarray, planar: bool) -> None:
-    """Position and velocity from a parabola through the samples about the first."""
+def _fill_moving(track, first: int, state: np.ndarray, values: np.ndarray, at: int) -> None:
+    """Position and velocity from a parabola through the samples about the first.
+
+    values : (n,) measured positions; at : where they stand in the state
+    """
     low, high = max(0, first - _REACH), min(len(track.time), first + _REACH + 1)
     time = track.time[low:high] - track.time[first]
-    for values, at in ((track.x, 0), (track.y if planar else None, 1)):
-        if values is None:
-            continue
-        seen = np.isfinite(values[low:high])
-        if seen.sum() > 3:
-            fit = np.polynomial.polynomial.polyfit(time[seen], values[low:high][seen], 2)
-            state[at], state[at + 3] = fit[0], fit[1]
-        elif np.isnan(state[at]) and seen.any():
-            state[at], state[at + 3] = np.mean(values[low:high][seen]), 0.0
+    seen = np.isfinite(values[low:high])
+    if seen.sum() > 3:
+        fit = np.polynomial.polynomial.polyfit(time[seen], values[low:high][seen], 2)
+        state[at], state[at + 3] = fit[0], fit[1]
+    elif np.isnan(state[at]) and seen.any():
+        state[at], state[at + 3] = np.mean(values[low:high][seen]), 0.0
