@@ -8,13 +8,15 @@ from collections.abc import Sequence
 import numpy as np
 from stickslip import Parameters
 
-from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.read import Campaign, MeasuredRun, Track
 
 from .flight import TOLERANCE, Flight
 from .windows import CYCLES, cut
 
 #: Cycles in the short windows in which a fit sets out: hardly a phase to be lost.
 SHORT_CYCLES = 1.2
+#: A cycle is at most this much slower than sticks follow each other.
+_SLOWER = 0.7
 
 
 def prepare(
@@ -46,23 +48,25 @@ def known_parameters(campaign: Campaign, run: MeasuredRun) -> dict[str, float]:
 
 
 def period(run: MeasuredRun) -> float:
-    """Of a stick-slip cycle, or of the strongest oscillation where nothing sticks, s."""
+    """Of a stick-slip cycle, or of the strongest oscillation where nothing sticks, s.
+
+    That of the strongest line in the spectrum of x: no slower than sticks follow each other, of
+    which some may not have been recognised, or than a quarter of the free oscillation.
+    """
+    free = run.natural_frequency / (2.0 * np.pi)
     onsets = np.array([stick.start for stick in run.sticks])
-    if onsets.size > 3:
-        return float(np.median(np.diff(onsets)))
-    return _strongest_period(run)
+    slowest = _SLOWER / np.median(np.diff(onsets)) if onsets.size > 3 else free / 4.0
+    return _strongest_period(run.track, slowest, max(2.0 * free, 2.0 * slowest), 1.0 / free)
 
 
-def _strongest_period(run: MeasuredRun) -> float:
-    """From the spectrum of x, within a factor of four of the free oscillation's."""
-    track = run.track
+def _strongest_period(track: Track, slowest: float, fastest: float, default: float) -> float:
+    """From the spectrum of x between two frequencies, Hz."""
     seen = np.isfinite(track.x)
     time = np.arange(track.time[0], track.time[-1], track.interval)
     x = np.interp(time, track.time[seen], track.x[seen])
-    free = run.natural_frequency / (2.0 * np.pi)
     power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(x.size), 8 * x.size))
     frequency = np.fft.rfftfreq(8 * x.size, track.interval)
-    inside = (frequency > free / 4.0) & (frequency < free * 2.0)
+    inside = (frequency > slowest) & (frequency < fastest)
     if not inside.any():
-        return 1.0 / free
+        return default
     return float(1.0 / frequency[inside][power[inside].argmax()])
