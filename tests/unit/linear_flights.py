@@ -14,6 +14,8 @@ from cosim.gap.shooting.windows import Window
 
 #: Free numbers of every window's state: position and velocity.
 FREE = (0, 3)
+#: Residuals that a metre, or a metre a second, of a state makes: a tracker's noise is a part of a mm.
+FELT = 3e3
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,8 @@ def linear_flight(random, knobs, data, windows=3):
     cuts = tuple(Window(int(first), int(last), np.zeros(6), FREE, np.nan)
                  for first, last in zip(ends[:-1], ends[1:], strict=True))
     by_key = {knob.key: random.standard_normal(data.size) for knob in knobs}
-    return LinearFlight(by_key, random.standard_normal((data.size, len(FREE))), data, cuts)
+    by_state = FELT * random.standard_normal((data.size, len(FREE)))
+    return LinearFlight(by_key, by_state, data, cuts)
 
 
 def joint(problem: Problem) -> tuple[np.ndarray, np.ndarray]:

@@ -86,6 +86,17 @@ def test_a_knob_that_nothing_feels_stays_where_it_is():
     assert found.cost == pytest.approx(fit(without, start(without.flights, SHARED)).cost)
 
 
+def test_a_state_that_hardly_any_row_feels_moves_little():
+    problem = linear(SHARED)
+    for flight in problem.flights:
+        flight.by_state[:, 1] *= 1e-4
+    found = fit(problem, start(problem.flights, SHARED))
+    free = joint(problem)
+    wild = np.linalg.lstsq(*free, rcond=None)[0][len(SHARED) :].reshape(-1, len(FREE))
+    moved = np.abs(np.concatenate([states[:, FREE[1]] for states in found.point.states]))
+    assert np.abs(wild[:, 1]).max() > 1.0 > 0.1 > moved.max()  # m/s
+
+
 def test_intervals_of_a_linear_model_are_those_of_its_joint_least_squares():
     known = replace(SHARED[0], start=0.3, prior=0.2)
     problem = linear((known, SHARED[1], OWN))

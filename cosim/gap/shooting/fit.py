@@ -27,6 +27,8 @@ MOST_ROUNDS = 25
 #: Longest step of a round, in steps of a knob: a parameter that is thrown to where the motion does
 #: not feel it any more never comes back.
 _LONGEST = 4.0
+#: Steps of a window's state that are as unlikely as a residual of one.
+_FAR = 50.0
 #: A window whose sum of squares grows by more than this was thrown off course by its own step.
 _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 
@@ -92,9 +94,14 @@ class Columns:
         if self.own.shape[1]:
             own = -np.linalg.pinv(self._own_left) @ self._without_states(rest)
             rest = rest + self.own @ own
-        steps = [-np.linalg.pinv(columns, rcond=1e-10) @ rest[rows]
-                 for rows, columns in self.states]
+        steps = [_damped(columns, rest[rows]) for rows, columns in self.states]
         return own, steps
+
+
+def _damped(columns: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """Step of a window's state; in what the motion hardly feels it stays short."""
+    square = columns.T @ columns + np.eye(columns.shape[1]) / _FAR**2
+    return -np.linalg.solve(square, columns.T @ rest)
 
 
 @dataclass(frozen=True)
@@ -229,19 +236,24 @@ class Problem:
             own.append(np.array([k.inside(s) for k, s in zip(
                 self.own, point.own[i] + own_step, strict=True)]))
             move = self._state_step(i, state_steps)
-            best = self._follow(i, shared, own[i], point.states[i], move, c.residuals)
+            limit = self._limit(i, c.residuals, alone=not step.any())
+            best = self._follow(i, shared, own[i], point.states[i], move, limit)
             states.append(best[0])
             residuals.append(best[1])
         return Point(shared, tuple(own), tuple(states)), tuple(residuals)
 
-    def _follow(self, run, shared, own, states, move, before):
+    def _limit(self, run: int, before: np.ndarray, alone: bool) -> np.ndarray:
+        """(windows,) sums of squares that a step may leave; no more than before if it is alone."""
+        squares = np.bincount(self._owner(run), before**2, len(self.flights[run].windows))
+        return squares if alone and not self.own else _GROWTH * squares + _GROWTH_SLACK
+
+    def _follow(self, run, shared, own, states, move, limit):
         """States after their step, shortened in the windows that it would throw off course."""
         owner = self._owner(run)
         count = len(self.flights[run].windows)
         reach = np.ones(count)
         taken = states + move
         residuals = self.residuals(run, shared, own, taken)
-        limit = _GROWTH * np.bincount(owner, before**2, count) + _GROWTH_SLACK
         for shorter in (0.25, 0.0):
             costs = np.bincount(owner, residuals**2, count)
             if not (costs > limit).any():

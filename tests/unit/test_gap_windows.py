@@ -1,0 +1,58 @@
+"""Windows of a run: how long a cycle is, and what of a state is free at their beginning."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from gap_campaigns import NOISE, motion, noisy, write_campaign
+
+from cosim.gap import read_campaign
+from cosim.gap.naming.across import moves_across
+from cosim.gap.naming.plain import plain_knobs
+from cosim.gap.shooting.preparation import period, prepare
+from cosim.gap.shooting.trial import Data, Model, sketch, try_model
+
+
+@pytest.fixture(scope="module")
+def aside():
+    """A block pulled aside, with friction along x only: it swings across while it sticks."""
+    return motion(speed=0.03, duration=20.0, initial={"y": 3e-3})
+
+
+def campaign_of(folder, track, seed=1):
+    columns = {"t": track.time, "x": noisy(track["x"], seed), "y": noisy(track["y"], seed + 1)}
+    runs = [{"surface_speed": 0.03, "columns": columns}]
+    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE, "y": NOISE}))
+
+
+def test_a_block_that_sticks_along_x_may_swing_across(aside, tmp_path):
+    campaign = campaign_of(tmp_path, aside)
+    assert moves_across(campaign)
+    (flight,) = prepare(campaign, campaign.fit_runs, True)
+    held = [w for w in flight.windows if np.isfinite(w.hold_since)]
+    assert held
+    for window in held:
+        assert window.free == (0, 1, 4)
+        true = np.interp(flight.time[window.first], aside.time, aside["vy"])
+        assert window.state[4] == pytest.approx(true, abs=5e-3)  # a parabola through 13 samples
+
+
+def test_the_plain_model_fits_a_plain_block_that_swings_across(aside, tmp_path):
+    campaign = campaign_of(tmp_path, aside)
+    data = Data(prepare(campaign, campaign.fit_runs, True),
+                prepare(campaign, campaign.fit_runs, True, 1.2), ())
+    model = Model(plain_knobs(campaign, True), {})
+    trial = try_model(data, model, sketch(data, model, 4))
+    # 4000 rows: their noise alone has a root mean square of 1 +- 0.011
+    assert trial.gap == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.parametrize("kept", [slice(None), slice(None, None, 3), slice(0, 5)])
+def test_a_period_is_the_motion_s_own_whichever_sticks_were_recognised(tmp_path, kept):
+    track = motion(speed=0.06, duration=20.0)
+    campaign = campaign_of(tmp_path, track)
+    (run,) = campaign.fit_runs
+    held = np.diff(track["mode"]) < 0  # from slip to stick
+    true = float(np.median(np.diff(track.time[1:][held])))
+    # a line of a spectrum of 20 s is so wide
+    assert period(replace(run, sticks=run.sticks[kept])) == pytest.approx(true, rel=true / 20.0)
