@@ -14,7 +14,7 @@ from cosim.gap.shooting.windows import Window
 
 #: Free numbers of every window's state: position and velocity.
 FREE = (0, 3)
-#: Residuals that a metre, or a metre a second, of a state makes: a tracker's noise is a part of a mm.
+#: Residuals that a metre, or a metre a second, of a state makes: noise is a part of a mm.
 FELT = 3e3
 
 

@@ -11,9 +11,11 @@ from cosim.gap.naming.verdict import (
     ALIKE,
     ALIKE_PART,
     DOMINANT,
+    DRIFT,
     EXPLAINED_AT_LEAST,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
+    EXPLAINED_IF_LITTLE,
     FITS,
     NEEDED,
     PART_OF_OTHERS,
@@ -85,10 +87,10 @@ class MadeUp:
                       key=lambda t: t.trial.gap)
 
 
-def finding(first, plain=FAR, **more):
+def finding(first, plain=FAR, sketched=SKETCHED, **more):
     search = MadeUp(first, **more)
     candidates = [t.candidate for t in first]
-    return judge(search, trial(plain), SKETCHED, candidates), search
+    return judge(search, trial(plain), sketched, candidates), search
 
 
 def test_measures():
@@ -259,14 +261,33 @@ def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
 
 
 def test_a_little_that_nothing_explains_is_nothing():
-    """Between what fits and what is repaired, an effect has a name for half of it at least."""
+    """Between what fits and what is repaired, an effect has a name for nearly all of it."""
     between = 0.5 * (PLAIN_FITS + FITS)
-    weak = after(LESS * EXPLAINED_AT_LEAST, between)
+    weak = after(LESS * EXPLAINED_IF_LITTLE, between)
     assert weak.gap < FITS
     found, _ = finding([tried("film_drag", weak)], plain=between)
     assert (found.verdict, found.effects) == ("none", ())
-    found, _ = finding([tried("film_drag", after(0.9, between))], plain=between)
+    found, _ = finding([tried("film_drag", after(MORE * EXPLAINED_IF_LITTLE, between))],
+                       plain=between)
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
+
+
+def test_what_remains_may_be_noise_and_yet_most_of_what_was():
+    before = MORE * FITS
+    most, least = (after(part * EXPLAINED_AT_LEAST, before) for part in (LESS, MORE))
+    assert most.gap < FITS
+    assert not repaired(trial(before), most, EXPLAINED_BY_ONE)
+    assert repaired(trial(before), least, EXPLAINED_BY_ONE)
+
+
+def test_what_only_long_flights_show_may_be_drift():
+    short, plain = trial(LESS * PLAIN_FITS).fitted, LESS * DRIFT
+    weak = [tried("film_drag", after(LESS * EXPLAINED_IF_LITTLE, plain))]
+    assert finding(weak, plain=plain, sketched=short)[0].verdict == "none"
+    assert finding(weak, plain=plain)[0].verdict == "named"  # short ones show it as well
+    assert finding(weak, plain=MORE * DRIFT, sketched=short)[0].verdict == "named"
+    strong = [tried("film_drag", after(MORE * EXPLAINED_IF_LITTLE, plain))]
+    assert finding(strong, plain=plain, sketched=short)[0].effects == ("film_drag",)
 
 
 def test_what_only_held_out_runs_feel_explains_nothing():

@@ -23,6 +23,9 @@ FITS = 1.5
 EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.85
 #: What takes away less than this part has no name, however little there was.
 EXPLAINED_AT_LEAST = 0.5
+#: Where the plain model fits in short flights, what long ones show up to this gap may be the drift
+#: of a motion that is unstable by itself; a name for so little must explain this part of it.
+DRIFT, EXPLAINED_IF_LITTLE = 2.0, 0.85
 #: Where no second effect helps, one that has taken away this part alone is named all the same, if
 #: no other comes near: none takes away more than this part of it.
 DOMINANT, RIVAL = 0.85, 0.5
@@ -76,11 +79,12 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         done = _merged(search.polished(done[:POLISHED], candidates), done)
         best = done[0]
         ranking = [*done, *(t for t in ranking if t.trial is None)]
-    if repaired(plain, best.trial, EXPLAINED_BY_ONE):
+    little = is_little(plain, sketched)
+    if repaired(plain, best.trial, EXPLAINED_BY_ONE, EXPLAINED_IF_LITTLE if little else None):
         members = alike(done)
         verdict = "named" if len(members) == 1 else "class"
         return Finding(verdict, members, best.trial, ranking, best.trial)
-    if plain.gap <= FITS:  # next to nothing, and nothing explains it
+    if little:  # and nothing explains it
         return Finding("none", (), None, ranking, plain)
     pair = _best_pair(search, plain, done, candidates)
     if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
@@ -99,10 +103,19 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
     return sorted([*better, *rest], key=lambda t: t.trial.gap)
 
 
-def repaired(plain: Trial, trial: Trial, part: float) -> bool:
-    """Whether nothing but noise, or next to nothing of what there was, is left."""
+def is_little(plain: Trial, sketched: Fitted) -> bool:
+    """Whether what the plain model leaves is next to nothing, or nothing but drift."""
+    return plain.gap <= FITS or (plain.gap <= DRIFT and sketched.gap() <= PLAIN_FITS)
+
+
+def repaired(plain: Trial, trial: Trial, part: float, at_least: float | None = None) -> bool:
+    """Whether next to nothing of what there was is left: this part is gone, or noise remains.
+
+    at_least : part that must be gone where noise remains, EXPLAINED_AT_LEAST if not given
+    """
     gone = explained(plain, trial)
-    return gone >= part or (gone >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
+    least = EXPLAINED_AT_LEAST if at_least is None else at_least
+    return gone >= part or (gone >= least and excess(trial) <= FITS**2 - 1.0)
 
 
 def explained(plain: Trial, trial: Trial) -> float:
