@@ -30,6 +30,7 @@ from .kernel.layout import (
     P_SHORTEST,
     P_SIZE,
     P_SPEED_SCALE,
+    P_STICK_CREEP,
     P_STIFFNESS,
     P_TABLEAU,
 )
@@ -118,6 +119,8 @@ def pack(values: dict[str, float]) -> list[float]:
     load = p[P_NORMAL_FORCE] / values["load_dependence.reference_force"]
     p[P_MU_S] *= load ** -values["load_dependence.exponent"]
     p[P_MU_K] *= load ** -values["load_dependence.exponent"]
+    limit = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
+    p[P_STICK_CREEP] = values["friction.stick_creep"] / limit if limit > 0.0 else 0.0
     _set_melting(p, values)
     p[P_LOCAL_LAW] = float(any(values[name] != 0.0 for name in LOCAL_LAWS))
     if p[layout.P_DIRECT] != 0.0 or p[layout.P_EVOLUTION] != 0.0:

@@ -113,6 +113,13 @@ class Friction(Block):
 
     mu_s: float = quantity(0.2815, "1", "static friction coefficient", ge=0)
     mu_k: float = quantity(0.2086, "1", "kinetic friction coefficient", ge=0)
+    stick_creep: float = quantity(
+        0.0,
+        "m/s",
+        "sliding speed in stick at the load mu_s N, smaller in proportion to the load: a contact "
+        "is sheared before it slides; 0 is off",
+        ge=0,
+    )
 
 
 class Surface(Block):
@@ -163,6 +170,12 @@ class Parameters(EffectBlocks):
             raise ValueError(
                 'rig.surface = "slab" already sets turning_surface.curvature to 1/slab_radius; '
                 "give one of the two"
+            )
+        law = self.rate_and_state
+        if self.friction.stick_creep != 0.0 and (law.direct != 0.0 or law.evolution != 0.0):
+            raise ValueError(
+                f"friction.stick_creep = {self.friction.stick_creep:g} m/s beside rate_and_state, "
+                "whose contact creeps by its own law; give one of the two"
             )
         if self.friction.mu_k > self.friction.mu_s:
             warnings.warn(

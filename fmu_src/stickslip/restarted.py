@@ -14,15 +14,15 @@ import numpy as np
 from .compiled import compiled_kernel
 from .kernel.layout import (
     BLOCK,
-    DONE,
     E_CAPACITY,
     E_FIRST,
     E_WIDTH,
-    HERE,
     HOLD_SINCE,
     MODE,
     O_SIZE,
     SHOWN,
+    SLIP,
+    STICK,
     U_FORCE_X,
     U_SIZE,
     U_SPEED,
@@ -47,7 +47,7 @@ class Restart:
     ----------
     row : number of the time at which it happens
     state : (6,) x, y, phi (m, m, rad), vx, vy, omega (m/s, m/s, rad/s); NaN leaves the model's own
-    hold_since : when the stick began that the block is in, s: its velocity is then the surface's;
+    hold_since : when the stick began that the block is in, s: its velocity is then that of a stick;
         NaN: not in stick
     """
 
@@ -58,7 +58,7 @@ class Restart:
 
 def simulate_restarted(
     p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
-    restarts: Sequence[Restart], force: Force | None = None, creep: float = 0.0,
+    restarts: Sequence[Restart], force: Force | None = None,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
@@ -66,9 +66,6 @@ def simulate_restarted(
     The first restart is at row 0. Rows are NaN from where the model gave up to the next restart.
     force : from the model's own state, constant from one time to the next: extrapolated to the
     middle of the interval, so that the error is of second order in it.
-    creep : speed at which the surface leaves the block behind in stick when it is about to break
-    away, m/s; at a smaller load in proportion to it, as of a contact that is sheared before it
-    slides. Of first order in the interval between times; not beside a ``force``.
     """
     kernel = compiled_kernel()
     p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
@@ -83,9 +80,7 @@ def simulate_restarted(
     for restart, end in zip(restarts, ends, strict=True):
         _set(kernel, p, u, z, w, e, times[restart.row], restart)
         if force is None:
-            count = end - restart.row
-            kernel.record_creeping(p, u, z, w, e, times, o, restart.row, count, creep)
-            u[U_SPEED] = speed
+            kernel.record(p, u, z, w, e, times, o, restart.row, end - restart.row)
         else:
             _record_forced(kernel, p, u, z, w, e, times, o, (restart.row, end), force)
     return o.reshape(-1, O_SIZE)
@@ -113,10 +108,11 @@ def _set(kernel, p, u, z, w, e, time: float, restart: Restart) -> None:
     z[SHOWN] = time
     given = np.isfinite(restart.state)
     z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
-    holds = np.isfinite(restart.hold_since)
-    if holds:  # in a stick the velocity is the surface's, whatever turns and wherever
+    if np.isfinite(restart.hold_since):  # a stick's velocity is the surface's; it creeps from there
+        z[SHOWN + MODE], z[SHOWN + HOLD_SINCE] = STICK, restart.hold_since
         kernel.look_at(p, u, z, w, SHOWN)
-        kernel.follow_surface(p, u, z, w, SHOWN)
+        kernel.follow_surface(p, u, z, w, SHOWN, 0.0)
+    elif given[STATE.index("vx")]:  # what the model did before must not decide
+        z[SHOWN + MODE] = SLIP
     z[Z_STARTED], z[Z_HAS_NEXT] = 0.0, 0.0
-    if kernel.advance(p, u, z, w, e, time) == DONE and holds:
-        z[SHOWN + HOLD_SINCE] = z[HERE + HOLD_SINCE] = restart.hold_since
+    kernel.advance(p, u, z, w, e, time)

@@ -15,7 +15,7 @@ from cosim.gap.naming.other_starts import other_starts
 from cosim.gap.naming.plain import plain_knobs
 from cosim.gap.naming.scales import scales
 from cosim.gap.naming.search import Search, Tried
-from cosim.gap.shooting.drive import CREEP, SPEED_OFFSET, model_parameters
+from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
 from cosim.gap.shooting.fit import Fitted, Point, Problem, fit, start
 from cosim.gap.shooting.knob import OFFSETS, Knob
 from cosim.gap.shooting.preparation import prepare
@@ -52,7 +52,7 @@ def test_no_law_is_offered_twice_from_the_same_place():
 def test_a_candidate_speaks_the_model_s_language(candidate):
     keys = [knob.key for knob in candidate.knobs]
     said = model_parameters(SCALES.speed, {**candidate.settings, **dict.fromkeys(keys, 1.0)})
-    assert set(said) <= KEYS | {CREEP, SPEED_OFFSET}
+    assert set(said) <= KEYS | {SPEED_OFFSET}
     assert len(set(keys)) == len(keys) and not set(keys) & set(candidate.settings)
     assert any(key.startswith(f"{candidate.effect}.") for key in [*keys, *candidate.settings])
     assert candidate.size == sum(not knob.per_run for knob in candidate.knobs)
@@ -273,7 +273,7 @@ def test_plain_knobs_start_inside_their_ranges_and_fit(campaign):
     """On top of them every candidate stands: the keys do not meet."""
     knobs = plain_knobs(campaign, True)
     plain = {knob.key for knob in knobs}
-    assert plain <= KEYS | set(OFFSETS) | {CREEP, SPEED_OFFSET}
+    assert plain <= KEYS | set(OFFSETS) | {SPEED_OFFSET}
     assert not plain & {knob.key for c in OFFERED for knob in c.knobs}
     problem = Problem(prepare(campaign, campaign.runs, False),
                       [knob for knob in knobs if knob.key != "offset.y"])

@@ -11,10 +11,9 @@ from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.gap import MeasuredRun, Stick, Track, read_campaign
 from cosim.gap.naming.intervals import intervals
-from cosim.gap.naming.plain import common_creep, drive_knobs, first_guess, plain_knobs
+from cosim.gap.naming.plain import CREEP, common_creep, drive_knobs, first_guess, plain_knobs
 from cosim.gap.read.stick_remarks import SPEED_PART
 from cosim.gap.shooting.drive import (
-    CREEP,
     RIPPLE_LENGTH,
     SPEED_OFFSET,
     driven_speed,
@@ -143,11 +142,11 @@ def kernel_run(speed, offset=0.0, creep=0.0, duration=8.0):
     """Time and x of a block on a surface that is not as fast as it was set to be, or creeps."""
     parameters = Parameters(
         rig={"mass": KNOWN["mass"], "spring_natural_length": 0.17},
-        springs={"stiffness": KNOWN["stiffness"]}, friction={"mu_s": 0.3, "mu_k": 0.2})
+        springs={"stiffness": KNOWN["stiffness"]},
+        friction={"mu_s": 0.3, "mu_k": 0.2, "stick_creep": creep})
     time = np.arange(0.0, duration, 0.01)
     first = [Restart(0, np.array([0.0, 0.0, 0.0, speed, 0.0, 0.0]))]
-    outputs = simulate_restarted(parameters.pack(), speed * (1.0 + offset), -8.0, time, first,
-                                 creep=creep)
+    outputs = simulate_restarted(parameters.pack(), speed * (1.0 + offset), -8.0, time, first)
     return time, outputs[:, 0]
 
 

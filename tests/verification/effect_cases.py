@@ -11,6 +11,8 @@ import random
 from stickslip import CATALOGUE, Parameters
 
 IDS = tuple(effect.id for effect in CATALOGUE)
+#: Those beside which a stick may creep.
+BESIDE_CREEP = tuple(effect for effect in IDS if effect != "rate_and_state")
 # log-uniform where both ends are positive, uniform else
 ELSEWHERE = {
     "hold_time": (1e-3, 0.1),
@@ -38,6 +40,12 @@ def draw_block(effect: str, draw: random.Random) -> dict[str, float]:
         else:
             values[name] = draw.uniform(low, high)
     return values
+
+
+def with_stick_creep(parameters: Parameters, creep: float) -> Parameters:
+    """The same, its sticks creeping, m/s."""
+    friction = parameters.friction.model_copy(update={"stick_creep": creep})
+    return parameters.model_copy(update={"friction": friction})
 
 
 def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) -> Parameters:

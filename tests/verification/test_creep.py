@@ -13,7 +13,6 @@ from stickslip import Parameters, simulate
 from stickslip.kernel import advance
 from stickslip.kernel.contact import set_contact, set_onset_direction
 from stickslip.kernel.disc import disc_friction
-from stickslip.kernel.events import look_at
 from stickslip.kernel.friction import friction_in_slip
 from stickslip.kernel.interpolant import copy_block
 from stickslip.kernel.layout import (
@@ -43,6 +42,7 @@ from stickslip.kernel.layout import (
     W_STATE,
     X,
 )
+from stickslip.kernel.rest import look_at
 
 GRAVITY = 9.81
 

@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 import pytest
-from effect_cases import IDS, draw_parameters
+from effect_cases import BESIDE_CREEP, IDS, draw_parameters, with_stick_creep
 from kernel_steps import largest_step_difference, memory_of
 from stickslip.compiled import kernel_source
 
@@ -52,6 +52,15 @@ def test_interpreted_and_translated_take_the_same_step(translated, effect):
     draw = random.Random(f"kernels {effect}")
     for _ in range(SETS):
         memory = memory_of(draw_parameters((effect,), draw), temperature=draw.uniform(-20.0, 2.0))
+        assert largest_step_difference(translated, memory, STEPS) < 1e-12
+
+
+def test_a_stick_that_creeps(translated):
+    draw = random.Random("creep")
+    for _ in range(2 * SETS):
+        on = tuple(draw.sample(BESIDE_CREEP, 2))
+        parameters = with_stick_creep(draw_parameters(on, draw), 5e-3)
+        memory = memory_of(parameters, temperature=draw.uniform(-20.0, 2.0))
         assert largest_step_difference(translated, memory, STEPS) < 1e-12
 
 

@@ -6,10 +6,6 @@ from collections.abc import Mapping
 
 #: Part by which a run's surface is faster than its set-point.
 SPEED_OFFSET = "offset.speed"
-#: Speed at which the surface leaves a block behind that sticks, just before it breaks away, m/s: a
-#: contact is sheared before it slides, in proportion to its load.
-CREEP = "offset.creep"
-
 
 #: Way of the surface in one period of a ripple that a roller makes, m: at another speed it has
 #: another frequency.

@@ -10,7 +10,7 @@ from stickslip.kernel import layout
 from stickslip.packing import pack
 from stickslip.restarted import Force, Restart, simulate_restarted
 
-from .drive import CREEP, SPEED_OFFSET, driven_speed, model_parameters
+from .drive import SPEED_OFFSET, driven_speed, model_parameters
 from .windows import Window
 
 #: Columns of the model's output that a tracker can see.
@@ -67,14 +67,14 @@ class Flight:
     ) -> np.ndarray:
         """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
         flat = {**self.known, **model_parameters(self.speed, values)}
-        drive = {key: flat.pop(key, 0.0) for key in (SPEED_OFFSET, CREEP)}
-        speed, creep = driven_speed(self.speed, drive), drive[CREEP]
+        speed = driven_speed(self.speed, flat)
+        flat.pop(SPEED_OFFSET, None)
         p = np.array(pack(flat))
         restarts = [
             Restart(window.first, state, window.hold_since)
             for window, state in zip(self.windows, states, strict=True)
         ]
-        return simulate_restarted(p, speed, self.temperature, self.time, restarts, force, creep)
+        return simulate_restarted(p, speed, self.temperature, self.time, restarts, force)
 
     def residuals(self, outputs: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
         """(rows,) model less measurement over noise, channel by channel, without missing ones."""

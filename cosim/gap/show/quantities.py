@@ -14,7 +14,6 @@ OFFSETS = {
     "offset.x": ("m", "zero of the tracker along x"),
     "offset.y": ("m", "zero of the tracker along y"),
     "offset.speed": ("", "part by which the surface is faster than its set-point"),
-    "offset.creep": ("m/s", "speed at which sticks lag behind the surface at break-away"),
     "speed_ripple.wavelength": ("m", "way of the surface in one period of its speed"),
 }
 PLAIN = ("friction.mu_s", "friction.mu_k")

@@ -14,7 +14,6 @@ from .events import (
     break_away,
     choose_creep,
     keep_to_creep,
-    look_at,
     set_direction,
     settle,
     time_to_rest,
@@ -67,6 +66,7 @@ from .layout import (
     X,
 )
 from .motion import block_energy
+from .rest import look_at
 from .runge_kutta import begin_step, load_block, take_step
 from .springs import shortest_spring
 

@@ -46,6 +46,13 @@ def scaled_sliding_speed(p: "float[:]", w: "float[:]") -> float:
     return sqrt(sx * sx + sy * sy + sr * sr)
 
 
+def guided_sliding_speed(p: "float[:]", w: "float[:]") -> float:
+    """Scaled sliding speed that guides keep up: no friction can bring it to rest, m/s."""
+    sy = (1.0 - p[P_FREE_Y]) * p[P_LATERAL] * w[W_SLIDING + 1]
+    sr = (1.0 - p[P_FREE_PHI]) * p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    return sqrt(sy * sy + sr * sr)
+
+
 def set_holding_load(p: "float[:]", w: "float[:]"):
     """Friction that would keep the block on the surface, into ``w[W_FRICTION:]``.
 
@@ -122,7 +129,7 @@ def holding_ratio(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     one that guides keep from following a turning surface: it slides, and has no friction to spare.
     """
     limit = holding_coefficient(p, u, w) * p[P_NORMAL_FORCE]
-    if limit == 0.0 or scaled_sliding_speed(p, w) > rest_speed(p, u):
+    if limit == 0.0 or guided_sliding_speed(p, w) > rest_speed(p, u):
         return 2.0
     kappa = p[P_LATERAL]
     fx = w[W_FRICTION] / limit

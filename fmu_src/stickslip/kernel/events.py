@@ -4,10 +4,8 @@ from math import sqrt
 
 from .coefficient import holding_coefficient
 from .contact import (
-    holding_ratio,
     rest_speed,
     scaled_sliding_speed,
-    set_contact,
     set_holding_load,
     set_onset_direction,
 )
@@ -25,7 +23,6 @@ from .layout import (
     E_COUNT,
     E_FIRST,
     E_WIDTH,
-    HEAT,
     HERE,
     HOLD_SINCE,
     MODE,
@@ -33,12 +30,9 @@ from .layout import (
     OMEGA,
     P_FREE_PHI,
     P_FREE_Y,
-    P_INERTIA,
     P_LATERAL,
-    P_MASS,
     P_NORMAL_FORCE,
     P_RADIUS,
-    P_STICK_RATIO,
     SLIP,
     SLIPS,
     STICK,
@@ -47,7 +41,6 @@ from .layout import (
     VY,
     W_CREEP,
     W_DIRECTION,
-    W_FRICTION,
     W_SLIDING,
     W_SLOPES,
     W_STATE,
@@ -56,32 +49,9 @@ from .layout import (
     X,
 )
 from .motion import kinetic_energy
-from .runge_kutta import begin_step, follow_surface, load_block, take_step
-from .surface import set_surface_phase
-
-
-def look_at(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Loads, surface and sliding velocity at a block of ``z``."""
-    load_block(p, z, w, block)
-    set_contact(p, u, w, W_STATE)
-
-
-def excess_load(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int, phase: float
-) -> float:
-    """Load over holding capacity, less 1: the function whose zero is the break-away.
-
-    ``phase`` is a time in the phase of the surface that counts: the end of the run-up belongs to
-    the step that ends there as well as to the one that begins there, and the load differs.
-    A stick ratio below 1 judges stick by a part of the load (stick_stiffness, the study's fault).
-    """
-    load_block(p, z, w, block)
-    set_surface_phase(p, w, phase)
-    set_contact(p, u, w, W_STATE)
-    set_holding_load(p, w)
-    for i in range(3):
-        w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return holding_ratio(p, u, w) - 1.0
+from .rest import come_to_rest, excess_load, look_at
+from .runge_kutta import begin_step, load_block, take_step
+from .stick import fastest_creep
 
 
 def log_event(z: "float[:]", e: "float[:]", block: int):
@@ -118,43 +88,27 @@ def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: i
             z[block + DIRECTION + i] = w[W_DIRECTION + i]
 
 
-def stop_sliding(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Take away what is left of the sliding velocity in ``w``, as friction would.
-
-    The impulse -M u acts against the mean sliding velocity u/2, so half of it is heat, and on the
-    moving surface, which does work: the ledger stays closed.
-    """
-    ux = w[W_SLIDING]
-    uy = 0.0
-    ur = 0.0
-    if p[P_LATERAL] > 0.0:
-        uy = p[P_FREE_Y] * w[W_SLIDING + 1]
-        ur = p[P_FREE_PHI] * w[W_SLIDING + 2]
-    m = p[P_MASS]
-    j = p[P_INERTIA]
-    z[block + HEAT] += 0.5 * (m * (ux * ux + uy * uy) + j * ur * ur)
-    work = m * (ux * w[W_SURFACE] + uy * w[W_SURFACE + 1]) + j * ur * w[W_SURFACE + 2]
-    z[block + WORK_SURFACE] -= work
-    follow_surface(p, u, z, w, block)
-
-
 def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", block: int):
-    """Decide whether the contact at a block sticks or slips, and make the block consistent."""
+    """Decide whether the contact at a block sticks or slips, and make the block consistent.
+
+    A stick goes on where the block slides no faster than it may creep.
+    """
     look_at(p, u, z, w, block)
     before = z[block + MODE]
     speed = scaled_sliding_speed(p, w)
+    slow = rest_speed(p, u)
+    if before == STICK:
+        slow += fastest_creep(p, u, w)
     z[block + CREEPING] = 0.0
-    if speed > rest_speed(p, u):
+    if speed > slow:
         z[block + MODE] = SLIP
         set_direction(p, z, w, block, speed)
     elif holding_coefficient(p, u, w) * p[P_NORMAL_FORCE] == 0.0:
         z[block + MODE] = SLIP
+    elif come_to_rest(p, u, z, w, block) < 0.0:
+        z[block + MODE] = STICK
     else:
-        stop_sliding(p, u, z, w, block)
-        if excess_load(p, u, z, w, block, z[block + TIME]) < 0.0:
-            z[block + MODE] = STICK
-        else:
-            release(p, u, z, w, block)
+        release(p, u, z, w, block)
     if z[block + MODE] != before:
         if z[block + MODE] == SLIP:
             z[block + SLIPS] += 1.0

@@ -44,7 +44,7 @@ from .layout import (
 from .runge_kutta import (
     add_stage,
     begin_step,
-    follow_surface,
+    finish_stick,
     load_block,
     state_scale,
     take_step,
@@ -107,7 +107,7 @@ def interpolate(
         y = ((y + z[at + 2 * STATES]) * t + z[at + STATES]) * r
         z[target + 1 + i] += (y + z[at]) * t
     if z[target + MODE] == STICK:
-        follow_surface(p, u, z, w, target)
+        finish_stick(p, u, z, w, HERE, target)
 
 
 def interpolated_change(z: "float[:]", i: int, t: float) -> float:

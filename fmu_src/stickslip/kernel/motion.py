@@ -18,9 +18,11 @@ from .layout import (
     P_MASS,
     P_RADIUS,
     P_RELAXATION,
+    P_STICK_CREEP,
     P_WEAKENING,
     PHI,
     SLIP,
+    STICK,
     TIME,
     TRAVEL,
     U_FORCE_X,
@@ -42,6 +44,7 @@ from .layout import (
     Y,
 )
 from .springs import damping_power, elastic_energy
+from .stick import set_creeping_stick
 from .surface import surface_speed
 
 
@@ -65,8 +68,12 @@ def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
 def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int) -> float:
     """Rates of x, y, phi and of their velocities at ``w[W_STATE:]``, into ``w[out:]``.
 
-    Returns power of the surface beyond that of friction, W: 0 but in creep.
+    Returns power of the surface beyond that of friction, W: 0 but in creep, of either kind.
     """
+    if mode == STICK and p[P_STICK_CREEP] != 0.0:
+        power = set_creeping_stick(p, u, w)
+        set_rates(p, w, out)
+        return power
     set_contact(p, u, w, W_STATE)
     if mode == SLIP and w[W_STATE + CREEPING] == 1.0:
         power = set_creeping_motion(p, u, w, out)
@@ -81,11 +88,16 @@ def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
         if p[P_LATERAL] > 0.0:
             w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
             w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+    set_rates(p, w, out)
+    return 0.0
+
+
+def set_rates(p: "float[:]", w: "float[:]", out: int):
+    """Rates of x, y, phi and of their velocities, into ``w[out:]``, from loads and friction."""
     set_rates_of_place(p, w, out)
     w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
     w[out + VY - 1] = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
     w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
-    return 0.0
 
 
 def set_rates_of_place(p: "float[:]", w: "float[:]", out: int):
@@ -104,7 +116,7 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     """
     work = set_motion(p, u, w, mode, out)
     heat = 0.0
-    if mode == SLIP:
+    if mode == SLIP or p[P_STICK_CREEP] != 0.0:
         heat -= w[W_FRICTION] * w[W_SLIDING] + w[W_FRICTION + 1] * w[W_SLIDING + 1]
         heat -= w[W_FRICTION + 2] * w[W_SLIDING + 2]
     work += w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]

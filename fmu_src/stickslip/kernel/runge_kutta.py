@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from .contact import set_sliding_velocity, speed_scale
+from .contact import speed_scale
 from .layout import (
     AGE,
     ALL_STAGES,
@@ -14,13 +14,12 @@ from .layout import (
     MODE,
     OMEGA,
     P_FEEDING,
-    P_FREE_PHI,
-    P_FREE_Y,
     P_LATERAL,
     P_MASS,
     P_RADIUS,
     P_RATE,
     P_STATE_DISTANCE,
+    P_STICK_CREEP,
     P_TABLEAU,
     P_TOLERANCE,
     PHI,
@@ -42,12 +41,13 @@ from .layout import (
     W_SLOPES,
     W_SPAN,
     W_STATE,
-    W_SURFACE,
+    WORK_SURFACE,
     X,
     Y,
 )
 from .motion import set_slopes
-from .surface import set_surface_phase, surface_motion
+from .stick import held_energy, set_stick_velocity
+from .surface import set_surface_phase
 
 
 def load_block(p: "float[:]", z: "float[:]", w: "float[:]", block: int):
@@ -123,7 +123,7 @@ def take_step(
         z[end + SLIP_TIME] += h
     error = close_step(p, u, z, w, end, h)
     if mode == STICK:
-        follow_surface(p, u, z, w, end)
+        finish_stick(p, u, z, w, start, end)
     return error
 
 
@@ -153,20 +153,26 @@ def close_step(
     return abs(h) * error5 / sqrt(bottom * STATES)
 
 
-def follow_surface(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Give the block the surface's velocity exactly, where friction holds it and it is free.
+def follow_surface(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int, creep: float
+):
+    """Give the block the velocity with which it sticks exactly, where friction holds it.
 
-    Leaves the surface's motion and the sliding velocity at that moment in ``w``: zero, but for what
-    guides keep from following.
+    Takes the creep and leaves the contact as `set_stick_velocity` does.
     """
     for i in range(BLOCK):
         w[W_STATE + i] = z[block + i]
-    surface_motion(p, u, w, W_STATE)
-    z[block + VX] = w[W_SURFACE]
-    w[W_STATE + VX] = w[W_SURFACE]
+    set_stick_velocity(p, u, w, creep)
+    z[block + VX] = w[W_STATE + VX]
     if p[P_LATERAL] > 0.0:
-        z[block + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
-        z[block + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
-        w[W_STATE + VY] = z[block + VY]
-        w[W_STATE + OMEGA] = z[block + OMEGA]
-    set_sliding_velocity(w, W_STATE)
+        z[block + VY] = w[W_STATE + VY]
+        z[block + OMEGA] = w[W_STATE + OMEGA]
+
+
+def finish_stick(
+    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int
+):
+    """Velocity of a stick at block ``end``, and the surface's work on it since block ``start``."""
+    follow_surface(p, u, z, w, end, p[P_STICK_CREEP])
+    if p[P_STICK_CREEP] != 0.0:
+        z[end + WORK_SURFACE] += held_energy(p, z, end) - held_energy(p, z, start)

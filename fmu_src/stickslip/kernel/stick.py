@@ -1,0 +1,150 @@
+"""Motion of a contact that sticks: with the surface, or creeping against it under its load.
+
+A contact is sheared before it slides. With a stick creep v_c the surface leaves the block behind
+as if the contact were a film (regularised Coulomb friction) of the viscosity eta = mu_s N / v_c:
+
+    F_x = -eta U_x,   F_y = -kappa^2 eta U_y,   M = -kappa^2 eta (a^2 / 2) Omega.
+
+(U_x, U_y, Omega) is the sliding velocity and (F_x, F_y, M) the friction that holds the block: mass
+times the surface's acceleration, less springs, damping and external loads. So v_c is the creep
+under the load mu_s N along x; on one linear spring x' = V - v_c K x / (mu_s N). A contact that has
+grown stronger by its age creeps no slower, and breaks away at what it then holds. Where mu_k is
+larger than mu_s, it takes the place of mu_s.
+
+The creep has no inertia, so that the velocity of a stick follows from its place: with inertia it
+would lag behind this by v_c / (mu_s g), and be stiff. What the block's momentum changes by is the
+surface's work, see `held_energy`. (The creep of `creep` is another: a slip.)
+"""
+
+from math import sqrt
+
+from .coefficient import holding_coefficient
+from .contact import set_contact, set_holding_load, set_sliding_velocity
+from .disc import disc_friction
+from .layout import (
+    OMEGA,
+    P_CURVATURE,
+    P_DAMPING,
+    P_DAMPING_ROTATION,
+    P_FREE_PHI,
+    P_FREE_Y,
+    P_INERTIA,
+    P_LATERAL,
+    P_MASS,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+    P_STICK_CREEP,
+    P_STICK_RATIO,
+    VX,
+    VY,
+    W_FRICTION,
+    W_LOAD,
+    W_MEAN_SPEED,
+    W_PAIR,
+    W_SLIDING,
+    W_STATE,
+    W_SURFACE,
+)
+from .surface import surface_motion
+
+
+def set_stick_velocity(p: "float[:]", u: "float[:]", w: "float[:]", creep: float):
+    """Velocity of a block that sticks at the place in ``w[W_STATE:]``, where it is free.
+
+    ``creep`` is the sliding speed per load, m/(s N): P_STICK_CREEP, or 0 for the surface's own
+    velocity. Leaves the surface's motion there and the sliding velocity in ``w``: the creep, and
+    what guides keep from following.
+    """
+    surface_motion(p, u, w, W_STATE)
+    w[W_STATE + VX] = w[W_SURFACE]
+    if p[P_LATERAL] > 0.0:
+        w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
+        w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+    if creep != 0.0:
+        add_stick_creep(p, u, w, creep)
+    else:
+        set_sliding_velocity(w, W_STATE)
+
+
+def add_stick_creep(p: "float[:]", u: "float[:]", w: "float[:]", c: float):
+    """Add the creep to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
+
+    Leaves the contact in ``w``, friction as of `set_holding_load`.
+    The friction that it answers to has a part of its own: damping, and on a turning surface the
+    acceleration of what creeps on it.
+    """
+    set_contact(p, u, w, W_STATE)
+    set_holding_load(p, w)
+    d = p[P_DAMPING]
+    ux = -c * w[W_FRICTION] / (1.0 + c * d)
+    uy = 0.0
+    ur = 0.0
+    kappa = p[P_LATERAL]
+    if kappa > 0.0:
+        cy = p[P_FREE_Y] * c / (kappa * kappa)
+        cr = 2.0 * p[P_FREE_PHI] * c / (kappa * kappa * p[P_RADIUS] * p[P_RADIUS])
+        turning = p[P_MASS] * w[W_SURFACE + 2]
+        ex = -c * w[W_FRICTION]
+        ey = -cy * w[W_FRICTION + 1]
+        size = (1.0 + c * d) * (1.0 + cy * d) + c * cy * turning * turning
+        ux = ((1.0 + cy * d) * ex + c * turning * ey) / size
+        uy = ((1.0 + c * d) * ey - cy * turning * ex) / size
+        ur = -cr * w[W_FRICTION + 2] / (1.0 + cr * p[P_DAMPING_ROTATION])
+    w[W_STATE + VX] += ux
+    w[W_STATE + VY] += uy
+    w[W_STATE + OMEGA] += ur
+    w[W_LOAD] -= d * ux
+    w[W_LOAD + 1] -= d * uy
+    w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * ur
+    if p[P_CURVATURE] != 0.0:
+        surface_motion(p, u, w, W_STATE)
+    set_sliding_velocity(w, W_STATE)
+    set_holding_load(p, w)
+
+
+def set_creeping_stick(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """Velocity, contact, friction and mean sliding speed of a stick that creeps, into ``w``.
+
+    Returns what the surface's power differs by from friction times its velocity, W, beside the
+    change of `held_energy`: that of the surface's own acceleration is in both.
+    """
+    set_stick_velocity(p, u, w, p[P_STICK_CREEP])
+    ux = w[W_SLIDING]
+    w[W_MEAN_SPEED] = abs(ux)
+    power = -p[P_MASS] * w[W_SURFACE + 3] * w[W_STATE + VX]
+    kappa = p[P_LATERAL]
+    if kappa > 0.0:
+        uy = kappa * w[W_SLIDING + 1]
+        spinning = abs(kappa * p[P_RADIUS] * w[W_SLIDING + 2])
+        sliding = sqrt(ux * ux + uy * uy)
+        disc_friction(sliding, spinning, w)
+        w[W_MEAN_SPEED] = w[W_PAIR] * sliding + w[W_PAIR + 1] * spinning
+        power -= p[P_MASS] * w[W_SURFACE + 4] * w[W_STATE + VY]
+        power -= p[P_INERTIA] * w[W_SURFACE + 5] * w[W_STATE + OMEGA]
+    return power
+
+
+def held_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+    """Kinetic energy of the motions that the contact holds at a block of ``z``, J.
+
+    In a stick that creeps, velocities follow from places without a force: what this changes by is
+    the surface's work.
+    """
+    vx = z[block + VX]
+    energy = 0.5 * p[P_MASS] * vx * vx
+    if p[P_LATERAL] > 0.0:
+        vy = z[block + VY]
+        omega = z[block + OMEGA]
+        energy += 0.5 * p[P_MASS] * vy * vy + 0.5 * p[P_INERTIA] * omega * omega
+    return energy
+
+
+def fastest_creep(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+    """Scaled sliding speed that no stick at the moment in ``w[W_STATE:]`` exceeds, m/s.
+
+    That of a load at the limit, and 4/3 of it where the load is all moment.
+    """
+    if p[P_STICK_CREEP] == 0.0:
+        return 0.0
+    limit = holding_coefficient(p, u, w) * p[P_NORMAL_FORCE] / p[P_STICK_RATIO]
+    return 1.5 * p[P_STICK_CREEP] * limit
