@@ -103,7 +103,8 @@ def _record_forced(kernel, p, u, z, w, e, times: np.ndarray, o, rows, force: For
 
 def _set(kernel, p, u, z, w, e, time: float, restart: Restart) -> None:
     """Reach the moment by the model's own motion, then set the state and settle the contact."""
-    if z[Z_STARTED]:
+    past = z[Z_STARTED]
+    if past:
         kernel.advance(p, u, z, w, e, time)
     z[SHOWN] = time
     given = np.isfinite(restart.state)
@@ -112,7 +113,7 @@ def _set(kernel, p, u, z, w, e, time: float, restart: Restart) -> None:
         z[SHOWN + MODE], z[SHOWN + HOLD_SINCE] = STICK, restart.hold_since
         kernel.look_at(p, u, z, w, SHOWN)
         kernel.follow_surface(p, u, z, w, SHOWN, 0.0)
-    elif given[STATE.index("vx")]:  # what the model did before must not decide
+    elif past and given[STATE.index("vx")]:  # how the model moved before must not decide
         z[SHOWN + MODE] = SLIP
     z[Z_STARTED], z[Z_HAS_NEXT] = 0.0, 0.0
     kernel.advance(p, u, z, w, e, time)

@@ -24,6 +24,7 @@ from cosim.master.fmu_log import FmuLog
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED}
+CREEPING = {"surface_speed": 0.03, "initial.vx": 0.03, "friction.stick_creep": 4e-3}
 
 
 class Instance:
@@ -240,6 +241,19 @@ def test_a_state_continues_bit_for_bit(block):
     block.slave.freeFMUState(state)
 
 
+def test_a_state_of_a_stick_that_creeps_continues_bit_for_bit(block):
+    block.initialise(**CREEPING)
+    block.march(0, 40, 0.01)
+    assert block.get("sliding_speed") > 1e-3  # half way to the break-away
+    state = block.slave.getFMUState()
+    block.march(40, 100, 0.01)
+    ahead = block.everything()
+    block.slave.setFMUState(state)
+    block.march(40, 100, 0.01)
+    assert block.everything() == ahead
+    block.slave.freeFMUState(state)
+
+
 def test_a_serialised_state_continues_in_another_process(fmu, block, tmp_path):
     block.initialise(**{"lateral_friction.ratio": 1.0, "initial.x": 0.01})
     block.march(0, 137, 0.01)
@@ -307,9 +321,9 @@ def test_two_builds_run_side_by_side(fmu, tmp_path):
 # --- motion ---
 
 
-def trajectory(block, size, stop=3.0):
+def trajectory(block, size, stop=3.0, **values):
     block.slave.reset()
-    block.initialise()
+    block.initialise(**values)
     x, count = [], round(stop / size)
     for n in range(count):
         block.slave.doStep(n * size, size)
@@ -324,6 +338,13 @@ def test_the_communication_step_does_not_change_the_motion(block, size):
     np.testing.assert_allclose(
         trajectory(block, size), often[stride - 1 :: stride], rtol=0, atol=1e-10
     )
+
+
+def test_the_communication_step_does_not_change_a_creep(block):
+    often = trajectory(block, 0.002, stop=5.0, **CREEPING)
+    (once,) = trajectory(block, 5.0, stop=5.0, **CREEPING)
+    assert once == pytest.approx(often[-1], abs=1e-10)
+    assert block.get("slip_count") > 2
 
 
 def test_heat_flow_is_the_difference_quotient_of_heat(block):

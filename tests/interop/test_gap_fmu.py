@@ -1,6 +1,7 @@
 """The extended model in the FMU: it does there what was measured, and what the fit did."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import fmpy
@@ -8,13 +9,17 @@ import numpy as np
 import pytest
 
 from cosim import read_scenario
-from cosim.gap.show.model_file import model_text, shown_run
+from cosim.gap import read_campaign
+from cosim.gap.shooting.knob import Knob
+from cosim.gap.show.model_file import model_text, scenario_of, shown_run
 from cosim.gap.show.reproduction import reproduce, reproduced_runs
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "unit"))
 
-from gap_answers import answer  # noqa: E402
-from gap_campaigns import NOISE  # noqa: E402
+from gap_answers import PLAIN, answer, fitted  # noqa: E402
+from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
+
+CREEP = 2e-3
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +35,30 @@ def test_the_fmu_reproduces_the_runs_that_were_held_out(gap, fmu):
     # two hundred samples of nothing but noise: 1 within five hundredths, plus the fit's own error
     assert shown.gap < 1.2 and shown.plain_gap > 5.0
     assert shown.apart < 1e-6  # one kernel: rounding, in units of the noise
+
+
+@pytest.fixture(scope="module")
+def creeping(gap, tmp_path_factory):
+    """Sticks that lag behind a slow surface by a fifth of its speed; the slowest is held out."""
+    runs = []
+    for number, speed in enumerate((0.015, 0.03, 0.01)):
+        run = motion(speed=speed, duration=8.0, creep=CREEP)
+        runs.append({"surface_speed": speed, "hold_out": speed == 0.01,
+                     "columns": {"t": run.time, "x": noisy(run["x"], number)}})
+    folder = tmp_path_factory.mktemp("creeping")
+    campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+    plain = fitted(campaign, PLAIN)
+    knob = Knob("friction.stick_creep", 0.9 * CREEP, 0.1 * CREEP, 0.0, 1.0)
+    return replace(gap, campaign=campaign, plain=plain, extended=fitted(campaign, (*PLAIN, knob)))
+
+
+def test_a_creep_is_the_fmu_s_too(creeping, fmu):
+    (run,) = reproduced_runs(creeping)
+    assert scenario_of(creeping, run).friction.stick_creep == pytest.approx(CREEP, rel=0.05)
+    shown = reproduce(creeping, run, fmu)
+    assert shown.time[-1] > 4.0
+    assert shown.gap < 1.2 and shown.plain_gap > 2.0
+    assert shown.apart < 1e-6
 
 
 def test_fmpy_alone_does_the_same_with_the_numbers_of_the_file(gap, fmu, tmp_path):

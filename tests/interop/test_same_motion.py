@@ -18,6 +18,12 @@ CASES = {
     "no springs": {"springs": {"stiffness": 0.0}},
     "backwards": {"surface": {"speed": -0.15}},
     "at rest": {"surface": {"speed": 0.0}},
+    "creeping in stick": {
+        "friction": {"stick_creep": 3e-3},
+        "lateral_friction": {"ratio": 0.7},
+        "surface": {"speed": 0.03},
+        "initial": {"vx": 0.03, "y": 0.002},
+    },
     "stiff": {"springs": {"stiffness": 9999.0}, "surface": {"speed": 0.0}},
 }
 TIMES = ("x", "y", "phi", "heat", "sliding_distance", "surface_travel")

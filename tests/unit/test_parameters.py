@@ -6,6 +6,7 @@ import warnings
 import pytest
 from pydantic import ValidationError
 from stickslip import CATALOGUE, Parameters
+from stickslip.kernel.layout import P_STICK_CREEP
 from stickslip.packing import CURVE_LIMIT
 
 # block, its values, what the message says
@@ -65,6 +66,7 @@ REFUSED = {
         ["force_curve_extension.1", "finite number"],
     ),
     "negative friction": ("friction", {"mu_k": -0.1}, ["friction.mu_k", "equal to 0"]),
+    "creep backwards": ("friction", {"stick_creep": -1e-3}, ["friction.stick_creep", "equal to 0"]),
     "speed not a number": ("surface", {"speed": math.nan}, ["surface.speed", "finite number"]),
     "run-up into the past": ("surface", {"run_up_time": -1.0}, ["run_up_time", "equal to 0"]),
     "start not a number": ("initial", {"x": math.nan}, ["initial.x", "finite number"]),
@@ -96,6 +98,30 @@ def test_unknown_block():
 def test_slab_and_curvature_are_one_thing():
     with pytest.raises(ValueError, match="give one of the two"):
         Parameters(rig={"surface": "slab"}, turning_surface={"curvature": 2.0})
+
+
+@pytest.mark.parametrize("part", ["direct", "evolution"])
+def test_a_contact_creeps_by_one_law(part):
+    creep = {"stick_creep": 1e-3}
+    with pytest.raises(ValueError, match=r"friction.stick_creep = 0.001 .* give one of the two"):
+        Parameters(friction=creep, rate_and_state={part: 0.01})
+    Parameters(friction=creep, rate_and_state={"distance": 1e-4})  # which is off
+
+
+def test_a_creep_is_that_under_what_the_contact_holds():
+    """Per load: v_c / (mu N), mu the larger of the two, with its dependence on the load."""
+    def slot(**tables):
+        with warnings.catch_warnings(action="ignore"):
+            return Parameters(**tables).pack()[P_STICK_CREEP]
+
+    weight = 0.67 * 9.81
+    for mu_s, mu_k in ((0.4, 0.2), (0.1, 0.4)):
+        friction = {"mu_s": mu_s, "mu_k": mu_k, "stick_creep": 2e-3}
+        assert slot(friction=friction) == pytest.approx(2e-3 / (0.4 * weight), rel=1e-14)
+    grown = slot(friction={"mu_s": 0.4, "stick_creep": 2e-3},
+                 load_dependence={"exponent": 1.0, "reference_force": 2.0 * weight})
+    assert grown == pytest.approx(2e-3 / (0.8 * weight), rel=1e-14)
+    assert slot(friction={"mu_s": 0.0, "mu_k": 0.0, "stick_creep": 2e-3}) == 0.0
 
 
 @pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
