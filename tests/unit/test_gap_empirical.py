@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from stickslip.kernel import layout
 from stickslip.kernel.layout import BLOCK, MODE, SLIP, STICK
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -128,6 +129,22 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
     assert errors[-1] < 0.2 * NOISE
     for coarse, fine in zip(errors, errors[1:], strict=False):
         assert 2.5 < coarse / fine < 6.0
+
+
+def test_a_force_acts_beside_a_creep(plain):
+    """None is none, and in the first stick a force like half the springs is half the springs."""
+    flight = prepare(plain, plain.runs[:1], False)[0].first(1)
+    values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2, "friction.stick_creep": 4e-3}
+    acting = forced(flight, [BY_NAME["x"]])
+    free = flight.fly(values, flight.starts)
+    unforced = acting.fly(values | {key(0): 0.0}, flight.starts)
+    assert np.abs(unforced - free)[:, layout.O_X].max() < 1e-8
+    sticks = int(np.flatnonzero(free[:, layout.O_MODE] == 1.0)[0])
+    soft = {"springs.stiffness": 0.5 * 38.5, key(0): -2.0 * 38.5}
+    rigid = flight.fly(values | {"friction.stick_creep": 0.0}, flight.starts)
+    pulled = acting.fly(values | soft, flight.starts)
+    x = [run[:sticks, layout.O_X] for run in (free, pulled, rigid)]
+    assert np.abs(x[1] - x[0]).max() < 5e-3 * NOISE < NOISE < np.abs(x[2] - x[0]).max()
 
 
 def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
