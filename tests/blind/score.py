@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from math import sqrt
 
 import numpy as np
+from scipy.stats import binomtest
 
 SIZES = (0.0, 2.0, 5.0, 10.0, 20.0, 1e9)  # edges of the size classes, noise units
 LARGE = 5.0  # noise units from which an effect must be found
@@ -39,10 +39,8 @@ class Share:
         """95 % interval of the true share (Wilson, 1927)."""
         if not self.total:
             return 0.0, 1.0
-        z, n, p = 1.96, self.total, self.value
-        middle = (p + z * z / (2 * n)) / (1 + z * z / n)
-        half = z / (1 + z * z / n) * sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-        return middle - half, middle + half
+        low, high = binomtest(self.hits, self.total).proportion_ci(method="wilson")
+        return float(low), float(high)
 
     def __str__(self) -> str:
         if not self.total:

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from gap_campaigns import NOISE, motion, noisy
+from stickslip.packing import GRAVITY
 
 from cosim.gap.atlas import (
     ModelTrack,
@@ -14,7 +15,6 @@ from cosim.gap.atlas import (
     residual_atlas,
     ripple_frequency,
 )
-from cosim.gap.atlas.variables import GRAVITY
 from cosim.gap.read import MeasuredRun, Track, find_sticks
 
 SPEEDS = (0.02, 0.06, 0.12)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import savgol_filter
+from stickslip.packing import GRAVITY
 
 from cosim.gap.atlas.model_track import ModelTrack
 
-GRAVITY = 9.81
 #: Part of the natural period over which the measured motion is smoothed.
 SMOOTHED = 0.15
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.signal import savgol_filter
+from stickslip.packing import GRAVITY
 
 from cosim.gap.atlas.response import Stretch, slip_stretch
 from cosim.gap.read import MeasuredRun, Stick
@@ -27,7 +28,6 @@ _SLOW = 0.15
 _LONGEST = 2.5
 #: Velocities are the slopes of cubics over this part of a period.
 _SMOOTH = 0.1
-GRAVITY = 9.81
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from stickslip.packing import GRAVITY
 
 from cosim.gap.candidates.catalogue import Scales
 from cosim.gap.read import MeasuredRun
-
-from .plain import GRAVITY
 
 
 def scales(runs: list[MeasuredRun], mu_k: float) -> Scales:
