@@ -141,7 +141,9 @@ P_FEEDING = 173  # integrated numbers that the motion depends on: MOVING or REME
 P_QUADRATURE = 174  # nodes and weights for friction that varies over the disc, see disc
 P_TABLEAU = 214  # the Runge-Kutta coefficients, see tableau
 P_WEAKENING_CURVATURE = 574  # of the law of thermal_weakening
-P_SIZE = 575
+P_SATURATING = 579  # growth of mu_s that a long hold comes to
+P_SATURATION_TIME = 580  # s
+P_SIZE = 581
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
