@@ -100,8 +100,8 @@ def _adds_nothing(tried: Tried, across: Tried) -> bool:
 def _simplest(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
     """Friction across the motion in place of what brings it along, if that is as good."""
     lateral = [c for c in candidates if c.effect == PART_OF_OTHERS]
-    across = [t.candidate for t in pair if ACROSS in t.candidate.settings and t.candidate.knobs]
-    if len(across) != 1 or not lateral:
+    across = [t.candidate for t in pair if ACROSS in t.candidate.settings]
+    if len(across) != 1 or across[0].effect == PART_OF_OTHERS or not lateral:
         return pair
     simpler = search.less(pair[1], across[0], keep=(ACROSS,))
     if simpler.trial.gap**2 > as_good(pair[1].trial):
