@@ -22,9 +22,9 @@ from cosim.gap.naming.measures import (
     explained,
     repaired,
 )
-from cosim.gap.naming.pairs import NEEDED
+from cosim.gap.naming.pairs import DOMINANT, NEEDED, NEEDED_BESIDE
 from cosim.gap.naming.search import Tried
-from cosim.gap.naming.verdict import DOMINANT, RIVAL, judge
+from cosim.gap.naming.verdict import RIVAL, judge
 from cosim.gap.shooting.fit import Fitted, Point
 from cosim.gap.shooting.trial import Model, Trial
 
@@ -237,6 +237,19 @@ def test_both_effects_of_a_pair_are_needed():
         found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]})
         verdicts.append(found.verdict)
     assert verdicts == ["named", "unknown"]
+
+
+@pytest.mark.parametrize("factor, effects", [
+    (LESS, ("film_drag", "run_in")), (MORE, ("film_drag",))])
+def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_rest(
+        factor, effects):
+    """What is left by one whose law is a little wrong is seldom a second one."""
+    plain, alone = 100.0, after(0.5 * (EXPLAINED_BY_ONE + 1.0), 100.0)
+    pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED_BESIDE) * excess(alone)))
+    first = [tried("film_drag", alone), tried("run_in", after(0.3, plain))]
+    found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]},
+                       without={"run_in": alone.gap, "film_drag": 0.9 * plain})
+    assert (found.verdict, found.effects) == ("named", effects)
 
 
 def test_one_effect_that_dominates_is_named_though_something_is_left():

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fit import Fitted
 from cosim.gap.shooting.trial import Trial
@@ -28,8 +26,10 @@ FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
 PAIRS = 3
 #: No other first effect is tried when a pair leaves less than this part in short windows.
 REST = 0.05
-#: Of two effects, each must have taken away this part of what the other leaves, in squares.
-NEEDED = 0.3
+#: Of two effects, each must have taken away this part of what the other leaves, in squares; beside
+#: one that has taken away so much alone, this part: its law may be a little wrong, and another law
+#: mend some of that.
+NEEDED, DOMINANT, NEEDED_BESIDE = 0.3, 0.85, 0.8
 
 #: The first effect alone, and the second on top of it.
 Pair = tuple[Tried, Tried]
@@ -43,11 +43,11 @@ def best_pair(
 
     sketched : the plain model in short windows
     """
-    alone = {t.candidate.effect: excess(t.trial) for t in done}
+    alone = {t.candidate.effect: t.trial for t in done}
     found = []
     for first, second in search.together(_sketched(search, plain, sketched, done, candidates)):
-        other = alone.get(second.candidate.effect, np.inf)
-        if excess(second.trial) <= (1.0 - NEEDED) * min(excess(first.trial), other):
+        others = [first.trial, alone.get(second.candidate.effect, first.trial)]
+        if all(_is_needed(plain, one, second.trial) for one in others):
             found.append((first, second))
     if not found:
         return None
@@ -55,6 +55,12 @@ def best_pair(
     if second.trial.gap > PLAIN_FITS:
         (second,) = search.polished([second], candidates)
     return _simplest(search, (first, second), candidates)
+
+
+def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
+    """Whether two effects do so much better than one of them that the other has a part in it."""
+    part = NEEDED_BESIDE if explained(plain, alone) >= DOMINANT else NEEDED
+    return excess(both) <= (1.0 - part) * excess(alone)
 
 
 def _gap(pair: Pair) -> float:
@@ -116,11 +122,11 @@ def _named(tried: Tried, candidate: Candidate) -> Tried:
     return Tried(candidate, tried.model, tried.sketched, tried.trial)
 
 
-def needed_alone(search: Search, pair: Pair) -> Tried | None:
+def needed_alone(search: Search, plain: Trial, pair: Pair) -> Tried | None:
     """The effect that does nearly as well without the other, from where the pair ended; or None."""
     first, second = pair
     for kept, dropped in ((second, first), (first, second)):
         alone = search.less(second, dropped.candidate, keep=tuple(kept.candidate.settings))
-        if excess(second.trial) > (1.0 - NEEDED) * excess(alone.trial):
+        if not _is_needed(plain, alone.trial, second.trial):
             return _named(alone, kept.candidate)
     return None

@@ -21,11 +21,11 @@ from .screen import gains
 
 #: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
 #: that do so again, ...
-GLANCE, LOOK, SKETCH = 2, 2, 6
+GLANCE, LOOK, SKETCH = 3, 2, 6
 #: ... so many laws, and so many are fitted in long windows, ...
-LOOKED_AT, SKETCHED, FINALISTS = 12, 7, 5
+LOOKED_AT, SKETCHED, FINALISTS = 16, 7, 5
 #: ... or, beside a first effect, so many laws;
-LOOKED_AT_BESIDE, SKETCHED_BESIDE = 8, 4
+LOOKED_AT_BESIDE, SKETCHED_BESIDE = 10, 4
 #: ... at most so many of one effect.
 FORMS = 2
 #: Rounds in long windows before the best few, so many, are fitted to the end.
@@ -134,7 +134,8 @@ class Search:
                  for c, m in zip(placed, models, strict=True)]
         glances = self._run(glance, tasks)
         seen = [Tried(c, m, g) for c, m, g in zip(placed, models, glances, strict=True)]
-        chosen = _best_forms(seen, FORMS)[:looked]
+        # the best law of every effect: by derivatives of afar a glance may miss how well one does
+        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
         looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
         chosen = _best_forms(looks, FORMS)[:most]
         sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
@@ -215,6 +216,13 @@ def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
             model = extended(base, law, values)
             laws.setdefault(law.knobs, replace(tried, candidate=law, model=model))
     return list(laws.values())
+
+
+def _rank(tried: Tried, seen: Sequence[Tried]) -> int:
+    """How many laws of its effect did better."""
+    cost = penalised(tried.sketched)
+    return sum(t.candidate.effect == tried.candidate.effect and penalised(t.sketched) < cost
+               for t in seen)
 
 
 def _best_forms(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:

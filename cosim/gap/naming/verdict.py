@@ -14,18 +14,19 @@ from .measures import (
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
     EXPLAINED_IF_LITTLE,
+    FITS,
     PLAIN_FITS,
     alike,
     explained,
     is_little,
     repaired,
 )
-from .pairs import best_pair, needed_alone
+from .pairs import DOMINANT, best_pair, needed_alone
 from .search import Search, Tried
 
-#: Where no second effect helps, one that has taken away this part alone is named all the same, if
-#: no other comes near: none takes away more than this part of it.
-DOMINANT, RIVAL = 0.85, 0.5
+#: Where no second effect helps, one that is dominant alone is named all the same, if no other comes
+#: near: none takes away more than this part of what it does.
+RIVAL = 0.5
 #: So many effects are tried once more when the best one leaves more than noise.
 POLISHED = 2
 
@@ -61,11 +62,11 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         done = _merged(search.polished(done[:POLISHED], candidates), done)
     little = is_little(plain, sketched)
     single = _of_one(plain, [*done, *early], EXPLAINED_IF_LITTLE if little else None)
-    if single:
+    if single and single.nearest.gap <= FITS:
         return single
     if little:  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)
-    return _of_two(search, plain, sketched, [*done, *early], candidates)
+    return _of_two(search, plain, sketched, [*done, *early], candidates, single)
 
 
 def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
@@ -89,20 +90,23 @@ def _of_one(
 
 def _of_two(
     search: Search, plain: Trial, sketched: Fitted, ranking: Sequence[Tried],
-    candidates: Sequence[Candidate],
+    candidates: Sequence[Candidate], single: Finding | None,
 ) -> Finding:
-    """Two effects; or one that does the most, or that turns out to do without its second."""
+    """Two effects; or one that does the most, or that turns out to do without its second.
+
+    single : what is to be said if there is no second one, as far as it is known
+    """
     done, early = _parted(ranking)
     pair = best_pair(search, plain, sketched, done, candidates)
     if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
-        alone = needed_alone(search, pair)
+        alone = needed_alone(search, plain, pair)
         if alone is None:
             effects = (pair[0].candidate.effect, pair[1].candidate.effect)
             return Finding("named", effects, pair[1].trial, ranking, pair[1].trial)
         done, ranking = _with(alone, done, early)
         single = _of_one(plain, ranking)
-        if single:
-            return single
+    if single:
+        return single
     best = done[0]
     if _dominates(plain, done):
         return Finding("named", (best.candidate.effect,), best.trial, ranking, best.trial)
