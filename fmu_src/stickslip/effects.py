@@ -43,13 +43,19 @@ class TurningSurface(Block):
 
 
 class StaticStrengthening(Block):
-    """Static friction grows with the logarithm of the time at rest."""
+    """Static friction grows with the time at rest: with its logarithm, or up to a limit."""
 
     rate: float = quantity(
         0.0, "1", "growth of mu_s per decade of hold time", ge=0, le=2, typical=(0.01, 0.3)
     )
     hold_time: float = quantity(
         0.01, "s", "hold time above which mu_s grows: log10(1 + t / hold_time)", gt=0
+    )
+    saturating: float = quantity(
+        0.0, "1", "growth of mu_s that a long hold comes to", ge=0, le=5, typical=(0.02, 0.5)
+    )
+    saturation_time: float = quantity(
+        0.3, "s", "hold time over which it does: 1 - exp(-t / saturation_time)", gt=0
     )
 
 
@@ -400,7 +406,7 @@ CATALOGUE = tuple(
         ),
         (
             "static_strengthening",
-            ("rate",),
+            ("rate", "saturating"),
             "contact",
             "Dieterich, J. Geophys. Res. 77 (1972); Schulson & Fortt, 0.3 a decade on ice",
         ),

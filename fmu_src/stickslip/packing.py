@@ -53,6 +53,8 @@ SLOTS = {
     "turning_surface.curvature": "P_CURVATURE",
     "static_strengthening.rate": "P_STRENGTHENING",
     "static_strengthening.hold_time": "P_HOLD_TIME",
+    "static_strengthening.saturating": "P_SATURATING",
+    "static_strengthening.saturation_time": "P_SATURATION_TIME",
     "velocity_weakening.linear": "P_LINEAR",
     "velocity_weakening.hyperbolic": "P_HYPERBOLIC",
     "velocity_weakening.inverse_root": "P_INVERSE_ROOT",

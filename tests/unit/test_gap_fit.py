@@ -151,7 +151,8 @@ def test_derivatives_are_those_of_a_finer_difference(problem, fitted):
                                problem.residuals(run, at[0], at[1],
                                                  moved(at[2], (n, a), s * step)), 2e-3)
                 elsewhere = np.delete(fine, rows)
-                assert not elsewhere.any()  # nothing here outlives a window
+                # nothing here outlives a window, but for the size of the integrator's next step
+                assert np.abs(elsewhere).max(initial=0.0) < 1e-6 * np.abs(fine).max()
                 error = np.linalg.norm(by_state[:, j] - fine[rows]) / np.linalg.norm(fine[rows])
                 assert error < 0.03
 

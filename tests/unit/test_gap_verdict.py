@@ -6,27 +6,25 @@ import numpy as np
 import pytest
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.naming.search import Tried
-from cosim.gap.naming.verdict import (
+from cosim.gap.naming.measures import (
     ALIKE,
     ALIKE_PART,
-    DOMINANT,
     DRIFT,
     EXPLAINED_AT_LEAST,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
     EXPLAINED_IF_LITTLE,
     FITS,
-    NEEDED,
     PART_OF_OTHERS,
     PLAIN_FITS,
-    RIVAL,
     alike,
     excess,
     explained,
-    judge,
     repaired,
 )
+from cosim.gap.naming.pairs import DOMINANT, NEEDED, NEEDED_BESIDE
+from cosim.gap.naming.search import Tried
+from cosim.gap.naming.verdict import RIVAL, judge
 from cosim.gap.shooting.fit import Fitted, Point
 from cosim.gap.shooting.trial import Model, Trial
 
@@ -53,7 +51,8 @@ def tried(effect, at, settings=None):
     """An effect with a trial, or a gap; None: ruled out by a shorter look."""
     at = trial(at, settings) if isinstance(at, float | int) else at
     model = Model((), settings or {})
-    return Tried(Candidate(effect, "law", (), settings or {}), model, SKETCHED, at)
+    sketched = SKETCHED if at is None else at.fitted
+    return Tried(Candidate(effect, "law", (), settings or {}), model, sketched, at)
 
 
 SKETCHED = trial(FAR).fitted
@@ -63,23 +62,36 @@ SKETCHED = trial(FAR).fitted
 class MadeUp:
     """Answers as `Search` does: what was made up for the plain model, or on top of an effect.
 
-    second : effect -> trials on top of it
+    second : effect -> trials on top of it; without : effect -> gap of a pair without it;
+    across : gap of a pair of which only the friction across is left of one effect
     """
 
     first: list
     second: dict = field(default_factory=dict)
     polish: list = field(default_factory=list)
+    without: dict = field(default_factory=dict)
+    across: float = FAR
     asked: list = field(default_factory=list)
 
     def on(self, base, fitted, candidates):
+        done = [t for t in self.first if t.trial is not None]
+        rest = [t for t in self.first if t.trial is None]
+        return sorted(done, key=lambda t: t.trial.gap) + rest
+
+    def beside(self, base, fitted, candidates):
         on_top = {id(t.model): self.second.get(t.candidate.effect, [])
                   for t in [*self.first, *self.polish]}
         offered = {c.effect for c in candidates}
-        answer = [t for t in on_top.get(id(base), self.first) if t.candidate.effect in offered]
-        self.asked.append((base, offered))
-        done = [t for t in answer if t.trial is not None]
-        rest = [t for t in answer if t.trial is None]
-        return sorted(done, key=lambda t: t.trial.gap) + rest
+        self.asked.append(offered)
+        found = [t for t in on_top.get(id(base), []) if t.candidate.effect in offered]
+        return sorted(found, key=lambda t: t.trial.gap)
+
+    def together(self, pairs):
+        return list(pairs)
+
+    def less(self, whole, dropped, keep):
+        across = any(key in dropped.settings for key in keep)
+        return tried("", self.across if across else self.without.get(dropped.effect, FAR))
 
     def polished(self, chosen, candidates):
         better = {t.candidate.effect: t for t in self.polish}
@@ -178,7 +190,7 @@ def test_two_effects_are_named_where_both_repair_it():
     found, search = two_effects(trial(1.02))
     assert (found.verdict, found.effects) == ("named", ("film_drag", "run_in"))
     assert found.chosen.gap == pytest.approx(1.02)
-    for _, offered in search.asked[1:]:  # a second one is another one
+    for offered in search.asked:  # a second one is another one
         assert len(offered) == 2
 
 
@@ -198,9 +210,19 @@ def test_friction_across_stands_for_what_brings_it_along_if_it_does_as_well(part
     gap = np.sqrt(1.02**2 + part * (ALIKE + ALIKE_PART * excess(pair)))
     first = [tried("film_drag", after(0.6)), tried("turning_surface", after(0.5), ACROSS),
              tried(PART_OF_OTHERS, after(0.1), ACROSS)]
-    both = [tried("turning_surface", pair, ACROSS), tried(PART_OF_OTHERS, gap, ACROSS)]
-    found, _ = finding(first, second={"film_drag": both})
+    both = [tried("turning_surface", pair, ACROSS)]
+    found, _ = finding(first, second={"film_drag": both}, across=gap)
     assert (found.verdict, found.effects) == ("named", ("film_drag", second))
+
+
+def test_a_second_effect_that_the_first_does_without_is_not_named():
+    """The first one alone, fitted again from where the pair ended, does nearly as well."""
+    first = [tried("film_drag", after(0.6)), tried("run_in", after(0.5))]
+    second = {"film_drag": [tried("run_in", 1.2)]}
+    found, _ = finding(first, second=second, without={"run_in": 1.25})
+    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+    found, _ = finding(first, second=second, without={"film_drag": 1.25})
+    assert (found.verdict, found.effects) == ("named", ("run_in",))
 
 
 def test_both_effects_of_a_pair_are_needed():
@@ -215,6 +237,19 @@ def test_both_effects_of_a_pair_are_needed():
         found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]})
         verdicts.append(found.verdict)
     assert verdicts == ["named", "unknown"]
+
+
+@pytest.mark.parametrize("factor, effects", [
+    (LESS, ("film_drag", "run_in")), (MORE, ("film_drag",))])
+def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_rest(
+        factor, effects):
+    """What is left by one whose law is a little wrong is seldom a second one."""
+    plain, alone = 100.0, after(0.5 * (EXPLAINED_BY_ONE + 1.0), 100.0)
+    pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED_BESIDE) * excess(alone)))
+    first = [tried("film_drag", alone), tried("run_in", after(0.3, plain))]
+    found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]},
+                       without={"run_in": alone.gap, "film_drag": 0.9 * plain})
+    assert (found.verdict, found.effects) == ("named", effects)
 
 
 def test_one_effect_that_dominates_is_named_though_something_is_left():

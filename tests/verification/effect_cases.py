@@ -16,6 +16,7 @@ BESIDE_CREEP = tuple(effect for effect in IDS if effect != "rate_and_state")
 # log-uniform where both ends are positive, uniform else
 ELSEWHERE = {
     "hold_time": (1e-3, 0.1),
+    "saturation_time": (0.05, 2.0),
     "curvature": (-1.0, 1.0),
     "stribeck_speed": (0.01, 0.3),
     "distance": (0.1, 3.0),

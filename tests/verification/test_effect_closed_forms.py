@@ -74,6 +74,18 @@ def test_strengthening_first_break_away():
     assert run.events[0, 0] == pytest.approx(brentq(balance, 1.0, 50.0, xtol=1e-13), abs=1e-11)
 
 
+def test_saturating_strengthening_first_break_away():
+    """K v t = N (mu_s + rise (1 - exp(-t / t_0))): the load must catch up with the growth."""
+    rise, time = 0.04, 1.5
+    block = {"saturating": rise, "saturation_time": time}
+    run = simulate(unit(static_strengthening=block), 10.0)
+
+    def balance(t):
+        return 0.2 * t - 1.0 - GRAVITY * rise * (1.0 - np.exp(-t / time))
+
+    assert run.events[0, 0] == pytest.approx(brentq(balance, 1.0, 50.0, xtol=1e-13), abs=1e-11)
+
+
 def test_strengthening_counts_from_every_re_stick():
     beta, hold = 0.03, 0.02
     run = simulate(

@@ -53,6 +53,10 @@ CASES = {
         {"static_strengthening": {"rate": 0.05, "hold_time": 0.004}},
         {"static": lambda held, s: NORMAL * (MU_S + 0.05 * np.log10(1.0 + max(held, 0) / 0.004))},
     ),
+    "static_strengthening, saturating": (
+        {"static_strengthening": {"saturating": 0.08, "saturation_time": 0.05}},
+        {"static": lambda held, s: NORMAL * (MU_S + 0.08 * (1 - np.exp(-max(held, 0) / 0.05)))},
+    ),
     "velocity_weakening, linear": (
         {"velocity_weakening": {"linear": 0.8}},
         {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * u))},

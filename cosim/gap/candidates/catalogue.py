@@ -61,6 +61,10 @@ def _static_strengthening(s: Scales):
     for time in (0.03, 0.5):
         onset = Knob("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
         yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset))
+    for time in (0.1, 0.5):
+        yield Candidate("static_strengthening", "saturating", (
+            Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
+            Knob("static_strengthening.saturation_time", time, 0.5, 1e-3, 30.0, log=True)))
 
 
 def _velocity_weakening(s: Scales):

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.shooting.fit import Fitted, Point, Problem
+from cosim.gap.shooting.fit import Fitted, Problem
 from cosim.gap.shooting.flight import Flight
 from cosim.gap.shooting.trial import Model
 from cosim.processes import Map
@@ -22,7 +22,10 @@ Answer = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 def gains(
     flights: Sequence[Flight], base: Model, fitted: Fitted, laws: Sequence[Candidate], mapped: Map
 ) -> np.ndarray:
-    """(laws,) part of the sum of squares that each law's answer explains; 0 if it points away."""
+    """(laws,) part of the sum of squares that each law's answer explains; 0 if it points away.
+
+    fitted : of the base, with derivatives
+    """
     runs = [(flight, base, fitted, i, laws) for i, flight in enumerate(flights)]
     parts = list(mapped(answers, runs))
     normal, across, own, right = (np.sum(part, axis=0) for part in zip(*parts, strict=True))
@@ -42,10 +45,7 @@ def answers(
     answers, of each answer with itself, and with the residuals.
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
-    problem = Problem([flight], base.knobs, base.settings)
-    residuals = problem.residuals(0, *at)
-    point = Point(at[0], (at[1],), (at[2],))
-    columns = problem.columns(0, point, residuals, range(len(problem.shared)))
+    residuals, columns = fitted.residuals[run], fitted.columns[run]
     found = [_answer(flight, base, law, at) - residuals for law in laws]
     left = columns.left(np.column_stack([columns.shared, residuals]))
     turned = columns.left(np.column_stack(found))

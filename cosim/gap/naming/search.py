@@ -10,6 +10,7 @@ import numpy as np
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.glance import glance, ground
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Data, Model, Trial, finished, sketch, try_model
 from cosim.processes import Map
@@ -18,16 +19,22 @@ from .other_starts import other_starts
 from .scan import scan
 from .screen import gains
 
-#: Rounds of the first look at every law, and of the sketch of those that do well in it.
-GLANCE, SKETCH = 2, 8
-#: So many laws are sketched and so many fitted in long windows, ...
-SKETCHED, FINALISTS = 7, 5
+#: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
+#: that do so again, ...
+GLANCE, LOOK, SKETCH = 3, 2, 6
+#: ... so many laws, and so many are fitted in long windows, ...
+LOOKED_AT, SKETCHED, FINALISTS = 16, 7, 5
+#: ... or, beside a first effect, so many laws;
+LOOKED_AT_BESIDE, SKETCHED_BESIDE = 10, 4
 #: ... at most so many of one effect.
 FORMS = 2
 #: Rounds in long windows before the best few, so many, are fitted to the end.
 FIRST, FINISHED = 6, 2
 #: On top of a first effect, so many laws are looked at.
 PROMISING = 10
+
+#: The setting by which friction acts across the motion.
+ACROSS = "lateral_friction.ratio"
 
 Progress = Callable[[int], object]
 
@@ -54,20 +61,43 @@ class Search:
 
         fitted : the base in short windows.
         """
-        placed = self._placed(base, fitted, candidates)
-        if base.added:
-            placed = self._promising(base, fitted, placed)
-        placed += [c.faint() for c in placed if c.can_be_faint]
-        models = [extended(base, c, fitted.values) for c in placed]
-        glances = self._run(sketch, [(self.data, m, GLANCE, None, fitted) for m in models])
-        tried = [Tried(c, m, g) for c, m, g in zip(placed, models, glances, strict=True)]
-        chosen = _best_forms(tried, FORMS)[:SKETCHED]
-        sketches = self._run(_continued, [(self.data, t) for t in chosen])
-        chosen = _best_forms(sketches, FORMS)[:FINALISTS]
-        done = self._tried(chosen)
-        seen = {t.candidate.effect for t in done}
-        rest = [t for t in _best_forms([*sketches, *tried], 1) if t.candidate.effect not in seen]
+        sketches, seen = self._sketches(base, fitted, candidates, LOOKED_AT, SKETCHED)
+        done = self._tried(_best_forms(sketches, FORMS)[:FINALISTS])
+        effects = {t.candidate.effect for t in done}
+        rest = [t for t in _best_forms([*sketches, *seen], 1) if t.candidate.effect not in effects]
         return done + rest
+
+    def beside(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+    ) -> list[Tried]:
+        """The best laws beside an effect that is in the base, in short windows, best first."""
+        sketches, _ = self._sketches(base, fitted, candidates, LOOKED_AT_BESIDE, SKETCHED_BESIDE)
+        return _best_forms(sketches, FORMS)
+
+    def together(self, pairs: Sequence[tuple[Tried, Tried]]) -> list[tuple[Tried, Tried]]:
+        """Second effects on top of first ones in long windows; the best few to the end."""
+        seconds = [second for _, second in pairs]
+        trials = self._run(try_model, [(self.data, t.model, t.sketched, FIRST) for t in seconds])
+        best = sorted(range(len(pairs)), key=lambda i: trials[i].gap)[:FINISHED]
+        ended = self._run(finished, [(self.data, trials[i]) for i in best])
+        trials = [ended[best.index(i)] if i in best else trial for i, trial in enumerate(trials)]
+        return [(first, replace(second, trial=trial))
+                for (first, second), trial in zip(pairs, trials, strict=True)]
+
+    def less(self, tried: Tried, dropped: Candidate, keep: Sequence[str]) -> Tried:
+        """A trial's model without an effect, fitted to the end from where the trial ended.
+
+        keep : settings of the dropped effect that others need
+        """
+        gone = {knob.key for knob in dropped.knobs}
+        values = tried.trial.fitted.values
+        knobs = tuple(moved(k, values) for k in tried.model.knobs if k.key not in gone)
+        settings = {key: value for key, value in tried.model.settings.items()
+                    if key not in dropped.settings or key in keep}
+        model = Model(knobs, settings, tried.model.added - 1)
+        (again,) = self._run(_sketched, [(self.data, replace(tried, model=model))])
+        (trial,) = self._run(try_model, [(self.data, model, again.sketched)])
+        return replace(again, trial=trial)
 
     def polished(self, tried: Sequence[Tried], candidates: Sequence[Candidate]) -> list[Tried]:
         """Trials once more, from several values of mu_s and by the effect's other laws, best first.
@@ -90,6 +120,27 @@ class Search:
         late.sort(key=lambda t: t.trial.gap)
         return (*(t for t in tried if t.trial is not None), *late)
 
+    def _sketches(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], looked: int, most: int
+    ) -> tuple[list[Tried], list[Tried]]:
+        """The best laws sketched, at most so many, and all that were looked at for it."""
+        placed = self._placed(base, fitted, candidates)
+        grounds = self._grounds(base, fitted, placed)
+        if base.added:
+            placed = self._promising(base, grounds[()], placed)
+        placed += [c.faint() for c in placed if c.can_be_faint]
+        models = [extended(base, c, fitted.values) for c in placed]
+        tasks = [(self.data, m, grounds[_across(base, c)], GLANCE)
+                 for c, m in zip(placed, models, strict=True)]
+        glances = self._run(glance, tasks)
+        seen = [Tried(c, m, g) for c, m, g in zip(placed, models, glances, strict=True)]
+        # the best law of every effect: by derivatives of afar a glance may miss how well one does
+        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
+        looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
+        chosen = _best_forms(looks, FORMS)[:most]
+        sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
+        return sketches, [*looks, *seen]
+
     def _tried(self, sketched: Sequence[Tried]) -> list[Tried]:
         """The best law of each effect in long windows, best first; the best few to the end."""
         trials = self._run(try_model, [(self.data, t.model, t.sketched, FIRST) for t in sketched])
@@ -98,6 +149,15 @@ class Search:
         trials = self._run(finished, [(self.data, t.trial) for t in done[:FINISHED]])
         ended = [replace(t, trial=trial) for t, trial in zip(done, trials, strict=False)]
         return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.gap)
+
+    def _grounds(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+    ) -> dict[tuple, Fitted]:
+        """The base with its derivatives, as it is and with the friction across that laws bring."""
+        kinds = list(dict.fromkeys([(), *(_across(base, c) for c in candidates)]))
+        models = [replace(base, settings={**base.settings, **dict(kind)}) for kind in kinds]
+        grounds = self._run(ground, [(self.data, model, fitted) for model in models])
+        return dict(zip(kinds, grounds, strict=True))
 
     def _promising(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
@@ -128,8 +188,14 @@ class Search:
         return placed
 
 
-def _continued(data: Data, tried: Tried) -> Tried:
-    return replace(tried, sketched=sketch(data, tried.model, SKETCH, tried.sketched))
+def _across(base: Model, candidate: Candidate) -> tuple[tuple[str, float], ...]:
+    """What it sets that changes the motion even where there is next to nothing else of it."""
+    new = candidate.settings.items() - base.settings.items()
+    return tuple((key, value) for key, value in new if key == ACROSS)
+
+
+def _continued(data: Data, tried: Tried, rounds: int) -> Tried:
+    return replace(tried, sketched=sketch(data, tried.model, rounds, tried.sketched))
 
 
 def _sketched(data: Data, tried: Tried) -> Tried:
@@ -150,6 +216,13 @@ def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
             model = extended(base, law, values)
             laws.setdefault(law.knobs, replace(tried, candidate=law, model=model))
     return list(laws.values())
+
+
+def _rank(tried: Tried, seen: Sequence[Tried]) -> int:
+    """How many laws of its effect did better."""
+    cost = penalised(tried.sketched)
+    return sum(t.candidate.effect == tried.candidate.effect and penalised(t.sketched) < cost
+               for t in seen)
 
 
 def _best_forms(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:

@@ -7,7 +7,7 @@ run's own columns (variable projection, Golub & Pereyra 1973).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -24,6 +24,10 @@ _STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
 #: is above that of noise: a model that does not fit need not do so to the last digit.
 _ENOUGH, _PART_OF_EXCESS = 0.02, 1e-3
 MOST_ROUNDS = 25
+#: Steps tried in a round, each eight times as damped as the one before.
+MOST_TRIES = 12
+#: Most further steps by the derivatives of a round.
+_CHORDS = 2
 #: Longest step of a round, in steps of a knob: a parameter that is thrown to where the motion does
 #: not feel it any more never comes back.
 _LONGEST = 4.0
@@ -141,6 +145,10 @@ class Fitted:
         return float(np.sqrt(sum(r @ r for r in chosen) / max(1, sum(r.size for r in chosen))))
 
 
+#: Of a run, at a point, with its residuals there.
+Derivatives = Callable[[int, Point, np.ndarray], Columns]
+
+
 def _named(knobs: Sequence[Knob], scaled: np.ndarray, per_run: bool) -> dict[str, float]:
     chosen = [knob for knob in knobs if knob.per_run == per_run]
     return {knob.key: knob.value(s) for knob, s in zip(chosen, scaled, strict=True)}
@@ -198,12 +206,13 @@ class Problem:
         at = point.shared, point.own[run], point.states[run]
         shared = np.zeros((residuals.size, len(self.shared)))
         for j in free_shared:
-            shared[:, j] = self._difference(run, at, 0, j, self.shared[j], residuals)
-        own = [self._difference(run, at, 1, j, k, residuals) for j, k in enumerate(self.own)]
+            shared[:, j] = self.difference(run, at, 0, j, self.shared[j], residuals)
+        own = [self.difference(run, at, 1, j, k, residuals) for j, k in enumerate(self.own)]
         own = np.array(own).reshape(len(own), residuals.size).T
         return Columns(residuals, shared, own, self._by_state(run, at, residuals))
 
-    def _difference(self, run, at, which, j, knob: Knob, residuals) -> np.ndarray:
+    def difference(self, run, at, which, j, knob: Knob, residuals) -> np.ndarray:
+        """(rows,) derivative of one run by number j of its point's part ``which``."""
         moved = [a.copy() for a in at]
         step = _PART if moved[which][j] + _PART <= knob.scaled(knob.high) else -_PART
         moved[which][j] += step
@@ -282,31 +291,59 @@ class Problem:
         return weight * (shared - centre), weight
 
 
-def fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS, fixed: bool = False) -> Fitted:
-    """The best point from a first one; ``fixed``: only what belongs to the runs moves."""
-    residuals = problem.all_residuals(point)
-    cost, damping = _cost(problem, point, residuals), 1e-3
-    rows = sum(r.size for r in residuals)
+def fit(
+    problem: Problem, point: Point, rounds: int = MOST_ROUNDS, fixed: bool = False,
+    derivatives: Derivatives | None = None, tries: int = MOST_TRIES,
+) -> Fitted:
+    """The best point from a first one.
+
+    fixed : only what belongs to the runs moves; derivatives : others than the model's own there;
+    tries : steps in a round until one leads on
+    """
+    way = _Descent(problem, point, fixed)
     for _ in range(rounds):
-        free = [] if fixed else range(len(problem.shared))
-        columns = [problem.columns(i, point, r, free) for i, r in enumerate(residuals)]
-        gained = False
-        while damping < 1e6:
-            step = np.zeros(len(problem.shared)) if fixed else _step(problem, point, columns,
-                                                                     damping)
-            tried, new = problem.tried(point, step, columns)
-            new_cost = _cost(problem, tried, new)
-            if new_cost < cost:
-                gained = cost - new_cost > max(_ENOUGH, _PART_OF_EXCESS * (new_cost - rows))
-                point, residuals, cost = tried, new, new_cost
-                damping = max(damping * 0.2, 1e-9)
-                break
-            damping *= 8.0
-            if fixed:
-                break
-        if not gained:
+        columns = way.columns() if derivatives is None else [
+            derivatives(i, way.point, r) for i, r in enumerate(way.residuals)]
+        if not way.gains(columns, tries):
             break
-    return Fitted(problem.knobs, point, residuals)
+        # derivatives are most of the work, and do for another step or two (Shamanskii 1967)
+        for _ in range(_CHORDS):
+            again = [replace(c, residuals=r) for c, r in zip(columns, way.residuals, strict=True)]
+            if fixed or derivatives or not way.gains(again, 1):
+                break
+    return Fitted(problem.knobs, way.point, way.residuals)
+
+
+class _Descent:
+    """A fit on its way: where it stands, what it costs, how damped its steps are."""
+
+    def __init__(self, problem: Problem, point: Point, fixed: bool):
+        self.problem, self.point, self.fixed = problem, point, fixed
+        self.residuals = problem.all_residuals(point)
+        self.cost, self.damping = _cost(problem, point, self.residuals), 1e-3
+
+    def columns(self) -> list[Columns]:
+        """Derivatives of every run where it stands."""
+        free = [] if self.fixed else range(len(self.problem.shared))
+        return [self.problem.columns(i, self.point, r, free) for i, r in enumerate(self.residuals)]
+
+    def gains(self, columns: Sequence[Columns], tries: int) -> bool:
+        """Take the first of so many steps, ever shorter, that leads down: whether by enough."""
+        damping = self.damping
+        for _ in range(1 if self.fixed else tries):
+            step = np.zeros(len(self.problem.shared))
+            if not self.fixed:
+                step = _step(self.problem, self.point, columns, damping)
+            point, residuals = self.problem.tried(self.point, step, columns)
+            cost = _cost(self.problem, point, residuals)
+            if cost < self.cost:
+                excess = cost - sum(r.size for r in residuals)
+                enough = self.cost - cost > max(_ENOUGH, _PART_OF_EXCESS * excess)
+                self.point, self.residuals, self.cost = point, residuals, cost
+                self.damping = max(0.2 * damping, 1e-9)
+                return enough
+            damping *= 8.0
+        return False
 
 
 def _cost(problem: Problem, point: Point, residuals) -> float:

@@ -19,6 +19,8 @@ COLUMN = {"x": layout.O_X, "y": layout.O_X + 1, "phi": layout.O_X + 2}
 LOST = 1e3
 #: Integrator's tolerance in a fit: far below the noise, and cheap.
 TOLERANCE = 1e-7
+#: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
+_LONGER = 2.0
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,7 @@ class Flight:
         speed = driven_speed(self.speed, flat)
         flat.pop(SPEED_OFFSET, None)
         p = np.array(pack(flat))
+        p[layout.P_LONGEST_STEP] *= _LONGER
         restarts = [
             Restart(window.first, state, window.hold_since)
             for window, state in zip(self.windows, states, strict=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from .knob import Knob
 #: Rounds that the windows' states take to follow parameters that stay as they are.
 _ROUNDS_UNFITTED = 2
 #: Phases, degrees, that a fit may set out from.
-_PHASES = np.arange(0.0, 360.0, 30.0)
+_PHASES = np.arange(0.0, 360.0, 60.0)
 #: Fits that may follow one whose phases turned out to be better elsewhere.
 _REPEATS = 3
 
@@ -69,20 +69,13 @@ class Trial:
         return self.held_out.gap() if self.held_out.residuals else self.fitted.gap()
 
 
-def sketch(
-    data: Data, model: Model, rounds: int, before: Fitted | None = None, base: Fitted | None = None
-) -> Fitted:
+def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
     """A fit in short windows: robust, cheap, and near enough for the long ones.
 
-    before : the same model's, to go on from; base : a simpler model's, from whose states it starts,
-    and from its values where a knob's start is what is known beforehand
+    before : the same model's, to go on from
     """
     problem = Problem(data.short, model.knobs, model.settings)
     point = before.point if before else start(data.short, model.knobs)
-    if base is not None:
-        known = [k.scaled(base.values.get(k.key, k.start)) if k.prior else s
-                 for k, s in zip(problem.shared, point.shared, strict=True)]
-        point = Point(np.array(known), point.own, base.point.states)
     return fit(problem, with_phases(problem, point), rounds)
 
 
@@ -137,13 +130,14 @@ def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
     return fitted
 
 
-def with_phases(problem: Problem, point: Point) -> Point:
-    """Each run's phases where they fit best of a few, its present one included.
+def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = None) -> Point:
+    """Each run's phases (of ``keys``, or all) where they fit best of a few, the present included.
 
     A fit finds its way over an eighth of a turn, not over half of one. All are judged from the
     states read off the data: fitted ones have made up for the present phase.
     """
-    turned = [j for j, knob in enumerate(problem.own) if knob.key.endswith("phase_deg")]
+    turned = [j for j, knob in enumerate(problem.own)
+              if knob.key.endswith("phase_deg") and (keys is None or knob.key in keys)]
     if not turned:
         return point
     own, states = list(point.own), list(point.states)

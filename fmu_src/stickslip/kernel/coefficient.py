@@ -26,6 +26,8 @@ from .layout import (
     P_REFERENCE,
     P_RUN_IN,
     P_RUN_IN_DISTANCE,
+    P_SATURATING,
+    P_SATURATION_TIME,
     P_SCATTER,
     P_SCATTER_WAVES,
     P_SENSITIVITY,
@@ -184,10 +186,20 @@ def onset_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     return slow_coefficient(p, u, w, 0.0)
 
 
+def strengthening(p: "float[:]", hold: float) -> float:
+    """What ``hold`` seconds at rest add to mu_s: so much a decade, or so much in the end."""
+    growth = 0.0
+    if p[P_STRENGTHENING] != 0.0:
+        growth += p[P_STRENGTHENING] * log10(1.0 + hold / p[P_HOLD_TIME])
+    if p[P_SATURATING] != 0.0:
+        growth += p[P_SATURATING] * (1.0 - exp(-hold / p[P_SATURATION_TIME]))
+    return growth
+
+
 def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     """Coefficient that a contact at rest can hold: mu_s, or mu_k where that is larger.
 
-    mu_s grows by a fixed amount per decade of the time at rest (static_strengthening). With
+    mu_s grows with the time at rest (static_strengthening). With
     mu_k > mu_s a block that breaks away at mu_s is stopped at once; at rest it therefore holds up
     to mu_k. With rate_and_state the age of the contact says what it holds, and mu_s is not used.
     """
@@ -196,7 +208,6 @@ def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
         return onset
     mu = p[P_MU_S] * surface_factor(p, w)
     mu *= max(0.0, 1.0 - p[P_STATIC_SENSITIVITY] * (ice_temperature(u) - p[P_REFERENCE]))
-    if p[P_STRENGTHENING] != 0.0 and w[W_STATE + MODE] == STICK:
-        hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
-        mu += p[P_STRENGTHENING] * log10(1.0 + hold / p[P_HOLD_TIME])
+    if w[W_STATE + MODE] == STICK:
+        mu += strengthening(p, max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE]))
     return max(mu, onset)

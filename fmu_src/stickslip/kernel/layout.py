@@ -141,8 +141,10 @@ P_FEEDING = 173  # integrated numbers that the motion depends on: MOVING or REME
 P_QUADRATURE = 174  # nodes and weights for friction that varies over the disc, see disc
 P_TABLEAU = 214  # the Runge-Kutta coefficients, see tableau
 P_WEAKENING_CURVATURE = 574  # of the law of thermal_weakening
-P_STICK_CREEP = 575  # sliding speed of a stick per load, m/(s N), see stick
-P_SIZE = 576
+P_SATURATING = 579  # growth of mu_s that a long hold comes to
+P_SATURATION_TIME = 580  # s
+P_STICK_CREEP = 581  # sliding speed of a stick per load, m/(s N), see stick
+P_SIZE = 582
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4

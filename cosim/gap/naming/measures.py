@@ -1,0 +1,83 @@
+"""What a trial has taken away of the plain model's misfit, and which trials do as well."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.trial import Trial
+
+from .search import ACROSS, Tried
+
+#: The plain model fits when its gap is at most this: what a real contact has beside any model
+#: (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
+PLAIN_FITS = 1.3
+#: A repaired model fits when its gap is at most this, ...
+FITS = 1.5
+#: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
+#: real effect is never quite the catalogue's.
+EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.85
+#: What takes away less than this part has no name, however little there was.
+EXPLAINED_AT_LEAST = 0.5
+#: Where the plain model fits in short flights, what long ones show up to this gap may be the drift
+#: of a motion that is unstable by itself; a name for so little must explain this part of it.
+DRIFT, EXPLAINED_IF_LITTLE = 2.0, 0.85
+#: So many times the part that is gone from the fitted runs may be gone from all.
+FELT_BY_FITTED = 2.0
+#: Effects cannot be told apart when their gaps, squared, differ by less than this ...
+ALIKE = 0.08
+#: ... and this part of what the better one leaves over the noise.
+ALIKE_PART = 0.1
+#: Friction across the motion comes with every effect that moves a block off its line.
+PART_OF_OTHERS = "lateral_friction"
+
+
+def is_little(plain: Trial, sketched: Fitted) -> bool:
+    """Whether what the plain model leaves is next to nothing, or nothing but drift."""
+    return plain.gap <= FITS or (plain.gap <= DRIFT and sketched.gap() <= PLAIN_FITS)
+
+
+def repaired(plain: Trial, trial: Trial, part: float, at_least: float | None = None) -> bool:
+    """Whether next to nothing of what there was is left: this part is gone, or noise remains.
+
+    at_least : part that must be gone where noise remains, EXPLAINED_AT_LEAST if not given
+    """
+    gone = explained(plain, trial)
+    least = EXPLAINED_AT_LEAST if at_least is None else at_least
+    return gone >= part or (gone >= least and excess(trial) <= FITS**2 - 1.0)
+
+
+def explained(plain: Trial, trial: Trial) -> float:
+    """Part of the plain model's excess that is gone from all runs.
+
+    It counts no more than so many times what is gone from those fitted: a number that they hardly
+    feel may happen to help a run that was held out.
+    """
+    gone = _gone(plain.gap, trial.gap)
+    if plain.fitted.gap() <= PLAIN_FITS:
+        return gone
+    return min(gone, FELT_BY_FITTED * _gone(plain.fitted.gap(), trial.fitted.gap()))
+
+
+def _gone(before: float, after: float) -> float:
+    return 1.0 - max(after**2 - 1.0, 0.0) / (before**2 - 1.0) if before > 1.0 else 0.0
+
+
+def excess(trial: Trial) -> float:
+    """Mean square residual over that of the noise."""
+    return max(trial.gap**2 - 1.0, 0.0)
+
+
+def alike(done: Sequence[Tried]) -> tuple[str, ...]:
+    """The effects that repair the model as well as the best one does."""
+    best = done[0].trial
+    members = tuple(t.candidate.effect for t in done if t.trial.gap**2 <= as_good(best))
+    if PART_OF_OTHERS in members:  # then what the others add to it is of no use
+        has_it = {t.candidate.effect for t in done if ACROSS in t.model.settings}
+        members = tuple(m for m in members if m == PART_OF_OTHERS or m not in has_it)
+    return members
+
+
+def as_good(best: Trial) -> float:
+    """Square of the gap that is as good as the best one."""
+    return best.gap**2 + ALIKE + ALIKE_PART * excess(best)

@@ -1,0 +1,132 @@
+"""Two effects at once: which two repair the model together, and whether either does alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.trial import Trial
+
+from .measures import (
+    ALIKE,
+    ALIKE_PART,
+    PART_OF_OTHERS,
+    PLAIN_FITS,
+    as_good,
+    excess,
+    explained,
+)
+from .search import ACROSS, Search, Tried, penalised
+
+#: So many single effects are tried with a second one, if they take away this part alone; the
+#: best few are whatever they take away.
+FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
+#: So many pairs are fitted in long windows.
+PAIRS = 3
+#: No other first effect is tried when a pair leaves less than this part in short windows.
+REST = 0.05
+#: Of two effects, each must have taken away this part of what the other leaves, in squares; beside
+#: one that has taken away so much alone, this part: its law may be a little wrong, and another law
+#: mend some of that.
+NEEDED, DOMINANT, NEEDED_BESIDE = 0.3, 0.85, 0.8
+
+#: The first effect alone, and the second on top of it.
+Pair = tuple[Tried, Tried]
+
+
+def best_pair(
+    search: Search, plain: Trial, sketched: Fitted, done: Sequence[Tried],
+    candidates: Sequence[Candidate],
+) -> Pair | None:
+    """The two effects that together leave least, if each is needed beside the other.
+
+    sketched : the plain model in short windows
+    """
+    alone = {t.candidate.effect: t.trial for t in done}
+    found = []
+    for first, second in search.together(_sketched(search, plain, sketched, done, candidates)):
+        others = [first.trial, alone.get(second.candidate.effect, first.trial)]
+        if all(_is_needed(plain, one, second.trial) for one in others):
+            found.append((first, second))
+    if not found:
+        return None
+    first, second = min(found, key=_gap)
+    if second.trial.gap > PLAIN_FITS:
+        (second,) = search.polished([second], candidates)
+    return _simplest(search, (first, second), candidates)
+
+
+def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
+    """Whether two effects do so much better than one of them that the other has a part in it."""
+    part = NEEDED_BESIDE if explained(plain, alone) >= DOMINANT else NEEDED
+    return excess(both) <= (1.0 - part) * excess(alone)
+
+
+def _gap(pair: Pair) -> float:
+    return pair[1].trial.gap
+
+
+def _sketched(
+    search: Search, plain: Trial, sketched: Fitted, done: Sequence[Tried],
+    candidates: Sequence[Candidate],
+) -> list[Pair]:
+    """The best pairs in short windows, each pair of effects once, best first."""
+    pairs: list[Pair] = []
+    little = REST * (sketched.gap() ** 2 - 1.0)
+    for first in _firsts(plain, done):
+        others = [c for c in candidates if c.effect != first.candidate.effect]
+        seconds = search.beside(first.model, first.sketched, others)
+        pairs += [(first, second) for second in seconds]
+        if seconds and seconds[0].sketched.gap() ** 2 - 1.0 <= little:
+            break
+    best: dict[frozenset[str], Pair] = {}
+    for pair in sorted(pairs, key=lambda pair: penalised(pair[1].sketched)):
+        best.setdefault(frozenset(t.candidate.effect for t in pair), pair)
+    return list(best.values())[:PAIRS]
+
+
+def _firsts(plain: Trial, done: Sequence[Tried]) -> list[Tried]:
+    """Best first, without those that add nothing to the friction across that they bring along."""
+    across = next((t for t in done if t.candidate.effect == PART_OF_OTHERS), None)
+    telling = [t for t in done if across is None or t is across or not _adds_nothing(t, across)]
+    return [
+        t for i, t in enumerate(telling)
+        if i < AT_LEAST or explained(plain, t.trial) >= WORTH_A_SECOND
+    ][:FIRSTS]
+
+
+def _adds_nothing(tried: Tried, across: Tried) -> bool:
+    """Whether friction across alone does as well, in short windows."""
+    left = tried.sketched.gap() ** 2
+    as_well = left + ALIKE + ALIKE_PART * max(left - 1.0, 0.0)
+    return ACROSS in tried.candidate.settings and across.sketched.gap() ** 2 <= as_well
+
+
+def _simplest(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
+    """Friction across the motion in place of what brings it along, if that is as good."""
+    lateral = [c for c in candidates if c.effect == PART_OF_OTHERS]
+    across = [t.candidate for t in pair if ACROSS in t.candidate.settings]
+    if len(across) != 1 or across[0].effect == PART_OF_OTHERS or not lateral:
+        return pair
+    simpler = search.less(pair[1], across[0], keep=(ACROSS,))
+    if simpler.trial.gap**2 > as_good(pair[1].trial):
+        return pair
+    first, second = pair
+    if second.candidate is across[0]:
+        return first, _named(simpler, lateral[0])
+    return _named(first, lateral[0]), _named(simpler, second.candidate)
+
+
+def _named(tried: Tried, candidate: Candidate) -> Tried:
+    return Tried(candidate, tried.model, tried.sketched, tried.trial)
+
+
+def needed_alone(search: Search, plain: Trial, pair: Pair) -> Tried | None:
+    """The effect that does nearly as well without the other, from where the pair ended; or None."""
+    first, second = pair
+    for kept, dropped in ((second, first), (first, second)):
+        alone = search.less(second, dropped.candidate, keep=tuple(kept.candidate.settings))
+        if not _is_needed(plain, alone.trial, second.trial):
+            return _named(alone, kept.candidate)
+    return None

@@ -1,0 +1,65 @@
+"""A first look at a law on top of a fitted model, by that model's own derivatives.
+
+A law that sets out as next to nothing hardly changes what a motion answers to the knobs that were
+there before. Only the answers to its own are taken anew in a round (the chord method): a fifth of
+the work, and good enough to tell which laws are worth a fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .fit import Columns, Fitted, Point, Problem, fit, with_columns
+from .trial import Data, Model, with_phases
+
+#: Steps tried in a round before it is given up: by other derivatives none may lead on.
+_TRIES = 4
+
+
+def ground(data: Data, model: Model, fitted: Fitted) -> Fitted:
+    """A fit in short windows with derivatives at its end; ``model`` may have other settings."""
+    problem = Problem(data.short, model.knobs, model.settings)
+    return with_columns(problem, replace(fitted, residuals=problem.all_residuals(fitted.point)))
+
+
+def glance(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
+    """A few rounds in short windows from where the simpler model ``base`` ended (a `ground`)."""
+    problem = Problem(data.short, model.knobs, model.settings)
+    before = {knob.key for knob in base.knobs}
+    shared = [base.values.get(k.key, k.start) if k.prior else k.start for k in problem.shared]
+    own = tuple(
+        np.array([k.scaled(base.own_values(i).get(k.key, k.start)) for k in problem.own])
+        for i in range(len(data.short))
+    )
+    scaled = [k.scaled(value) for k, value in zip(problem.shared, shared, strict=True)]
+    point = Point(np.array(scaled), own, base.point.states)
+    new = {knob.key for knob in problem.own} - before
+    point = with_phases(problem, point, new)
+
+    def derivatives(run: int, at: Point, residuals: np.ndarray) -> Columns:
+        return _columns(problem, run, at, residuals, base)
+
+    return fit(problem, point, rounds, derivatives=derivatives, tries=_TRIES)
+
+
+def _columns(problem: Problem, run: int, at: Point, residuals: np.ndarray, base: Fitted) -> Columns:
+    """Derivatives of one run: those by the base's knobs and the states as they were there."""
+    then = base.columns[run]
+    point = at.shared, at.own[run], at.states[run]
+    known = [knob.key for knob in base.knobs if not knob.per_run]
+    shared = np.empty((residuals.size, len(problem.shared)))
+    for j, knob in enumerate(problem.shared):
+        if knob.key in known:
+            shared[:, j] = then.shared[:, known.index(knob.key)]
+        else:
+            shared[:, j] = problem.difference(run, point, 0, j, knob, residuals)
+    known = [knob.key for knob in base.knobs if knob.per_run]
+    own = np.empty((residuals.size, len(problem.own)))
+    for j, knob in enumerate(problem.own):
+        if knob.key in known:
+            own[:, j] = then.own[:, known.index(knob.key)]
+        else:
+            own[:, j] = problem.difference(run, point, 1, j, knob, residuals)
+    return Columns(residuals, shared, own, then.states)

@@ -1,0 +1,106 @@
+"""Two effects on a campaign that has both: looks by a simpler model's derivatives, and what is left
+of a pair without one of them."""
+
+import pytest
+from gap_campaigns import NOISE, motion, noisy, write_campaign
+
+from cosim.gap import read_campaign
+from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.candidates.extend import extended
+from cosim.gap.naming.search import Search, Tried
+from cosim.gap.shooting.glance import glance, ground
+from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+from cosim.gap.shooting.trial import Data, Model, sketch, try_model
+
+SPEEDS = (0.06, 0.15, 0.10)
+PLAIN = Model((Knob("friction.mu_s", 0.29, 0.015, 0.0, 2.0),
+               Knob("friction.mu_k", 0.21, 0.01, 0.0, 2.0)), {})
+RATE = Candidate("static_strengthening", "logarithmic",
+                 (Knob("static_strengthening.rate", 0.003, 0.02, 0.0, 2.0),),
+                 {"static_strengthening.hold_time": 0.01})
+DRAG = Candidate("film_drag", "linear", (Knob("film_drag.coefficient", 0.01, 0.1, 0.0, 50.0),))
+CUBIC = Candidate("spring_hardening", "cubic", (Knob("spring_hardening.cubic", 10.0, 1e3, 0.0),))
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    hidden = {"static_strengthening": {"rate": 0.05, "hold_time": 0.01},
+              "film_drag": {"coefficient": 0.8}}
+    runs = [{"surface_speed": v, "hold_out": v == SPEEDS[2],
+             "columns": {"t": run.time, "x": noisy(run["x"], number)}}
+            for number, v in enumerate(SPEEDS)
+            for run in [motion(speed=v, duration=6.0, **hidden)]]
+    folder = tmp_path_factory.mktemp("campaign")
+    campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+    return Data(prepare(campaign, campaign.fit_runs, False),
+                prepare(campaign, campaign.fit_runs, False, SHORT_CYCLES),
+                prepare(campaign, campaign.held_out_runs, False))
+
+
+@pytest.fixture(scope="module")
+def plain(data):
+    return sketch(data, PLAIN, 25)
+
+
+@pytest.fixture(scope="module")
+def search(data):
+    return Search(data, lambda function, arguments: (function(*each) for each in arguments))
+
+
+@pytest.fixture(scope="module")
+def both(data, plain):
+    """The right pair, fitted: strengthening first, drag on top of it."""
+    first = extended(PLAIN, RATE, plain.values)
+    model = extended(first, DRAG, sketch(data, first, 8).values)
+    sketched = sketch(data, model, 8)
+    return Tried(DRAG, model, sketched, try_model(data, model, sketched))
+
+
+def test_the_ground_is_the_fit_itself(data, plain):
+    under = ground(data, PLAIN, plain)
+    assert under.gap() == plain.gap() and under.point is plain.point
+    assert [columns.shared.shape[1] for columns in under.columns] == [2, 2]
+
+
+def test_a_glance_goes_most_of_a_sketch_s_way(data, plain):
+    """By the plain model's derivatives an effect that is there is known from one that is not."""
+    under = ground(data, PLAIN, plain)
+    left = {}
+    for law in (RATE, DRAG, CUBIC):
+        model = extended(PLAIN, law, plain.values)
+        seen = glance(data, model, under, 3).cost
+        assert seen < plain.cost
+        left[law.effect] = (seen, sketch(data, model, 12).cost)
+    gained = {effect: plain.cost - seen for effect, (seen, _) in left.items()}
+    possible = {effect: plain.cost - end for effect, (_, end) in left.items()}
+    best = max(possible, key=possible.get)
+    assert best == max(gained, key=gained.get)
+    assert gained[best] > 0.5 * possible[best]
+
+
+def test_a_pair_repairs_what_neither_does_alone(both, search):
+    assert both.trial.gap < 1.1
+    for dropped, kept in ((RATE, DRAG), (DRAG, RATE)):
+        less = search.less(both, dropped, tuple(kept.settings))
+        keys = {knob.key for knob in less.model.knobs}
+        assert not keys & {knob.key for knob in dropped.knobs}
+        assert keys >= {knob.key for knob in kept.knobs}
+        assert less.trial.gap > 1.5 * both.trial.gap
+    assert RATE.settings.items() <= search.less(both, DRAG, ()).model.settings.items()
+
+
+def test_settings_that_others_need_are_kept(both, search):
+    key = "static_strengthening.hold_time"
+    assert search.less(both, RATE, (key,)).model.settings == RATE.settings
+    assert search.less(both, RATE, ()).model.settings == {}
+
+
+def test_the_second_effect_is_among_those_beside_the_first(data, plain, search):
+    first = extended(PLAIN, RATE, plain.values)
+    sketched = sketch(data, first, 8)
+    beside = search.beside(first, sketched, [CUBIC, DRAG])
+    assert beside[0].candidate.effect == "film_drag"
+    assert beside[0].sketched.gap() < 1.1
+    ((_, pair),) = search.together([(Tried(RATE, first, sketched), beside[0])])
+    assert pair.trial.gap < 1.1
