@@ -141,7 +141,11 @@ P_FEEDING = 173  # integrated numbers that the motion depends on: MOVING or REME
 P_QUADRATURE = 174  # nodes and weights for friction that varies over the disc, see disc
 P_TABLEAU = 214  # the Runge-Kutta coefficients, see tableau
 P_WEAKENING_CURVATURE = 574  # of the law of thermal_weakening
-P_SIZE = 575
+P_RIPPLE_SECOND = 575  # amplitude of the second harmonic, part of the first
+P_RIPPLE_SECOND_PHASE = 576  # rad
+P_PATTERN_SECOND = 577  # the same of surface_pattern
+P_PATTERN_SECOND_PHASE = 578  # rad
+P_SIZE = 579
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
