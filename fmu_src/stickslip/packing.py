@@ -71,7 +71,9 @@ SLOTS = {
     "structural_damping.coefficient": "P_DAMPING",
     "structural_damping.rotational": "P_DAMPING_ROTATION",
     "speed_ripple.amplitude": "P_RIPPLE",
+    "speed_ripple.second_amplitude": "P_RIPPLE_SECOND",
     "surface_pattern.amplitude": "P_PATTERN",
+    "surface_pattern.second_amplitude": "P_PATTERN_SECOND",
     "surface_scatter.deviation": "P_SCATTER",
     "stick_stiffness.ratio": "P_STICK_RATIO",
     "rate_and_state.direct": "P_DIRECT",
@@ -210,8 +212,10 @@ def _set_surface(p: list[float], values: dict[str, float]) -> None:
     """Ripple of the speed, pattern and random field of the friction."""
     p[P_RIPPLE_RATE] = 2.0 * pi * values["speed_ripple.frequency"]
     p[P_RIPPLE_PHASE] = radians(values["speed_ripple.phase_deg"])
+    p[layout.P_RIPPLE_SECOND_PHASE] = radians(values["speed_ripple.second_phase_deg"])
     p[layout.P_PATTERN_WAVENUMBER] = 2.0 * pi / values["surface_pattern.wavelength"]
     p[layout.P_PATTERN_PHASE] = radians(values["surface_pattern.phase_deg"])
+    p[layout.P_PATTERN_SECOND_PHASE] = radians(values["surface_pattern.second_phase_deg"])
     # a Gaussian correlation of length L has normally distributed wavenumbers, deviation 1/L
     draw = Random(int(values["surface_scatter.seed"]))
     for i in range(layout.WAVES):
@@ -238,7 +242,8 @@ def _set_scales(p: list[float]) -> None:
     )
     p[P_LONGEST_STEP] = 0.5 / rate
     if p[P_RIPPLE] != 0.0:
-        p[P_LONGEST_STEP] = min(p[P_LONGEST_STEP], 0.5 / p[P_RIPPLE_RATE])
+        fastest = p[P_RIPPLE_RATE] * (2.0 if p[layout.P_RIPPLE_SECOND] != 0.0 else 1.0)
+        p[P_LONGEST_STEP] = min(p[P_LONGEST_STEP], 0.5 / fastest)
 
 
 def quadrature_tables() -> list[float]:

@@ -21,6 +21,7 @@ ELSEWHERE = {
     "stribeck_speed": (0.01, 0.3),
     "distance": (0.1, 3.0),
     "phase_deg": (-180.0, 180.0),
+    "second_phase_deg": (-180.0, 180.0),
     "correlation_length": (0.005, 0.1),
     "seed": (1, 10**6),
     "reference_force": (3.0, 12.0),

@@ -44,6 +44,27 @@ def pattern(s):
     return 1.0 + 0.2 * np.cos(2.0 * np.pi * (s[X] - s[WAY]) / 0.07 + np.radians(30.0))
 
 
+def with_second(wave, angle):
+    """A wave and 0.4 of it at twice the angle, 70 degrees on."""
+    return wave(angle) + 0.4 * wave(2.0 * angle + np.radians(70.0))
+
+
+def second_ripple(t):
+    return SPEED * (1.0 + 0.2 * with_second(np.sin, 2.0 * np.pi * 1.3 * t + np.radians(40.0)))
+
+
+def second_ripple_rate(t):
+    angle, rate = 2.0 * np.pi * 1.3 * t + np.radians(40.0), 2.0 * np.pi * 1.3
+    slope = np.cos(angle) + 0.4 * 2.0 * np.cos(2.0 * angle + np.radians(70.0))
+    return SPEED * 0.2 * rate * slope
+
+
+def second_pattern(s):
+    angle = 2.0 * np.pi * (s[X] - s[WAY]) / 0.07 + np.radians(30.0)
+    return 1.0 + 0.2 * with_second(np.cos, angle)
+
+
+SECOND = {"second_amplitude": 0.4, "second_phase_deg": 70.0}
 LIGHT = (MASS * GRAVITY / 10.0) ** -0.4
 
 # effect -> (block and its parameters, the laws that the independent model gets)
@@ -111,6 +132,17 @@ CASES = {
         {
             "kinetic": kinetic(lambda u, s: pattern(s)),
             "static": lambda held, s: MU_S * NORMAL * pattern(s),
+        },
+    ),
+    "speed_ripple, second harmonic": (
+        {"speed_ripple": {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0} | SECOND},
+        {"speed": second_ripple, "acceleration": second_ripple_rate},
+    ),
+    "surface_pattern, second harmonic": (
+        {"surface_pattern": {"amplitude": 0.2, "wavelength": 0.07, "phase_deg": 30.0} | SECOND},
+        {
+            "kinetic": kinetic(lambda u, s: second_pattern(s)),
+            "static": lambda held, s: MU_S * NORMAL * second_pattern(s),
         },
     ),
     "load_dependence": (

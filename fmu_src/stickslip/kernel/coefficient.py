@@ -22,6 +22,8 @@ from .layout import (
     P_NORMAL_FORCE,
     P_PATTERN,
     P_PATTERN_PHASE,
+    P_PATTERN_SECOND,
+    P_PATTERN_SECOND_PHASE,
     P_PATTERN_WAVENUMBER,
     P_REFERENCE,
     P_RUN_IN,
@@ -56,15 +58,19 @@ FINEST_COLD = 1e-12  # K; a temperature this near to melting is there, but for r
 def surface_factor(p: "float[:]", w: "float[:]") -> float:
     """Friction of the place on the surface under the block, relative to the surface's mean.
 
-    The place is x less the way of the surface. A periodic pattern (surface_pattern) and a random
-    field of standard deviation sigma (surface_scatter), a sum of waves with random wavenumber and
-    phase: it belongs to the place, so a place met again has the same friction.
+    The place is x less the way of the surface. A periodic pattern, with its second harmonic or
+    without (surface_pattern), and a random field of standard deviation sigma (surface_scatter), a
+    sum of waves with random wavenumber and phase: it belongs to the place, so a place met again
+    has the same friction.
     """
     factor = 1.0
     place = w[W_STATE + X] - w[W_STATE + TRAVEL]
     if p[P_PATTERN] != 0.0:
         angle = p[P_PATTERN_WAVENUMBER] * place + p[P_PATTERN_PHASE]
-        factor += p[P_PATTERN] * cos(angle)
+        wave = cos(angle)
+        if p[P_PATTERN_SECOND] != 0.0:
+            wave += p[P_PATTERN_SECOND] * cos(2.0 * angle + p[P_PATTERN_SECOND_PHASE])
+        factor += p[P_PATTERN] * wave
     if p[P_SCATTER] != 0.0:
         total = 0.0
         for i in range(WAVES):

@@ -7,6 +7,8 @@ from .layout import (
     P_RIPPLE,
     P_RIPPLE_PHASE,
     P_RIPPLE_RATE,
+    P_RIPPLE_SECOND,
+    P_RIPPLE_SECOND_PHASE,
     P_RUN_UP,
     TIME,
     U_SPEED,
@@ -40,11 +42,16 @@ def steady_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float
 def surface_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
     """Speed of the surface where the block rests, m/s.
 
-    The steady speed times 1 + A sin(2 pi f t + phase) (speed_ripple).
+    The steady speed times 1 + A (sin a + B sin(2 a + second phase)), a = 2 pi f t + phase
+    (speed_ripple).
     """
     speed = steady_speed(p, u, w, t)
     if p[P_RIPPLE] != 0.0:
-        speed *= 1.0 + p[P_RIPPLE] * sin(p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE])
+        angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
+        wave = sin(angle)
+        if p[P_RIPPLE_SECOND] != 0.0:
+            wave += p[P_RIPPLE_SECOND] * sin(2.0 * angle + p[P_RIPPLE_SECOND_PHASE])
+        speed *= 1.0 + p[P_RIPPLE] * wave
     return speed
 
 
@@ -55,8 +62,13 @@ def surface_acceleration(p: "float[:]", u: "float[:]", w: "float[:]", t: float) 
         rate = u[U_SPEED] / p[P_RUN_UP]
     if p[P_RIPPLE] != 0.0:
         angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
-        rate *= 1.0 + p[P_RIPPLE] * sin(angle)
-        rate += steady_speed(p, u, w, t) * p[P_RIPPLE] * p[P_RIPPLE_RATE] * cos(angle)
+        wave, slope = sin(angle), cos(angle)
+        if p[P_RIPPLE_SECOND] != 0.0:
+            second = 2.0 * angle + p[P_RIPPLE_SECOND_PHASE]
+            wave += p[P_RIPPLE_SECOND] * sin(second)
+            slope += 2.0 * p[P_RIPPLE_SECOND] * cos(second)
+        rate *= 1.0 + p[P_RIPPLE] * wave
+        rate += steady_speed(p, u, w, t) * p[P_RIPPLE] * p[P_RIPPLE_RATE] * slope
     return rate
 
 
