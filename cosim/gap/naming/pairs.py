@@ -11,6 +11,7 @@ from cosim.gap.shooting.trial import Trial
 from .measures import (
     ALIKE,
     ALIKE_PART,
+    EXPLAINED_AT_LEAST,
     PART_OF_OTHERS,
     PLAIN_FITS,
     as_good,
@@ -43,18 +44,24 @@ def best_pair(
 
     sketched : the plain model in short windows
     """
+    tried = search.together(_sketched(search, plain, sketched, done, candidates))
     alone = {t.candidate.effect: t.trial for t in done}
-    found = []
-    for first, second in search.together(_sketched(search, plain, sketched, done, candidates)):
+    pairs = sorted(tried, key=_gap)
+    if pairs and _is_worth_more(plain, pairs[0]):
+        first, second = pairs[0]
+        (better,) = search.polished([second], candidates)
+        pairs = sorted([(first, better), *pairs[1:]], key=_gap)
+    for first, second in pairs:
         others = [first.trial, alone.get(second.candidate.effect, first.trial)]
         if all(_is_needed(plain, one, second.trial) for one in others):
-            found.append((first, second))
-    if not found:
-        return None
-    first, second = min(found, key=_gap)
-    if second.trial.gap > PLAIN_FITS:
-        (second,) = search.polished([second], candidates)
-    return _simplest(search, (first, second), candidates)
+            return _simplest(search, (first, second), candidates)
+    return None
+
+
+def _is_worth_more(plain: Trial, pair: Pair) -> bool:
+    """Whether another law of the second effect may be what a pair lacks."""
+    both = pair[1].trial
+    return both.gap > PLAIN_FITS and explained(plain, both) >= EXPLAINED_AT_LEAST
 
 
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
