@@ -128,7 +128,7 @@ def test_every_parameter_of_an_effect_reaches_the_vector():
         plain = Parameters(**{effect.id: on}).pack()
         for name, field in effect.block.model_fields.items():
             value = on.get(name, field.default)
-            changed = value + 1 if isinstance(value, int) else 0.75 * value - 0.03125 * (value <= 0)
+            changed = value + 1 if isinstance(value, int) else 0.75 * value + 0.03125 * (value == 0)
             other = Parameters(**{effect.id: on | {name: changed}}).pack()
             assert other != plain, f"{effect.id}.{name}"
 
