@@ -10,9 +10,11 @@ from cosim.gap import read_campaign
 from cosim.gap.atlas import find_where, residual_atlas
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import Gap, Ranked
-from cosim.gap.shooting.fit import Point, Problem, fit, start
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import prepare
+from cosim.gap.shooting.problem import Problem
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
 PLAIN = (

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.gap.shooting.fit import Problem, with_columns
+from cosim.gap.shooting.fit import with_columns
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, Trial
 from cosim.gap.shooting.windows import Window
 

@@ -16,9 +16,11 @@ from cosim.gap.naming.plain import plain_knobs
 from cosim.gap.naming.scales import scales
 from cosim.gap.naming.search import Search, Tried
 from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
-from cosim.gap.shooting.fit import Fitted, Point, Problem, fit, start
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import Fitted, Point, start
 from cosim.gap.shooting.knob import OFFSETS, Knob
 from cosim.gap.shooting.preparation import prepare
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Data, Model, Trial, finished, try_model
 
 EFFECTS = (

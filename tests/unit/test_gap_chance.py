@@ -8,8 +8,10 @@ from linear_flights import linear_flight
 from scipy.stats import kstest
 
 from cosim.gap.naming.chance import DRAWS, chance
-from cosim.gap.shooting.fit import Problem, fit, start
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import start
 from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Data, Model, try_model
 
 PLAIN = (Knob("a.a", 0.0, 0.1), Knob("a.b", 0.0, 0.1))

@@ -19,9 +19,11 @@ from cosim.gap.shooting.drive import (
     driven_speed,
     model_parameters,
 )
-from cosim.gap.shooting.fit import Problem, fit, start
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import prepare
+from cosim.gap.shooting.problem import Problem
 
 SPEEDS = (0.02, 0.04, 0.08)
 #: Where blocks break away and stick again, m, and samples, s.

@@ -10,9 +10,11 @@ from cosim.gap.experiment import Member, experiments, next_experiment
 from cosim.gap.experiment.rehearsal import problem_of, rehearse, setting_of
 from cosim.gap.experiment.separation import separation
 from cosim.gap.read import read_campaign
-from cosim.gap.shooting.fit import Fitted, Problem, start, with_columns
+from cosim.gap.shooting.fit import with_columns
+from cosim.gap.shooting.fitted import Fitted, start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import prepare
+from cosim.gap.shooting.problem import Problem
 
 DRAG = Knob("structural_damping.coefficient", 0.4, 0.2, 0.0)
 

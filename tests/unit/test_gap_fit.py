@@ -11,9 +11,11 @@ from scipy.stats import chi2
 
 from cosim.gap import read_campaign
 from cosim.gap.naming.intervals import determined, intervals
-from cosim.gap.shooting.fit import Point, Problem, fit, start, with_columns
+from cosim.gap.shooting.fit import fit, with_columns
+from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Data, Model, sketch, try_model, with_phases
 
 SPEEDS = (0.06, 0.15, 0.10)

@@ -11,8 +11,10 @@ from linear_flights import FREE, joint, linear_flight, trial_of
 from scipy.optimize import lsq_linear
 
 from cosim.gap.naming.intervals import intervals
-from cosim.gap.shooting.fit import Problem, fit, start
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import start
 from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.problem import Problem
 
 SHARED = (Knob("a.a", 0.0, 0.1), Knob("a.b", 0.0, 3.0))
 OWN = Knob("a.own", 0.0, 0.2, per_run=True)

@@ -25,7 +25,7 @@ from cosim.gap.naming.measures import (
 from cosim.gap.naming.pairs import DOMINANT, NEEDED, NEEDED_BESIDE
 from cosim.gap.naming.search import Tried
 from cosim.gap.naming.verdict import RIVAL, judge
-from cosim.gap.shooting.fit import Fitted, Point
+from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.trial import Model, Trial
 
 ROWS = 1000

@@ -9,8 +9,9 @@ from stickslip.kernel import layout
 
 from cosim.gap.atlas.model_track import ModelTrack
 from cosim.gap.read import MeasuredRun
-from cosim.gap.shooting.fit import Fitted, Problem
+from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.knob import OFFSETS
+from cosim.gap.shooting.problem import Problem
 
 
 def tracks_of(problem: Problem, fitted: Fitted, runs: Sequence[MeasuredRun]) -> list[ModelTrack]:

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from cosim.gap.shooting.fit import Fitted, Point, Problem
+from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.problem import Problem
 
 
 @dataclass(frozen=True)

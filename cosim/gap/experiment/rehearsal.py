@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.read import Campaign, MeasuredRun, Track, find_sticks
-from cosim.gap.shooting.fit import Problem
 from cosim.gap.shooting.flight import COLUMN, TOLERANCE, Flight
 from cosim.gap.shooting.knob import OFFSETS
 from cosim.gap.shooting.preparation import known_parameters, prepare
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.windows import Window
 
 from .member import Member, without_zero

@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.gap.shooting.fit import Columns, Point, Problem
+from cosim.gap.shooting.columns import Columns
+from cosim.gap.shooting.fitted import Point
 from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import with_phases
 
 from .member import Member

@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.gap.shooting.fit import Fitted, Problem, with_columns
+from cosim.gap.shooting.fit import with_columns
+from cosim.gap.shooting.fitted import Fitted
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Data, Trial
 
 DRAWS = 199

@@ -15,8 +15,9 @@ from cosim.gap.experiment import Member, next_experiment
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
-from cosim.gap.shooting.fit import Fitted, Problem
+from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.thinning import thinned
 from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
 from cosim.processes import processes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
 from .search import ACROSS, Tried

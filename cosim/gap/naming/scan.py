@@ -12,8 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.shooting.fit import Fitted, Point, Problem
+from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model
 
 #: Amplitude of the ripple that is tried; small against 1, large against the integrator's error.

@@ -11,8 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.shooting.fit import Fitted, Problem
+from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model
 from cosim.processes import Map
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, moved
-from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.glance import glance, ground
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Data, Model, Trial, finished, sketch, try_model

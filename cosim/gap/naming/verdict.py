@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.shooting.fit import Fitted
+from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
 from .measures import (

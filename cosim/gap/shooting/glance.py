@@ -11,7 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from .fit import Columns, Fitted, Point, Problem, fit, with_columns
+from .columns import Columns
+from .fit import fit, with_columns
+from .fitted import Fitted, Point
+from .problem import Problem
 from .trial import Data, Model, with_phases
 
 #: Steps tried in a round before it is given up: by other derivatives none may lead on.

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .fit import MOST_ROUNDS, Fitted, Point, Problem, fit, start, with_columns
+from .fit import MOST_ROUNDS, fit, with_columns
+from .fitted import Fitted, Point, start
 from .flight import Flight
 from .knob import Knob
+from .problem import Problem
 
 #: Rounds that the windows' states take to follow parameters that stay as they are.
 _ROUNDS_UNFITTED = 2
