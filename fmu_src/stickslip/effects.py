@@ -120,10 +120,13 @@ class RunIn(Block):
 
 
 class SpringHardening(Block):
-    """Springs stiffen with their extension: a cubic term."""
+    """Springs stiffen with their extension, or with its change since then: a cubic term."""
 
     cubic: float = quantity(
-        0.0, "N/m3", "k_3 of the spring force k e + k_3 e^3", ge=0, typical=(500.0, 5e4)
+        0.0, "N/m3", "k_3 of the spring force k e + k_3 (e - e_n)^3", ge=0, typical=(500.0, 5e4)
+    )
+    neutral_extension: float = quantity(
+        0.0, "m", "extension e_n at which the cubic term vanishes: 0, or as installed", ge=0
     )
 
 

@@ -68,6 +68,7 @@ SLOTS = {
     "run_in.change": "P_RUN_IN",
     "run_in.distance": "P_RUN_IN_DISTANCE",
     "spring_hardening.cubic": "P_CUBIC",
+    "spring_hardening.neutral_extension": "P_NEUTRAL",
     "structural_damping.coefficient": "P_DAMPING",
     "structural_damping.rotational": "P_DAMPING_ROTATION",
     "speed_ripple.amplitude": "P_RIPPLE",

@@ -30,7 +30,7 @@ EFFECTS = (
 )
 SIDEWAYS = {"lateral_friction", "turning_surface", "spring_misalignment"}
 SCALES = Scales(speed=0.15, distance=3.0, heat=5.0, duration=20.0, stiffness=38.5, travel=0.02,
-                mass=0.87, force=8.5)
+                mass=0.87, force=8.5, extension=0.03)
 OFFERED = candidates(SCALES)
 EVERY = [pytest.param(c, id=f"{c.effect} {c.form} {i}") for i, c in enumerate(OFFERED)]
 KEYS = set(Parameters().flat())
@@ -117,18 +117,35 @@ def flight(campaign):
 
 def test_scales_are_those_of_the_runs(campaign):
     (run,) = campaign.runs
-    found = scales([run], 0.2)
+    found = scales([run], 0.2, 0.03)
     assert (found.speed, found.mass, found.stiffness) == (0.06, KNOWN["mass"], KNOWN["stiffness"])
     assert found.duration == pytest.approx(4.0)
     assert found.distance == pytest.approx(0.24) and found.force == pytest.approx(8.5347)
+    assert found.extension == 0.03
     assert found.heat == pytest.approx(0.2 * 8.5347 * 0.24)
     assert {c.effect for c in candidates(found)} == set(EFFECTS)
+
+
+def test_what_grows_in_a_hold_starts_in_place_of_a_part_of_mu_s():
+    base = Model((Knob("friction.mu_s", 0.3, 0.01), Knob("friction.mu_k", 0.2, 0.01)), {})
+    fitted = {"friction.mu_s": 0.4, "friction.mu_k": 0.2}
+    growing = [c for c in OFFERED if c.grows]
+    assert {c.effect for c in growing} == {"static_strengthening"}
+    for candidate in growing:
+        mu_s, mu_k, first, *_ = extended(base, candidate, fitted).knobs
+        assert mu_k.start == 0.2 < mu_s.start < 0.4
+        # after a usual hold break-away is where it was
+        assert mu_s.start + candidate.grows * first.start == pytest.approx(0.4)
+        faint = extended(base, candidate.faint(), fitted).knobs
+        assert (faint[0].start, faint[2].start) == (0.4, candidate.faint().knobs[0].start)
+    stated = replace(base, knobs=(replace(base.knobs[0], prior=0.01), base.knobs[1]))
+    assert extended(stated, growing[0], fitted).knobs[2] == growing[0].knobs[0]
 
 
 @pytest.mark.parametrize("candidate", EVERY)
 def test_faint_is_the_same_law_with_less_of_it(candidate):
     faint = candidate.faint()
-    assert replace(faint, knobs=candidate.knobs) == candidate
+    assert replace(faint, knobs=candidate.knobs, grows=candidate.grows) == candidate
     for knob, fainter in zip(candidate.knobs, faint.knobs, strict=True):
         assert replace(fainter, start=knob.start) == knob
         if knob.log or knob.per_run or not knob.low <= 0.0 <= knob.high:

@@ -24,7 +24,7 @@ from cosim.gap.naming.measures import (
 )
 from cosim.gap.naming.pairs import DOMINANT, NEEDED, NEEDED_BESIDE
 from cosim.gap.naming.search import Tried
-from cosim.gap.naming.verdict import RIVAL, judge
+from cosim.gap.naming.verdict import ALL, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.trial import Model, Trial
 
@@ -250,6 +250,15 @@ def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_r
     found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]},
                        without={"run_in": alone.gap, "film_drag": 0.9 * plain})
     assert (found.verdict, found.effects) == ("named", effects)
+
+
+def test_beside_an_effect_that_explains_all_no_other_is_looked_for():
+    first = [tried("film_drag", after(1.0 - LESS * (1.0 - ALL), 100.0))]
+    assert first[0].trial.gap > FITS
+    second = {"film_drag": [tried("run_in", 1.0)]}
+    found, search = finding(first, plain=100.0, second=second)
+    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+    assert not search.asked
 
 
 def test_one_effect_that_dominates_is_named_though_something_is_left():

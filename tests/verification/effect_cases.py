@@ -18,6 +18,7 @@ ELSEWHERE = {
     "hold_time": (1e-3, 0.1),
     "saturation_time": (0.05, 2.0),
     "curvature": (-1.0, 1.0),
+    "neutral_extension": (0.0, 0.03),
     "stribeck_speed": (0.01, 0.3),
     "distance": (0.1, 3.0),
     "phase_deg": (-180.0, 180.0),

@@ -122,6 +122,10 @@ CASES = {
         {"spring_hardening": {"cubic": 2e4}},
         {"pull": lambda x: -STIFFNESS * x - 8e4 * x**3},
     ),
+    "spring_hardening, about another extension": (
+        {"spring_hardening": {"cubic": 2e4, "neutral_extension": 0.01}},
+        {"pull": lambda x: -STIFFNESS * x - 4e4 * ((x + 0.01) ** 3 + (x - 0.01) ** 3)},
+    ),
     "structural_damping": ({"structural_damping": {"coefficient": 0.08}}, {"damping": 0.08}),
     "speed_ripple": (
         {"speed_ripple": {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0}},

@@ -33,6 +33,10 @@ CASES = {
         {"spring_hardening": {"cubic": 8e3}},
         {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * e**4},
     ),
+    "spring_hardening, about another extension": (
+        {"spring_hardening": {"cubic": 8e3, "neutral_extension": 0.015}},
+        {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * (e - 0.015) ** 4},
+    ),
     "spring_misalignment": (
         {"spring_misalignment": {"angle_deg": 8.0, "lateral_offset": 0.02}},
         {"anchors": turned_anchors(8.0, 0.02)},

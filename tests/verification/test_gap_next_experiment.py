@@ -62,7 +62,7 @@ def fitted(folder, runs):
     base = Model(plain_knobs(campaign, False), {})
     plain = sketch(data, base, 8)
     done = {}
-    for law in candidates(scales(list(campaign.runs), plain.values["friction.mu_k"])):
+    for law in candidates(scales(list(campaign.runs), plain.values["friction.mu_k"], 0.0)):
         if law.effect in PAIR:
             model = extended(base, law, plain.values)
             sketched = sketch(data, model, 8)

@@ -28,6 +28,7 @@ class Candidate:
     settings : parameters of the model that are set, not fitted
     lateral : it moves the block across the surface, or turns it
     periodic : key of the knob that needs a scan before a fit can start, or ""
+    grows : what a usual hold adds to mu_s for each unit of the first knob; 0: nothing
     """
 
     effect: str
@@ -36,6 +37,7 @@ class Candidate:
     settings: Mapping[str, float] = field(default_factory=dict)
     lateral: bool = False
     periodic: str = ""
+    grows: float = 0.0
 
     def at(self, period: float) -> Candidate:
         """A periodic candidate that starts at a frequency, or wavelength."""
@@ -50,7 +52,7 @@ class Candidate:
     def faint(self) -> Candidate:
         """The same law, starting as next to nothing."""
         knobs = (replace(k, start=_FAINT * k.start) if _is_strength(k) else k for k in self.knobs)
-        return replace(self, knobs=tuple(knobs))
+        return replace(self, knobs=tuple(knobs), grows=0.0)
 
     @property
     def size(self) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import log10
 
 from cosim.gap.shooting.knob import Knob
 
@@ -15,7 +16,7 @@ class Scales:
 
     speed : sliding speed, m/s; distance : slid in a run, m; heat : made in a run, J;
     duration : of a run, s; stiffness : of one spring, N/m; travel : stroke of the block, m;
-    mass, kg; force : normal force, N
+    mass, kg; force : normal force, N; extension : of a spring as installed, m
     """
 
     speed: float
@@ -26,6 +27,7 @@ class Scales:
     travel: float
     mass: float
     force: float
+    extension: float = 0.0
 
 
 def candidates(scales: Scales) -> tuple[Candidate, ...]:
@@ -54,17 +56,23 @@ def _turning_surface(s: Scales):
             yield Candidate("turning_surface", form, (knob,), across, lateral=True)
 
 
+#: A usual hold, s.
+_HOLD = 0.5
+
+
 def _static_strengthening(s: Scales):
     rate = Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
     yield Candidate("static_strengthening", "logarithmic", (rate,),
-                    {"static_strengthening.hold_time": 0.01})
+                    {"static_strengthening.hold_time": 0.01}, grows=2.0)
     for time in (0.03, 0.5):
         onset = Knob("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
-        yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset))
+        yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset),
+                        grows=log10(1.0 + _HOLD / time))
     for time in (0.1, 0.5):
         yield Candidate("static_strengthening", "saturating", (
             Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
-            Knob("static_strengthening.saturation_time", time, 0.5, 1e-3, 30.0, log=True)))
+            Knob("static_strengthening.saturation_time", time, 0.5, 1e-3, 30.0, log=True)),
+            grows=1.0)
 
 
 def _velocity_weakening(s: Scales):
@@ -112,8 +120,11 @@ def _run_in(s: Scales):
 
 def _spring_hardening(s: Scales):
     cubic = 0.1 * s.stiffness / s.travel**2
-    yield Candidate("spring_hardening", "cubic", (
-        Knob("spring_hardening.cubic", cubic, cubic, 0.0, 1e4 * cubic),))
+    hardening = Knob("spring_hardening.cubic", cubic, cubic, 0.0, 1e4 * cubic)
+    yield Candidate("spring_hardening", "cubic", (hardening,))
+    if s.extension != 0.0:  # as found by pulling at the block in its place
+        yield Candidate("spring_hardening", "cubic as installed", (hardening,),
+                        {"spring_hardening.neutral_extension": s.extension})
 
 
 def _structural_damping(s: Scales):

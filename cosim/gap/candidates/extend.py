@@ -13,14 +13,30 @@ from .candidate import Candidate
 _INSIDE = 1.02
 #: mu_s of so many mu_k is felt; where it is not, it is set to as many as is usual.
 _FELT, _USUAL = 1.05, 1.3
+#: Part of what mu_s has over mu_k that is put down to the hold at first.
+_GROWN = 0.3
 
 
 def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Model:
     """The base, starting where it was fitted, with the candidate's knobs."""
-    fitted = _holding(fitted)
+    candidate, fitted = _in_place_of_mu_s(base, candidate, _holding(fitted))
     taken = {knob.key for knob in candidate.knobs}
     kept = tuple(moved(knob, fitted) for knob in base.knobs if knob.key not in taken)
     return Model(kept + candidate.knobs, {**base.settings, **candidate.settings}, base.added + 1)
+
+
+def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float]):
+    """What grows in a hold sets out in place of a part of what mu_s has over mu_k.
+
+    On top of all of it, the first breaks-away would come late, and the fit look elsewhere.
+    """
+    stated = any(knob.key == "friction.mu_s" and knob.prior is not None for knob in base.knobs)
+    over = fitted.get("friction.mu_s", 0.0) - fitted.get("friction.mu_k", 0.0)
+    if not candidate.grows or stated or over <= 0.0:
+        return candidate, fitted
+    first = replace(candidate.knobs[0], start=_GROWN * over / candidate.grows)
+    moved_over = {**fitted, "friction.mu_s": fitted["friction.mu_s"] - _GROWN * over}
+    return replace(candidate, knobs=(first, *candidate.knobs[1:])), moved_over
 
 
 def _holding(fitted: dict[str, float]) -> dict[str, float]:

@@ -57,7 +57,9 @@ def find_gap(
     base = Model(plain_knobs(campaign, planar), {})
     sketched = _sketched(data, base)
     plain = try_model(data, base, sketched)
-    laws = candidates(scales([*fit_runs, *held_out], plain.fitted.values["friction.mu_k"]))
+    extension = campaign.rig.spring_length - campaign.rig.spring_natural_length
+    mu_k = plain.fitted.values["friction.mu_k"]
+    laws = candidates(scales([*fit_runs, *held_out], mu_k, extension))
     felt = [law for law in laws if _is_felt(law, campaign, planar)]
     with processes(jobs) as mapped:
         search = Search(data, mapped, progress)

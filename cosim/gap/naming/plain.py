@@ -18,8 +18,9 @@ CREEP = "friction.stick_creep"
 _KNOWN = 4.0
 #: The tracker's zero is known to this many standard deviations of its noise.
 _ZERO = 2.0
-#: It is not further off than so many: a mu_k that swings a block about another place is no zero.
-_ZERO_MOST = 10.0
+#: It is not further off than so many: a mu_k that swings a block about another place is no zero,
+#: and a block that comes to rest beside the line between the anchors has crooked springs.
+_ZERO_MOST = {"x": 10.0, "y": 3.0}
 #: Sticks that tell a surface's speed; one that is off is so in most runs: a ripple is another
 #: matter, and may look so in some.
 _STICKS = 5
@@ -46,7 +47,7 @@ def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
     for channel in ("x", "y") if planar else ("x",):
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]
-            most = _ZERO_MOST * campaign.noise[channel]
+            most = _ZERO_MOST[channel] * campaign.noise[channel]
             knobs.append(Knob(f"offset.{channel}", 0.0, zero, -most, most, prior=zero))
     return (*knobs, *drive_knobs(runs))
 

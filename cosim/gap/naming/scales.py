@@ -9,8 +9,8 @@ from cosim.gap.candidates.catalogue import Scales
 from cosim.gap.read import MeasuredRun
 
 
-def scales(runs: list[MeasuredRun], mu_k: float) -> Scales:
-    """Means over runs; ``mu_k`` as the plain model has it."""
+def scales(runs: list[MeasuredRun], mu_k: float, extension: float) -> Scales:
+    """Means over runs; ``mu_k`` as the plain model has it, ``extension`` of a spring at rest, m."""
     speed = float(np.mean([abs(run.surface_speed) for run in runs]))
     mass = float(np.mean([run.mass for run in runs]))
     duration = float(np.mean([run.track.duration for run in runs]))
@@ -24,4 +24,5 @@ def scales(runs: list[MeasuredRun], mu_k: float) -> Scales:
         travel=max(float(np.nanmax(np.abs(run.track.x))) for run in runs),
         mass=mass,
         force=mass * GRAVITY,
+        extension=extension,
     )

@@ -11,7 +11,6 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.glance import glance, ground
-from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Data, Model, Trial, finished, sketch, try_model
 from cosim.processes import Map
 
@@ -209,12 +208,15 @@ def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
     settings = {k: v for k, v in tried.model.settings.items() if k not in tried.candidate.settings}
     knobs = tuple(k for k in tried.model.knobs if k.key not in own)
     base = Model(knobs, settings, tried.model.added - 1)
-    laws: dict[tuple[Knob, ...], Tried] = {}
+    laws: dict[tuple, Tried] = {}
     for law in candidates:
         if law.effect == tried.candidate.effect and law.form != tried.candidate.form:
-            law = replace(law, knobs=tuple(moved(knob, values) for knob in law.knobs))
+            told = any(knob.key in values for knob in law.knobs[:1])
+            law = replace(law, knobs=tuple(moved(knob, values) for knob in law.knobs),
+                          grows=0.0 if told else law.grows)
             model = extended(base, law, values)
-            laws.setdefault(law.knobs, replace(tried, candidate=law, model=model))
+            key = (law.knobs, *law.settings.items())
+            laws.setdefault(key, replace(tried, candidate=law, model=model))
     return list(laws.values())
 
 

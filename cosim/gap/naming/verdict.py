@@ -24,6 +24,9 @@ from .measures import (
 from .pairs import DOMINANT, best_pair, needed_alone
 from .search import Search, Tried
 
+#: What takes away this part of the excess leaves nothing for a second effect, only its own law's
+#: small misfit.
+ALL = 0.99
 #: Where no second effect helps, one that is dominant alone is named all the same, if no other comes
 #: near: none takes away more than this part of what it does.
 RIVAL = 0.5
@@ -62,7 +65,7 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         done = _merged(search.polished(done[:POLISHED], candidates), done)
     little = is_little(plain, sketched)
     single = _of_one(plain, [*done, *early], EXPLAINED_IF_LITTLE if little else None)
-    if single and single.nearest.gap <= FITS:
+    if single and (single.nearest.gap <= FITS or explained(plain, single.nearest) >= ALL):
         return single
     if little:  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)

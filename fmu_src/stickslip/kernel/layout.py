@@ -148,7 +148,8 @@ P_PATTERN_SECOND_PHASE = 578  # rad
 P_SATURATING = 579  # growth of mu_s that a long hold comes to
 P_SATURATION_TIME = 580  # s
 P_STICK_CREEP = 581  # sliding speed of a stick per load, m/(s N), see stick
-P_SIZE = 582
+P_NEUTRAL = 582  # extension of a spring at which its cubic term vanishes, m
+P_SIZE = 583
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4

@@ -13,6 +13,7 @@ from .layout import (
     P_DAMPING,
     P_DAMPING_ROTATION,
     P_NATURAL_LENGTH,
+    P_NEUTRAL,
     P_STIFFNESS,
     PHI,
     VX,
@@ -70,8 +71,9 @@ def curve_energy(p: "float[:]", extension: float) -> float:
 
 
 def spring_tension(p: "float[:]", extension: float) -> float:
-    """Force of one spring, N: k e + k_3 e^3, or the tabulated curve in place of k e."""
-    cubic = p[P_CUBIC] * extension * extension * extension
+    """Force of one spring, N: k e + k_3 (e - e_n)^3, or the tabulated curve in place of k e."""
+    change = extension - p[P_NEUTRAL]
+    cubic = p[P_CUBIC] * change * change * change
     if p[P_CURVE_POINTS] > 0.0:
         return curve_force(p, extension) + cubic
     return p[P_STIFFNESS] * extension + cubic
@@ -79,11 +81,12 @@ def spring_tension(p: "float[:]", extension: float) -> float:
 
 def spring_energy(p: "float[:]", extension: float) -> float:
     """Energy of one spring, J: the integral of `spring_tension`."""
-    square = extension * extension
+    change = extension - p[P_NEUTRAL]
+    square = change * change
     quartic = 0.25 * p[P_CUBIC] * square * square
     if p[P_CURVE_POINTS] > 0.0:
         return curve_energy(p, extension) + quartic
-    return 0.5 * p[P_STIFFNESS] * square + quartic
+    return 0.5 * p[P_STIFFNESS] * extension * extension + quartic
 
 
 def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
