@@ -16,7 +16,7 @@ PLAIN_FITS = 1.3
 FITS = 1.5
 #: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
 #: real effect is never quite the catalogue's.
-EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.85
+EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.92
 #: What takes away less than this part has no name, however little there was.
 EXPLAINED_AT_LEAST = 0.5
 #: Where the plain model fits in short flights, what long ones show up to this gap may be the drift
