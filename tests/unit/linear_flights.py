@@ -31,6 +31,7 @@ class LinearFlight:
     by_state: np.ndarray
     data: np.ndarray
     windows: tuple
+    speed = 0.0  # of a surface at rest: there is no velocity to stick at
 
     @property
     def starts(self):

@@ -166,9 +166,11 @@ def test_a_periodic_candidate_starts_at_a_period():
     periodic = [c for c in OFFERED if c.periodic]
     assert {c.effect for c in periodic} == {"speed_ripple", "surface_pattern"}
     for c in periodic:
-        at = {k.key: k.start for k in c.at(3.5).knobs}
+        at = {k.key: k.start for k in c.at(3.5, 0.3, 0.01).knobs}
         before = {k.key: k.start for k in c.knobs}
-        assert at == {**before, c.periodic: 3.5} and c.periodic in before
+        amplitude = f"{c.effect}.amplitude"
+        assert at == {**before, c.periodic: 3.5, amplitude: 0.3} and {*at} == {*before}
+        assert [k.step for k in c.at(3.5, 0.3, 0.01).knobs if k.key == c.periodic] == [0.01]
         assert any(k.per_run and k.key.endswith("phase_deg") for k in c.knobs)
 
 

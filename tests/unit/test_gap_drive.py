@@ -78,6 +78,15 @@ def test_a_roller_s_ripple_has_the_frequency_of_its_turns(speed):
     assert model_parameters(speed, {"friction.mu_k": 0.2}) == {"friction.mu_k": 0.2}
 
 
+@pytest.mark.parametrize("effect", ["speed_ripple", "surface_pattern"])
+def test_parts_of_a_second_harmonic_are_its_amplitude_and_phase(effect):
+    given = {f"{effect}.second_in_phase": -0.3, f"{effect}.second_ahead": 0.4}
+    assert model_parameters(0.2, given) == pytest.approx({
+        f"{effect}.second_amplitude": 0.5,
+        f"{effect}.second_phase_deg": 180.0 - np.degrees(np.arctan(4.0 / 3.0)),
+    }, rel=1e-14)
+
+
 @pytest.mark.parametrize("creep", [1e-3, 2e-3, 4e-3])
 def test_lags_in_proportion_to_the_load_are_one_creep(creep):
     found, error = common_creep(creeping(creep))

@@ -14,9 +14,10 @@ from cosim.gap.naming.intervals import determined, intervals
 from cosim.gap.shooting.fit import fit, with_columns
 from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.phases import with_phases
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Data, Model, sketch, try_model, with_phases
+from cosim.gap.shooting.trial import Data, Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 MU_S, MU_K, LINEAR = 0.3, 0.2, 0.8

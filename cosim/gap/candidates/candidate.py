@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from cosim.gap.shooting.drive import SECOND
 from cosim.gap.shooting.knob import Knob
 
 #: Part of its usual start that a faint effect has.
@@ -39,10 +40,22 @@ class Candidate:
     periodic: str = ""
     grows: float = 0.0
 
-    def at(self, period: float) -> Candidate:
-        """A periodic candidate that starts at a frequency, or wavelength."""
-        knobs = (replace(k, start=period) if k.key == self.periodic else k for k in self.knobs)
+    def at(self, period: float, amplitude: float, step: float) -> Candidate:
+        """A periodic candidate that starts at a frequency, or wavelength, and an amplitude.
+
+        step : of the period's knob; one of more than the data resolve leads to a neighbouring one
+        """
+        changes = {
+            self.periodic: {"start": period, "step": step},
+            f"{self.effect}.amplitude": {"start": amplitude},
+        }
+        knobs = (replace(k, **changes.get(k.key, {})) for k in self.knobs)
         return replace(self, knobs=tuple(knobs))
+
+    @property
+    def has_second(self) -> bool:
+        """Whether it is periodic, but no sine."""
+        return any(knob.key.endswith(SECOND) for knob in self.knobs)
 
     @property
     def can_be_faint(self) -> bool:

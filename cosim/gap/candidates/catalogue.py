@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import log10
 
+from cosim.gap.shooting.drive import SECOND
 from cosim.gap.shooting.knob import Knob
 
 from .candidate import Candidate
@@ -133,31 +134,30 @@ def _structural_damping(s: Scales):
         Knob("structural_damping.coefficient", drag, drag, 0.0, 100.0 * drag),))
 
 
-#: Amplitudes from which ripples and patterns set out: a small one may be lost among other minima.
-_AMPLITUDES = (0.05, 0.2)
+def _second(effect: str):
+    """What is periodic is seldom a sine: its second harmonic, relative to the first."""
+    return tuple(Knob(f"{effect}.{part}", 0.0, 0.1, -0.7, 0.7) for part in SECOND)
+
+
+def _periodic(effect: str, period: Knob, form: str):
+    """A sine, and one with its second harmonic; a scan says where they start."""
+    knobs = (Knob(f"{effect}.amplitude", 0.1, 0.05, 0.0, 1.0), period,
+             Knob(f"{effect}.phase_deg", 0.0, 30.0, per_run=True))
+    yield Candidate(effect, form, knobs, periodic=period.key)
+    yield Candidate(
+        effect, f"{form} and second harmonic", knobs + _second(effect), periodic=period.key)
 
 
 def _speed_ripple(s: Scales):
-    for size in _AMPLITUDES:
-        yield Candidate("speed_ripple", "sine", (
-            Knob("speed_ripple.amplitude", size, 0.05, 0.0, 1.0),
-            Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0),
-            Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)),
-            periodic="speed_ripple.frequency")
-        yield Candidate("speed_ripple", "sine of a roller", (
-            Knob("speed_ripple.amplitude", size, 0.05, 0.0, 1.0),
-            Knob("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
-            Knob("speed_ripple.phase_deg", 0.0, 30.0, per_run=True)),
-            periodic="speed_ripple.wavelength")
+    frequency = Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
+    yield from _periodic("speed_ripple", frequency, "sine")
+    way = Knob("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    yield from _periodic("speed_ripple", way, "sine of a roller")
 
 
 def _surface_pattern(s: Scales):
-    for size in _AMPLITUDES:
-        yield Candidate("surface_pattern", "sine", (
-            Knob("surface_pattern.amplitude", size, 0.05, 0.0, 1.0),
-            Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
-            Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True)),
-            periodic="surface_pattern.wavelength")
+    length = Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    yield from _periodic("surface_pattern", length, "sine")
 
 
 def _load_dependence(s: Scales):

@@ -13,8 +13,8 @@ import numpy as np
 from cosim.gap.shooting.columns import Columns
 from cosim.gap.shooting.fitted import Point
 from cosim.gap.shooting.flight import Flight
+from cosim.gap.shooting.phases import with_phases
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import with_phases
 
 from .member import Member
 from .rehearsal import problem_of

@@ -17,6 +17,7 @@ from cosim.processes import Map
 from .other_starts import other_starts
 from .scan import scan
 from .screen import gains
+from .wave_answer import wave_answer
 
 #: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
 #: that do so again, ...
@@ -29,6 +30,11 @@ LOOKED_AT_BESIDE, SKETCHED_BESIDE = 10, 4
 FORMS = 2
 #: Rounds in long windows before the best few, so many, are fitted to the end.
 FIRST, FINISHED = 6, 2
+#: So many periods of a periodic effect, in time or along the surface, are tried, and so many of
+#: them with a second harmonic; ...
+PERIODS, SECONDS = 4, 1
+#: ... beside a first effect so many.
+PERIODS_BESIDE, SECONDS_BESIDE = 3, 0
 #: On top of a first effect, so many laws are looked at.
 PROMISING = 10
 
@@ -123,8 +129,8 @@ class Search:
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], looked: int, most: int
     ) -> tuple[list[Tried], list[Tried]]:
         """The best laws sketched, at most so many, and all that were looked at for it."""
-        placed = self._placed(base, fitted, candidates)
-        grounds = self._grounds(base, fitted, placed)
+        grounds = self._grounds(base, fitted, candidates)
+        placed = self._placed(base, grounds[()], candidates)
         if base.added:
             placed = self._promising(base, grounds[()], placed)
         placed += [c.faint() for c in placed if c.can_be_faint]
@@ -177,13 +183,21 @@ class Search:
         return results
 
     def _placed(self, base: Model, fitted: Fitted, candidates) -> list[Candidate]:
-        """Candidates ready to be fitted: periodic ones where their periods lie."""
-        periods = {c.periodic: c for c in candidates if c.periodic}
-        peaks = self._run(scan, [(c, base, fitted, self.data.short) for c in periods.values()])
-        found = dict(zip(periods, peaks, strict=True))
+        """Candidates ready to be fitted: periodic ones where their periods lie.
+
+        fitted : of the base, with derivatives
+        """
+        sines, others = (PERIODS_BESIDE, SECONDS_BESIDE) if base.added else (PERIODS, SECONDS)
         placed = [c for c in candidates if not c.periodic]
-        for c in candidates:
-            placed += [c.at(period) for period in found.get(c.periodic, ())]
+        for effect in dict.fromkeys(c.effect for c in candidates if c.periodic):
+            laws = [c for c in candidates if c.effect == effect]
+            flights = enumerate(self.data.short)
+            calls = [(laws[0], base, fitted, flight, i) for i, flight in flights]
+            answers = self._run(wave_answer, calls)
+            peaks = [(peak, law) for law in laws for peak in scan(law, answers)]
+            strongest = sorted({peak.power for peak, _ in peaks}, reverse=True)
+            placed += [law.at(peak.period, peak.amplitude, peak.step) for peak, law in peaks
+                       if peak.power in strongest[: others if law.has_second else sines]]
         return placed
 
 
@@ -194,7 +208,9 @@ def _across(base: Model, candidate: Candidate) -> tuple[tuple[str, float], ...]:
 
 
 def _continued(data: Data, tried: Tried, rounds: int) -> Tried:
-    return replace(tried, sketched=sketch(data, tried.model, rounds, tried.sketched))
+    """So many rounds on; phases that look better may lead nowhere."""
+    again = sketch(data, tried.model, rounds, tried.sketched)
+    return replace(tried, sketched=min(again, tried.sketched, key=lambda fitted: fitted.cost))
 
 
 def _sketched(data: Data, tried: Tried) -> Tried:
@@ -211,6 +227,8 @@ def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
     laws: dict[tuple, Tried] = {}
     for law in candidates:
         if law.effect == tried.candidate.effect and law.form != tried.candidate.form:
+            if law.periodic and law.periodic not in own:
+                continue
             told = any(knob.key in values for knob in law.knobs[:1])
             law = replace(law, knobs=tuple(moved(knob, values) for knob in law.knobs),
                           grows=0.0 if told else law.grows)

@@ -14,6 +14,8 @@ import numpy as np
 
 #: Steps of a window's state that are as unlikely as a residual of one.
 _FAR = 50.0
+#: Longest step of what belongs to one run, in steps of a knob: its motion may hardly feel it.
+_LONGEST_OWN = 1.0
 
 
 @dataclass(frozen=True)
@@ -39,9 +41,10 @@ class Columns:
 
     @cached_property
     def _own_left(self) -> np.ndarray:
-        return self._without_states(self.own)
+        return self.without_states(self.own)
 
-    def _without_states(self, a: np.ndarray) -> np.ndarray:
+    def without_states(self, a: np.ndarray) -> np.ndarray:
+        """What of (r, ...) the windows' states cannot take up."""
         rest = a.copy()
         for (rows, _), basis in zip(self.states, self._bases, strict=True):
             rest[rows] -= basis @ (basis.T @ a[rows])
@@ -49,7 +52,7 @@ class Columns:
 
     def left(self, a: np.ndarray) -> np.ndarray:
         """What of (r, ...) the run's own knobs and states cannot take up."""
-        rest = self._without_states(a)
+        rest = self.without_states(a)
         if self.own.shape[1]:
             rest = rest - self._own_left @ (np.linalg.pinv(self._own_left) @ rest)
         return rest
@@ -59,7 +62,8 @@ class Columns:
         rest = self.residuals + self.shared @ shared
         own = np.zeros(0)
         if self.own.shape[1]:
-            own = -np.linalg.pinv(self._own_left) @ self._without_states(rest)
+            own = -np.linalg.pinv(self._own_left) @ self.without_states(rest)
+            own = np.clip(own, -_LONGEST_OWN, _LONGEST_OWN)
             rest = rest + self.own @ own
         steps = [_damped(columns, rest[rows]) for rows, columns in self.states]
         return own, steps

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 #: Part by which a run's surface is faster than its set-point.
@@ -12,9 +13,22 @@ SPEED_OFFSET = "offset.speed"
 RIPPLE_LENGTH = "speed_ripple.wavelength"
 
 
+#: Parts of a second harmonic in phase with the first and a quarter of its own period ahead: unlike
+#: amplitude and phase, which they are fitted for, they have a meaning where there is none of it.
+SECOND = ("second_in_phase", "second_ahead")
+
+
 def model_parameters(set_point: float, values: Mapping[str, float]) -> dict[str, float]:
-    """Values as the model has them: a ripple's wavelength as the frequency at that speed."""
+    """Values as the model has them.
+
+    A ripple's wavelength is the frequency at that speed; a second harmonic has amplitude and phase.
+    """
     flat = dict(values)
+    for effect in ("speed_ripple", "surface_pattern"):
+        parts = [flat.pop(f"{effect}.{part}", None) for part in SECOND]
+        if None not in parts:
+            flat[f"{effect}.second_amplitude"] = math.hypot(*parts)
+            flat[f"{effect}.second_phase_deg"] = math.degrees(math.atan2(parts[1], parts[0]))
     if RIPPLE_LENGTH in flat:
         flat["speed_ripple.frequency"] = abs(set_point) / flat.pop(RIPPLE_LENGTH)
     return flat

@@ -14,8 +14,9 @@ import numpy as np
 from .columns import Columns
 from .fit import fit, with_columns
 from .fitted import Fitted, Point
+from .phases import with_phases
 from .problem import Problem
-from .trial import Data, Model, with_phases
+from .trial import Data, Model
 
 #: Steps tried in a round before it is given up: by other derivatives none may lead on.
 _TRIES = 4

@@ -31,21 +31,35 @@ class Problem:
 
     def residuals(self, run: int, shared, own, states) -> np.ndarray:
         """(rows,) of one run."""
+        outputs, offsets = self.flown(run, shared, own, states)
+        rows = self.flights[run].residuals(outputs, offsets)
+        return np.concatenate([rows, self._known_of_own(own)])
+
+    def flown(self, run: int, shared, own, states) -> tuple[np.ndarray, dict[str, float]]:
+        """The model's outputs (n, O_SIZE) of one run, and the tracker's zeros."""
         values = dict(self.settings)
         values.update((k.key, k.value(s)) for k, s in zip(self.shared, shared, strict=True))
         values.update((k.key, k.value(s)) for k, s in zip(self.own, own, strict=True))
         offsets = {key: values.pop(key) for key in OFFSETS if key in values}
-        flight = self.flights[run]
         states = states.copy()
         for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
             states[:, axis] -= offsets.get(key, 0.0)
-        rows = flight.residuals(flight.fly(values, states), offsets)
-        return np.concatenate([rows, self._known_of_own(own)])
+        return self.flights[run].fly(values, states), offsets
 
     def _known_of_own(self, own) -> np.ndarray:
         """Rows for what is known beforehand of a run's own knobs."""
         known = [(k, s) for k, s in zip(self.own, own, strict=True) if k.prior is not None]
         return np.array([(k.value(s) - k.start) / k.prior for k, s in known])
+
+    def by_window(self, run: int, residuals: np.ndarray) -> np.ndarray:
+        """(windows,) sums of squares of one run."""
+        return np.bincount(self._owner(run), residuals**2, len(self.flights[run].windows))
+
+    def misfit(self, run: int, residuals: np.ndarray) -> float:
+        """Of one run, so that no window that was thrown off course outweighs the others."""
+        squares = self.by_window(run, residuals)
+        rows = np.maximum(self.by_window(run, np.ones_like(residuals)), 1.0)
+        return float(np.sum(rows * np.log1p(squares / rows)))
 
     def _owner(self, run: int) -> np.ndarray:
         """(rows,) window of each row; what is known beforehand is put to the first."""

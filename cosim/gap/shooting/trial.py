@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,14 +11,16 @@ from .fit import MOST_ROUNDS, fit, with_columns
 from .fitted import Fitted, Point, start
 from .flight import Flight
 from .knob import Knob
+from .phases import with_phases
 from .problem import Problem
+from .velocities import with_velocities
 
 #: Rounds that the windows' states take to follow parameters that stay as they are.
 _ROUNDS_UNFITTED = 2
-#: Phases, degrees, that a fit may set out from.
-_PHASES = np.arange(0.0, 360.0, 60.0)
 #: Fits that may follow one whose phases turned out to be better elsewhere.
 _REPEATS = 3
+#: Another follows one that left less than this part of the sum of squares.
+_LEADS_ON = 0.98
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,8 @@ def try_model(
     first = start(problem.flights, model.knobs)
     point = Point(sketched.point.shared, sketched.point.own, first.states)
     if rounds:  # states first: parameters would make up for those that are merely read off
-        point = fit(problem, with_phases(problem, point), _ROUNDS_UNFITTED, fixed=True).point
+        point = with_velocities(problem, with_phases(problem, point))
+        point = fit(problem, point, _ROUNDS_UNFITTED, fixed=True).point
         fitted = with_columns(problem, _fit(problem, point, rounds))
     else:
         fitted = fit(problem, point, _ROUNDS_UNFITTED, fixed=True)
@@ -115,11 +118,11 @@ def _hold_out(flights: Sequence[Flight], model: Model, fitted: Fitted) -> Fitted
     point = start(flights, model.knobs)
     own = tuple(np.array([k.scaled(k.start) for k in problem.own]) for _ in flights)
     point = with_phases(problem, Point(fitted.point.shared, own, point.states))
-    return fit(problem, point, fixed=True)
+    return fit(problem, with_velocities(problem, point), fixed=True)
 
 
 def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
-    """A fit; where there are phases, again from wherever they fit best after the one before.
+    """A fit; where there are phases, again from wherever they fit best, as long as it leads on.
 
     In fewer ``rounds`` it is a first look, and is not repeated.
     """
@@ -128,31 +131,8 @@ def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
         again = with_phases(problem, fitted.point)
         if again is fitted.point:
             break
-        fitted = fit(problem, again, rounds)
+        other = fit(problem, again, rounds)
+        if other.cost >= _LEADS_ON * fitted.cost:
+            return min(fitted, other, key=lambda found: found.cost)
+        fitted = other
     return fitted
-
-
-def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = None) -> Point:
-    """Each run's phases (of ``keys``, or all) where they fit best of a few, the present included.
-
-    A fit finds its way over an eighth of a turn, not over half of one. All are judged from the
-    states read off the data: fitted ones have made up for the present phase.
-    """
-    turned = [j for j, knob in enumerate(problem.own)
-              if knob.key.endswith("phase_deg") and (keys is None or knob.key in keys)]
-    if not turned:
-        return point
-    own, states = list(point.own), list(point.states)
-    for run, now in enumerate(point.own):
-        tries = [now]
-        for degrees in _PHASES:
-            tries.append(now.copy())
-            tries[-1][turned] = [problem.own[j].scaled(degrees) for j in turned]
-        first = problem.flights[run].starts
-        costs = [np.sum(problem.residuals(run, point.shared, t, first) ** 2) for t in tries]
-        best = int(np.argmin(costs))
-        if best > 0:
-            own[run], states[run] = tries[best], first
-    if all(a is b for a, b in zip(own, point.own, strict=True)):
-        return point
-    return Point(point.shared, tuple(own), tuple(states))

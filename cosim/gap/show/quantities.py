@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from cosim.gap.shooting.drive import SECOND
 from cosim.scenario import Scenario
 
 #: Of the tracker and the drive, not of the model.
@@ -15,6 +16,10 @@ OFFSETS = {
     "offset.y": ("m", "zero of the tracker along y"),
     "offset.speed": ("", "part by which the surface is faster than its set-point"),
     "speed_ripple.wavelength": ("m", "way of the surface in one period of its speed"),
+} | {
+    f"{effect}.{part}": ("", f"second harmonic {how}, as part of the first's amplitude")
+    for effect in ("speed_ripple", "surface_pattern")
+    for part, how in zip(SECOND, ("in phase", "a quarter of its period ahead"), strict=True)
 }
 PLAIN = ("friction.mu_s", "friction.mu_k")
 

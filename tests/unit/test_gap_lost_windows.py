@@ -1,0 +1,105 @@
+"""Windows thrown off course: they neither lead a fit nor stay where the model sticks at once."""
+
+import numpy as np
+import pytest
+from gap_campaigns import motion, noisy, write_campaign
+
+from cosim.gap import read_campaign
+from cosim.gap.shooting.columns import Columns
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import Point, start
+from cosim.gap.shooting.flight import LOST
+from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.phases import with_phases
+from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+from cosim.gap.shooting.problem import Problem
+from cosim.gap.shooting.velocities import with_velocities
+
+SPEED, PHASE = 0.1, 130.0
+KNOBS = (
+    Knob("friction.mu_s", 0.3, 0.01, 0.0, 2.0),
+    Knob("friction.mu_k", 0.2, 0.01, 0.0, 2.0),
+    Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True),
+)
+PATTERN = {"surface_pattern.amplitude": 0.1, "surface_pattern.wavelength": 0.05}
+
+
+@pytest.fixture(scope="module")
+def patterned(tmp_path_factory):
+    """One run over a surface that is not the same everywhere."""
+    run = motion(speed=SPEED, mu_s=0.3, mu_k=0.2, duration=5.0, surface_pattern={
+        "amplitude": 0.1, "wavelength": 0.05, "phase_deg": PHASE})
+    runs = [{"columns": {"t": run.time, "x": noisy(run["x"], 1)}, "surface_speed": SPEED}]
+    campaign = read_campaign(write_campaign(tmp_path_factory.mktemp("p"), runs, noise={"x": 2e-4}))
+    return Problem(prepare(campaign, campaign.runs, False, SHORT_CYCLES), KNOBS, PATTERN)
+
+
+@pytest.fixture(scope="module")
+def fitted(patterned):
+    return fit(patterned, with_phases(patterned, start(patterned.flights, KNOBS)))
+
+
+def moving(problem):
+    return np.array([3 in window.free for window in problem.flights[0].windows])
+
+
+def by_window(problem, point):
+    residuals = problem.residuals(0, point.shared, point.own[0], point.states[0])
+    return problem.by_window(0, residuals)
+
+
+def test_squares_by_window_are_all_there_are(patterned, fitted):
+    (residuals,) = fitted.residuals
+    squares = patterned.by_window(0, residuals)
+    assert squares.shape == (len(patterned.flights[0].windows),)
+    assert squares.sum() == pytest.approx(residuals @ residuals, rel=1e-12)
+
+
+def test_a_lost_window_counts_little_more_than_one_that_fits_badly(patterned, fitted):
+    (residuals,) = fitted.residuals
+    owner = patterned.flights[0].window_of_rows()
+    lost, poor = (np.where(owner == 0, worst, residuals) for worst in (LOST, 0.1 * LOST))
+    one = patterned.misfit(0, residuals)
+    # a hundred times the squares is log(100) = 4.6 more per row
+    rows = np.sum(owner == 0)
+    more = patterned.misfit(0, lost) - patterned.misfit(0, poor)
+    assert more == pytest.approx(rows * np.log(100.0), rel=1e-3)
+    assert one < patterned.misfit(0, poor)
+
+
+def test_a_window_that_sticks_at_once_is_set_moving(patterned, fitted):
+    here = moving(patterned)
+    assert here.any()
+    states = fitted.point.states[0].copy()
+    states[here, 3] = SPEED  # as fast as the surface: it sticks
+    stuck = Point(fitted.point.shared, fitted.point.own, (states,))
+    freed = with_velocities(patterned, stuck)
+    before, after = by_window(patterned, stuck), by_window(patterned, freed)
+    assert np.all(after <= before) and after.sum() < 0.5 * before.sum()
+    assert freed.shared is stuck.shared and np.array_equal(freed.states[0][:, 0], states[:, 0])
+
+
+def test_velocities_that_fit_stay(patterned, fitted):
+    again = with_velocities(patterned, fitted.point)
+    assert np.array_equal(again.states[0], fitted.point.states[0], equal_nan=True)
+
+
+def test_at_another_phase_windows_keep_the_states_that_fit_better(patterned, fitted):
+    turned = Point(fitted.point.shared, (fitted.point.own[0] + 6.0,), fitted.point.states)
+    found = with_phases(patterned, turned)
+    read_off = Point(found.shared, found.own, (patterned.flights[0].starts,))
+    kept = Point(found.shared, found.own, turned.states)
+    best = np.minimum(by_window(patterned, read_off), by_window(patterned, kept))
+    # a window starts its integration with the step that the one before it ended with
+    assert by_window(patterned, found) == pytest.approx(best, rel=1e-4)
+    off = found.own[0][0] * 30.0 - PHASE
+    assert abs((off + 180.0) % 360.0 - 180.0) <= 15.0  # steps of 60 and 20 degrees
+
+
+def test_what_belongs_to_a_run_takes_no_long_step_by_what_is_hardly_felt():
+    random = np.random.default_rng(1)
+    felt, state = random.standard_normal((2, 30))
+    columns = Columns(1e3 * felt, np.zeros((30, 0)), np.column_stack([1e-3 * felt]),
+                      ((np.arange(30), state[:, None]),))
+    own, steps = columns.local_step(np.zeros(0))
+    assert own.tolist() == [-1.0] and len(steps) == 1
