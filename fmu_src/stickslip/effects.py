@@ -141,6 +141,21 @@ class StructuralDamping(Block):
     )
 
 
+def _second_amplitude():
+    return quantity(
+        0.0,
+        "1",
+        "amplitude of the second harmonic as part of the first's",
+        ge=0,
+        le=1,
+        typical=(0.1, 0.6),
+    )
+
+
+def _second_phase():
+    return quantity(0.0, "deg", "phase of the second harmonic where that of the first is nothing")
+
+
 class SpeedRipple(Block):
     """The speed of the surface is periodic in time."""
 
@@ -149,17 +164,8 @@ class SpeedRipple(Block):
     )
     frequency: float = quantity(1.0, "Hz", "frequency", gt=0, le=1000, typical=(0.1, 10.0))
     phase_deg: float = quantity(0.0, "deg", "phase at the start")
-    second_amplitude: float = quantity(
-        0.0,
-        "1",
-        "amplitude of the second harmonic as part of the first's",
-        ge=0,
-        le=1,
-        typical=(0.1, 0.6),
-    )
-    second_phase_deg: float = quantity(
-        0.0, "deg", "phase of the second harmonic where that of the first is nothing"
-    )
+    second_amplitude: float = _second_amplitude()
+    second_phase_deg: float = _second_phase()
 
 
 class SurfacePattern(Block):
@@ -172,17 +178,8 @@ class SurfacePattern(Block):
         0.1, "m", "length of a period along the surface", gt=0, typical=(0.005, 1.0)
     )
     phase_deg: float = quantity(0.0, "deg", "phase where the block stands at the start")
-    second_amplitude: float = quantity(
-        0.0,
-        "1",
-        "amplitude of the second harmonic as part of the first's",
-        ge=0,
-        le=1,
-        typical=(0.1, 0.6),
-    )
-    second_phase_deg: float = quantity(
-        0.0, "deg", "phase of the second harmonic where that of the first is nothing"
-    )
+    second_amplitude: float = _second_amplitude()
+    second_phase_deg: float = _second_phase()
 
 
 class SurfaceScatter(Block):
