@@ -125,7 +125,7 @@ class Problem:
 
     def _limit(self, run: int, before: np.ndarray, alone: bool) -> np.ndarray:
         """(windows,) sums of squares that a step may leave; no more than before if it is alone."""
-        squares = np.bincount(self._owner(run), before**2, len(self.flights[run].windows))
+        squares = self.by_window(run, before)
         return squares if alone and not self.own else _GROWTH * squares + _GROWTH_SLACK
 
     def _follow(self, run, shared, own, states, move, limit):
@@ -136,13 +136,13 @@ class Problem:
         taken = states + move
         residuals = self.residuals(run, shared, own, taken)
         for shorter in (0.25, 0.0):
-            costs = np.bincount(owner, residuals**2, count)
+            costs = self.by_window(run, residuals)
             if not (costs > limit).any():
                 break
             reach[costs > limit] = shorter
             other = states + reach[:, None] * move
             tried = self.residuals(run, shared, own, other)
-            better = np.bincount(owner, tried**2, count) < costs
+            better = self.by_window(run, tried) < costs
             taken = np.where(better[:, None], other, taken)
             residuals = np.where(better[owner], tried, residuals)
         return taken, residuals
