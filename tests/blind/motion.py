@@ -15,8 +15,10 @@ from .line import walk_line
 from .plane import walk_plane
 
 DENSE = 1e-3  # s between the rows of a motion
-FINE = {False: 1e-5, True: 2e-5}  # s, step along the line and in the plane
-COARSE = {False: 5e-5, True: 1e-4}  # for the search of a strength
+# s, step along the line and in the plane; the walks are of first order, and every break-away that
+# is late by a part of a step leaves its mark: in five seconds half a usual tracker's noise
+FINE = {False: 1e-6, True: 4e-6}
+COARSE = {False: 2e-5, True: 4e-5}  # for the search of a strength
 
 
 @dataclass(frozen=True)

@@ -14,14 +14,15 @@ from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.naming.other_starts import other_starts
 from cosim.gap.naming.plain import plain_knobs
 from cosim.gap.naming.scales import scales
-from cosim.gap.naming.search import Search, Tried
+from cosim.gap.naming.search import ACROSS, Search, Tried
+from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Fitted, Point, start
 from cosim.gap.shooting.knob import OFFSETS, Knob
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Data, Model, Trial, finished, try_model
+from cosim.gap.shooting.trial import Model, Trial, finished, try_model
 
 EFFECTS = (
     "lateral_friction", "turning_surface", "static_strengthening", "velocity_weakening",
@@ -55,7 +56,8 @@ def test_a_candidate_speaks_the_model_s_language(candidate):
     keys = [knob.key for knob in candidate.knobs]
     said = model_parameters(SCALES.speed, {**candidate.settings, **dict.fromkeys(keys, 1.0)})
     assert set(said) <= KEYS | {SPEED_OFFSET}
-    assert len(set(keys)) == len(keys) and not set(keys) & set(candidate.settings)
+    # friction across is set for all that need it, and one fits how much of it there is
+    assert len(set(keys)) == len(keys) and set(keys) & set(candidate.settings) <= {ACROSS}
     assert any(key.startswith(f"{candidate.effect}.") for key in [*keys, *candidate.settings])
     assert candidate.size == sum(not knob.per_run for knob in candidate.knobs)
 
@@ -261,7 +263,7 @@ def second_look(candidate, values):
 
     model = extended(Model(BASE.knobs[:3], {}), candidate, FITTED)
     first = Tried(candidate, model, None, fake_trial(model, values))
-    Search(Data((), (), ()), mapped).polished([first], OFFERED)
+    Search(Data((), (), (), ()), mapped).polished([first], OFFERED)
     return asked
 
 

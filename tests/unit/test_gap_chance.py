@@ -8,11 +8,12 @@ from linear_flights import linear_flight
 from scipy.stats import kstest
 
 from cosim.gap.naming.chance import DRAWS, chance
+from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Data, Model, try_model
+from cosim.gap.shooting.trial import Model, try_model
 
 PLAIN = (Knob("a.a", 0.0, 0.1), Knob("a.b", 0.0, 0.1))
 OWN = Knob("a.own", 0.0, 0.1, per_run=True)
@@ -34,7 +35,8 @@ def campaign(seed, held_out=2, strength=0.0):
         flight = linear_flight(random, (*EVERY, OWN), ROWS, windows=2)
         added = strength * flight.by_key["b.one"]
         flights.append(replace(flight, data=flight.data + added))
-    return Data(tuple(flights[:3]), (), tuple(flights[3:]))
+    fit, held = tuple(flights[:3]), tuple(flights[3:])
+    return Data(fit, fit, held, held)
 
 
 def tried(data, knobs):

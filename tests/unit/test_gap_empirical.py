@@ -21,8 +21,9 @@ from cosim.gap.empirical.stretches import holding, rows_of, slips_of  # noqa: E4
 from cosim.gap.empirical.term import forced, formula, key, moment_of  # noqa: E402
 from cosim.gap.naming.plain import plain_knobs  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare  # noqa: E402
-from cosim.gap.shooting.trial import Data, Model, sketch, try_model  # noqa: E402
+from cosim.gap.shooting.data import prepared  # noqa: E402
+from cosim.gap.shooting.preparation import prepare  # noqa: E402
+from cosim.gap.shooting.trial import Model, sketch, try_model  # noqa: E402
 
 SPEEDS = (0.05, 0.12, 0.08)
 BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}
@@ -55,11 +56,7 @@ def damped(tmp_path_factory):
 
 
 def fitted(campaign):
-    fit, held = campaign.fit_runs, campaign.held_out_runs
-    data = Data(
-        prepare(campaign, fit, False), prepare(campaign, fit, False, SHORT_CYCLES),
-        prepare(campaign, held, False),
-    )  # fmt: skip
+    data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     base = Model(plain_knobs(campaign, False), {})
     return data, try_model(data, base, sketch(data, base, 8))
 

@@ -11,13 +11,14 @@ from scipy.stats import chi2
 
 from cosim.gap import read_campaign
 from cosim.gap.naming.intervals import determined, intervals
+from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.fit import fit, with_columns
 from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.phases import with_phases
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
+from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Data, Model, sketch, try_model
+from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 MU_S, MU_K, LINEAR = 0.3, 0.2, 0.8
@@ -66,9 +67,7 @@ def trials(clean, tmp_path_factory):
     found = []
     for seed in range(SEEDS):
         campaign = campaign_of(tmp_path_factory.mktemp("campaign"), clean, seed)
-        data = Data(prepare(campaign, campaign.fit_runs, False),
-                    prepare(campaign, campaign.fit_runs, False, SHORT_CYCLES),
-                    prepare(campaign, campaign.held_out_runs, False))
+        data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
         model = Model(KNOBS, {})
         found.append((data, try_model(data, model, sketch(data, model, 2))))
     return found

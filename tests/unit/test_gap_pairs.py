@@ -8,10 +8,10 @@ from cosim.gap import read_campaign
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
 from cosim.gap.naming.search import Search, Tried
+from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.glance import glance, ground
 from cosim.gap.shooting.knob import Knob
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
-from cosim.gap.shooting.trial import Data, Model, sketch, try_model
+from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 PLAIN = Model((Knob("friction.mu_s", 0.29, 0.015, 0.0, 2.0),
@@ -33,9 +33,7 @@ def data(tmp_path_factory):
             for run in [motion(speed=v, duration=6.0, **hidden)]]
     folder = tmp_path_factory.mktemp("campaign")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
-    return Data(prepare(campaign, campaign.fit_runs, False),
-                prepare(campaign, campaign.fit_runs, False, SHORT_CYCLES),
-                prepare(campaign, campaign.held_out_runs, False))
+    return prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
 
 
 @pytest.fixture(scope="module")

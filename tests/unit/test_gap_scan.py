@@ -10,10 +10,11 @@ from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.naming.scan import periodogram, scan
 from cosim.gap.naming.wave_answer import sums, wave_answer
 from cosim.gap.read import read_campaign
+from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.glance import ground
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
-from cosim.gap.shooting.trial import Data, Model, sketch
+from cosim.gap.shooting.trial import Model, sketch
 
 SPEEDS, AMPLITUDE, PHASES = (0.04, 0.07), 0.08, (40.0, 190.0)
 PLAIN = Model((Knob("friction.mu_s", 0.3, 0.01, 0.0, 2.0),
@@ -40,7 +41,7 @@ def scanned(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("scan")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": 2e-4}))
     flights = prepare(campaign, campaign.runs, False, SHORT_CYCLES)
-    data = Data(flights, flights, ())
+    data = Data(flights, flights, (), ())
     fitted = ground(data, PLAIN, sketch(data, PLAIN, 8))
     law = LAWS[request.param]
     answers = [wave_answer(law, PLAIN, fitted, flight, i) for i, flight in enumerate(flights)]

@@ -13,7 +13,6 @@ from cosim.gap.naming.measures import (
     EXPLAINED_AT_LEAST,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
-    EXPLAINED_IF_LITTLE,
     FITS,
     PART_OF_OTHERS,
     PLAIN_FITS,
@@ -22,7 +21,7 @@ from cosim.gap.naming.measures import (
     explained,
     repaired,
 )
-from cosim.gap.naming.pairs import DOMINANT, NEEDED, NEEDED_BESIDE
+from cosim.gap.naming.pairs import DOMINANT, NEEDED
 from cosim.gap.naming.search import Tried
 from cosim.gap.naming.verdict import ALL, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
@@ -225,27 +224,13 @@ def test_a_second_effect_that_the_first_does_without_is_not_named():
     assert (found.verdict, found.effects) == ("named", ("run_in",))
 
 
-def test_both_effects_of_a_pair_are_needed():
-    """A second effect that takes little from the first one's rest is no name."""
-    alone = (FITS**2 - 1.0) / np.sqrt(1.0 - NEEDED)  # no repair
-    plain = np.sqrt(1.0 + 2.0 * alone)
-    verdicts = []
-    for factor in (LESS, MORE):
-        pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED) * alone))
-        assert repaired(trial(plain), pair, EXPLAINED_BY_TWO)
-        first = [tried("film_drag", after(0.5, plain)), tried("run_in", after(0.45, plain))]
-        found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]})
-        verdicts.append(found.verdict)
-    assert verdicts == ["named", "unknown"]
-
-
 @pytest.mark.parametrize("factor, effects", [
     (LESS, ("film_drag", "run_in")), (MORE, ("film_drag",))])
 def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_rest(
         factor, effects):
     """What is left by one whose law is a little wrong is seldom a second one."""
     plain, alone = 100.0, after(0.5 * (EXPLAINED_BY_ONE + 1.0), 100.0)
-    pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED_BESIDE) * excess(alone)))
+    pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED) * excess(alone)))
     first = [tried("film_drag", alone), tried("run_in", after(0.3, plain))]
     found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]},
                        without={"run_in": alone.gap, "film_drag": 0.9 * plain})
@@ -296,10 +281,10 @@ def test_what_is_nearest_may_be_a_pair():
 
 def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
     """A good effect on top of a poor one does well: the poor one has no part in it."""
-    strong = 0.9 * DOMINANT
-    good = tried("run_in", after(strong))
-    poor = tried("film_drag", after(0.3))
+    strong = 0.5 * (DOMINANT + EXPLAINED_BY_ONE)
+    good, poor = tried("run_in", after(strong)), tried("film_drag", after(MORE * RIVAL * strong))
     pair = after(1.0 - (1.0 - strong) * MORE * (1.0 - NEEDED))
+    assert repaired(trial(FAR), pair, EXPLAINED_BY_TWO)
     found, _ = finding([good, poor], second={"film_drag": [tried("run_in", pair)]})
     assert found.verdict == "unknown" and found.nearest.gap == pytest.approx(good.trial.gap)
 
@@ -307,11 +292,11 @@ def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
 def test_a_little_that_nothing_explains_is_nothing():
     """Between what fits and what is repaired, an effect has a name for nearly all of it."""
     between = 0.5 * (PLAIN_FITS + FITS)
-    weak = after(LESS * EXPLAINED_IF_LITTLE, between)
+    weak = after(LESS * EXPLAINED_AT_LEAST, between)
     assert weak.gap < FITS
     found, _ = finding([tried("film_drag", weak)], plain=between)
     assert (found.verdict, found.effects) == ("none", ())
-    found, _ = finding([tried("film_drag", after(MORE * EXPLAINED_IF_LITTLE, between))],
+    found, _ = finding([tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, between))],
                        plain=between)
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
 
@@ -326,11 +311,11 @@ def test_what_remains_may_be_noise_and_yet_most_of_what_was():
 
 def test_what_only_long_flights_show_may_be_drift():
     short, plain = trial(LESS * PLAIN_FITS).fitted, LESS * DRIFT
-    weak = [tried("film_drag", after(LESS * EXPLAINED_IF_LITTLE, plain))]
+    weak = [tried("film_drag", after(LESS * EXPLAINED_AT_LEAST, plain))]
     assert finding(weak, plain=plain, sketched=short)[0].verdict == "none"
     assert finding(weak, plain=plain)[0].verdict == "named"  # short ones show it as well
     assert finding(weak, plain=MORE * DRIFT, sketched=short)[0].verdict == "named"
-    strong = [tried("film_drag", after(MORE * EXPLAINED_IF_LITTLE, plain))]
+    strong = [tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, plain))]
     assert finding(strong, plain=plain, sketched=short)[0].effects == ("film_drag",)
 
 

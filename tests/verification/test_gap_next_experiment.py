@@ -25,8 +25,8 @@ from cosim.gap.naming.scales import scales  # noqa: E402
 from cosim.gap.naming.search import Tried  # noqa: E402
 from cosim.gap.naming.verdict import FITS, alike  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare  # noqa: E402
-from cosim.gap.shooting.trial import Data, Model, sketch, try_model  # noqa: E402
+from cosim.gap.shooting.data import prepared  # noqa: E402
+from cosim.gap.shooting.trial import Model, sketch, try_model  # noqa: E402
 
 PAIR = ("film_drag", "structural_damping")
 HIDDEN = {
@@ -54,11 +54,7 @@ def fitted(folder, runs):
     """The campaign, and for each of the two effects its best law, best effect first."""
     path = write_campaign(folder, runs, noise={"x": NOISE})
     campaign = read_campaign(path)
-    fit, held = campaign.fit_runs, campaign.held_out_runs
-    data = Data(
-        prepare(campaign, fit, False), prepare(campaign, fit, False, SHORT_CYCLES),
-        prepare(campaign, held, False),
-    )  # fmt: skip
+    data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     base = Model(plain_knobs(campaign, False), {})
     plain = sketch(data, base, 8)
     done = {}

@@ -47,6 +47,9 @@ _ACROSS = {"lateral_friction.ratio": 1.0}
 
 def _lateral_friction(s: Scales):
     yield Candidate("lateral_friction", "isotropic", (), _ACROSS, lateral=True)
+    for share in (0.8, 0.5):
+        ratio = Knob("lateral_friction.ratio", share, 0.1, 0.0, 1.0)
+        yield Candidate("lateral_friction", "less than along the motion", (ratio,), _ACROSS, True)
 
 
 def _turning_surface(s: Scales):

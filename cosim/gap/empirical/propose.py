@@ -12,8 +12,9 @@ from cosim.gap.atlas.spectrum import Period, strongest_period
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
 from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.knob import Knob
-from cosim.gap.shooting.trial import Data, Trial, sketch, try_model
+from cosim.gap.shooting.trial import Trial, sketch, try_model
 
 from .features import HELD, Feature, library
 from .regression import Formula, formulas
@@ -128,7 +129,7 @@ def _closed_loop(
     friction, best = _friction(best, runs)
     flights = [
         tuple(forced(flight, best.features) for flight in part)
-        for part in (data.fit, data.short, data.held_out)
+        for part in (data.fit, data.short, data.held_out, data.held_out_short)
     ]
     knobs = tuple(
         Knob(key(i), float(c), _STEP * abs(float(c))) for i, c in enumerate(best.coefficients)

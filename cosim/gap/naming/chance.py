@@ -12,10 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fit import with_columns
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Data, Trial
+from cosim.gap.shooting.trial import Trial
 
 DRAWS = 199
 

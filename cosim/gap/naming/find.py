@@ -15,11 +15,11 @@ from cosim.gap.experiment import Member, next_experiment
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
+from cosim.gap.shooting.data import Data, prepared
 from cosim.gap.shooting.fitted import Fitted
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.thinning import thinned
-from cosim.gap.shooting.trial import Data, Model, Trial, sketch, try_model
+from cosim.gap.shooting.trial import Model, Trial, sketch, try_model
 from cosim.processes import processes
 
 from .across import moves_across
@@ -49,11 +49,7 @@ def find_gap(
     fit_runs = [run for run in campaign.fit_runs if run.track is not None]
     held_out = [run for run in campaign.held_out_runs if run.track is not None]
     planar = moves_across(campaign)
-    data = Data(
-        prepare(campaign, fit_runs, planar),
-        prepare(campaign, fit_runs, planar, SHORT_CYCLES),
-        prepare(campaign, held_out, planar),
-    )
+    data = prepared(campaign, fit_runs, held_out, planar)
     base = Model(plain_knobs(campaign, planar), {})
     sketched = _sketched(data, base)
     plain = try_model(data, base, sketched)

@@ -17,11 +17,14 @@ FITS = 1.5
 #: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
 #: real effect is never quite the catalogue's.
 EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.92
-#: What takes away less than this part has no name, however little there was.
-EXPLAINED_AT_LEAST = 0.5
+#: What takes away less than this part has no name, however little remains: what is not in the
+#: catalogue may be imitated that far.
+EXPLAINED_AT_LEAST = 0.9
+#: What has taken away less than this part is not fitted more closely.
+WORTH_A_POLISH = 0.5
 #: Where the plain model fits in short flights, what long ones show up to this gap may be the drift
-#: of a motion that is unstable by itself; a name for so little must explain this part of it.
-DRIFT, EXPLAINED_IF_LITTLE = 2.0, 0.85
+#: of a motion that is unstable by itself.
+DRIFT = 2.0
 #: So many times the part that is gone from the fitted runs may be gone from all.
 FELT_BY_FITTED = 2.0
 #: Effects cannot be told apart when their gaps, squared, differ by less than this ...
@@ -37,14 +40,10 @@ def is_little(plain: Trial, sketched: Fitted) -> bool:
     return plain.gap <= FITS or (plain.gap <= DRIFT and sketched.gap() <= PLAIN_FITS)
 
 
-def repaired(plain: Trial, trial: Trial, part: float, at_least: float | None = None) -> bool:
-    """Whether next to nothing of what there was is left: this part is gone, or noise remains.
-
-    at_least : part that must be gone where noise remains, EXPLAINED_AT_LEAST if not given
-    """
+def repaired(plain: Trial, trial: Trial, part: float) -> bool:
+    """Whether next to nothing of what there was is left: this part is gone, or noise remains."""
     gone = explained(plain, trial)
-    least = EXPLAINED_AT_LEAST if at_least is None else at_least
-    return gone >= part or (gone >= least and excess(trial) <= FITS**2 - 1.0)
+    return gone >= part or (gone >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
 
 
 def explained(plain: Trial, trial: Trial) -> float:
@@ -81,3 +80,15 @@ def alike(done: Sequence[Tried]) -> tuple[str, ...]:
 def as_good(best: Trial) -> float:
     """Square of the gap that is as good as the best one."""
     return best.gap**2 + ALIKE + ALIKE_PART * excess(best)
+
+
+def telling(done: Sequence[Tried]) -> list[Tried]:
+    """Those that add something to the friction across that they bring along, in short windows."""
+    across = next((t for t in done if t.candidate.effect == PART_OF_OTHERS), None)
+    return [t for t in done if across is None or t is across or not _adds_nothing(t, across)]
+
+
+def _adds_nothing(tried: Tried, across: Tried) -> bool:
+    left = tried.sketched.gap() ** 2
+    as_well = left + ALIKE + ALIKE_PART * max(left - 1.0, 0.0)
+    return ACROSS in tried.candidate.settings and across.sketched.gap() ** 2 <= as_well

@@ -9,14 +9,12 @@ from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
 from .measures import (
-    ALIKE,
-    ALIKE_PART,
-    EXPLAINED_AT_LEAST,
     PART_OF_OTHERS,
     PLAIN_FITS,
     as_good,
     excess,
     explained,
+    telling,
 )
 from .search import ACROSS, Search, Tried, penalised
 
@@ -25,12 +23,13 @@ from .search import ACROSS, Search, Tried, penalised
 FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
 #: So many pairs are fitted in long windows.
 PAIRS = 3
+#: A pair that has taken away this part is fitted more closely, if it does not fit.
+NEARLY = 0.8
 #: No other first effect is tried when a pair leaves less than this part in short windows.
 REST = 0.05
-#: Of two effects, each must have taken away this part of what the other leaves, in squares; beside
-#: one that has taken away so much alone, this part: its law may be a little wrong, and another law
-#: mend some of that.
-NEEDED, DOMINANT, NEEDED_BESIDE = 0.3, 0.85, 0.8
+#: Beside one that has taken away so much alone, another effect must take away this part of what it
+#: leaves, in squares: the first one's law may be a little wrong, and another law mend some of that.
+DOMINANT, NEEDED = 0.85, 0.8
 
 #: The first effect alone, and the second on top of it.
 Pair = tuple[Tried, Tried]
@@ -61,13 +60,13 @@ def best_pair(
 def _is_worth_more(plain: Trial, pair: Pair) -> bool:
     """Whether another law of the second effect may be what a pair lacks."""
     both = pair[1].trial
-    return both.gap > PLAIN_FITS and explained(plain, both) >= EXPLAINED_AT_LEAST
+    return both.gap > PLAIN_FITS and explained(plain, both) >= NEARLY
 
 
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
     """Whether two effects do so much better than one of them that the other has a part in it."""
-    part = NEEDED_BESIDE if explained(plain, alone) >= DOMINANT else NEEDED
-    return excess(both) <= (1.0 - part) * excess(alone)
+    little = (1.0 - NEEDED) * excess(alone)
+    return explained(plain, alone) < DOMINANT or excess(both) <= little
 
 
 def _gap(pair: Pair) -> float:
@@ -95,19 +94,10 @@ def _sketched(
 
 def _firsts(plain: Trial, done: Sequence[Tried]) -> list[Tried]:
     """Best first, without those that add nothing to the friction across that they bring along."""
-    across = next((t for t in done if t.candidate.effect == PART_OF_OTHERS), None)
-    telling = [t for t in done if across is None or t is across or not _adds_nothing(t, across)]
     return [
-        t for i, t in enumerate(telling)
+        t for i, t in enumerate(telling(done))
         if i < AT_LEAST or explained(plain, t.trial) >= WORTH_A_SECOND
     ][:FIRSTS]
-
-
-def _adds_nothing(tried: Tried, across: Tried) -> bool:
-    """Whether friction across alone does as well, in short windows."""
-    left = tried.sketched.gap() ** 2
-    as_well = left + ALIKE + ALIKE_PART * max(left - 1.0, 0.0)
-    return ACROSS in tried.candidate.settings and across.sketched.gap() ** 2 <= as_well
 
 
 def _simplest(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:

@@ -23,8 +23,8 @@ _STEP = 0.05
 _POINTS = 8000
 #: For rates at which a run tells nothing.
 _NOTHING = 1e-9
-#: Periods found.
-PEAKS = 4
+#: Periods found, of which all but the first must explain this part of the misfit.
+PEAKS, FEEBLE = 4, 0.03
 #: Amplitudes are of about this size, or smaller.
 _AMPLITUDE = 0.5
 #: A fit sets out from an amplitude between these: a smaller one may be lost among other minima.
@@ -45,15 +45,17 @@ class Peak:
 
 
 def scan(candidate: Candidate, answers: Sequence[WaveAnswer]) -> list[Peak]:
-    """The strongest periods, strongest first."""
+    """The strongest periods, strongest first; one, though it be feeble."""
     rates, power, amplitude = periodogram(candidate, answers)
+    least = FEEBLE * sum(answer.misfit for answer in answers)
+    first, *others = _peaks(np.where(amplitude < 1.0, power, 0.0))
     in_time = candidate.periodic.endswith("frequency")
     part = _STEP / _FINE * (rates[1] - rates[0])
     return [
         Peak(float(rates[i] if in_time else 1.0 / rates[i]),
              float(np.clip(amplitude[i], *_STARTS)), float(power[i]),
              float(part if in_time else part / rates[i]))
-        for i in _peaks(np.where(amplitude < 1.0, power, 0.0))
+        for i in [first, *(i for i in others if power[i] > least)]
     ]
 
 
@@ -66,7 +68,8 @@ def periodogram(
     scale = [answer.speed if roller else 1.0 for answer in answers]
     lengths = [a.length * s for a, s in zip(answers, scale, strict=True)]
     highest = max(a.highest / s for a, s in zip(answers, scale, strict=True))
-    rates = np.arange(_FEWEST, highest * max(lengths), _FINE)[:_POINTS] / max(lengths)
+    most = min(highest * max(lengths), _FEWEST + _POINTS * _FINE)
+    rates = np.arange(_FEWEST, most, _FINE) / max(lengths)
     along, strength = np.zeros(rates.size), np.full(rates.size, _AMPLITUDE**-2)
     for answer, s in zip(answers, scale, strict=True):
         matrix, right = answer.normal(s * rates)

@@ -9,9 +9,10 @@ import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, moved
+from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.glance import glance, ground
-from cosim.gap.shooting.trial import Data, Model, Trial, finished, sketch, try_model
+from cosim.gap.shooting.trial import Model, Trial, finished, sketch, try_model
 from cosim.processes import Map
 
 from .other_starts import other_starts

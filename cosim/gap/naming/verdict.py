@@ -10,16 +10,16 @@ from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
 from .measures import (
-    EXPLAINED_AT_LEAST,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
-    EXPLAINED_IF_LITTLE,
     FITS,
     PLAIN_FITS,
+    WORTH_A_POLISH,
     alike,
     explained,
     is_little,
     repaired,
+    telling,
 )
 from .pairs import DOMINANT, best_pair, needed_alone
 from .search import Search, Tried
@@ -61,13 +61,12 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         return Finding("none", (), None, ranking, plain)
     done, early = _parted(ranking)
     best = done[0].trial
-    if best.gap > PLAIN_FITS and explained(plain, best) >= EXPLAINED_AT_LEAST:
-        done = _merged(search.polished(done[:POLISHED], candidates), done)
-    little = is_little(plain, sketched)
-    single = _of_one(plain, [*done, *early], EXPLAINED_IF_LITTLE if little else None)
+    if best.gap > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
+        done = _merged(search.polished(telling(done)[:POLISHED], candidates), done)
+    single = _of_one(plain, [*done, *early])
     if single and (single.nearest.gap <= FITS or explained(plain, single.nearest) >= ALL):
         return single
-    if little:  # and nothing explains it
+    if is_little(plain, sketched):  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)
     return _of_two(search, plain, sketched, [*done, *early], candidates, single)
 
@@ -79,13 +78,11 @@ def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
     return sorted(done, key=lambda t: t.trial.gap), early
 
 
-def _of_one(
-    plain: Trial, ranking: Sequence[Tried], at_least: float | None = None
-) -> Finding | None:
+def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
     """One effect, or several that do as well as one another, if they repair the model."""
     done, _ = _parted(ranking)
     best = done[0].trial
-    if not repaired(plain, best, EXPLAINED_BY_ONE, at_least):
+    if not repaired(plain, best, EXPLAINED_BY_ONE):
         return None
     members = alike(done)
     return Finding("named" if len(members) == 1 else "class", members, best, ranking, best)

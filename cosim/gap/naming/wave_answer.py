@@ -32,6 +32,9 @@ _LEAST = 0.02
 _WRONG = 0.1
 #: The lowest of them stands for 0, in steps.
 _ALL_BUT_NONE = 1e-6
+#: A block that sticks all the time tells nothing of the surface's way: windows count as so many
+#: times the noise at least.
+_SHORTEST = 50.0
 #: A full ripple that moves the surface by less than so much of the noise is not to be seen.
 _SEEN = 2.0
 
@@ -53,6 +56,7 @@ class WaveAnswer:
     products : (rates, w, c + 1) answer (complex: e^(i angle)) times columns of the knobs, times the
         residuals
     squares, turned : (rates, w) sum of squares of the answer's modulus, and of the answer
+    misfit : sum of squares of the residuals, as they count here
     """
 
     speed: float
@@ -62,6 +66,7 @@ class WaveAnswer:
     products: np.ndarray
     squares: np.ndarray
     turned: np.ndarray
+    misfit: float
 
     @property
     def highest(self) -> float:
@@ -123,7 +128,8 @@ def wave_answer(
     windows = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
     centres = np.array([along[rows].mean() for rows in windows])
-    step = _STEP / float(np.quantile([np.ptp(along[rows]) for rows in windows], 0.9))
+    step = _STEP / max(float(np.quantile([np.ptp(along[rows]) for rows in windows], 0.9)),
+                       _SHORTEST * flight.noise["x"])
     weight, basis = _weight_and_basis(columns, windows)
     order = np.concatenate(windows)
     sizes = np.array([rows.size for rows in windows])
@@ -134,7 +140,8 @@ def wave_answer(
         wave = columns.without_states(wave / _SMALL) * weight
         found.append(sums(wave[order] * np.exp(-2j * np.pi * rate * centre), basis[order], sizes))
     parts = (np.array(part) for part in zip(*found, strict=True))
-    return WaveAnswer(abs(flight.speed), float(np.ptp(along)), step, centres, *parts)
+    misfit = float(basis[:, -1] @ basis[:, -1])
+    return WaveAnswer(abs(flight.speed), float(np.ptp(along)), step, centres, *parts, misfit)
 
 
 def sums(wave: np.ndarray, basis: np.ndarray, sizes: np.ndarray):

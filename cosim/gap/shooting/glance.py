@@ -12,11 +12,12 @@ from dataclasses import replace
 import numpy as np
 
 from .columns import Columns
+from .data import Data
 from .fit import fit, with_columns
 from .fitted import Fitted, Point
 from .phases import with_phases
 from .problem import Problem
-from .trial import Data, Model
+from .trial import Model
 
 #: Steps tried in a round before it is given up: by other derivatives none may lead on.
 _TRIES = 4

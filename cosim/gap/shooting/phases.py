@@ -6,13 +6,18 @@ from collections.abc import Collection
 
 import numpy as np
 
-from .fitted import Point
+from .fit import fit
+from .fitted import Fitted, Point
 from .problem import Problem
 
 #: Phases, degrees, that a fit may set out from.
 _PHASES = np.arange(0.0, 360.0, 60.0)
 #: Degrees by which the best of them is then shifted.
 _NEARER = 20.0
+#: Phases, degrees, of which the best few, so many, are followed by the states, in so many rounds.
+_FINE, _FOLLOWED, _ROUNDS = np.arange(0.0, 360.0, 30.0), 3, 3
+#: One must leave less than this part of the run's sum of squares.
+_CLEARLY = 0.98
 
 
 def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = None) -> Point:
@@ -54,6 +59,50 @@ def _best_phase(problem: Problem, run: int, shared, now: np.ndarray, turned: lis
         return now
     costs |= {degrees: cost(at(degrees)) for degrees in (best - _NEARER, best + _NEARER)}
     return at(min(costs, key=costs.get))
+
+
+def with_phases_followed(problem: Problem, point: Point) -> Point:
+    """Each run's phases where they fit best once its windows' states have followed them.
+
+    What states read off the data leave may hide a phase: some fifty flights a run tell more.
+    """
+    turned = [j for j, knob in enumerate(problem.own) if knob.key.endswith("phase_deg")]
+    if not turned:
+        return point
+    ended = [_followed(problem, run, point, turned) for run in range(len(problem.flights))]
+    if all(fitted is None for fitted in ended):
+        return point
+    parts = [(point.own[i], point.states[i]) if fitted is None
+             else (fitted.point.own[0], fitted.point.states[0]) for i, fitted in enumerate(ended)]
+    own, states = zip(*parts, strict=True)
+    return Point(point.shared, own, states)
+
+
+def _followed(problem: Problem, run: int, point: Point, turned: list[int]) -> Fitted | None:
+    """One run fitted from its most promising phases, or None if none leads anywhere."""
+    alone = Problem([problem.flights[run]], problem.knobs, problem.settings)
+    now = point.own[run]
+    residuals = alone.residuals(0, point.shared, now, point.states[run])
+    best, least = None, _CLEARLY * float(residuals @ residuals)
+    for own in _promising(problem, run, point, turned):
+        states = _best_states(problem, run, point.shared, own, point.states[run])
+        fitted = fit(alone, Point(point.shared, (own,), (states,)), _ROUNDS, fixed=True)
+        if fitted.cost < least:
+            best, least = fitted, fitted.cost
+    return best
+
+
+def _promising(problem: Problem, run: int, point: Point, turned: list[int]) -> list[np.ndarray]:
+    """A run's own numbers at the best phases of a circle, apart from one another."""
+    first = problem.flights[run].starts
+    ring = []
+    for degrees in _FINE:
+        own = point.own[run].copy()
+        own[turned] = [problem.own[j].scaled(degrees) for j in turned]
+        ring.append((problem.misfit(run, problem.residuals(run, point.shared, own, first)), own))
+    costs = np.array([cost for cost, _ in ring])
+    lows = np.flatnonzero((costs <= np.roll(costs, 1)) & (costs < np.roll(costs, -1)))
+    return [ring[i][1] for i in lows[np.argsort(costs[lows])][:_FOLLOWED]]
 
 
 def _best_states(problem: Problem, run: int, shared, own: np.ndarray, states: np.ndarray):

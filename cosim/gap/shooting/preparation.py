@@ -11,7 +11,7 @@ from stickslip import Parameters
 from cosim.gap.read import Campaign, MeasuredRun, Track
 
 from .flight import TOLERANCE, Flight
-from .windows import CYCLES, cut
+from .windows import CYCLES, cut, joined
 
 #: Cycles in the short windows in which a fit sets out: hardly a phase to be lost.
 SHORT_CYCLES = 1.2
@@ -33,7 +33,10 @@ def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -
         known["rig.free_y"] = known["rig.free_phi"] = 0.0
     channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
     across = planar and "y" in channels
-    windows = cut(track, run.sticks, run.surface_speed, period(run), across, cycles)
+    cycle = period(run)
+    windows = cut(track, run.sticks, run.surface_speed, cycle, across, min(cycles, SHORT_CYCLES))
+    if cycles > SHORT_CYCLES:
+        windows = joined(windows, track.time, cycles * cycle)
     noise = {name: run.noise[name] for name in channels}
     temperature = known["temperature_dependence.reference_degC"]
     return Flight(

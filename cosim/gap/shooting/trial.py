@@ -7,29 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .data import Data
 from .fit import MOST_ROUNDS, fit, with_columns
 from .fitted import Fitted, Point, start
 from .flight import Flight
 from .knob import Knob
-from .phases import with_phases
+from .phases import with_phases, with_phases_followed
 from .problem import Problem
+from .rescue import with_lost_windows_found
 from .velocities import with_velocities
 
 #: Rounds that the windows' states take to follow parameters that stay as they are.
-_ROUNDS_UNFITTED = 2
+_ROUNDS_UNFITTED, _ROUNDS_SHORT = 2, 4
 #: Fits that may follow one whose phases turned out to be better elsewhere.
 _REPEATS = 3
 #: Another follows one that left less than this part of the sum of squares.
 _LEADS_ON = 0.98
-
-
-@dataclass(frozen=True)
-class Data:
-    """The flights of a campaign: for fitting and held out, in long and in short windows."""
-
-    fit: tuple[Flight, ...]
-    short: tuple[Flight, ...]
-    held_out: tuple[Flight, ...]
 
 
 @dataclass(frozen=True)
@@ -88,10 +81,9 @@ def try_model(
 ) -> Trial:
     """Fit in long windows from a sketch, and judge; in no ``rounds`` the sketch is judged."""
     problem = Problem(data.fit, model.knobs, model.settings)
-    first = start(problem.flights, model.knobs)
-    point = Point(sketched.point.shared, sketched.point.own, first.states)
-    if rounds:  # states first: parameters would make up for those that are merely read off
-        point = with_velocities(problem, with_phases(problem, point))
+    point = _carried_over(problem, data.short, sketched.point)
+    if rounds:  # states first: parameters would make up for those that are not of this model
+        point = with_velocities(problem, point)
         point = fit(problem, point, _ROUNDS_UNFITTED, fixed=True).point
         fitted = with_columns(problem, _fit(problem, point, rounds))
     else:
@@ -106,29 +98,51 @@ def finished(data: Data, trial: Trial) -> Trial:
 
 
 def _judged(data: Data, model: Model, fitted: Fitted) -> Trial:
-    held_out = _hold_out(data.held_out, model, fitted)
+    held_out = _hold_out(data, model, fitted)
     residuals = (*fitted.residuals, *held_out.residuals)
     squares = np.array([float(r @ r) for r in residuals])
     return Trial(model, fitted, held_out, squares, np.array([r.size for r in residuals]))
 
 
-def _hold_out(flights: Sequence[Flight], model: Model, fitted: Fitted) -> Fitted:
+def _hold_out(data: Data, model: Model, fitted: Fitted) -> Fitted:
     """The held-out runs with the campaign's knobs as fitted; their states and phases are free."""
-    problem = Problem(flights, model.knobs, model.settings)
-    point = start(flights, model.knobs)
-    own = tuple(np.array([k.scaled(k.start) for k in problem.own]) for _ in flights)
-    point = with_phases(problem, Point(fitted.point.shared, own, point.states))
-    return fit(problem, with_velocities(problem, point), fixed=True)
+    short = Problem(data.held_out_short, model.knobs, model.settings)
+    point = start(short.flights, model.knobs)
+    own = tuple(np.array([k.scaled(k.start) for k in short.own]) for _ in short.flights)
+    point = with_phases(short, Point(fitted.point.shared, own, point.states))
+    point = fit(short, with_velocities(short, point), _ROUNDS_SHORT, fixed=True).point
+    problem = Problem(data.held_out, model.knobs, model.settings)
+    point = with_velocities(problem, _carried_over(problem, short.flights, point))
+    point = fit(problem, with_phases_followed(problem, point), fixed=True).point
+    return fit(problem, with_lost_windows_found(problem, point), fixed=True)
+
+
+def _carried_over(problem: Problem, flights: Sequence[Flight], point: Point) -> Point:
+    """A point in short windows as one in long ones, which start where some of the short ones do.
+
+    Each starts from the state that was fitted in its short window, or from that read off the data
+    where it does better.
+    """
+    states = []
+    for run, (long, short) in enumerate(zip(problem.flights, flights, strict=True)):
+        rows = [window.first for window in short.windows]
+        places = [rows.index(window.first) for window in long.windows]
+        at = point.shared, point.own[run]
+        fitted, read_off = point.states[run][places], long.starts
+        squares = [problem.by_window(run, problem.residuals(run, *at, each))
+                   for each in (fitted, read_off)]
+        states.append(np.where((squares[0] <= squares[1])[:, None], fitted, read_off))
+    return Point(point.shared, point.own, tuple(states))
 
 
 def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
-    """A fit; where there are phases, again from wherever they fit best, as long as it leads on.
+    """A fit; again from where phases, and lost windows, fit better, as long as it leads on.
 
     In fewer ``rounds`` it is a first look, and is not repeated.
     """
-    fitted = fit(problem, with_phases(problem, point), rounds)
+    fitted = fit(problem, point, rounds)
     for _ in range(_REPEATS if rounds == MOST_ROUNDS else 0):
-        again = with_phases(problem, fitted.point)
+        again = with_lost_windows_found(problem, with_phases_followed(problem, fitted.point))
         if again is fitted.point:
             break
         other = fit(problem, again, rounds)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +12,8 @@ import numpy as np
 CYCLES = 3
 #: Half width, in samples, of the stretch that tells position and velocity outside a stick.
 _REACH = 6
+#: A window starts with a stick that lasts this part of a cycle; a shorter one may be none.
+_LASTS = 0.1
 #: A window that would leave less than this share of its length at the end of a run takes it in.
 _REMNANT = 0.5
 
@@ -42,6 +45,7 @@ def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float 
     planar: y is measured and the model may move across.
     """
     length = cycles * period
+    sticks = [stick for stick in sticks if stick.end - stick.start >= _LASTS * period]
     onsets = np.array([stick.first for stick in sticks if np.isfinite(stick.start_sd)], dtype=int)
     starts = _starts(track, onsets, speed, length, period)
     ends = [*starts[1:], len(track.time)]
@@ -50,6 +54,24 @@ def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float 
         _window(track, first, last, by_first.get(first), speed, planar)
         for first, last in zip(starts, ends, strict=True)
     )
+
+
+def joined(windows: Sequence[Window], time: np.ndarray, length: float) -> tuple[Window, ...]:
+    """The same windows put together to longer ones of about this length, s.
+
+    A longer one starts where a short one does, and thus from a state that a fit in short windows
+    has found.
+    """
+    ends = [time[window.last - 1] for window in windows]
+    chosen = [0]
+    for number in range(1, len(windows)):
+        begin = time[windows[number].first]
+        due = time[windows[chosen[-1]].first] + length
+        rest = ends[-1] - begin
+        if begin + 0.5 * (ends[number] - begin) > due and rest > _REMNANT * length:
+            chosen.append(number)
+    lasts = [windows[number].first for number in chosen[1:]] + [windows[-1].last]
+    return tuple(replace(windows[i], last=last) for i, last in zip(chosen, lasts, strict=True))
 
 
 def _starts(track, onsets, speed: float, length: float, period: float) -> list[int]:
@@ -83,11 +105,11 @@ def _fastest(track, due: float, speed: float, period: float) -> int:
 def _window(track, first: int, last: int, stick, speed: float, planar: bool) -> Window:
     state = np.full(6, np.nan)
     if first == 0:
-        state[:] = 0.0  # a block that nobody has turned; what is measured is put in its place
+        state[:] = 0.0  # what is measured is put in its place
     across = ()
     if planar:  # friction along x alone leaves a block that sticks free to swing across
         _fill_moving(track, first, state, track.y, 1)
-        across = (1, 4)
+        across = (1, 4) if first else (1, 2, 4)  # how it was put down turned, nobody has seen
     if stick is None:
         _fill_moving(track, first, state, track.x, 0)
         return Window(first, last, state, (0, 3, *across), np.nan)
