@@ -6,13 +6,15 @@ from gap_campaigns import motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
 from cosim.gap.shooting.columns import Columns
+from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.flight import LOST
 from cosim.gap.shooting.knob import Knob
-from cosim.gap.shooting.phases import with_phases
+from cosim.gap.shooting.phases import with_phases, with_phases_followed
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.problem import Problem
+from cosim.gap.shooting.rescue import with_lost_windows_found
 from cosim.gap.shooting.velocities import with_velocities
 
 SPEED, PHASE = 0.1, 130.0
@@ -98,6 +100,47 @@ def test_at_another_phase_windows_keep_the_states_that_fit_better(patterned, fit
     assert by_window(patterned, found) == pytest.approx(best, rel=1e-4)
     off = found.own[0][0] * 30.0 - PHASE
     assert abs((off + 180.0) % 360.0 - 180.0) <= 15.0  # steps of 60 and 20 degrees
+
+
+def test_a_lost_window_is_found_again(patterned, fitted):
+    """A state that the fit has ruined comes back, and what fits stays the very same."""
+    assert with_lost_windows_found(patterned, fitted.point) is fitted.point
+    here = np.flatnonzero(moving(patterned))[:1]
+    states = fitted.point.states[0].copy()
+    states[here, 3] = -5.0 * SPEED
+    ruined = Point(fitted.point.shared, fitted.point.own, (states,))
+    found = with_lost_windows_found(patterned, ruined)
+    good, bad, again = (by_window(patterned, p)[here] for p in (fitted.point, ruined, found))
+    assert np.all(bad > 10.0 * good) and again == pytest.approx(good, rel=0.05)
+    others = np.delete(np.arange(len(states)), here)
+    assert np.array_equal(found.states[0][others], states[others], equal_nan=True)
+
+
+def test_a_phase_is_found_by_following_it(patterned, fitted):
+    """States fitted for half a turn off do not hide the true phase, and a good one stays."""
+    knobs = len(patterned.shared)
+    turned = Point(fitted.point.shared, (fitted.point.own[0] + 6.0,), fitted.point.states)
+    settled = fit(patterned, turned, 6, fixed=True).point
+    found = with_phases_followed(patterned, settled)
+    off = found.own[0][0] * 30.0 - PHASE
+    assert abs((off + 180.0) % 360.0 - 180.0) <= 5.0 and len(found.shared) == knobs
+    assert with_phases_followed(patterned, fitted.point) is fitted.point
+
+
+def test_long_windows_start_where_short_ones_do(tmp_path):
+    run = motion(speed=SPEED, mu_s=0.3, mu_k=0.2, duration=8.0)
+    runs = [{"columns": {"t": run.time, "x": noisy(run["x"], seed)}, "surface_speed": SPEED,
+             "hold_out": bool(seed)} for seed in range(2)]
+    campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": 2e-4}))
+    data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
+    for (long,), (short,) in ((data.fit, data.short), (data.held_out, data.held_out_short)):
+        assert 2 <= len(long.windows) < len(short.windows)
+        by_first = {window.first: window for window in short.windows}
+        for window, following in zip(long.windows, [*long.windows[1:], None], strict=True):
+            begun = by_first[window.first]
+            assert np.array_equal(window.state, begun.state, equal_nan=True)
+            assert (window.free, window.last) == (
+                begun.free, following.first if following else len(long.time))
 
 
 def test_what_belongs_to_a_run_takes_no_long_step_by_what_is_hardly_felt():
