@@ -62,7 +62,8 @@ class MadeUp:
     """Answers as `Search` does: what was made up for the plain model, or on top of an effect.
 
     second : effect -> trials on top of it; without : effect -> gap of a pair without it;
-    across : gap of a pair of which only the friction across is left of one effect
+    across : gap of a pair of which only the friction across is left of one effect; hidden : two
+    effects that conceal one another, the second tried on top of the first
     """
 
     first: list
@@ -71,6 +72,10 @@ class MadeUp:
     without: dict = field(default_factory=dict)
     across: float = FAR
     asked: list = field(default_factory=list)
+    hidden: tuple | None = None
+
+    def concealed(self, base, fitted, candidates):
+        return self.hidden
 
     def on(self, base, fitted, candidates):
         done = [t for t in self.first if t.trial is not None]
@@ -191,6 +196,16 @@ def test_two_effects_are_named_where_both_repair_it():
     assert found.chosen.gap == pytest.approx(1.02)
     for offered in search.asked:  # a second one is another one
         assert len(offered) == 2
+
+
+def test_two_effects_that_conceal_one_another_are_named():
+    """Neither does anything alone; where both do all in short windows, no others are tried."""
+    first = [tried("speed_ripple", after(0.1)), tried("run_in", after(0.05))]
+    both = tried("thermal_weakening", 1.02)
+    hidden = (tried("film_drag", FAR).candidate, both)
+    found, search = finding(first, hidden=hidden, second={"speed_ripple": [tried("run_in", 3.0)]})
+    assert (found.verdict, found.effects) == ("named", ("film_drag", "thermal_weakening"))
+    assert found.chosen.gap == pytest.approx(1.02) and not search.asked
 
 
 def test_two_effects_must_take_away_so_much():

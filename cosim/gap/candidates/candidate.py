@@ -64,7 +64,14 @@ class Candidate:
 
     def faint(self) -> Candidate:
         """The same law, starting as next to nothing."""
-        knobs = (replace(k, start=_FAINT * k.start) if _is_strength(k) else k for k in self.knobs)
+        return self.times(_FAINT)
+
+    def times(self, part: float) -> Candidate:
+        """The same law, starting so many times as strong, as far as it may be."""
+        knobs = (
+            replace(k, start=min(max(part * k.start, k.low), k.high)) if _is_strength(k) else k
+            for k in self.knobs
+        )
         return replace(self, knobs=tuple(knobs), grows=0.0)
 
     @property

@@ -78,18 +78,31 @@ def _sketched(
     candidates: Sequence[Candidate],
 ) -> list[Pair]:
     """The best pairs in short windows, each pair of effects once, best first."""
-    pairs: list[Pair] = []
+    pairs = _concealed(search, plain, sketched, done, candidates)
     little = REST * (sketched.gap() ** 2 - 1.0)
     for first in _firsts(plain, done):
-        others = [c for c in candidates if c.effect != first.candidate.effect]
-        seconds = search.beside(first.model, first.sketched, others)
-        pairs += [(first, second) for second in seconds]
-        if seconds and seconds[0].sketched.gap() ** 2 - 1.0 <= little:
+        if any(second.sketched.gap() ** 2 - 1.0 <= little for _, second in pairs):
             break
+        others = [c for c in candidates if c.effect != first.candidate.effect]
+        pairs += [(first, second)
+                  for second in search.beside(first.model, first.sketched, others)]
     best: dict[frozenset[str], Pair] = {}
     for pair in sorted(pairs, key=lambda pair: penalised(pair[1].sketched)):
         best.setdefault(frozenset(t.candidate.effect for t in pair), pair)
     return list(best.values())[:PAIRS]
+
+
+def _concealed(
+    search: Search, plain: Trial, sketched: Fitted, done: Sequence[Tried],
+    candidates: Sequence[Candidate],
+) -> list[Pair]:
+    """The pair of which neither does much alone, if there is one."""
+    two = search.concealed(plain.model, sketched, candidates)
+    if two is None:
+        return []
+    first, second = two
+    alone = {t.candidate.effect: t.trial for t in done}
+    return [(Tried(first, second.model, sketched, alone.get(first.effect, plain)), second)]
 
 
 def _firsts(plain: Trial, done: Sequence[Tried]) -> list[Tried]:

@@ -17,7 +17,7 @@ from cosim.processes import Map
 
 from .other_starts import other_starts
 from .scan import scan
-from .screen import gains
+from .screen import screened
 from .wave_answer import wave_answer
 
 #: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
@@ -79,6 +79,19 @@ class Search:
         """The best laws beside an effect that is in the base, in short windows, best first."""
         sketches, _ = self._sketches(base, fitted, candidates, LOOKED_AT_BESIDE, SKETCHED_BESIDE)
         return _best_forms(sketches, FORMS)
+
+    def concealed(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+    ) -> tuple[Candidate, Tried] | None:
+        """Two laws that do much together and little alone: one, and the other on top of it."""
+        laws = [c for c in candidates if c.knobs and not c.periodic]
+        with_derivatives = self._grounds(base, fitted, ())[()]
+        two = screened(self.data.short, base, with_derivatives, laws, self.mapped).concealed()
+        if two is None:
+            return None
+        model = extended(extended(base, two[0], fitted.values), two[1], {})
+        second = Tried(two[1], model, fitted)
+        return two[0], self._run(_sketched, [(self.data, second)])[0]
 
     def together(self, pairs: Sequence[tuple[Tried, Tried]]) -> list[tuple[Tried, Tried]]:
         """Second effects on top of first ones in long windows; the best few to the end."""
@@ -171,7 +184,7 @@ class Search:
         """Those whose answer goes best with what is left; periodic ones, which have phases, all."""
         kept = [c for c in candidates if c.periodic]
         laws = [c for c in candidates if not c.periodic]
-        explained = gains(self.data.short, base, fitted, laws, self.mapped)
+        explained = screened(self.data.short, base, fitted, laws, self.mapped).gains()
         best = np.argsort(-explained, kind="stable")[:PROMISING]
         return kept + [laws[i] for i in sorted(best)]
 
