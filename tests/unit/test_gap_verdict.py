@@ -169,6 +169,18 @@ def test_friction_across_alone_is_named_when_others_add_nothing_to_it():
     assert alike([with_it, far]) == ("turning_surface",)
 
 
+@pytest.mark.parametrize("effect, without, effects", [
+    ("spring_misalignment", 5.0, ("spring_misalignment", PART_OF_OTHERS)),
+    ("spring_misalignment", 1.02, ("spring_misalignment",)),  # it does without
+    ("turning_surface", 5.0, ("turning_surface",)),  # it drags aside by that friction
+])
+def test_friction_across_that_another_effect_needs_is_named_with_it(effect, without, effects):
+    first = [tried(effect, 1.01, ACROSS), tried(PART_OF_OTHERS, 6.0, ACROSS)]
+    found, _ = finding(first, without={PART_OF_OTHERS: without})
+    assert (found.verdict, found.effects) == ("named", effects)
+    assert found.chosen.gap == pytest.approx(1.01)
+
+
 def test_an_effect_tried_once_more_counts_as_it_then_fits():
     first = [tried("film_drag", 3.0), tried("run_in", 5.0)]
     found, _ = finding(first, polish=[tried("run_in", 1.02)])

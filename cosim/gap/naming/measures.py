@@ -33,6 +33,8 @@ ALIKE = 0.08
 ALIKE_PART = 0.1
 #: Friction across the motion comes with every effect that moves a block off its line.
 PART_OF_OTHERS = "lateral_friction"
+#: The effect that acts by it.
+DRAGS_ASIDE = "turning_surface"
 
 
 def is_little(plain: Trial, sketched: Fitted) -> bool:

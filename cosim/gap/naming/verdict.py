@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
 from .measures import (
+    DRAGS_ASIDE,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
     FITS,
+    PART_OF_OTHERS,
     PLAIN_FITS,
     WORTH_A_POLISH,
     alike,
+    as_good,
     explained,
     is_little,
     repaired,
     telling,
 )
 from .pairs import DOMINANT, best_pair, needed_alone
-from .search import Search, Tried
+from .search import ACROSS, Search, Tried
 
 #: What takes away this part of the excess leaves nothing for a second effect, only its own law's
 #: small misfit.
@@ -65,7 +68,7 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         done = _merged(search.polished(telling(done)[:POLISHED], candidates), done)
     single = _of_one(plain, [*done, *early])
     if single and (single.nearest.gap <= FITS or explained(plain, single.nearest) >= ALL):
-        return single
+        return _with_friction_across(search, single, done[0], candidates)
     if is_little(plain, sketched):  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)
     return _of_two(search, plain, sketched, [*done, *early], candidates, single)
@@ -86,6 +89,23 @@ def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
         return None
     members = alike(done)
     return Finding("named" if len(members) == 1 else "class", members, best, ranking, best)
+
+
+def _with_friction_across(
+    search: Search, single: Finding, best: Tried, candidates: Sequence[Candidate]
+) -> Finding:
+    """One effect, or two if it does so only with the friction across that it was given.
+
+    A turning surface drags a block aside by that friction: it is part of the effect.
+    """
+    across = [c for c in candidates if c.effect == PART_OF_OTHERS and not c.knobs]
+    own = best.candidate.effect in (PART_OF_OTHERS, DRAGS_ASIDE)
+    if own or ACROSS not in best.candidate.settings or len(single.effects) > 1 or not across:
+        return single
+    without = search.less(best, across[0], keep=())
+    if without.trial.gap**2 <= as_good(best.trial):
+        return single
+    return replace(single, effects=(best.candidate.effect, PART_OF_OTHERS))
 
 
 def _of_two(
