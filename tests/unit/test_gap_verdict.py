@@ -23,7 +23,7 @@ from cosim.gap.naming.measures import (
 )
 from cosim.gap.naming.pairs import DOMINANT, NEEDED
 from cosim.gap.naming.search import Tried
-from cosim.gap.naming.verdict import ALL, RIVAL, judge
+from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.trial import Model, Trial
 
@@ -274,7 +274,7 @@ def test_beside_an_effect_that_explains_all_no_other_is_looked_for():
 
 
 def test_one_effect_that_dominates_is_named_though_something_is_left():
-    strong = 0.5 * (DOMINANT + EXPLAINED_BY_ONE)
+    strong = 0.5 * (DOES_MOST + EXPLAINED_BY_ONE)
     plain = 30.0
     first = [tried("film_drag", after(strong, plain)),
              tried("run_in", after(LESS * RIVAL * strong, plain))]
@@ -284,7 +284,7 @@ def test_one_effect_that_dominates_is_named_though_something_is_left():
 
 
 @pytest.mark.parametrize("strong, rival", [
-    (LESS * DOMINANT, 0.0), (0.5 * (DOMINANT + EXPLAINED_BY_ONE), MORE * RIVAL)])
+    (LESS * DOES_MOST, 0.0), (0.5 * (DOES_MOST + EXPLAINED_BY_ONE), MORE * RIVAL)])
 def test_no_name_without_a_repair_or_with_a_rival(strong, rival):
     plain = 30.0
     first = [tried("film_drag", after(strong, plain)),
@@ -340,8 +340,8 @@ def test_what_only_long_flights_show_may_be_drift():
     short, plain = trial(LESS * PLAIN_FITS).fitted, LESS * DRIFT
     weak = [tried("film_drag", after(LESS * EXPLAINED_AT_LEAST, plain))]
     assert finding(weak, plain=plain, sketched=short)[0].verdict == "none"
-    assert finding(weak, plain=plain)[0].verdict == "named"  # short ones show it as well
-    assert finding(weak, plain=MORE * DRIFT, sketched=short)[0].verdict == "named"
+    assert finding(weak, plain=plain)[0].verdict == "unknown"  # short ones show it as well
+    assert finding(weak, plain=MORE * DRIFT, sketched=short)[0].verdict == "unknown"
     strong = [tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, plain))]
     assert finding(strong, plain=plain, sketched=short)[0].effects == ("film_drag",)
 

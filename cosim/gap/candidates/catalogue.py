@@ -75,7 +75,8 @@ def _static_strengthening(s: Scales):
     for time in (0.1, 0.5):
         yield Candidate("static_strengthening", "saturating", (
             Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
-            Knob("static_strengthening.saturation_time", time, 0.5, 1e-3, 30.0, log=True)),
+            # over a much shorter time it would be another mu_s, not a law of the hold
+            Knob("static_strengthening.saturation_time", time, 0.5, 0.03, 30.0, log=True)),
             grows=1.0)
 
 

@@ -24,15 +24,15 @@ from .measures import (
     repaired,
     telling,
 )
-from .pairs import DOMINANT, best_pair, needed_alone
+from .pairs import best_pair, needed_alone
 from .search import ACROSS, Search, Tried
 
 #: What takes away this part of the excess leaves nothing for a second effect, only its own law's
 #: small misfit.
 ALL = 0.99
-#: Where no second effect helps, one that is dominant alone is named all the same, if no other comes
-#: near: none takes away more than this part of what it does.
-RIVAL = 0.5
+#: Where no second effect helps, one that does the most alone is named all the same, if no other
+#: comes near: it takes away this part, and none more than that part of what it does.
+DOES_MOST, RIVAL = 0.9, 0.5
 #: So many effects are tried once more when the best one leaves more than noise.
 POLISHED = 2
 
@@ -150,4 +150,4 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
 
 def _dominates(plain: Trial, done: Sequence[Tried]) -> bool:
     parts = [explained(plain, t.trial) for t in done]
-    return parts[0] >= DOMINANT and all(part <= RIVAL * parts[0] for part in parts[1:])
+    return parts[0] >= DOES_MOST and all(part <= RIVAL * parts[0] for part in parts[1:])
