@@ -17,6 +17,7 @@ from cosim.gap.show.files import write_page
 from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_run
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
 from cosim.gap.show.quantities import quantities
+from cosim.gap.show.score_figures import draw_ranking
 from cosim.gap.show.words import closing_lines, fitted_quantities, reason
 
 PROMISED = (
@@ -182,6 +183,15 @@ def test_numbers_are_those_of_the_model_that_is_left(gap):
 
 
 # --- figures and page ---
+
+
+def test_effects_named_together_have_a_bar_of_their_own(gap):
+    two = ("velocity_weakening", "film_drag")
+    for effects, count in ((two[:1], 2), (two, 3)):
+        axis = draw_ranking(replace(gap, effects=effects)).axes[0]
+        assert len(axis.patches) == count
+    assert axis.patches[0].get_width() == pytest.approx(gap.gap_after[1])
+    assert axis.get_yticklabels()[0].get_text() == "velocity_weakening\nand film_drag"
 
 
 @pytest.mark.parametrize("extended", [True, False])

@@ -23,20 +23,25 @@ BEYOND = 1.5
 
 
 @picture("ranking", (
-    "Every effect of the catalogue on top of the plain model: the gap on the runs that were held "
-    "out. The dashed line is the plain model, the solid one measurement noise."
+    "Every effect of the catalogue on top of the plain model, and those named together: the gap on "
+    "the runs that were held out. The dashed line is the plain model, the solid one measurement "
+    "noise."
 ))  # fmt: skip
 def draw_ranking(gap: Gap | SummaryGap) -> Figure:
-    """A bar for each effect, its best law, best first."""
+    """A bar for each effect, its best law, and one for several that were named; best first."""
     best: dict[str, float] = {}
     for row in gap.ranking:
         best.setdefault(row.effect, row.held_out_gap)
+    together = "\nand ".join(gap.effects)
+    if gap.verdict == "named" and len(gap.effects) > 1:
+        best[together] = gap.gap_after[1]
     names = sorted(best, key=best.__getitem__)
     figure, axes = panels(1, 1, height=0.9 + 0.26 * max(len(names), 1), width=8.0)
     axis = axes[0, 0]
     limit = BEYOND * max(gap.gap_before[1], 1.0)
     values = [min(best[name], limit) for name in names]
-    axis.barh(names, values, color=[_colour(gap, name) for name in names], height=0.7)
+    colours = [RED if name == together else _colour(gap, name) for name in names]
+    axis.barh(names, values, color=colours, height=0.7)
     for place, name in enumerate(names):
         over = "beyond " if best[name] > limit else ""
         axis.text(values[place], place, f" {over}{best[name]:.3g}", va="center", fontsize=8.0,
