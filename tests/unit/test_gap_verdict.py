@@ -181,6 +181,17 @@ def test_friction_across_that_another_effect_needs_is_named_with_it(effect, with
     assert found.chosen.gap == pytest.approx(1.01)
 
 
+def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
+    """Tried alone it may have ended elsewhere; from where the best one ended it does as well."""
+    first = [tried("turning_surface", 1.01, ACROSS), tried("spring_misalignment", 1.02, ACROSS),
+             tried(PART_OF_OTHERS, 2.0, ACROSS)]
+    found, _ = finding(first, across=1.02)
+    assert (found.verdict, found.effects) == ("named", (PART_OF_OTHERS,))
+    assert found.chosen.gap == pytest.approx(1.02)
+    names = [t.candidate.effect for t in found.ranking]
+    assert names == [PART_OF_OTHERS, "turning_surface", "spring_misalignment"]
+
+
 def test_an_effect_tried_once_more_counts_as_it_then_fits():
     first = [tried("film_drag", 3.0), tried("run_in", 5.0)]
     found, _ = finding(first, polish=[tried("run_in", 1.02)])

@@ -31,6 +31,8 @@ LOOKED_AT_BESIDE, SKETCHED_BESIDE = 10, 4
 FORMS = 2
 #: Rounds in long windows before the best few, so many, are fitted to the end.
 FIRST, FINISHED = 6, 2
+#: Where a law leaves less than this part of the misfit, others are out that leave more than that.
+NEARLY_ALL, HOPELESS = 0.1, 0.5
 #: So many periods of a periodic effect, in time or along the surface, are tried, and so many of
 #: them with a second harmonic; ...
 PERIODS, SECONDS = 4, 1
@@ -156,7 +158,7 @@ class Search:
         # the best law of every effect: by derivatives of afar a glance may miss how well one does
         chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
         looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
-        chosen = _best_forms(looks, FORMS)[:most]
+        chosen = _in_the_running(_best_forms(looks, FORMS)[:most], fitted)
         sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
         return sketches, [*looks, *seen]
 
@@ -213,6 +215,18 @@ class Search:
             placed += [law.at(peak.period, peak.amplitude, peak.step) for peak, law in peaks
                        if peak.power in strongest[: others if law.has_second else sines]]
         return placed
+
+
+def _in_the_running(tried: Sequence[Tried], fitted: Fitted) -> list[Tried]:
+    """Best first, without those that do little where the best does nearly all.
+
+    fitted : the base
+    """
+    before = fitted.gap() ** 2 - 1.0
+    left = [max(t.sketched.gap() ** 2 - 1.0, 0.0) for t in tried]
+    if not tried or min(left) > NEARLY_ALL * before:
+        return list(tried)
+    return [t for t, rest in zip(tried, left, strict=True) if rest <= HOPELESS * before]
 
 
 def _across(base: Model, candidate: Candidate) -> tuple[tuple[str, float], ...]:

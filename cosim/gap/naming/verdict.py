@@ -94,18 +94,25 @@ def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
 def _with_friction_across(
     search: Search, single: Finding, best: Tried, candidates: Sequence[Candidate]
 ) -> Finding:
-    """One effect, or two if it does so only with the friction across that it was given.
+    """Where the best one brings friction across along: that alone if it is as good, or both.
 
     A turning surface drags a block aside by that friction: it is part of the effect.
     """
+    effect = best.candidate.effect
     across = [c for c in candidates if c.effect == PART_OF_OTHERS and not c.knobs]
-    own = best.candidate.effect in (PART_OF_OTHERS, DRAGS_ASIDE)
-    if own or ACROSS not in best.candidate.settings or len(single.effects) > 1 or not across:
+    if effect == PART_OF_OTHERS or ACROSS not in best.candidate.settings or not across:
+        return single
+    simpler = search.less(best, best.candidate, keep=(ACROSS,))
+    if simpler.trial.gap**2 <= as_good(best.trial):
+        simpler = replace(simpler, candidate=across[0])
+        rest = [t for t in single.ranking if t.candidate.effect != PART_OF_OTHERS]
+        return Finding("named", (PART_OF_OTHERS,), simpler.trial, [simpler, *rest], simpler.trial)
+    if effect == DRAGS_ASIDE or len(single.effects) > 1:
         return single
     without = search.less(best, across[0], keep=())
     if without.trial.gap**2 <= as_good(best.trial):
         return single
-    return replace(single, effects=(best.candidate.effect, PART_OF_OTHERS))
+    return replace(single, effects=(effect, PART_OF_OTHERS))
 
 
 def _of_two(

@@ -88,7 +88,7 @@ def try_model(
         fitted = with_columns(problem, _fit(problem, point, rounds))
     else:
         fitted = fit(problem, point, _ROUNDS_UNFITTED, fixed=True)
-    return _judged(data, model, fitted)
+    return _judged(data, model, fitted, closely=rounds > 0)
 
 
 def finished(data: Data, trial: Trial) -> Trial:
@@ -97,15 +97,18 @@ def finished(data: Data, trial: Trial) -> Trial:
     return _judged(data, trial.model, with_columns(problem, _fit(problem, trial.fitted.point)))
 
 
-def _judged(data: Data, model: Model, fitted: Fitted) -> Trial:
-    held_out = _hold_out(data, model, fitted)
+def _judged(data: Data, model: Model, fitted: Fitted, closely: bool = True) -> Trial:
+    held_out = _hold_out(data, model, fitted, closely)
     residuals = (*fitted.residuals, *held_out.residuals)
     squares = np.array([float(r @ r) for r in residuals])
     return Trial(model, fitted, held_out, squares, np.array([r.size for r in residuals]))
 
 
-def _hold_out(data: Data, model: Model, fitted: Fitted) -> Fitted:
-    """The held-out runs with the campaign's knobs as fitted; their states and phases are free."""
+def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted:
+    """The held-out runs with the campaign's knobs as fitted; their states and phases are free.
+
+    closely : phases are followed, and lost windows looked for
+    """
     short = Problem(data.held_out_short, model.knobs, model.settings)
     point = start(short.flights, model.knobs)
     own = tuple(np.array([k.scaled(k.start) for k in short.own]) for _ in short.flights)
@@ -113,6 +116,8 @@ def _hold_out(data: Data, model: Model, fitted: Fitted) -> Fitted:
     point = fit(short, with_velocities(short, point), _ROUNDS_SHORT, fixed=True).point
     problem = Problem(data.held_out, model.knobs, model.settings)
     point = with_velocities(problem, _carried_over(problem, short.flights, point))
+    if not closely:
+        return fit(problem, point, fixed=True)
     point = fit(problem, with_phases_followed(problem, point), fixed=True).point
     return fit(problem, with_lost_windows_found(problem, point), fixed=True)
 
