@@ -38,7 +38,7 @@ NEARLY_ALL, HOPELESS = 0.1, 0.5
 PERIODS, SECONDS = 4, 1
 #: ... beside a first effect so many.
 PERIODS_BESIDE, SECONDS_BESIDE = 3, 0
-#: On top of a first effect, so many laws are looked at.
+#: So many laws set out as next to nothing as well; on top of a first effect no others are tried.
 PROMISING = 10
 
 #: The setting by which friction acts across the motion.
@@ -147,9 +147,10 @@ class Search:
         """The best laws sketched, at most so many, and all that were looked at for it."""
         grounds = self._grounds(base, fitted, candidates)
         placed = self._placed(base, grounds[()], candidates)
+        promising = self._promising(base, grounds[()], placed)
         if base.added:
-            placed = self._promising(base, grounds[()], placed)
-        placed += [c.faint() for c in placed if c.can_be_faint]
+            placed = promising
+        placed = placed + [c.faint() for c in promising if c.can_be_faint]
         models = [extended(base, c, fitted.values) for c in placed]
         tasks = [(self.data, m, grounds[_across(base, c)], GLANCE)
                  for c, m in zip(placed, models, strict=True)]
