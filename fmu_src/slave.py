@@ -176,6 +176,12 @@ class StickSlip3DOF(Fmi2Slave):
                     f"{entry['name']} = {value:g}: must lie in {bracket}"
                     f"{'-inf' if low is None else low}, {'inf' if high is None else high}]"
                 )
+        creep = values["friction.stick_creep"]
+        if creep and (values["rate_and_state.direct"] or values["rate_and_state.evolution"]):
+            raise Refused(
+                f"friction.stick_creep = {creep:g} m/s beside rate_and_state, whose contact creeps "
+                "by its own law; give one of the two"
+            )
 
     # --- stepping ---
 

@@ -181,6 +181,12 @@ def test_a_parameter_out_of_range_is_logged_and_no_step_is_made(block, name, val
     refused(block.slave.doStep, 0.0, 0.01)
 
 
+def test_two_laws_of_creep_are_refused(block):
+    block.initialise(**{"friction.stick_creep": 1e-3, "rate_and_state.direct": 0.01})
+    assert "friction.stick_creep = 0.001 m/s beside rate_and_state" in block.log.take_errors()
+    refused(block.slave.doStep, 0.0, 0.01)
+
+
 def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(block):
     """In a Python host the signal arrives in the slave's own code; there it may not escape."""
     block.initialise()
