@@ -24,6 +24,7 @@ from .kernel.layout import (
     SLIP,
     STICK,
     U_FORCE_X,
+    U_FORCE_Y,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -58,19 +59,20 @@ class Restart:
 
 def simulate_restarted(
     p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
-    restarts: Sequence[Restart], force: Force | None = None,
+    restarts: Sequence[Restart], force: Force | None = None, aside: float = 0.0,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
     p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
     The first restart is at row 0. Rows are NaN from where the model gave up to the next restart.
     force : from the model's own state, constant from one time to the next: extrapolated to the
-    middle of the interval, so that the error is of second order in it.
+    middle of the interval, so that the error is of second order in it. aside : constant external
+    force along y, N.
     """
     kernel = compiled_kernel()
     p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
     u = np.zeros(U_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE] = speed, temperature
+    u[U_SPEED], u[U_TEMPERATURE], u[U_FORCE_Y] = speed, temperature, aside
     z, w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
     e = np.zeros(E_FIRST + E_WIDTH)
     e[E_CAPACITY] = 1.0

@@ -1,6 +1,6 @@
 """From trials to a verdict, by trials whose gaps are made up."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
@@ -25,6 +25,7 @@ from cosim.gap.naming.pairs import DOMINANT, NEEDED
 from cosim.gap.naming.search import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
+from cosim.gap.shooting.flight import TILT
 from cosim.gap.shooting.trial import Model, Trial
 
 ROWS = 1000
@@ -63,7 +64,8 @@ class MadeUp:
 
     second : effect -> trials on top of it; without : effect -> gap of a pair without it;
     across : gap of a pair of which only the friction across is left of one effect; hidden : two
-    effects that conceal one another, the second tried on top of the first
+    effects that conceal one another, the second tried on top of the first; lookalike : gap of what
+    is not in the catalogue
     """
 
     first: list
@@ -73,11 +75,14 @@ class MadeUp:
     across: float = FAR
     asked: list = field(default_factory=list)
     hidden: tuple | None = None
+    lookalike: float = FAR
 
     def concealed(self, base, fitted, candidates):
         return self.hidden
 
     def on(self, base, fitted, candidates):
+        if any(TILT in {knob.key for knob in c.knobs} for c in candidates):
+            return [replace(tried("", self.lookalike), candidate=candidates[0])]
         done = [t for t in self.first if t.trial is not None]
         rest = [t for t in self.first if t.trial is None]
         return sorted(done, key=lambda t: t.trial.gap) + rest
@@ -190,6 +195,15 @@ def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
     assert found.chosen.gap == pytest.approx(1.02)
     names = [t.candidate.effect for t in found.ranking]
     assert names == [PART_OF_OTHERS, "turning_surface", "spring_misalignment"]
+
+
+@pytest.mark.parametrize("effect, gap, verdict", [
+    ("spring_misalignment", 1.02, "unknown"), ("spring_misalignment", 1.2, "named"),
+    ("film_drag", 1.02, "named")])  # nothing else looks like that
+def test_what_looks_like_an_effect_and_does_better_is_said(effect, gap, verdict):
+    found, _ = finding([tried(effect, 1.21)], lookalike=gap)
+    assert (found.verdict, found.nearest.gap) == (verdict, pytest.approx(1.21))
+    assert found.lookalike == ("a rig tilted sideways" if verdict == "unknown" else "")
 
 
 def test_an_effect_tried_once_more_counts_as_it_then_fits():

@@ -33,6 +33,14 @@ def test_one_restart_is_the_plain_simulation(parameters, p):
     assert np.abs(outputs[:, O_X] - plain["x"]).max() < 1e-9
 
 
+def test_a_force_aside_accelerates_the_block_across(p):
+    """Free of the contact across, over so short a time that the springs hardly answer."""
+    times, force = np.linspace(0.0, 0.02, 21), 0.3
+    outputs = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state())], aside=force)
+    y = outputs[:, O_X + 1]
+    assert y[-1] == pytest.approx(0.5 * force / p[layout.P_MASS] * times[-1] ** 2, rel=0.01)
+
+
 def test_restarts_with_the_model_s_own_states_change_nothing(p):
     times = np.linspace(0.0, 4.0, 401)
     whole = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state())])

@@ -106,7 +106,7 @@ def _answer(
         atlas=atlas,
         next_experiment=_separating(campaign, finding, planar),
         empirical=empirical_term(campaign, data, plain) if unnamed else None,
-        remarks=_remarks(campaign, tried),
+        remarks=_remarks(campaign, tried, finding),
     )
 
 
@@ -149,8 +149,10 @@ def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
     )
 
 
-def _remarks(campaign: Campaign, tried: set[str]) -> tuple[str, ...]:
+def _remarks(campaign: Campaign, tried: set[str], finding: Finding) -> tuple[str, ...]:
     lines = []
+    if finding.lookalike:
+        lines.append(f"{finding.lookalike} does better than any effect of the catalogue")
     silent = [e for e in ("lateral_friction", "turning_surface", "spring_misalignment")
               if e not in tried]
     if silent:

@@ -45,8 +45,13 @@ class Peak:
 
 
 def scan(candidate: Candidate, answers: Sequence[WaveAnswer]) -> list[Peak]:
-    """The strongest periods, strongest first; one, though it be feeble."""
+    """The strongest periods, strongest first; one, though it be feeble.
+
+    None where the runs are too short for any: a block that sticks all the time goes no way.
+    """
     rates, power, amplitude = periodogram(candidate, answers)
+    if rates.size < 2:
+        return []
     least = FEEBLE * sum(answer.misfit for answer in answers)
     first, *others = _peaks(np.where(amplitude < 1.0, power, 0.0))
     in_time = candidate.periodic.endswith("frequency")

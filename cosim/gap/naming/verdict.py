@@ -9,6 +9,7 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
+from .lookalike import better_lookalike
 from .measures import (
     DRAGS_ASIDE,
     EXPLAINED_BY_ONE,
@@ -48,6 +49,7 @@ class Finding:
     chosen : the model that repairs it, None for none and unknown
     ranking : every effect on top of the plain model, best first
     nearest : the best that there is, whatever the verdict
+    lookalike : what would repair it and is not in the catalogue, in words, or ""
     """
 
     verdict: str
@@ -55,6 +57,7 @@ class Finding:
     chosen: Trial | None
     ranking: Sequence[Tried]
     nearest: Trial
+    lookalike: str = ""
 
 
 def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[Candidate]):
@@ -66,6 +69,10 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
     best = done[0].trial
     if best.gap > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
         done = _merged(search.polished(telling(done)[:POLISHED], candidates), done)
+    other = better_lookalike(search, plain, sketched, done[0])
+    if other and repaired(plain, other.trial, EXPLAINED_BY_ONE):
+        nearest, words = done[0].trial, other.candidate.effect
+        return Finding("unknown", (), None, [*done, *early], nearest, words)
     single = _of_one(plain, [*done, *early])
     if single and (single.nearest.gap <= FITS or explained(plain, single.nearest) >= ALL):
         return _with_friction_across(search, single, done[0], candidates)

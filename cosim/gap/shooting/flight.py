@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from stickslip.kernel import layout
-from stickslip.packing import pack
+from stickslip.packing import GRAVITY, pack
 from stickslip.restarted import Force, Restart, simulate_restarted
 
 from .drive import SPEED_OFFSET, driven_speed, model_parameters
@@ -17,6 +17,8 @@ from .windows import Window
 COLUMN = {"x": layout.O_X, "y": layout.O_X + 1, "phi": layout.O_X + 2}
 #: Residual, in units of the noise, where the model gave up or left for ever.
 LOST = 1e3
+#: Part of the weight that pulls the block aside: the sine of a rig's tilt.
+TILT = "offset.tilt"
 #: Integrator's tolerance in a fit: far below the noise, and cheap.
 TOLERANCE = 1e-7
 #: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
@@ -71,13 +73,14 @@ class Flight:
         flat = {**self.known, **model_parameters(self.speed, values)}
         speed = driven_speed(self.speed, flat)
         flat.pop(SPEED_OFFSET, None)
+        aside = flat.pop(TILT, 0.0) * flat["rig.mass"] * GRAVITY
         p = np.array(pack(flat))
         p[layout.P_LONGEST_STEP] *= _LONGER
         restarts = [
             Restart(window.first, state, window.hold_since)
             for window, state in zip(self.windows, states, strict=True)
         ]
-        return simulate_restarted(p, speed, self.temperature, self.time, restarts, force)
+        return simulate_restarted(p, speed, self.temperature, self.time, restarts, force, aside)
 
     def residuals(self, outputs: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
         """(rows,) model less measurement over noise, channel by channel, without missing ones."""
