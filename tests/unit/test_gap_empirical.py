@@ -1,6 +1,7 @@
 """The empirical formula: regression on the measured slips, the force in the model's own loop."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,14 @@ def plain(tmp_path_factory):
 def damped(tmp_path_factory):
     tracks = simulated(structural_damping={"coefficient": 3.0})
     return campaign_of(tmp_path_factory.mktemp("damped"), tracks)
+
+
+def first_window(campaign):
+    """The first window of the first run alone."""
+    (flight,) = prepare(campaign, campaign.runs[:1], False)
+    window, *_ = flight.windows
+    channels = {name: values[: window.last] for name, values in flight.channels.items()}
+    return replace(flight, time=flight.time[: window.last], channels=channels, windows=(window,))
 
 
 def fitted(campaign):
@@ -111,7 +120,7 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
     errors = []
     coefficient = -1.5 if name == "vx" else -4.0 * (40.0 - 38.5)
     for every in (4, 2, 1):
-        flight = prepare(plain, plain.runs[:1], False)[0].first(1)
+        flight = first_window(plain)
         rows = np.arange(0, len(flight.time), every)
         window = flight.windows[0].__class__(0, len(rows), flight.windows[0].state, (), np.nan)
         thin = forced(flight, [BY_NAME[name]]).__class__(
@@ -130,7 +139,7 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
 
 def test_a_force_acts_beside_a_creep(plain):
     """None is none, and in the first stick a force like half the springs is half the springs."""
-    flight = prepare(plain, plain.runs[:1], False)[0].first(1)
+    flight = first_window(plain)
     values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2, "friction.stick_creep": 4e-3}
     acting = forced(flight, [BY_NAME["x"]])
     free = flight.fly(values, flight.starts)

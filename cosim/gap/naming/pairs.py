@@ -119,13 +119,19 @@ def _simplest(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pa
     across = [t.candidate for t in pair if ACROSS in t.candidate.settings]
     if len(across) != 1 or across[0].effect == PART_OF_OTHERS or not lateral:
         return pair
-    simpler = search.less(pair[1], across[0], keep=(ACROSS,))
-    if simpler.trial.gap**2 > as_good(pair[1].trial):
+    simpler = across_alone(search, pair[1], across[0])
+    if simpler is None:
         return pair
     first, second = pair
     if second.candidate is across[0]:
         return first, _named(simpler, lateral[0])
     return _named(first, lateral[0]), _named(simpler, second.candidate)
+
+
+def across_alone(search: Search, tried: Tried, brings: Candidate) -> Tried | None:
+    """A trial with only the friction across left of what brings it along, if that is as good."""
+    simpler = search.less(tried, brings, keep=(ACROSS,))
+    return simpler if simpler.trial.gap**2 <= as_good(tried.trial) else None
 
 
 def _named(tried: Tried, candidate: Candidate) -> Tried:

@@ -25,7 +25,7 @@ from .measures import (
     repaired,
     telling,
 )
-from .pairs import best_pair, needed_alone
+from .pairs import across_alone, best_pair, needed_alone
 from .search import ACROSS, Search, Tried
 
 #: What takes away this part of the excess leaves nothing for a second effect, only its own law's
@@ -109,8 +109,8 @@ def _with_friction_across(
     across = [c for c in candidates if c.effect == PART_OF_OTHERS and not c.knobs]
     if effect == PART_OF_OTHERS or ACROSS not in best.candidate.settings or not across:
         return single
-    simpler = search.less(best, best.candidate, keep=(ACROSS,))
-    if simpler.trial.gap**2 <= as_good(best.trial):
+    simpler = across_alone(search, best, best.candidate)
+    if simpler:
         simpler = replace(simpler, candidate=across[0])
         rest = [t for t in single.ranking if t.candidate.effect != PART_OF_OTHERS]
         return Finding("named", (PART_OF_OTHERS,), simpler.trial, [simpler, *rest], simpler.trial)

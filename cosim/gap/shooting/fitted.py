@@ -72,9 +72,6 @@ class Fitted:
         return float(np.sqrt(sum(r @ r for r in chosen) / max(1, sum(r.size for r in chosen))))
 
 
-#: Of a run, at a point, with its residuals there.
-
-
 def _named(knobs: Sequence[Knob], scaled: np.ndarray, per_run: bool) -> dict[str, float]:
     chosen = [knob for knob in knobs if knob.per_run == per_run]
     return {knob.key: knob.value(s) for knob, s in zip(chosen, scaled, strict=True)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from stickslip.kernel import layout
@@ -58,13 +58,6 @@ class Flight:
     def starts(self) -> np.ndarray:
         """(windows, 6) first guesses of the windows' states."""
         return np.array([window.state for window in self.windows])
-
-    def first(self, count: int) -> Flight:
-        """The first so many windows alone."""
-        last = self.windows[count - 1].last
-        channels = {name: values[:last] for name, values in self.channels.items()}
-        return replace(
-            self, time=self.time[:last], channels=channels, windows=self.windows[:count])
 
     def fly(
         self, values: Mapping[str, float], states: np.ndarray, force: Force | None = None

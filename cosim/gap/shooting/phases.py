@@ -35,7 +35,7 @@ def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = N
         best = _best_phase(problem, run, point.shared, now, turned)
         if best is not now:
             own[run] = best
-            states[run] = _best_states(problem, run, point.shared, best, point.states[run])
+            states[run] = best_states(problem, run, point.shared, best, point.states[run])
     if all(a is b for a, b in zip(own, point.own, strict=True)):
         return point
     return Point(point.shared, tuple(own), tuple(states))
@@ -43,22 +43,29 @@ def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = N
 
 def _best_phase(problem: Problem, run: int, shared, now: np.ndarray, turned: list[int]):
     """A run's own numbers at the best phase of a circle, then of some near that one."""
-    first = problem.flights[run].starts
+    ring = _ring(problem, run, shared, now, turned, _PHASES)
+    best = int(np.argmin([cost for cost, _ in ring]))
+    if ring[best][0] >= _cost_read_off(problem, run, shared, now):
+        return now
+    near = _PHASES[best] + np.array([-_NEARER, _NEARER])
+    ring = [ring[best], *_ring(problem, run, shared, now, turned, near)]
+    return min(ring, key=lambda turn: turn[0])[1]
 
-    def at(degrees: float) -> np.ndarray:
+
+def _ring(problem: Problem, run: int, shared, now: np.ndarray, turned: list[int], phases):
+    """(cost, a run's own numbers) at each of some phases, degrees."""
+    ring = []
+    for degrees in phases:
         own = now.copy()
         own[turned] = [problem.own[j].scaled(degrees) for j in turned]
-        return own
+        ring.append((_cost_read_off(problem, run, shared, own), own))
+    return ring
 
-    def cost(own: np.ndarray) -> float:
-        return problem.misfit(run, problem.residuals(run, shared, own, first))
 
-    costs = {degrees: cost(at(degrees)) for degrees in _PHASES}
-    best = min(costs, key=costs.get)
-    if costs[best] >= cost(now):
-        return now
-    costs |= {degrees: cost(at(degrees)) for degrees in (best - _NEARER, best + _NEARER)}
-    return at(min(costs, key=costs.get))
+def _cost_read_off(problem: Problem, run: int, shared, own: np.ndarray) -> float:
+    """From the states read off the data."""
+    residuals = problem.residuals(run, shared, own, problem.flights[run].starts)
+    return problem.misfit(run, residuals)
 
 
 def with_phases_followed(problem: Problem, point: Point) -> Point:
@@ -85,7 +92,7 @@ def _followed(problem: Problem, run: int, point: Point, turned: list[int]) -> Fi
     residuals = alone.residuals(0, point.shared, now, point.states[run])
     best, least = None, _CLEARLY * float(residuals @ residuals)
     for own in _promising(problem, run, point, turned):
-        states = _best_states(problem, run, point.shared, own, point.states[run])
+        states = best_states(problem, run, point.shared, own, point.states[run])
         fitted = fit(alone, Point(point.shared, (own,), (states,)), _ROUNDS, fixed=True)
         if fitted.cost < least:
             best, least = fitted, fitted.cost
@@ -94,21 +101,17 @@ def _followed(problem: Problem, run: int, point: Point, turned: list[int]) -> Fi
 
 def _promising(problem: Problem, run: int, point: Point, turned: list[int]) -> list[np.ndarray]:
     """A run's own numbers at the best phases of a circle, apart from one another."""
-    first = problem.flights[run].starts
-    ring = []
-    for degrees in _FINE:
-        own = point.own[run].copy()
-        own[turned] = [problem.own[j].scaled(degrees) for j in turned]
-        ring.append((problem.misfit(run, problem.residuals(run, point.shared, own, first)), own))
+    ring = _ring(problem, run, point.shared, point.own[run], turned, _FINE)
     costs = np.array([cost for cost, _ in ring])
     lows = np.flatnonzero((costs <= np.roll(costs, 1)) & (costs < np.roll(costs, -1)))
     return [ring[i][1] for i in lows[np.argsort(costs[lows])][:_FOLLOWED]]
 
 
-def _best_states(problem: Problem, run: int, shared, own: np.ndarray, states: np.ndarray):
-    """Each window's state, fitted for another phase, or as read off the data where that is better.
+def best_states(problem: Problem, run: int, shared, own: np.ndarray, states: np.ndarray):
+    """Each window's state, fitted elsewhere, or as read off the data where that is better.
 
-    Read off, a velocity may be so near the surface's that the window is lost.
+    states : (windows, 6) fitted. Read off, a velocity may be so near the surface's that the window
+    is lost.
     """
     first = problem.flights[run].starts
     fitted = problem.by_window(run, problem.residuals(run, shared, own, states))

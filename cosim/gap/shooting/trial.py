@@ -12,7 +12,7 @@ from .fit import MOST_ROUNDS, fit, with_columns
 from .fitted import Fitted, Point, start
 from .flight import Flight
 from .knob import Knob
-from .phases import with_phases, with_phases_followed
+from .phases import best_states, with_phases, with_phases_followed
 from .problem import Problem
 from .rescue import with_lost_windows_found
 from .velocities import with_velocities
@@ -131,12 +131,8 @@ def _carried_over(problem: Problem, flights: Sequence[Flight], point: Point) -> 
     states = []
     for run, (long, short) in enumerate(zip(problem.flights, flights, strict=True)):
         rows = [window.first for window in short.windows]
-        places = [rows.index(window.first) for window in long.windows]
-        at = point.shared, point.own[run]
-        fitted, read_off = point.states[run][places], long.starts
-        squares = [problem.by_window(run, problem.residuals(run, *at, each))
-                   for each in (fitted, read_off)]
-        states.append(np.where((squares[0] <= squares[1])[:, None], fitted, read_off))
+        fitted = point.states[run][[rows.index(window.first) for window in long.windows]]
+        states.append(best_states(problem, run, point.shared, point.own[run], fitted))
     return Point(point.shared, point.own, tuple(states))
 
 
