@@ -20,6 +20,7 @@ from .kernel.layout import (
     HOLD_SINCE,
     MODE,
     O_SIZE,
+    O_TRACK,
     SHOWN,
     SLIP,
     STICK,
@@ -69,30 +70,51 @@ def simulate_restarted(
     middle of the interval, so that the error is of second order in it. aside : constant external
     force along y, N.
     """
-    kernel = compiled_kernel()
-    p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
+    record = compiled_kernel().record
+    inputs = _inputs(speed, temperature, aside)
+    return _simulated(p, inputs, times, restarts, force, record, O_SIZE)
+
+
+def track_restarted(
+    p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
+    restarts: Sequence[Restart], force: Force | None = None, aside: float = 0.0,
+) -> np.ndarray:
+    """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
+    track = compiled_kernel().track
+    inputs = _inputs(speed, temperature, aside)
+    return _simulated(p, inputs, times, restarts, force, track, O_TRACK)
+
+
+def _inputs(speed: float, temperature: float, aside: float) -> np.ndarray:
     u = np.zeros(U_SIZE)
     u[U_SPEED], u[U_TEMPERATURE], u[U_FORCE_Y] = speed, temperature, aside
+    return u
+
+
+def _simulated(p, u, times, restarts, force, record, width: int) -> np.ndarray:
+    """Rows (n, width) as ``record`` of the kernel writes them."""
+    kernel = compiled_kernel()
+    p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
     z, w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
     e = np.zeros(E_FIRST + E_WIDTH)
     e[E_CAPACITY] = 1.0
-    o = np.full(O_SIZE * len(times), np.nan)
+    o = np.full(width * len(times), np.nan)
     kernel.initialise(p, z, times[0])
     ends = [restart.row for restart in restarts[1:]] + [len(times)]
     for restart, end in zip(restarts, ends, strict=True):
         _set(kernel, p, u, z, w, e, times[restart.row], restart)
         if force is None:
-            kernel.record(p, u, z, w, e, times, o, restart.row, end - restart.row)
+            record(p, u, z, w, e, times, o, restart.row, end - restart.row)
         else:
-            _record_forced(kernel, p, u, z, w, e, times, o, (restart.row, end), force)
-    return o.reshape(-1, O_SIZE)
+            _record_forced(record, p, u, z, w, e, times, o, (restart.row, end), force)
+    return o.reshape(-1, width)
 
 
-def _record_forced(kernel, p, u, z, w, e, times: np.ndarray, o, rows, force: Force) -> None:
+def _record_forced(record, p, u, z, w, e, times: np.ndarray, o, rows, force: Force) -> None:
     """Row by row, each under the force that the row before has set."""
     before, mode = None, None
     for row in range(*rows):
-        if kernel.record(p, u, z, w, e, times, o, row, 1) != 1:
+        if record(p, u, z, w, e, times, o, row, 1) != 1:
             break
         block = z[SHOWN : SHOWN + BLOCK].tolist()
         now = u[U_FORCE_X] = force(block)

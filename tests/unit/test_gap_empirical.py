@@ -128,7 +128,7 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
             {}, {}, (window,), features=(BY_NAME[name],))  # fmt: skip
         values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
         state = np.array([[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]])
-        reference = super(type(thin), thin).fly(values | effect, state)[:, 0]
+        reference = thin.fly(values | effect, state)[:, 0]
         x = thin.fly(values | {key(0): coefficient}, state)[:, 0]
         half = rows < 40  # before the first corner
         errors.append(np.abs(x - reference)[half].max())

@@ -5,7 +5,7 @@ import pytest
 from stickslip import Friction, Parameters, simulate
 from stickslip.kernel import layout
 from stickslip.kernel.layout import O_MODE, O_VX, O_X
-from stickslip.restarted import Restart, simulate_restarted
+from stickslip.restarted import Restart, simulate_restarted, track_restarted
 
 SPEED, COLD = 0.05, -8.0
 
@@ -31,6 +31,18 @@ def test_one_restart_is_the_plain_simulation(parameters, p):
     moving = parameters.model_copy(update={"surface": surface})
     plain = simulate(moving, 5.0, 0.01, interface_temperature=COLD)
     assert np.abs(outputs[:, O_X] - plain["x"]).max() < 1e-9
+
+
+def test_places_alone_are_those_of_the_outputs(p):
+    times, start = np.linspace(0.0, 3.0, 301), [Restart(0, state(0.01)), Restart(150, state(0.02))]
+
+    def pull(block):
+        return -0.5 * block[layout.VX]
+
+    for force in (None, pull):
+        outputs = simulate_restarted(p, SPEED, COLD, times, start, force)
+        places = track_restarted(p, SPEED, COLD, times, start, force)
+        assert np.array_equal(places, outputs[:, O_X : O_X + 3])
 
 
 def test_a_force_aside_accelerates_the_block_across(p):

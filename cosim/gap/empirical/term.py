@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from stickslip.kernel import layout
 from stickslip.packing import pack
+from stickslip.restarted import Force
 
 from cosim.gap.shooting.drive import driven_speed
 from cosim.gap.shooting.flight import Flight
@@ -59,18 +60,17 @@ class ForcedFlight(Flight):
         """Normal force, N."""
         return float(pack(self.known)[layout.P_NORMAL_FORCE])
 
-    def fly(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        """The model's outputs (n, O_SIZE)."""
-        rest = {name: value for name, value in values.items() if not name.startswith(BLOCK)}
+    def force(self, values: Mapping[str, float]) -> Force:
+        """The features' sum, with the coefficients among ``values``."""
         coefficients = [values.get(key(i), 0.0) for i in range(len(self.features))]
         of = [feature.of for feature in self.features]
         speed = driven_speed(self.speed, values)
 
-        def force(block: Sequence[float]) -> float:
+        def along(block: Sequence[float]) -> float:
             moment = moment_of(block, speed, self.load)
             return sum(c * one(moment) for c, one in zip(coefficients, of, strict=True))
 
-        return super().fly(rest, states, force)
+        return along
 
 
 def moment_of(block: Sequence[float], speed: float, load: float) -> Moment:

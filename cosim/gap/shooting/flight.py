@@ -8,19 +8,19 @@ from dataclasses import dataclass, field
 import numpy as np
 from stickslip.kernel import layout
 from stickslip.packing import GRAVITY, pack
-from stickslip.restarted import Force, Restart, simulate_restarted
+from stickslip.restarted import Force, Restart, simulate_restarted, track_restarted
 
 from .drive import SPEED_OFFSET, driven_speed, model_parameters
 from .windows import Window
 
-#: Columns of the model's output that a tracker can see.
-COLUMN = {"x": layout.O_X, "y": layout.O_X + 1, "phi": layout.O_X + 2}
+#: Columns of the model's outputs, and of its places, that a tracker can see.
+COLUMN = {"x": layout.O_X, "y": layout.O_Y, "phi": layout.O_PHI}
 #: Residual, in units of the noise, where the model gave up or left for ever.
 LOST = 1e3
 #: Part of the weight that pulls the block aside: the sine of a rig's tilt.
 TILT = "offset.tilt"
 #: Integrator's tolerance in a fit: far below the noise, and cheap.
-TOLERANCE = 1e-7
+TOLERANCE = 1e-6
 #: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
 _LONGER = 2.0
 
@@ -59,10 +59,19 @@ class Flight:
         """(windows, 6) first guesses of the windows' states."""
         return np.array([window.state for window in self.windows])
 
-    def fly(
-        self, values: Mapping[str, float], states: np.ndarray, force: Force | None = None
-    ) -> np.ndarray:
+    def fly(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
         """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
+        return self._simulated(simulate_restarted, values, states)
+
+    def places(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        """As `fly`, but x, y and phi alone (n, 3)."""
+        return self._simulated(track_restarted, values, states)
+
+    def force(self, values: Mapping[str, float]) -> Force | None:
+        """What else acts on the block along x."""
+        return None
+
+    def _simulated(self, simulate, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
         flat = {**self.known, **model_parameters(self.speed, values)}
         speed = driven_speed(self.speed, flat)
         flat.pop(SPEED_OFFSET, None)
@@ -73,13 +82,14 @@ class Flight:
             Restart(window.first, state, window.hold_since)
             for window, state in zip(self.windows, states, strict=True)
         ]
-        return simulate_restarted(p, speed, self.temperature, self.time, restarts, force, aside)
+        force = self.force(values)
+        return simulate(p, speed, self.temperature, self.time, restarts, force, aside)
 
-    def residuals(self, outputs: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
+    def residuals(self, places: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
         """(rows,) model less measurement over noise, channel by channel, without missing ones."""
         parts = []
         for name, values in self.channels.items():
-            model = outputs[:, COLUMN[name]] + offsets.get(f"offset.{name}", 0.0)
+            model = places[:, COLUMN[name]] + offsets.get(f"offset.{name}", 0.0)
             parts.append(((model - values) / self.noise[name])[self.seen[name]])
         rows = np.concatenate(parts)
         return np.clip(np.nan_to_num(rows, nan=LOST), -LOST, LOST)

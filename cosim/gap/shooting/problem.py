@@ -31,12 +31,18 @@ class Problem:
 
     def residuals(self, run: int, shared, own, states) -> np.ndarray:
         """(rows,) of one run."""
-        outputs, offsets = self.flown(run, shared, own, states)
-        rows = self.flights[run].residuals(outputs, offsets)
+        values, states, offsets = self._set_for(shared, own, states)
+        flight = self.flights[run]
+        rows = flight.residuals(flight.places(values, states), offsets)
         return np.concatenate([rows, self._known_of_own(own)])
 
     def flown(self, run: int, shared, own, states) -> tuple[np.ndarray, dict[str, float]]:
         """The model's outputs (n, O_SIZE) of one run, and the tracker's zeros."""
+        values, states, offsets = self._set_for(shared, own, states)
+        return self.flights[run].fly(values, states), offsets
+
+    def _set_for(self, shared, own, states) -> tuple[dict[str, float], np.ndarray, dict]:
+        """Parameters, windows' states (windows, 6) as the model has them, and tracker's zeros."""
         values = dict(self.settings)
         values.update((k.key, k.value(s)) for k, s in zip(self.shared, shared, strict=True))
         values.update((k.key, k.value(s)) for k, s in zip(self.own, own, strict=True))
@@ -44,7 +50,7 @@ class Problem:
         states = states.copy()
         for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
             states[:, axis] -= offsets.get(key, 0.0)
-        return self.flights[run].fly(values, states), offsets
+        return values, states, offsets
 
     def _known_of_own(self, own) -> np.ndarray:
         """Rows for what is known beforehand of a run's own knobs."""

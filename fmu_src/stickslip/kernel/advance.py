@@ -123,8 +123,10 @@ def try_step(
 
     A slip that would come out reversed is stepped over its end: the step is halved until it
     stops short of it, or is too short to tell. ``grip`` is what the contact can hold, per load.
+    ``z[Z_STEP]`` becomes the step to try next.
     """
     h = min(z[Z_STEP], bound)
+    good = h  # as far as the error test knows
     finest = 1e-15 * max(1.0, abs(z[HERE + TIME]))
     error = 2.0
     while error > 1.0:
@@ -137,11 +139,15 @@ def try_step(
             error = 1e8
         if error > 1.0:
             h *= max(0.1, 0.9 * error ** (-0.125))
+            good = h
         elif z[HERE + MODE] == SLIP and has_reversed(p, u, z, w) and grip > 0.0:
             if scaled_sliding_speed(p, w) > rest_speed(p, u) and h > 16.0 * finest:
                 error = 2.0
                 h *= 0.5
                 load_block(p, z, w, HERE)
+    z[Z_STEP] = h * min(8.0, 0.9 * max(error, 1e-12) ** (-0.125))
+    if h < good:  # only the end of the slip has shortened it
+        z[Z_STEP] = max(z[Z_STEP], good)
     return error
 
 
@@ -196,8 +202,6 @@ def internal_step(
         error = try_step(p, u, z, w, bound, grip)
         if error < 0.0:
             return STEP_VANISHED
-        h = z[NEXT + TIME] - z[HERE + TIME]
-        z[Z_STEP] = max(h * min(8.0, 0.9 * max(error, 1e-12) ** (-0.125)), min(z[Z_STEP], bound))
         if z[HERE + MODE] == STICK:
             break_away(p, u, z, w, e)
         else:

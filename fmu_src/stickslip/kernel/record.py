@@ -1,7 +1,7 @@
 """A whole run in one call: outputs at given times."""
 
 from .advance import advance
-from .layout import DONE, O_SIZE
+from .layout import DONE, O_SIZE, O_TRACK, SHOWN, X
 from .outputs import show
 
 
@@ -24,4 +24,24 @@ def record(
         if advance(p, u, z, w, e, times[i]) != DONE:
             return i - first
         show(p, u, z, w, o, O_SIZE * i)
+    return count
+
+
+def track(
+    p: "float[:]",
+    u: "float[:]",
+    z: "float[:]",
+    w: "float[:]",
+    e: "float[:]",
+    times: "float[:]",
+    o: "float[:]",
+    first: int,
+    count: int,
+) -> int:
+    """As `record`, but only what a tracker sees: x, y and phi, `O_TRACK` numbers a row."""
+    for i in range(first, first + count):
+        if advance(p, u, z, w, e, times[i]) != DONE:
+            return i - first
+        for j in range(O_TRACK):
+            o[O_TRACK * i + j] = z[SHOWN + X + j]
     return count
