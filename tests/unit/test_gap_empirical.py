@@ -137,6 +137,10 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
         assert 2.5 < coarse / fine < 6.0
 
 
+def one_by_one(function, arguments):
+    return (function(*each) for each in arguments)
+
+
 def test_a_force_acts_beside_a_creep(plain):
     """None is none, and in the first stick a force like half the springs is half the springs."""
     flight = first_window(plain)
@@ -162,7 +166,7 @@ def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
         tracks.append((0.01 * np.arange(len(path)), path[:, 0]))
     campaign = campaign_of(tmp_path, tracks)
     data, base = fitted(campaign)
-    found = empirical_term(campaign, data, base)
+    found = empirical_term(campaign, data, base, one_by_one)
     assert found["kind"] == "empirical"
     assert found["held_out_gap_before"] == base.held_out_gap > 5.0
     assert found["held_out_gap_after"] < 0.5 * base.held_out_gap
@@ -183,7 +187,7 @@ def test_friction_that_differs_by_direction(tmp_path):
         runs.append(entry | {"columns": columns})
     campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": NOISE}))
     data, base = fitted(campaign)
-    found = empirical_term(campaign, data, base)
+    found = empirical_term(campaign, data, base, one_by_one)
     size = {term["feature"]: term["coefficient"] for term in found["terms"]}
     assert set(size) == {"N", "N while held"}
     assert abs(size["N"]) == pytest.approx(0.5 * 0.3 * 0.2, rel=0.1)
@@ -192,7 +196,7 @@ def test_friction_that_differs_by_direction(tmp_path):
 
 def test_nothing_is_proposed_where_nothing_is_missing(plain):
     data, base = fitted(plain)
-    assert empirical_term(plain, data, base) is None
+    assert empirical_term(plain, data, base, one_by_one) is None
 
 
 def test_a_fitted_speed_has_a_direction():

@@ -15,6 +15,7 @@ from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Trial, sketch, try_model
+from cosim.processes import Map
 
 from .features import HELD, Feature, library
 from .regression import Formula, formulas
@@ -40,15 +41,16 @@ _STEP = 0.1
 
 
 def empirical_term(
-    campaign: Campaign, data: Data, base: Trial
+    campaign: Campaign, data: Data, base: Trial, mapped: Map
 ) -> dict[str, Any] | None:
     """A formula for the force along x that a model lacks, or None where none helps.
 
-    base : the model that is left, fitted to `data`. The features are chosen by sparse regression on
-    the measured slips of the runs for fitting, their number by the held-out runs; the force then
-    acts in the model, from the model's own state, and coefficients and friction are refitted. It is
-    kept only where the held-out gap becomes smaller. (The held-out runs choose among a handful of
-    formulas: their gap is not quite as independent as that of a named effect.)
+    base : the model that is left, fitted to `data`. mapped : as `processes` gives it.
+    The features are chosen by sparse regression on the measured slips of the runs for fitting,
+    their number by the held-out runs; the force then acts in the model, from the model's own state,
+    and coefficients and friction are refitted. It is kept only where the held-out gap becomes
+    smaller. (The held-out runs choose among a handful of formulas: their gap is not quite as
+    independent as that of a named effect.)
     Keys: kind ("empirical"), formula, terms ([{feature, coefficient, unit}]), parameters (friction,
     refitted with it), fit_gap_before, fit_gap_after, held_out_gap_before, held_out_gap_after, text.
     """
@@ -61,8 +63,9 @@ def empirical_term(
         return None
     found = formulas(fit_slips, held_slips, _library(fit_slips, fit_runs))
     acting: list[tuple[Trial, tuple[Feature, ...]]] = []
-    for one in _promising(found):
-        acting.append(_closed_loop(data, base, one, fit_runs))
+    tasks = [(data, base, one, fit_runs) for one in _promising(found)]
+    for each in mapped(_closed_loop, tasks):
+        acting.append(each)
         if acting[-1][0].held_out_gap <= _ENOUGH:
             break
     trial, features = base, ()

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 
-import numpy as np
 from stickslip.kernel import layout
 from stickslip.packing import pack
 from stickslip.restarted import Force

@@ -20,7 +20,7 @@ from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.thinning import thinned
 from cosim.gap.shooting.trial import Model, Trial, sketch, try_model
-from cosim.processes import processes
+from cosim.processes import Map, processes
 
 from .across import moves_across
 from .chance import chance
@@ -61,7 +61,7 @@ def find_gap(
         search = Search(data, mapped, progress)
         finding = judge(search, plain, sketched, felt)
         ranking = search.judged(finding.ranking)
-    return _answer(campaign, data, plain, finding, ranking, seed, planar)
+        return _answer(campaign, data, plain, finding, ranking, seed, planar, mapped)
 
 
 def _sketched(data: Data, base: Model) -> Fitted:
@@ -81,7 +81,7 @@ def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:
 
 def _answer(
     campaign: Campaign, data: Data, plain: Trial, finding: Finding, ranking, seed: int,
-    planar: bool,
+    planar: bool, mapped: Map,
 ) -> Gap:
     finalists = [t.trial for t in finding.ranking if t.trial is not None]
     before = _fitted_model(campaign, data, plain)
@@ -105,7 +105,7 @@ def _answer(
         seed=seed,
         atlas=atlas,
         next_experiment=_separating(campaign, finding, planar),
-        empirical=empirical_term(campaign, data, plain) if unnamed else None,
+        empirical=empirical_term(campaign, data, plain, mapped) if unnamed else None,
         remarks=_remarks(campaign, tried, finding),
     )
 

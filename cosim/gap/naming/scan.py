@@ -25,6 +25,9 @@ _POINTS = 8000
 _NOTHING = 1e-9
 #: Periods found, of which all but the first must explain this part of the misfit.
 PEAKS, FEEBLE = 4, 0.03
+#: What the best wave of some thousand rates explains of noise alone: twice the logarithm of their
+#: number is 16.
+NOISE = 20.0
 #: Amplitudes are of about this size, or smaller.
 _AMPLITUDE = 0.5
 #: A fit sets out from an amplitude between these: a smaller one may be lost among other minima.
@@ -35,6 +38,7 @@ _STARTS = (0.02, 0.5)
 class Peak:
     """A period, as the knob of the candidate has it (Hz or m), its amplitude, what it explains.
 
+    power : of the sum of squares
     step : of the period on the scale of its knob (Hz, or relative), small against what is resolved
     """
 

@@ -16,7 +16,7 @@ from cosim.gap.shooting.trial import Model, Trial, finished, sketch, try_model
 from cosim.processes import Map
 
 from .other_starts import other_starts
-from .scan import scan
+from .scan import NOISE, scan
 from .screen import screened
 from .wave_answer import wave_answer
 
@@ -146,22 +146,24 @@ class Search:
     ) -> tuple[list[Tried], list[Tried]]:
         """The best laws sketched, at most so many, and all that were looked at for it."""
         grounds = self._grounds(base, fitted, candidates)
-        placed = self._placed(base, grounds[()], candidates)
+        placed, feeble = self._placed(base, grounds[()], candidates)
         promising = self._promising(base, grounds[()], placed)
         if base.added:
-            placed = promising
+            placed, feeble = promising, []
         placed = placed + [c.faint() for c in promising if c.can_be_faint]
-        models = [extended(base, c, fitted.values) for c in placed]
-        tasks = [(self.data, m, grounds[_across(base, c)], GLANCE)
-                 for c, m in zip(placed, models, strict=True)]
+        laws = [*((c, GLANCE) for c in placed), *((c, 0) for c in feeble)]
+        models = [extended(base, c, fitted.values) for c, _ in laws]
+        tasks = [(self.data, m, grounds[_across(base, c)], rounds)
+                 for (c, rounds), m in zip(laws, models, strict=True)]
         glances = self._run(glance, tasks)
-        seen = [Tried(c, m, g) for c, m, g in zip(placed, models, glances, strict=True)]
+        seen = [Tried(c, m, g) for (c, _), m, g in zip(laws, models, glances, strict=True)]
+        seen, unseen = seen[: len(placed)], seen[len(placed) :]
         # the best law of every effect: by derivatives of afar a glance may miss how well one does
         chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
         looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
         chosen = _in_the_running(_best_forms(looks, FORMS)[:most], fitted)
         sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
-        return sketches, [*looks, *seen]
+        return sketches, [*looks, *seen, *unseen]
 
     def _tried(self, sketched: Sequence[Tried]) -> list[Tried]:
         """The best law of each effect in long windows, best first; the best few to the end."""
@@ -199,23 +201,33 @@ class Search:
             self.progress(1)
         return results
 
-    def _placed(self, base: Model, fitted: Fitted, candidates) -> list[Candidate]:
+    def _placed(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+    ) -> tuple[list[Candidate], list[Candidate]]:
         """Candidates ready to be fitted: periodic ones where their periods lie.
 
+        And those periodic ones, of an effect that has no others, whose period noise alone explains.
         fitted : of the base, with derivatives
         """
         sines, others = (PERIODS_BESIDE, SECONDS_BESIDE) if base.added else (PERIODS, SECONDS)
-        placed = [c for c in candidates if not c.periodic]
+        placed, feeble = [c for c in candidates if not c.periodic], []
         for effect in dict.fromkeys(c.effect for c in candidates if c.periodic):
             laws = [c for c in candidates if c.effect == effect]
             flights = enumerate(self.data.short)
             calls = [(laws[0], base, fitted, flight, i) for i, flight in flights]
             answers = self._run(wave_answer, calls)
-            peaks = [(peak, law) for law in laws for peak in scan(law, answers)]
+            periods = {law.periodic: law for law in laws}
+            found = self._run(scan, [(law, answers) for law in periods.values()])
+            found = dict(zip(periods, found, strict=True))
+            peaks = [(peak, law) for law in laws for peak in found[law.periodic]]
             strongest = sorted({peak.power for peak, _ in peaks}, reverse=True)
+            if strongest[:1] and strongest[0] < NOISE:
+                peak, law = max(peaks, key=lambda each: each[0].power)
+                feeble.append(law.at(peak.period, peak.amplitude, peak.step).faint())
+                continue
             placed += [law.at(peak.period, peak.amplitude, peak.step) for peak, law in peaks
                        if peak.power in strongest[: others if law.has_second else sines]]
-        return placed
+        return placed, feeble
 
 
 def _in_the_running(tried: Sequence[Tried], fitted: Fitted) -> list[Tried]:

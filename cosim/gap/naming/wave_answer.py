@@ -82,13 +82,10 @@ class WaveAnswer:
         weights = np.array([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2,
                             -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6])
         weights = np.where(known, weights, 0.0)
-        # the answer to a negative rate is the conjugate one
-        near = first + np.arange(-1, 3)[:, None]
         turn = np.exp(2j * np.pi * np.outer(np.where(known, rates, 0.0), self.centres))
-        products = _mixed(weights, self.products, near)
-        products = np.einsum("nwc,nw->nc", products, turn)
-        turned = np.sum(_mixed(weights, self.turned, near) * turn**2, axis=1)
-        squares = np.sum(_mixed(weights, self.squares, near), axis=1).real
+        products = _summed(self.products, first, weights, turn)
+        turned = _summed(self.turned[:, :, None], first, weights, turn**2)[:, 0]
+        squares = _summed(self.squares[:, :, None], first, weights, np.ones_like(turn))[:, 0].real
         squares = np.maximum(squares, np.abs(turned))
         matrix = _matrix(squares, turned)
         parts = np.stack([products.real, products.imag], axis=1)
@@ -99,11 +96,23 @@ class WaveAnswer:
         return matrix + lift[:, None, None] * np.eye(2), parts[:, :, -1]
 
 
-def _mixed(weights: np.ndarray, values: np.ndarray, near: np.ndarray) -> np.ndarray:
-    taken = values[np.minimum(np.abs(near), len(values) - 1)]
-    flip = (near < 0).reshape(near.shape + (1,) * (taken.ndim - 2))
-    taken = np.where(flip, np.conj(taken), taken)
-    return np.einsum("kn,kn...->n...", weights, taken)
+def _summed(
+    values: np.ndarray, first: np.ndarray, weights: np.ndarray, turn: np.ndarray
+) -> np.ndarray:
+    """(n, c) sums over windows of what lies between the rates flown, turned.
+
+    values : (rates, w, c) at the rates flown; first : (n,) the rate flown below each; weights :
+    (4, n) of that before, this and the two after it; turn : (n, w)
+    """
+    total = np.zeros((len(first), values.shape[2]), dtype=complex)
+    for below in np.unique(first):
+        rows = first == below
+        for offset, weight in enumerate(weights[:, rows], start=-1):
+            flown = values[min(abs(below + offset), len(values) - 1)]
+            if below + offset < 0:  # the answer to a negative rate is the conjugate one
+                flown = np.conj(flown)
+            total[rows] += (weight[:, None] * turn[rows]) @ flown
+    return total
 
 
 def _matrix(squares: np.ndarray, turned: np.ndarray) -> np.ndarray:
