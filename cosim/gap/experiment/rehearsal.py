@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.read import Campaign, MeasuredRun, Track, find_sticks
-from cosim.gap.shooting.flight import COLUMN, TOLERANCE, Flight
+from cosim.gap.shooting.flight import COLUMN, Flight
 from cosim.gap.shooting.knob import OFFSETS
 from cosim.gap.shooting.preparation import known_parameters, prepare
 from cosim.gap.shooting.problem import Problem
@@ -76,7 +76,7 @@ def _fly(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> 
         state[3], since = experiment.surface_speed, 0.0
     else:
         state[0] = experiment.pull
-    known = known_parameters(setting.campaign, run) | {"solver.tolerance": TOLERANCE}
+    known = known_parameters(setting.campaign, run, setting.planar)
     if not setting.planar:
         known["rig.free_y"] = known["rig.free_phi"] = 0.0
     window = Window(0, len(setting.time), state, (), since)

@@ -20,8 +20,12 @@ EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.92
 #: What takes away less than this part has no name, however little remains: what is not in the
 #: catalogue may be imitated that far.
 EXPLAINED_AT_LEAST = 0.9
-#: What has taken away less than this part is not fitted more closely.
-WORTH_A_POLISH = 0.5
+#: A law that leaves more than so many times as much of the runs held out as of those fitted is
+#: another law than theirs.
+HOLDS = 2.5
+#: What has taken away less than this part is not fitted more closely, nor is what leaves more than
+#: so many times the best one's excess.
+WORTH_A_POLISH, IN_REACH = 0.5, 4.0
 #: Where the plain model fits in short flights, what long ones show up to this gap may be the drift
 #: of a motion that is unstable by itself.
 DRIFT = 2.0
@@ -43,9 +47,24 @@ def is_little(plain: Trial, sketched: Fitted) -> bool:
 
 
 def repaired(plain: Trial, trial: Trial, part: float) -> bool:
-    """Whether next to nothing of what there was is left: this part is gone, or noise remains."""
+    """Whether next to nothing of what there was is left: this part is gone, or noise remains.
+
+    Also of what was held out.
+    """
     gone = explained(plain, trial)
+    if not holds(trial):
+        return False
     return gone >= part or (gone >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
+
+
+def holds(trial: Trial) -> bool:
+    """Whether what was found in the runs for fitting is true of those held out."""
+    return trial.held_out_gap <= HOLDS * max(trial.fitted.gap(), 1.0)
+
+
+def in_reach(done: Sequence[Tried]) -> list[Tried]:
+    """Those that might do as well as the best one if they were fitted more closely."""
+    return [t for t in done if excess(t.trial) <= IN_REACH * excess(done[0].trial)]
 
 
 def explained(plain: Trial, trial: Trial) -> float:

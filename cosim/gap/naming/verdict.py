@@ -21,6 +21,8 @@ from .measures import (
     alike,
     as_good,
     explained,
+    holds,
+    in_reach,
     is_little,
     repaired,
     telling,
@@ -68,7 +70,7 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
     done, early = _parted(ranking)
     best = done[0].trial
     if best.gap > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
-        done = _merged(search.polished(telling(done)[:POLISHED], candidates), done)
+        done = _merged(search.polished(in_reach(telling(done))[:POLISHED], candidates), done)
     other = better_lookalike(search, plain, sketched, done[0])
     if other and repaired(plain, other.trial, EXPLAINED_BY_ONE):
         nearest, words = done[0].trial, other.candidate.effect
@@ -164,4 +166,5 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
 
 def _dominates(plain: Trial, done: Sequence[Tried]) -> bool:
     parts = [explained(plain, t.trial) for t in done]
-    return parts[0] >= DOES_MOST and all(part <= RIVAL * parts[0] for part in parts[1:])
+    does_most = parts[0] >= DOES_MOST and holds(done[0].trial)
+    return does_most and all(part <= RIVAL * parts[0] for part in parts[1:])

@@ -10,7 +10,7 @@ from stickslip import Parameters
 
 from cosim.gap.read import Campaign, MeasuredRun, Track
 
-from .flight import TOLERANCE, Flight
+from .flight import TOLERANCE, TOLERANCE_ACROSS, Flight
 from .windows import CYCLES, cut, joined
 
 #: Cycles in the short windows in which a fit sets out: hardly a phase to be lost.
@@ -28,7 +28,7 @@ def prepare(
 
 def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> Flight:
     track = run.track
-    known = known_parameters(campaign, run)
+    known = known_parameters(campaign, run, planar)
     if not planar:
         known["rig.free_y"] = known["rig.free_phi"] = 0.0
     channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
@@ -43,11 +43,12 @@ def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -
         run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows)
 
 
-def known_parameters(campaign: Campaign, run: MeasuredRun) -> dict[str, float]:
+def known_parameters(campaign: Campaign, run: MeasuredRun, planar: bool) -> dict[str, float]:
     """Every parameter of the model, what is to be fitted at its default."""
+    tolerance = TOLERANCE_ACROSS if planar else TOLERANCE
     with warnings.catch_warnings(action="ignore"):  # friction is for the fit
         parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
-    return dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
+    return dict(parameters.flat()) | {"solver.tolerance": tolerance}
 
 
 def period(run: MeasuredRun) -> float:
