@@ -19,9 +19,9 @@ COLUMN = {"x": layout.O_X, "y": layout.O_Y, "phi": layout.O_PHI}
 LOST = 1e3
 #: Part of the weight that pulls the block aside: the sine of a rig's tilt.
 TILT = "offset.tilt"
-#: Integrator's tolerance in a fit: far below the noise, and cheap along a line. In the plane a block
-#: that comes to rest turns ever faster: there a tolerance as large as the speed that counts as rest
-#: is dear, as the error of a step keeps the block moving.
+#: Integrator's tolerance in a fit: far below the noise, and cheap along a line. A block that comes
+#: to rest in the plane turns ever faster: there a tolerance as large as the speed that counts as
+#: rest is dear, as the error of a step keeps the block moving.
 TOLERANCE, TOLERANCE_ACROSS = 1e-6, 3e-8
 #: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
 _LONGER = 2.0
