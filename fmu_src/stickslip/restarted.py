@@ -20,10 +20,10 @@ from .kernel.layout import (
     HOLD_SINCE,
     MODE,
     O_SIZE,
-    O_TRACK,
     SHOWN,
     SLIP,
     STICK,
+    TRACKED,
     U_FORCE_X,
     U_FORCE_Y,
     U_SIZE,
@@ -82,7 +82,7 @@ def track_restarted(
     """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
     track = compiled_kernel().track
     inputs = _inputs(speed, temperature, aside)
-    return _simulated(p, inputs, times, restarts, force, track, O_TRACK)
+    return _simulated(p, inputs, times, restarts, force, track, TRACKED)
 
 
 def _inputs(speed: float, temperature: float, aside: float) -> np.ndarray:

@@ -37,13 +37,13 @@ class LinearFlight:
     def starts(self):
         return np.zeros((len(self.windows), 6))
 
-    def fly(self, values, states):
+    def places(self, values, states):
         rows = sum(self.by_key[key] * value for key, value in values.items())
         return rows + np.sum(self.by_state * states[:, FREE][self.window_of_rows()], axis=1)
 
-    def residuals(self, outputs, offsets):
+    def residuals(self, places, offsets):
         assert not offsets
-        return outputs - self.data
+        return places - self.data
 
     def window_of_rows(self):
         sizes = [window.last - window.first for window in self.windows]

@@ -217,7 +217,7 @@ O_SURFACE_WORK = 19
 O_EXTERNAL_WORK = 20
 O_SLIP_TIME = 21
 O_SIZE = 22
-O_TRACK = 3  # the first of them, x, y and phi: what a tracker sees
+TRACKED = 3  # outputs at the beginning: x, y and phi, what a tracker sees
 
 # --- what `advance` returns ---------------------------------------------------------------------
 DONE = 0

@@ -1,7 +1,7 @@
 """A whole run in one call: outputs at given times."""
 
 from .advance import advance
-from .layout import DONE, O_SIZE, O_TRACK, SHOWN, X
+from .layout import DONE, O_SIZE, SHOWN, TRACKED, X
 from .outputs import show
 
 
@@ -38,10 +38,10 @@ def track(
     first: int,
     count: int,
 ) -> int:
-    """As `record`, but only what a tracker sees: x, y and phi, `O_TRACK` numbers a row."""
+    """As `record`, but only what a tracker sees: x, y and phi, `TRACKED` numbers a row."""
     for i in range(first, first + count):
         if advance(p, u, z, w, e, times[i]) != DONE:
             return i - first
-        for j in range(O_TRACK):
-            o[O_TRACK * i + j] = z[SHOWN + X + j]
+        for j in range(TRACKED):
+            o[TRACKED * i + j] = z[SHOWN + X + j]
     return count
