@@ -1,0 +1,37 @@
+"""The integrator's choice of its steps: what the error test has refused is not tried again."""
+
+from kernel_steps import memory_of
+from stickslip import Parameters
+from stickslip.kernel import advance
+from stickslip.kernel.interpolant import copy_block
+from stickslip.kernel.layout import DONE, E_FIRST, HERE, MODE, NEXT, SLIP, TIME, W_SIZE
+
+# steps of a slip over a pattern are as long as the tolerance allows, not as the period does
+SHORT_WAVES = Parameters.model_validate({
+    "surface": {"speed": 0.1},
+    "friction": {"mu_s": 0.3, "mu_k": 0.2},
+    "surface_pattern": {"amplitude": 0.1, "wavelength": 0.004},
+})
+
+
+def test_a_refused_step_is_not_tried_again(monkeypatch):
+    """One step in five is refused, at the crests; by a control that forgets it, more than each."""
+    memory, w, e = memory_of(SHORT_WAVES), [0.0] * W_SIZE, [0.0] * E_FIRST
+    tried, taken, take_step = 0, 0, advance.take_step
+
+    def counted(*call):
+        nonlocal tried
+        tried += 1
+        return take_step(*call)
+
+    monkeypatch.setattr(advance, "take_step", counted)
+    while memory.z[HERE + TIME] < 4.0:
+        slips, before = memory.z[HERE + MODE] == SLIP, tried
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
+        if slips and memory.z[NEXT + MODE] == SLIP:
+            taken += 1
+        else:
+            tried = before
+        copy_block(memory.z, NEXT, HERE)
+    assert taken > 200
+    assert tried < 1.5 * taken
