@@ -20,6 +20,8 @@ from __future__ import annotations
 
 import math
 
+from .constants import GRAVITY, ZERO_DEGC
+
 #: Nu_x / sqrt(Re_x) on a continuous moving belt, air (Pr = 0.7).
 SAKIADIS_AIR = 0.3492
 
@@ -28,8 +30,6 @@ LAMINAR = 5e5
 
 _STEFAN_BOLTZMANN = 5.670374e-8
 _EMISSIVITY = 0.9
-_GRAVITY = 9.81
-_ZERO_DEGC = 273.15
 
 
 class NotLaminar(ValueError):
@@ -41,7 +41,7 @@ def _air(temperature: float) -> tuple[float, float]:
 
     Power laws through the values at 0 degC, within 1 % of tables from -50 to 50 degC.
     """
-    ratio = temperature / _ZERO_DEGC
+    ratio = temperature / ZERO_DEGC
     return 1.33e-5 * ratio**1.76, 0.0241 * ratio**0.82
 
 
@@ -53,11 +53,11 @@ def moving_belt(speed: float, span: float, temperature_degC: float = -8.0, width
     temperature degC; width m and rise K of the belt matter for natural convection alone.
     NotLaminar above Re = 5e5.
     """
-    if not (span > 0.0 and width > 0.0 and rise >= 0.0 and temperature_degC > -_ZERO_DEGC):
+    if not (span > 0.0 and width > 0.0 and rise >= 0.0 and temperature_degC > -ZERO_DEGC):
         raise ValueError(
             f"span = {span:g} m, width = {width:g} m, rise = {rise:g} K at {temperature_degC:g}"
             " degC: span and width must be positive, the rise not negative")
-    temperature = temperature_degC + _ZERO_DEGC
+    temperature = temperature_degC + ZERO_DEGC
     viscosity, conductivity = _air(temperature)
     reynolds = abs(speed) * span / viscosity
     if not reynolds <= LAMINAR:
@@ -66,7 +66,7 @@ def moving_belt(speed: float, span: float, temperature_degC: float = -8.0, width
             f" correlation for a moving belt is laminar, up to {LAMINAR:g}; give a number")
     forced = 2.0 * SAKIADIS_AIR * math.sqrt(reynolds) * conductivity / span
     size = span * width / (2.0 * (span + width))
-    rayleigh = 0.7 * _GRAVITY / temperature * rise * size**3 / viscosity**2
+    rayleigh = 0.7 * GRAVITY / temperature * rise * size**3 / viscosity**2
     natural = 0.5 * (0.54 + 0.27) * rayleigh**0.25 * conductivity / size
     return ((forced**3 + natural**3) ** (1.0 / 3.0)
             + 4.0 * _EMISSIVITY * _STEFAN_BOLTZMANN * temperature**3)

@@ -22,7 +22,6 @@ import math
 #: Water at 0 degC: density kg/m3, viscosity Pa s (IAPWS).
 WATER_DENSITY = 999.8
 VISCOSITY = 1.79e-3
-GRAVITY = 9.81
 
 
 class MeltFilm:

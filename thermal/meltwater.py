@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from .ablation import Ablation, Receding
 from .belt import Belt
 from .belt_water import BeltWater
+from .constants import GRAVITY
 from .contact import Fluxes, IceFace
 from .footprint import Footprint
 from .ice_body import IceBody
-from .melt_film import GRAVITY, MeltFilm
+from .melt_film import MeltFilm
 from .parameters import Ice as IceParameters
 
 Array = NDArray[np.float64]

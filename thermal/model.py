@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .block import standing_block
+from .constants import MELTING_POINT_DEGC
 from .contact import Fluxes, IceFace, exchange
 from .ledger import HeatLedger
 from .meltwater import Meltwater
-from .parameters import MELTING_POINT_DEGC, ThermalParameters
+from .parameters import ThermalParameters
 from .track import Given, Track
 
 Array = NDArray[np.float64]

@@ -10,9 +10,7 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from .air import NotLaminar, moving_belt
-
-#: Highest temperature at which the block is still ice, degC.
-MELTING_POINT_DEGC = 0.0
+from .constants import MELTING_POINT_DEGC, ZERO_DEGC
 
 #: Most cells along the belt: a slip of the unit must not exhaust the memory.
 MOST_CELLS = 200_000
@@ -161,7 +159,7 @@ class Ice(Block):
         >>> round(Ice.at(-4.0).conductivity, 3), round(Ice.at(-4.0).heat_capacity)
         (2.119, 2069)
         """
-        kelvin = temperature_degC + 273.15
+        kelvin = temperature_degC + ZERO_DEGC
         return cls(conductivity=9.828 * math.exp(-0.0057 * kelvin),
                    heat_capacity=152.5 + 7.122 * kelvin, **others)
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .parameters import MELTING_POINT_DEGC
+from .constants import MELTING_POINT_DEGC, ZERO_DEGC
 
 _COLDEST_DEGC = -180.0
 
@@ -44,5 +44,5 @@ def ice_properties(temperature_degC: float) -> IceProperties:
     t = temperature_degC
     return IceProperties(
         density=917.0 * (1.0 - 1.17e-4 * t),
-        heat_capacity=185.0 + 6.89 * (t + 273.15),
+        heat_capacity=185.0 + 6.89 * (t + ZERO_DEGC),
         conductivity=1.16 * (1.91 - 8.66e-3 * t + 2.97e-5 * t**2))

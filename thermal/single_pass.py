@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-GRAVITY = 9.81
+from .constants import GRAVITY
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from .constants import MELTING_POINT_DEGC
 from .contact import IceFace, exchange
 from .model import BeltIceModel
-from .parameters import MELTING_POINT_DEGC
 
 #: A step after which nothing changes any more, s: its mean differs from its end by the part of it
 #: that the slowest change (hours) takes.

@@ -25,10 +25,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .block import standing_block
+from .constants import MELTING_POINT_DEGC
 from .contact import Fluxes, IceFace, exchange
 from .footprint import Footprint
 from .ice import Ice
-from .parameters import MELTING_POINT_DEGC, ThermalParameters
+from .parameters import ThermalParameters
 from .relaxation import LastDurations, decay, mean_decay, mean_response
 from .sinks import eliminate, supports
 from .steady import FOREVER, check_gives_heat

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from thermal import Belt, Contact, Ice, ThermalParameters
+from thermal.constants import GRAVITY
 from thermal.footprint import Footprint
 from thermal.ice import Ice as IceField
-from thermal.single_pass import GRAVITY, SinglePass
+from thermal.single_pass import SinglePass
 from thermal.steady_sliding import SteadySliding, standing_ice
 
 

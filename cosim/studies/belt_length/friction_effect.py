@@ -14,10 +14,11 @@ from functools import lru_cache
 
 from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
 
+from thermal.constants import MELTING_POINT_DEGC
+
 from .case import COARSENESS, Case
 from .drift import RUN
 
-MELTING_POINT_DEGC = 0.0
 #: Static over kinetic friction, as measured on the rig (0.2815 and 0.2086).
 STATIC_OVER_KINETIC = 0.2815 / 0.2086
 #: One of the rig's four springs, N/m.
