@@ -17,6 +17,7 @@ from cosim.gap.read import Campaign
 from cosim.gap.result import FittedModel, Gap, Ranked
 from cosim.gap.shooting.data import Data, prepared
 from cosim.gap.shooting.fitted import Fitted
+from cosim.gap.shooting.flight import Flight
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.thinning import thinned
 from cosim.gap.shooting.trial import Model, Trial, sketch, try_model
@@ -50,18 +51,30 @@ def find_gap(
     held_out = [run for run in campaign.held_out_runs if run.track is not None]
     planar = moves_across(campaign)
     data = prepared(campaign, fit_runs, held_out, planar)
-    base = Model(plain_knobs(campaign, planar), {})
-    sketched = _sketched(data, base)
-    plain = try_model(data, base, sketched)
-    extension = campaign.rig.spring_length - campaign.rig.spring_natural_length
-    mu_k = plain.fitted.values["friction.mu_k"]
-    laws = candidates(scales([*fit_runs, *held_out], mu_k, extension))
-    felt = [law for law in laws if _is_felt(law, campaign, planar)]
     with processes(jobs) as mapped:
+        mapped(_woken, [(data.short[0],)] * jobs)  # they start while the plain model is fitted
+        base = Model(plain_knobs(campaign, planar), {})
+        sketched = _sketched(data, base)
+        plain = try_model(data, base, sketched)
         search = Search(data, mapped, progress)
-        finding = judge(search, plain, sketched, felt)
+        finding = judge(search, plain, sketched, _laws(campaign, plain, planar))
         ranking = search.judged(finding.ranking)
         return _answer(campaign, data, plain, finding, ranking, seed, planar, mapped)
+
+
+def _woken(flight: Flight) -> None:
+    """Have a process load what it needs."""
+    flight.places({}, flight.starts)
+
+
+def _laws(campaign: Campaign, plain: Trial, planar: bool) -> list[Candidate]:
+    """Those of the catalogue that the campaign could tell from the plain model at all."""
+    used = [*campaign.fit_runs, *campaign.held_out_runs]
+    runs = [run for run in used if run.track is not None]
+    extension = campaign.rig.spring_length - campaign.rig.spring_natural_length
+    mu_k = plain.fitted.values["friction.mu_k"]
+    laws = candidates(scales(runs, mu_k, extension))
+    return [law for law in laws if _is_felt(law, campaign, planar)]
 
 
 def _sketched(data: Data, base: Model) -> Fitted:
