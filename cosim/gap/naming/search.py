@@ -145,6 +145,18 @@ class Search:
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], looked: int, most: int
     ) -> tuple[list[Tried], list[Tried]]:
         """The best laws sketched, at most so many, and all that were looked at for it."""
+        seen, unseen = self._glanced(base, fitted, candidates)
+        # the best law of every effect: by derivatives of afar a glance may miss how well one does
+        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
+        looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
+        chosen = _in_the_running(_best_forms(looks, FORMS)[:most], fitted)
+        sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
+        return sketches, [*looks, *seen, *unseen]
+
+    def _glanced(
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+    ) -> tuple[list[Tried], list[Tried]]:
+        """Every law after a glance at it; those whose period is noise, as they set out."""
         grounds = self._grounds(base, fitted, candidates)
         placed, feeble = self._placed(base, grounds[()], candidates)
         promising = self._promising(base, grounds[()], placed)
@@ -156,14 +168,8 @@ class Search:
         tasks = [(self.data, m, grounds[_across(base, c)], rounds)
                  for (c, rounds), m in zip(laws, models, strict=True)]
         glances = self._run(glance, tasks)
-        seen = [Tried(c, m, g) for (c, _), m, g in zip(laws, models, glances, strict=True)]
-        seen, unseen = seen[: len(placed)], seen[len(placed) :]
-        # the best law of every effect: by derivatives of afar a glance may miss how well one does
-        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
-        looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
-        chosen = _in_the_running(_best_forms(looks, FORMS)[:most], fitted)
-        sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
-        return sketches, [*looks, *seen, *unseen]
+        tried = [Tried(c, m, g) for (c, _), m, g in zip(laws, models, glances, strict=True)]
+        return tried[: len(placed)], tried[len(placed) :]
 
     def _tried(self, sketched: Sequence[Tried]) -> list[Tried]:
         """The best law of each effect in long windows, best first; the best few to the end."""
