@@ -74,6 +74,17 @@ def test_the_gap_is_as_the_verdict_says(name, found, answers):
         assert verdict == "none" and after == before <= CLOSED
 
 
+@pytest.mark.parametrize("name", ["e1", "e2"])
+def test_every_effect_along_x_is_ranked(name, found):
+    """Also those of which there is no trace, at next to nothing."""
+    ranked = {each["effect"] for each in answer_in(found(name))["ranking"]}
+    assert ranked == {
+        "film_drag", "load_dependence", "run_in", "speed_ripple", "spring_hardening",
+        "static_strengthening", "structural_damping", "surface_pattern", "thermal_weakening",
+        "velocity_weakening",
+    }  # fmt: skip
+
+
 def test_the_extended_model_is_a_scenario(found, tmp_path):
     model = found("e2") / "model.toml"
     assert "[velocity_weakening]" in model.read_text(encoding="utf-8")

@@ -14,6 +14,7 @@ from cosim.gap.naming.measures import (
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
     FITS,
+    HOLDS,
     PART_OF_OTHERS,
     PLAIN_FITS,
     alike,
@@ -128,6 +129,17 @@ def test_a_model_is_repaired_when_noise_is_left_or_next_to_nothing_of_what_was()
                         EXPLAINED_BY_ONE)
     small = MORE * FITS  # a gap that was small before is not repaired by what is left of it
     assert not repaired(trial(1.2 * small), trial(small), EXPLAINED_BY_ONE)
+
+
+@pytest.mark.parametrize("times, verdict", [(LESS * HOLDS, "named"), (MORE * HOLDS, "unknown")])
+def test_what_is_true_of_the_fitted_runs_alone_is_no_name(times, verdict):
+    far = 100.0
+    fit, kept_back = 1.1, 1.1 * times
+    squares = ROWS * np.array([fit**2, kept_back**2])
+    half = replace(trial(fit), held_out=trial(kept_back).fitted, squares=squares)
+    assert explained(trial(far), half) > max(EXPLAINED_BY_ONE, DOES_MOST)
+    found, _ = finding([tried("film_drag", half), tried("run_in", after(0.0, far))], plain=far)
+    assert found.verdict == verdict
 
 
 def test_a_plain_model_that_fits_lacks_nothing_whatever_fits_better():
