@@ -47,14 +47,15 @@ def spring_load(p, rows, x, y, c, s):
 def contact_sums(p, points, n, level, static, motion, surface):
     """Friction of the disc as (G, h): force = h - G v, with G the six sums of a 3 x 3 matrix.
 
-    motion is (x, y, c, s, vx, vy, omega). The last value is the power lost, W.
+    motion is (x, y, c, s, vx, vy, omega). The last value is the power lost, W. Friction along x
+    alone acts at the centre: what of it turns the block belongs to the friction across, by as much.
     """
     x, y, c, s, vx, vy, omega = motion
     gxx, gyy, gxw, gyw, gww, hx, hy, hw, power = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    lateral = p.lateral
+    lateral, turned = p.lateral, sqrt(p.lateral)
     for i in range(len(points)):
         a = c * points[i, 0] - s * points[i, 1]
-        b = s * points[i, 0] + c * points[i, 1]
+        b = turned * (s * points[i, 0] + c * points[i, 1])
         sx = surface * (1.0 - p.curvature * (y + b))
         sy = surface * p.curvature * (x + a)
         wx, wy = sx - vx + omega * b, sy - vy - omega * a
