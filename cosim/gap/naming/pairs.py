@@ -25,8 +25,9 @@ FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
 PAIRS = 3
 #: A pair that has taken away this part is fitted more closely, if it does not fit.
 NEARLY = 0.8
-#: No other first effect is tried when a pair leaves less than this part in short windows.
-REST = 0.05
+#: No other first effect is tried when a pair leaves less than this part in short windows, and
+#: hardly more than noise: else its first may be another's double.
+REST, HARDLY = 0.05, 1.1
 #: Beside one that has taken away so much alone, another effect must take away this part of what it
 #: leaves, in squares: the first one's law may be a little wrong, and another law mend some of that.
 DOMINANT, NEEDED = 0.85, 0.8
@@ -49,7 +50,8 @@ def best_pair(
     if pairs and _is_worth_more(plain, pairs[0]):
         first, second = pairs[0]
         (better,) = search.polished([second], candidates)
-        pairs = sorted([(first, better), *pairs[1:]], key=_gap)
+        doubles = _doubles(search, first, better, candidates)
+        pairs = sorted([(first, better), *doubles, *pairs[1:]], key=_gap)
     for first, second in pairs:
         others = [first.trial, alone.get(second.candidate.effect, first.trial)]
         if all(_is_needed(plain, one, second.trial) for one in others):
@@ -61,6 +63,17 @@ def _is_worth_more(plain: Trial, pair: Pair) -> bool:
     """Whether another law of the second effect may be what a pair lacks."""
     both = pair[1].trial
     return both.gap > PLAIN_FITS and explained(plain, both) >= NEARLY
+
+
+def _doubles(
+    search: Search, first: Tried, second: Tried, candidates: Sequence[Candidate]
+) -> list[Pair]:
+    """Others in place of a second effect that moves the block off its line, if it does not fit."""
+    if not second.candidate.lateral or second.trial.gap <= PLAIN_FITS:
+        return []
+    names = {first.candidate.effect, second.candidate.effect}
+    others = [c for c in candidates if c.lateral and c.effect not in names]
+    return [(first, other) for other in search.each(first, others)]
 
 
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
@@ -79,9 +92,9 @@ def _sketched(
 ) -> list[Pair]:
     """The best pairs in short windows, each pair of effects once, best first."""
     pairs = _concealed(search, plain, sketched, done, candidates)
-    little = REST * (sketched.gap() ** 2 - 1.0)
+    little = min(1.0 + REST * (sketched.gap() ** 2 - 1.0), HARDLY**2)
     for first in _firsts(plain, done):
-        if any(second.sketched.gap() ** 2 - 1.0 <= little for _, second in pairs):
+        if any(second.sketched.gap() ** 2 <= little for _, second in pairs):
             break
         others = [c for c in candidates if c.effect != first.candidate.effect]
         pairs += [(first, second)

@@ -105,6 +105,13 @@ class Search:
         return [(first, replace(second, trial=trial))
                 for (first, second), trial in zip(pairs, trials, strict=True)]
 
+    def each(self, first: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
+        """The best law of each effect on top of a first one, in long windows, best first."""
+        values = (first.trial.fitted if first.trial else first.sketched).values
+        models = [extended(first.model, c, values) for c in candidates]
+        tried = [Tried(c, m, first.sketched) for c, m in zip(candidates, models, strict=True)]
+        return self._tried(_best_forms(self._run(_sketched, [(self.data, t) for t in tried]), 1))
+
     def less(self, tried: Tried, dropped: Candidate, keep: Sequence[str]) -> Tried:
         """A trial's model without an effect, fitted to the end from where the trial ended.
 
