@@ -22,7 +22,7 @@ from cosim.gap.naming.measures import (
     explained,
     repaired,
 )
-from cosim.gap.naming.pairs import DOMINANT, NEEDED
+from cosim.gap.naming.pairs import DOMINANT, HARDLY, NEEDED
 from cosim.gap.naming.search import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
@@ -66,7 +66,7 @@ class MadeUp:
     second : effect -> trials on top of it; without : effect -> gap of a pair without it;
     across : gap of a pair of which only the friction across is left of one effect; hidden : two
     effects that conceal one another, the second tried on top of the first; lookalike : gap of what
-    is not in the catalogue
+    is not in the catalogue; instead : trials of what may take a second one's place
     """
 
     first: list
@@ -77,6 +77,7 @@ class MadeUp:
     asked: list = field(default_factory=list)
     hidden: tuple | None = None
     lookalike: float = FAR
+    instead: list = field(default_factory=list)
 
     def concealed(self, base, fitted, candidates):
         return self.hidden
@@ -98,6 +99,10 @@ class MadeUp:
 
     def together(self, pairs):
         return list(pairs)
+
+    def each(self, first, candidates):
+        offered = {c.effect for c in candidates}
+        return [t for t in self.instead if t.candidate.effect in offered]
 
     def less(self, whole, dropped, keep):
         across = any(key in dropped.settings for key in keep)
@@ -255,6 +260,30 @@ def test_two_effects_that_conceal_one_another_are_named():
     found, search = finding(first, hidden=hidden, second={"speed_ripple": [tried("run_in", 3.0)]})
     assert (found.verdict, found.effects) == ("named", ("film_drag", "thermal_weakening"))
     assert found.chosen.gap == pytest.approx(1.02) and not search.asked
+
+
+@pytest.mark.parametrize("left, verdict", [
+    (LESS * HARDLY, ("film_drag", "run_in")), (MORE * HARDLY, ("speed_ripple", "run_in"))])
+def test_a_pair_that_leaves_more_than_noise_may_have_a_double_for_its_first(left, verdict):
+    """Its second does as well on top of another first, and leaves less there."""
+    first = [tried("film_drag", after(0.6, 100.0)), tried("speed_ripple", after(0.5, 100.0)),
+             tried("run_in", after(0.0, 100.0))]
+    far = trial(100.0).fitted
+    second = {"film_drag": [tried("run_in", left)], "speed_ripple": [tried("run_in", 1.0)]}
+    found, _ = finding(first, plain=100.0, sketched=far, second=second)
+    assert (found.verdict, found.effects) == ("named", verdict)
+
+
+@pytest.mark.parametrize("lateral, second", [(True, "turning_surface"), (False, "run_in")])
+def test_what_moves_a_block_off_its_line_is_tried_in_place_of_what_does_so_too(lateral, second):
+    first = [tried("film_drag", after(0.6, 100.0)), tried("turning_surface", after(0.0, 100.0)),
+             tried("run_in", after(0.0, 100.0))]
+    first[1] = replace(first[1], candidate=replace(first[1].candidate, lateral=True))
+    pair = tried("run_in", MORE * PLAIN_FITS)
+    pair = replace(pair, candidate=replace(pair.candidate, lateral=lateral))
+    search = {"second": {"film_drag": [pair]}, "instead": [tried("turning_surface", 1.0)]}
+    found, _ = finding(first, plain=100.0, **search)
+    assert (found.verdict, found.effects) == ("named", ("film_drag", second))
 
 
 def test_two_effects_must_take_away_so_much():
