@@ -12,8 +12,9 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
+from queue import Empty, Queue
 from typing import Any
 
 from joblib.externals.loky import ProcessPoolExecutor
@@ -76,8 +77,17 @@ def pool(processes: int) -> Iterator[Callable[..., Future]]:
             for future in futures:
                 future.cancel()
             late = wait(futures, timeout=STOP_SECONDS).not_done
+            _forget_waiting(pool)
             pool.shutdown(kill_workers=bool(late))
             heard.close()
+
+
+def _forget_waiting(pool: ProcessPoolExecutor) -> None:
+    """Drop what no process has: cancelled calls make loky fail where it kills, and then hang."""
+    numbers, calls = getattr(pool, "_work_ids", Queue()), getattr(pool, "_pending_work_items", {})
+    with suppress(Empty):
+        while True:
+            calls.pop(numbers.get_nowait(), None)
 
 
 _STOPPED = threading.Event()

@@ -10,6 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from cosim.processes import is_stopped
+
 from .columns import Columns
 from .fitted import Fitted, Point
 from .problem import Problem
@@ -41,6 +43,8 @@ def fit(
     """
     way = _Descent(problem, point, fixed)
     for _ in range(rounds):
+        if is_stopped():  # nobody waits for it any more
+            break
         columns = way.columns() if derivatives is None else [
             derivatives(i, way.point, r) for i, r in enumerate(way.residuals)]
         if not way.gains(columns, tries):
