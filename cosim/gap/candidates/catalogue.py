@@ -45,10 +45,14 @@ def candidates(scales: Scales) -> tuple[Candidate, ...]:
 _ACROSS = {"lateral_friction.ratio": 1.0}
 
 
+#: Next to none is no other motion than none, but a stiff one: it takes a thousand times as long.
+_LEAST_ACROSS = 0.05
+
+
 def _lateral_friction(s: Scales):
     yield Candidate("lateral_friction", "isotropic", (), _ACROSS, lateral=True)
     for share in (0.8, 0.5):
-        ratio = Knob("lateral_friction.ratio", share, 0.1, 0.0, 1.0)
+        ratio = Knob("lateral_friction.ratio", share, 0.1, _LEAST_ACROSS, 1.0)
         yield Candidate("lateral_friction", "less than along the motion", (ratio,), _ACROSS, True)
 
 
