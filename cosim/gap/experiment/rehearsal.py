@@ -77,8 +77,6 @@ def _fly(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> 
     else:
         state[0] = experiment.pull
     known = known_parameters(setting.campaign, run, setting.planar)
-    if not setting.planar:
-        known["rig.free_y"] = known["rig.free_phi"] = 0.0
     window = Window(0, len(setting.time), state, (), since)
     flight = Flight(
         run.name, known, run.surface_speed, known["temperature_dependence.reference_degC"],

@@ -51,9 +51,9 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
 
     Also of what was held out.
     """
-    gone = explained(plain, trial)
     if not holds(trial):
         return False
+    gone = explained(plain, trial)
     return gone >= part or (gone >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
 
 

@@ -29,8 +29,6 @@ def prepare(
 def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> Flight:
     track = run.track
     known = known_parameters(campaign, run, planar)
-    if not planar:
-        known["rig.free_y"] = known["rig.free_phi"] = 0.0
     channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
     across = planar and "y" in channels
     cycle = period(run)
@@ -44,11 +42,13 @@ def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -
 
 
 def known_parameters(campaign: Campaign, run: MeasuredRun, planar: bool) -> dict[str, float]:
-    """Every parameter of the model, what is to be fitted at its default."""
-    tolerance = TOLERANCE_ACROSS if planar else TOLERANCE
+    """Every parameter of the model, what is to be fitted at its default; on a line or planar."""
     with warnings.catch_warnings(action="ignore"):  # friction is for the fit
         parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
-    return dict(parameters.flat()) | {"solver.tolerance": tolerance}
+    known = dict(parameters.flat())
+    if planar:
+        return known | {"solver.tolerance": TOLERANCE_ACROSS}
+    return known | {"solver.tolerance": TOLERANCE, "rig.free_y": 0.0, "rig.free_phi": 0.0}
 
 
 def period(run: MeasuredRun) -> float:
