@@ -76,6 +76,14 @@ def contact_sums(p, points, n, level, static, motion, surface):
 
 
 @njit(inline="always")
+def sliding_speed(p, place, v, surface):
+    """Of the centre against the surface there, m/s: a slab turns under a block that rests on it."""
+    wx = surface * (1.0 - p.curvature * place[1]) - v[0]
+    wy = surface * p.curvature * place[0] - v[1]
+    return sqrt(wx * wx + p.lateral * wy * wy)
+
+
+@njit(inline="always")
 def solve_velocity(inertia, sums, step, momentum):
     """Velocities that the momenta leave when friction acts with them: (inertia + step G) v = p.
 
@@ -117,7 +125,7 @@ def step_plane(p, frame, points, q, v, hidden, clock, memory, step):
     sums = contact_sums(p, points, load(p, m, x), level, static, motion, surface)
     fx, fy, moment, springs = applied_force(p, frame, t, travel, (x, y), angle, m)
     inner = p.resonator_stiffness * (x2 - x) + p.resonator_damping * (v2 - v[0])
-    slip = sqrt((surface - v[0]) ** 2 + p.lateral * v[1] ** 2)
+    slip = sliding_speed(p, (x, y), v, surface)
     momentum = (
         m * v[0] + step * (fx + inner + sums[5]),
         m * v[1] + step * (fy + sums[6]),

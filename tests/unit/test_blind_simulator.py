@@ -144,3 +144,11 @@ def test_friction_takes_what_the_springs_lose():
     given = 2 * p.stiffness * (0.03**2 - x[-1] ** 2)
     assert abs(rows[-1, 3]) < p.smooth
     assert heat == pytest.approx(given, rel=1e-3)
+
+
+def test_a_block_that_rests_on_a_turning_slab_does_not_slide():
+    # it creeps by the smoothing, and that is all: its contact grows old
+    p = Hidden(lateral=1.0, curvature=1.0, mu_s=0.6)
+    rows = walk(p, State(vx=p.speed), True, FINE[True], 500)
+    assert rows[-1, 0] > 0.9 * p.speed * 500 * 1e-3  # it rides along
+    assert rows[100:, 7].max() < 2.0 * p.smooth
