@@ -262,7 +262,8 @@ def second_look(candidate, values):
                 yield each[1]
 
     model = extended(Model(BASE.knobs[:3], {}), candidate, FITTED)
-    first = Tried(candidate, model, None, fake_trial(model, values))
+    trial = fake_trial(model, values)
+    first = Tried(candidate, model, trial.fitted, trial)
     Search(Data((), (), (), ()), mapped).polished([first], OFFERED)
     return asked
 

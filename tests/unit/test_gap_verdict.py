@@ -22,7 +22,7 @@ from cosim.gap.naming.measures import (
     explained,
     repaired,
 )
-from cosim.gap.naming.pairs import DOMINANT, HARDLY, NEEDED
+from cosim.gap.naming.pairs import DOMINANT, HARDLY, MOST, NEARLY, NEEDED
 from cosim.gap.naming.search import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
@@ -66,7 +66,8 @@ class MadeUp:
     second : effect -> trials on top of it; without : effect -> gap of a pair without it;
     across : gap of a pair of which only the friction across is left of one effect; hidden : two
     effects that conceal one another, the second tried on top of the first; lookalike : gap of what
-    is not in the catalogue; instead : trials of what may take a second one's place
+    is not in the catalogue; instead : trials of what may take a second one's place; once_more :
+    effect -> what is found for it when its period is looked for anew beside the other
     """
 
     first: list
@@ -78,6 +79,7 @@ class MadeUp:
     hidden: tuple | None = None
     lookalike: float = FAR
     instead: list = field(default_factory=list)
+    once_more: dict = field(default_factory=dict)
 
     def concealed(self, base, fitted, candidates):
         return self.hidden
@@ -103,6 +105,10 @@ class MadeUp:
     def each(self, first, candidates):
         offered = {c.effect for c in candidates}
         return [t for t in self.instead if t.candidate.effect in offered]
+
+    def anew(self, second, law, candidates):
+        self.asked.append(law.effect)
+        return self.once_more.get(law.effect)
 
     def less(self, whole, dropped, keep):
         across = any(key in dropped.settings for key in keep)
@@ -284,6 +290,40 @@ def test_what_moves_a_block_off_its_line_is_tried_in_place_of_what_does_so_too(l
     search = {"second": {"film_drag": [pair]}, "instead": [tried("turning_surface", 1.0)]}
     found, _ = finding(first, plain=100.0, **search)
     assert (found.verdict, found.effects) == ("named", ("film_drag", second))
+
+
+def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_doubles():
+    first = [tried("lateral_friction", after(0.6, 100.0)), tried("run_in", after(0.5, 100.0)),
+             tried("turning_surface", after(0.0, 100.0))]
+    for i in (0, 2):
+        first[i] = replace(first[i], candidate=replace(first[i].candidate, lateral=True))
+    search = {"second": {"lateral_friction": [tried("run_in", MORE * PLAIN_FITS)]},
+              "instead": [tried("turning_surface", 1.0)]}
+    found, _ = finding(first, plain=100.0, **search)
+    assert (found.verdict, found.effects) == ("named", ("run_in", "turning_surface"))
+
+
+@pytest.mark.parametrize("part, effects", [(MORE, ("film_drag", "speed_ripple")), (LESS, ())])
+def test_a_period_that_was_found_beside_nothing_is_looked_for_beside_the_other(part, effects):
+    first = [tried("film_drag", after(0.5)), tried("speed_ripple", after(0.1))]
+    waves = [tried("speed_ripple", at) for at in (after(part * MOST), trial(1.02))]
+    waves = [replace(t, candidate=replace(t.candidate, periodic="speed_ripple.frequency"))
+             for t in waves]
+    found, search = finding(first, second={"film_drag": waves[:1]},
+                            once_more={"speed_ripple": waves[1]})
+    assert found.effects == effects
+    assert ("speed_ripple" in search.asked) == bool(effects)
+    assert "film_drag" not in search.asked  # it has no period
+
+
+def test_a_pair_that_fits_in_short_windows_is_fitted_more_closely():
+    """Long ones may have led its laws astray."""
+    first = [tried("film_drag", after(0.4)), tried("run_in", after(0.3))]
+    astray = after(LESS * NEARLY)
+    for short, effects in ((PLAIN_FITS, ("film_drag", "run_in")), (MORE * PLAIN_FITS, ())):
+        pair = replace(tried("run_in", astray), sketched=trial(short).fitted)
+        found, _ = finding(first, second={"film_drag": [pair]}, polish=[tried("run_in", 1.02)])
+        assert found.effects == effects
 
 
 def test_two_effects_must_take_away_so_much():

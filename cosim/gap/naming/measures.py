@@ -53,8 +53,8 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
     """
     if not holds(trial):
         return False
-    gone = explained(plain, trial)
-    return gone >= part or (gone >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
+    share = explained(plain, trial)
+    return share >= part or (share >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
 
 
 def holds(trial: Trial) -> bool:
@@ -73,13 +73,14 @@ def explained(plain: Trial, trial: Trial) -> float:
     It counts no more than so many times what is gone from those fitted: a number that they hardly
     feel may happen to help a run that was held out.
     """
-    gone = _gone(plain.gap, trial.gap)
+    of_all = gone(plain.gap, trial.gap)
     if plain.fitted.gap() <= PLAIN_FITS:
-        return gone
-    return min(gone, FELT_BY_FITTED * _gone(plain.fitted.gap(), trial.fitted.gap()))
+        return of_all
+    return min(of_all, FELT_BY_FITTED * gone(plain.fitted.gap(), trial.fitted.gap()))
 
 
-def _gone(before: float, after: float) -> float:
+def gone(before: float, after: float) -> float:
+    """Part of a gap's excess over the noise that is gone."""
     return 1.0 - max(after**2 - 1.0, 0.0) / (before**2 - 1.0) if before > 1.0 else 0.0
 
 

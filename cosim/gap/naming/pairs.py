@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fitted import Fitted
@@ -14,17 +15,21 @@ from .measures import (
     as_good,
     excess,
     explained,
+    gone,
     telling,
 )
 from .search import ACROSS, Search, Tried, penalised
 
-#: So many single effects are tried with a second one, if they take away this part alone; the
-#: best few are whatever they take away.
-FIRSTS, WORTH_A_SECOND, AT_LEAST = 3, 0.2, 2
+#: So many single effects are tried with a second one, the best and those that take away this part
+#: alone, in short windows or in long ones.
+FIRSTS, WORTH_A_SECOND = 3, 0.2
 #: So many pairs are fitted in long windows.
 PAIRS = 3
 #: A pair that has taken away this part is fitted more closely, if it does not fit.
 NEARLY = 0.8
+#: A pair that takes away this part in short windows and does not fit has its periods looked for
+#: anew, in so many turns at most, each of which must leave less than this part of the squares.
+MOST, TURNS, LEADS_ON = 0.6, 2, 0.98
 #: No other first effect is tried when a pair leaves less than this part in short windows, and
 #: hardly more than noise: else its first may be another's double.
 REST, HARDLY = 0.05, 1.1
@@ -44,14 +49,16 @@ def best_pair(
 
     sketched : the plain model in short windows
     """
-    tried = search.together(_sketched(search, plain, sketched, done, candidates))
+    best, *others = _sketched(search, plain, sketched, done, candidates) or [None]
+    if best is None:
+        return None
+    best = _alternated(search, sketched, best, candidates)
+    pairs = sorted(search.together([best, *others]), key=_gap)
+    if _is_worth_more(plain, pairs[0]):
+        better = _polished(search, pairs[0], candidates)
+        doubles = _doubles(search, better, done, candidates)
+        pairs = sorted([better, *doubles, *pairs[1:]], key=_gap)
     alone = {t.candidate.effect: t.trial for t in done}
-    pairs = sorted(tried, key=_gap)
-    if pairs and _is_worth_more(plain, pairs[0]):
-        first, second = pairs[0]
-        (better,) = search.polished([second], candidates)
-        doubles = _doubles(search, first, better, candidates)
-        pairs = sorted([(first, better), *doubles, *pairs[1:]], key=_gap)
     for first, second in pairs:
         others = [first.trial, alone.get(second.candidate.effect, first.trial)]
         if all(_is_needed(plain, one, second.trial) for one in others):
@@ -59,21 +66,70 @@ def best_pair(
     return None
 
 
+def _alternated(
+    search: Search, plain: Fitted, pair: Pair, candidates: Sequence[Candidate]
+) -> Pair:
+    """Each periodic effect's period anew beside the other: it was found while that was missing.
+
+    Backfitting (Breiman & Friedman 1985), in short windows; only of a pair that does most and does
+    not fit.
+    """
+    for _ in range(TURNS):
+        now = pair[1].sketched
+        if now.gap() <= PLAIN_FITS or gone(plain.gap(), now.gap()) < MOST:
+            break
+        for place in (0, 1):
+            pair = _anew(search, pair, place, candidates)
+        if pair[1].sketched.cost > LEADS_ON * now.cost:
+            break
+    return pair
+
+
+def _anew(search: Search, pair: Pair, place: int, candidates: Sequence[Candidate]) -> Pair:
+    """A pair with one of its effects looked for anew, if it is periodic and that is better."""
+    first, second = pair
+    law = pair[place].candidate
+    found = search.anew(second, law, candidates) if law.periodic else None
+    if found is None or penalised(found.sketched) >= penalised(second.sketched):
+        return pair
+    return _with_law(pair, place, found)
+
+
+def _with_law(pair: Pair, place: int, found: Tried) -> Pair:
+    """A pair with another law of its first or second effect."""
+    first, second = pair
+    if place == 1:
+        return first, found
+    return replace(first, candidate=found.candidate), replace(found, candidate=second.candidate)
+
+
 def _is_worth_more(plain: Trial, pair: Pair) -> bool:
-    """Whether another law of the second effect may be what a pair lacks."""
-    both = pair[1].trial
-    return both.gap > PLAIN_FITS and explained(plain, both) >= NEARLY
+    """Whether other laws of its effects may be what a pair lacks."""
+    both = pair[1]
+    if both.trial.gap <= PLAIN_FITS:
+        return False
+    return both.sketched.gap() <= PLAIN_FITS or explained(plain, both.trial) >= NEARLY
+
+
+def _polished(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
+    """The pair by the best of either effect's laws."""
+    laws = [t.candidate for t in reversed(pair)]
+    found, *_ = search.polished([replace(pair[1], candidate=law) for law in laws], candidates)
+    return _with_law(pair, 0 if found.candidate.effect == laws[1].effect else 1, found)
 
 
 def _doubles(
-    search: Search, first: Tried, second: Tried, candidates: Sequence[Candidate]
+    search: Search, pair: Pair, done: Sequence[Tried], candidates: Sequence[Candidate]
 ) -> list[Pair]:
-    """Others in place of a second effect that moves the block off its line, if it does not fit."""
-    if not second.candidate.lateral or second.trial.gap <= PLAIN_FITS:
+    """Others in place of an effect that moves the block off its line, if a pair does not fit."""
+    aside = [t.candidate.lateral for t in pair]
+    if _gap(pair) <= PLAIN_FITS or not any(aside):
         return []
-    names = {first.candidate.effect, second.candidate.effect}
+    names = {t.candidate.effect for t in pair}
     others = [c for c in candidates if c.lateral and c.effect not in names]
-    return [(first, other) for other in search.each(first, others)]
+    kept = pair[0] if aside[1] else next(
+        (t for t in done if t.candidate.effect == pair[1].candidate.effect), None)
+    return [(kept, other) for other in search.each(kept, others)] if kept else []
 
 
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
@@ -93,7 +149,7 @@ def _sketched(
     """The best pairs in short windows, each pair of effects once, best first."""
     pairs = _concealed(search, plain, sketched, done, candidates)
     little = min(1.0 + REST * (sketched.gap() ** 2 - 1.0), HARDLY**2)
-    for first in _firsts(plain, done):
+    for first in _firsts(plain, sketched, done):
         if any(second.sketched.gap() ** 2 <= little for _, second in pairs):
             break
         others = [c for c in candidates if c.effect != first.candidate.effect]
@@ -118,12 +174,12 @@ def _concealed(
     return [(Tried(first, second.model, sketched, alone.get(first.effect, plain)), second)]
 
 
-def _firsts(plain: Trial, done: Sequence[Tried]) -> list[Tried]:
+def _firsts(plain: Trial, sketched: Fitted, done: Sequence[Tried]) -> list[Tried]:
     """Best first, without those that add nothing to the friction across that they bring along."""
-    return [
-        t for i, t in enumerate(telling(done))
-        if i < AT_LEAST or explained(plain, t.trial) >= WORTH_A_SECOND
-    ][:FIRSTS]
+    best, *others = telling(done)
+    others = [t for t in others if WORTH_A_SECOND <= max(
+        explained(plain, t.trial), gone(sketched.gap(), t.sketched.gap()))]
+    return [best, *others][:FIRSTS]
 
 
 def _simplest(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:

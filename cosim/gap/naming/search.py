@@ -10,11 +10,14 @@ import numpy as np
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.fitted import Fitted
+from cosim.gap.shooting.fit import fit
+from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.glance import glance, ground
+from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, Trial, finished, sketch, try_model
 from cosim.processes import Map
 
+from .breadth import ALONE, ANEW, BESIDE, Breadth
 from .other_starts import other_starts
 from .scan import NOISE, scan
 from .screen import screened
@@ -23,23 +26,16 @@ from .wave_answer import wave_answer
 #: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
 #: that do so again, ...
 GLANCE, LOOK, SKETCH = 3, 2, 6
-#: ... so many laws, and so many are fitted in long windows, ...
-LOOKED_AT, SKETCHED, FINALISTS = 16, 7, 5
-#: ... or, beside a first effect, so many laws;
-LOOKED_AT_BESIDE, SKETCHED_BESIDE = 10, 4
-#: ... at most so many of one effect.
-FORMS = 2
+#: ... so many are fitted in long windows, at most so many of one effect.
+FINALISTS, FORMS = 5, 2
 #: Rounds in long windows before the best few, so many, are fitted to the end.
 FIRST, FINISHED = 6, 2
 #: Where a law leaves less than this part of the misfit, others are out that leave more than that.
 NEARLY_ALL, HOPELESS = 0.1, 0.5
-#: So many periods of a periodic effect, in time or along the surface, are tried, and so many of
-#: them with a second harmonic; ...
-PERIODS, SECONDS = 4, 1
-#: ... beside a first effect so many.
-PERIODS_BESIDE, SECONDS_BESIDE = 3, 0
 #: So many laws set out as next to nothing as well; on top of a first effect no others are tried.
 PROMISING = 10
+#: Laws of one effect that set out again, by other values or other laws, and go to long windows.
+AGAIN = 3
 
 #: The setting by which friction acts across the motion.
 ACROSS = "lateral_friction.ratio"
@@ -69,7 +65,7 @@ class Search:
 
         fitted : the base in short windows.
         """
-        sketches, seen = self._sketches(base, fitted, candidates, LOOKED_AT, SKETCHED)
+        sketches, seen = self._sketches(base, fitted, candidates, ALONE)
         done = self._tried(_best_forms(sketches, FORMS)[:FINALISTS])
         effects = {t.candidate.effect for t in done}
         rest = [t for t in _best_forms([*sketches, *seen], 1) if t.candidate.effect not in effects]
@@ -79,7 +75,7 @@ class Search:
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
     ) -> list[Tried]:
         """The best laws beside an effect that is in the base, in short windows, best first."""
-        sketches, _ = self._sketches(base, fitted, candidates, LOOKED_AT_BESIDE, SKETCHED_BESIDE)
+        sketches, _ = self._sketches(base, fitted, candidates, BESIDE)
         return _best_forms(sketches, FORMS)
 
     def concealed(
@@ -117,15 +113,24 @@ class Search:
 
         keep : settings of the dropped effect that others need
         """
-        gone = {knob.key for knob in dropped.knobs}
-        values = tried.trial.fitted.values
-        knobs = tuple(moved(k, values) for k in tried.model.knobs if k.key not in gone)
-        settings = {key: value for key, value in tried.model.settings.items()
-                    if key not in dropped.settings or key in keep}
-        model = Model(knobs, settings, tried.model.added - 1)
+        model = _without(tried.model, dropped, tried.trial.fitted.values, keep)
         (again,) = self._run(_sketched, [(self.data, replace(tried, model=model))])
         (trial,) = self._run(try_model, [(self.data, model, again.sketched)])
         return replace(again, trial=trial)
+
+    def anew(
+        self, second: Tried, law: Candidate, candidates: Sequence[Candidate]
+    ) -> Tried | None:
+        """The best law of a periodic effect of a pair, its period looked for beside the other.
+
+        second : the pair's second effect on top of the first; law : that of either that is dropped
+        """
+        fitted = second.sketched
+        model = _without(second.model, law, fitted.values, ())
+        (rest,) = self._run(_left, [(self.data, model, fitted)])
+        laws = [c for c in candidates if c.effect == law.effect]
+        sketches, _ = self._sketches(model, rest, laws, ANEW)
+        return min(sketches, key=lambda t: penalised(t.sketched), default=None)
 
     def polished(self, tried: Sequence[Tried], candidates: Sequence[Candidate]) -> list[Tried]:
         """Trials once more, from several values of mu_s and by the effect's other laws, best first.
@@ -134,10 +139,11 @@ class Search:
         does not feel, and an effect unrecognised for it. A law with one number more finds its way
         from where the simpler one ended.
         """
-        again = [replace(t, model=model) for t in tried
+        again = [replace(t, model=model) for i, t in enumerate(tried)
+                 if all(t.model is not other.model for other in tried[:i])
                  for model in other_starts(t.model, t.trial.fitted.values)]
         again += [law for t in tried for law in _other_laws(t, candidates)]
-        again = self._run(_sketched, [(self.data, t) for t in again])
+        again = _best_forms(self._run(_sketched, [(self.data, t) for t in again]), AGAIN)
         return _best_forms([*tried, *self._tried(again)], 1, lambda t: t.trial.gap)
 
     def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
@@ -149,25 +155,26 @@ class Search:
         return (*(t for t in tried if t.trial is not None), *late)
 
     def _sketches(
-        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], looked: int, most: int
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], breadth: Breadth
     ) -> tuple[list[Tried], list[Tried]]:
         """The best laws sketched, at most so many, and all that were looked at for it."""
-        seen, unseen = self._glanced(base, fitted, candidates)
+        seen, unseen = self._glanced(base, fitted, candidates, breadth)
         # the best law of every effect: by derivatives of afar a glance may miss how well one does
-        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))[:looked]
-        looks = self._run(_continued, [(self.data, t, LOOK) for t in chosen])
-        chosen = _in_the_running(_best_forms(looks, FORMS)[:most], fitted)
+        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))
+        looks = [(self.data, t, LOOK) for t in chosen[: breadth.looked_at]]
+        looks = self._run(_continued, looks)
+        chosen = _in_the_running(_best_forms(looks, FORMS)[: breadth.sketched], fitted)
         sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
         return sketches, [*looks, *seen, *unseen]
 
     def _glanced(
-        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], breadth: Breadth
     ) -> tuple[list[Tried], list[Tried]]:
         """Every law after a glance at it; those whose period is noise, as they set out."""
         grounds = self._grounds(base, fitted, candidates)
-        placed, feeble = self._placed(base, grounds[()], candidates)
+        placed, feeble = self._placed(base, grounds[()], candidates, breadth)
         promising = self._promising(base, grounds[()], placed)
-        if base.added:
+        if not breadth.everything:
             placed, feeble = promising, []
         placed = placed + [c.faint() for c in promising if c.can_be_faint]
         laws = [*((c, GLANCE) for c in placed), *((c, 0) for c in feeble)]
@@ -215,14 +222,13 @@ class Search:
         return results
 
     def _placed(
-        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
+        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], breadth: Breadth
     ) -> tuple[list[Candidate], list[Candidate]]:
         """Candidates ready to be fitted: periodic ones where their periods lie.
 
         And those periodic ones, of an effect that has no others, whose period noise alone explains.
         fitted : of the base, with derivatives
         """
-        sines, others = (PERIODS_BESIDE, SECONDS_BESIDE) if base.added else (PERIODS, SECONDS)
         placed, feeble = [c for c in candidates if not c.periodic], []
         for effect in dict.fromkeys(c.effect for c in candidates if c.periodic):
             laws = [c for c in candidates if c.effect == effect]
@@ -238,8 +244,10 @@ class Search:
                 peak, law = max(peaks, key=lambda each: each[0].power)
                 feeble.append(law.at(peak.period, peak.amplitude, peak.step).faint())
                 continue
-            placed += [law.at(peak.period, peak.amplitude, peak.step) for peak, law in peaks
-                       if peak.power in strongest[: others if law.has_second else sines]]
+            for peak, law in peaks:
+                most = breadth.seconds if law.has_second else breadth.periods
+                if peak.power in strongest[:most]:
+                    placed.append(law.at(peak.period, peak.amplitude, peak.step))
         return placed, feeble
 
 
@@ -269,6 +277,30 @@ def _continued(data: Data, tried: Tried, rounds: int) -> Tried:
 
 def _sketched(data: Data, tried: Tried) -> Tried:
     return replace(tried, sketched=sketch(data, tried.model, SKETCH))
+
+
+def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
+    """A model where one with more knobs was fitted; the windows' states alone make up for them."""
+    kept = {knob.key for knob in model.knobs}
+    shared = [knob.key in kept for knob in fitted.knobs if not knob.per_run]
+    own = [knob.key in kept for knob in fitted.knobs if knob.per_run]
+    point = Point(fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own),
+                  fitted.point.states)
+    return fit(Problem(data.short, model.knobs, model.settings), point, LOOK, fixed=True)
+
+
+def _without(
+    model: Model, dropped: Candidate, values: dict[str, float], keep: Sequence[str]
+) -> Model:
+    """A model without an effect, setting out from where it was fitted.
+
+    keep : settings of the dropped effect that others need
+    """
+    gone = {knob.key for knob in dropped.knobs}
+    knobs = tuple(moved(knob, values) for knob in model.knobs if knob.key not in gone)
+    settings = {key: value for key, value in model.settings.items()
+                if key not in dropped.settings or key in keep}
+    return Model(knobs, settings, model.added - 1)
 
 
 def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
