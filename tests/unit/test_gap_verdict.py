@@ -66,7 +66,7 @@ class MadeUp:
     second : effect -> trials on top of it; without : effect -> gap of a pair without it;
     across : gap of a pair of which only the friction across is left of one effect; hidden : two
     effects that conceal one another, the second tried on top of the first; lookalike : gap of what
-    is not in the catalogue; instead : trials of what may take a second one's place; once_more :
+    is not in the catalogue; doubles : trials of what may take a second one's place; once_more :
     effect -> what is found for it when its period is looked for anew beside the other
     """
 
@@ -78,7 +78,7 @@ class MadeUp:
     asked: list = field(default_factory=list)
     hidden: tuple | None = None
     lookalike: float = FAR
-    instead: list = field(default_factory=list)
+    doubles: list = field(default_factory=list)
     once_more: dict = field(default_factory=dict)
 
     def concealed(self, base, fitted, candidates):
@@ -102,9 +102,9 @@ class MadeUp:
     def together(self, pairs):
         return list(pairs)
 
-    def each(self, first, candidates):
+    def instead(self, second, law, candidates, keep):
         offered = {c.effect for c in candidates}
-        return [t for t in self.instead if t.candidate.effect in offered]
+        return [t for t in self.doubles if t.candidate.effect in offered]
 
     def anew(self, second, law, candidates):
         self.asked.append(law.effect)
@@ -287,7 +287,7 @@ def test_what_moves_a_block_off_its_line_is_tried_in_place_of_what_does_so_too(l
     first[1] = replace(first[1], candidate=replace(first[1].candidate, lateral=True))
     pair = tried("run_in", MORE * PLAIN_FITS)
     pair = replace(pair, candidate=replace(pair.candidate, lateral=lateral))
-    search = {"second": {"film_drag": [pair]}, "instead": [tried("turning_surface", 1.0)]}
+    search = {"second": {"film_drag": [pair]}, "doubles": [tried("turning_surface", 1.0)]}
     found, _ = finding(first, plain=100.0, **search)
     assert (found.verdict, found.effects) == ("named", ("film_drag", second))
 
@@ -298,7 +298,7 @@ def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_
     for i in (0, 2):
         first[i] = replace(first[i], candidate=replace(first[i].candidate, lateral=True))
     search = {"second": {"lateral_friction": [tried("run_in", MORE * PLAIN_FITS)]},
-              "instead": [tried("turning_surface", 1.0)]}
+              "doubles": [tried("turning_surface", 1.0)]}
     found, _ = finding(first, plain=100.0, **search)
     assert (found.verdict, found.effects) == ("named", ("run_in", "turning_surface"))
 

@@ -80,7 +80,8 @@ def _static_strengthening(s: Scales):
         yield Candidate("static_strengthening", "saturating", (
             Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
             # over a much shorter time it would be another mu_s, not a law of the hold
-            Knob("static_strengthening.saturation_time", time, 0.5, 0.03, 30.0, log=True)),
+            Knob("static_strengthening.saturation_time", time, 0.5, 0.03, 30.0, log=True,
+                 plain_below=True)),
             grows=1.0)
 
 
@@ -94,7 +95,7 @@ def _velocity_weakening(s: Scales):
     for share in (0.3, 1.0):
         # over a much smaller speed it would be another mu_s, not a law of the sliding speed
         speed = Knob("velocity_weakening.stribeck_speed", share * s.speed, 0.4, 0.1 * s.speed,
-                     1e2 * s.speed, log=True)
+                     1e2 * s.speed, log=True, plain_below=True)
         yield Candidate("velocity_weakening", "stribeck", (peak, speed))
 
 
@@ -137,9 +138,10 @@ def _spring_hardening(s: Scales):
 
 
 def _structural_damping(s: Scales):
-    drag = 0.02 * (4.0 * s.stiffness * s.mass) ** 0.5
-    yield Candidate("structural_damping", "viscous", (
-        Knob("structural_damping.coefficient", drag, drag, 0.0, 100.0 * drag),))
+    drag = 0.02 * (4.0 * s.stiffness * s.mass) ** 0.5  # a hundredth of the critical one
+    for much in (1.0, 15.0):
+        yield Candidate("structural_damping", "viscous", (
+            Knob("structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag),))
 
 
 def _second(effect: str):

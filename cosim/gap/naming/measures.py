@@ -23,6 +23,8 @@ EXPLAINED_AT_LEAST = 0.9
 #: A law that leaves more than so many times as much of the runs held out as of those fitted is
 #: another law than theirs.
 HOLDS = 2.5
+#: A number that is less than so many times its least has run to the end of its range.
+AT_AN_END = 1.02
 #: What has taken away less than this part is not fitted more closely, nor is what leaves more than
 #: so many times the best one's excess.
 WORTH_A_POLISH, IN_REACH = 0.5, 4.0
@@ -49,9 +51,9 @@ def is_little(plain: Trial, sketched: Fitted) -> bool:
 def repaired(plain: Trial, trial: Trial, part: float) -> bool:
     """Whether next to nothing of what there was is left: this part is gone, or noise remains.
 
-    Also of what was held out.
+    Also of what was held out, and by what is more than plain numbers by another name.
     """
-    if not holds(trial):
+    if not holds(trial) or is_plain(trial):
         return False
     share = explained(plain, trial)
     return share >= part or (share >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
@@ -60,6 +62,12 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
 def holds(trial: Trial) -> bool:
     """Whether what was found in the runs for fitting is true of those held out."""
     return trial.held_out_gap <= HOLDS * max(trial.fitted.gap(), 1.0)
+
+
+def is_plain(trial: Trial) -> bool:
+    """Whether a number of the effect has run to where it is a plain one by another name."""
+    values = trial.fitted.values
+    return any(values[k.key] <= AT_AN_END * k.low for k in trial.model.knobs if k.plain_below)
 
 
 def in_reach(done: Sequence[Tried]) -> list[Tried]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cosim.gap.candidates.candidate import Candidate
@@ -35,7 +35,7 @@ MOST, TURNS, LEADS_ON = 0.6, 2, 0.98
 REST, HARDLY = 0.05, 1.1
 #: Beside one that has taken away so much alone, another effect must take away this part of what it
 #: leaves, in squares: the first one's law may be a little wrong, and another law mend some of that.
-DOMINANT, NEEDED = 0.85, 0.8
+DOMINANT, NEEDED = 0.85, 0.7
 
 #: The first effect alone, and the second on top of it.
 Pair = tuple[Tried, Tried]
@@ -49,6 +49,7 @@ def best_pair(
 
     sketched : the plain model in short windows
     """
+    alone = {t.candidate.effect: t.trial for t in done}
     best, *others = _sketched(search, plain, sketched, done, candidates) or [None]
     if best is None:
         return None
@@ -56,9 +57,8 @@ def best_pair(
     pairs = sorted(search.together([best, *others]), key=_gap)
     if _is_worth_more(plain, pairs[0]):
         better = _polished(search, pairs[0], candidates)
-        doubles = _doubles(search, better, done, candidates)
+        doubles = _doubles(search, better, alone, plain, candidates)
         pairs = sorted([better, *doubles, *pairs[1:]], key=_gap)
-    alone = {t.candidate.effect: t.trial for t in done}
     for first, second in pairs:
         others = [first.trial, alone.get(second.candidate.effect, first.trial)]
         if all(_is_needed(plain, one, second.trial) for one in others):
@@ -119,7 +119,8 @@ def _polished(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pa
 
 
 def _doubles(
-    search: Search, pair: Pair, done: Sequence[Tried], candidates: Sequence[Candidate]
+    search: Search, pair: Pair, alone: Mapping[str, Trial], plain: Trial,
+    candidates: Sequence[Candidate],
 ) -> list[Pair]:
     """Others in place of an effect that moves the block off its line, if a pair does not fit."""
     aside = [t.candidate.lateral for t in pair]
@@ -127,9 +128,10 @@ def _doubles(
         return []
     names = {t.candidate.effect for t in pair}
     others = [c for c in candidates if c.lateral and c.effect not in names]
-    kept = pair[0] if aside[1] else next(
-        (t for t in done if t.candidate.effect == pair[1].candidate.effect), None)
-    return [(kept, other) for other in search.each(kept, others)] if kept else []
+    dropped, kept = (pair[1], pair[0]) if aside[1] else pair
+    found = search.instead(pair[1], dropped.candidate, others, tuple(kept.candidate.settings))
+    kept = replace(kept, trial=alone.get(kept.candidate.effect, plain))
+    return [(kept, other) for other in found]
 
 
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:

@@ -101,11 +101,17 @@ class Search:
         return [(first, replace(second, trial=trial))
                 for (first, second), trial in zip(pairs, trials, strict=True)]
 
-    def each(self, first: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
-        """The best law of each effect on top of a first one, in long windows, best first."""
-        values = (first.trial.fitted if first.trial else first.sketched).values
-        models = [extended(first.model, c, values) for c in candidates]
-        tried = [Tried(c, m, first.sketched) for c, m in zip(candidates, models, strict=True)]
+    def instead(
+        self, second: Tried, law: Candidate, candidates: Sequence[Candidate], keep: Sequence[str]
+    ) -> list[Tried]:
+        """The best law of each effect in place of one of a pair, in long windows, best first.
+
+        second : the pair's second effect on top of the first, with a trial; law : that of either;
+        keep : settings of that law that the other needs
+        """
+        values = second.trial.fitted.values
+        rest = _without(second.model, law, values, keep)
+        tried = [Tried(c, extended(rest, c, values), second.sketched) for c in candidates]
         return self._tried(_best_forms(self._run(_sketched, [(self.data, t) for t in tried]), 1))
 
     def less(self, tried: Tried, dropped: Candidate, keep: Sequence[str]) -> Tried:

@@ -24,6 +24,7 @@ from .measures import (
     holds,
     in_reach,
     is_little,
+    is_plain,
     repaired,
     telling,
 )
@@ -141,6 +142,8 @@ def _of_two(
             return Finding("named", effects, pair[1].trial, ranking, pair[1].trial)
         done, ranking = _with(alone, done, early)
         single = _of_one(plain, ranking)
+    elif pair and is_plain(pair[1].trial):  # what one effect leaves is real, and no other's
+        return Finding("unknown", (), None, ranking, pair[1].trial)
     if single:
         return single
     best = done[0]

@@ -22,6 +22,7 @@ class Knob:
     per_run : its own value in every run (a phase), else one for the campaign
     prior : standard deviation about ``start`` that is known beforehand, or None
     log : fitted on a logarithmic scale; ``step`` is then relative
+    plain_below : at ``low``, and beyond it, what it belongs to is a plain number by another name
     """
 
     key: str
@@ -32,6 +33,7 @@ class Knob:
     per_run: bool = False
     prior: float | None = None
     log: bool = False
+    plain_below: bool = False
 
     def inside(self, value: float) -> float:
         """The nearest allowed value to ``value``, on the scale of the fit."""
