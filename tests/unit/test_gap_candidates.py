@@ -14,7 +14,8 @@ from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.naming.other_starts import other_starts
 from cosim.gap.naming.plain import plain_knobs
 from cosim.gap.naming.scales import scales
-from cosim.gap.naming.search import ACROSS, Search, Tried
+from cosim.gap.naming.search import Search
+from cosim.gap.naming.tried import ACROSS, Tried
 from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
 from cosim.gap.shooting.fit import fit

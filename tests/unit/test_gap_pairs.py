@@ -7,7 +7,8 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 from cosim.gap import read_campaign
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
-from cosim.gap.naming.search import Search, Tried
+from cosim.gap.naming.search import Search
+from cosim.gap.naming.tried import Tried
 from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.glance import glance, ground
 from cosim.gap.shooting.knob import Knob

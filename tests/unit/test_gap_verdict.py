@@ -22,8 +22,9 @@ from cosim.gap.naming.measures import (
     explained,
     repaired,
 )
-from cosim.gap.naming.pairs import DOMINANT, HARDLY, MOST, NEARLY, NEEDED
-from cosim.gap.naming.search import Tried
+from cosim.gap.naming.pairs import DOMINANT, HARDLY, NEEDED
+from cosim.gap.naming.refined_pair import MOST, NEARLY
+from cosim.gap.naming.tried import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.flight import TILT

@@ -22,7 +22,7 @@ from cosim.gap.candidates.extend import extended  # noqa: E402
 from cosim.gap.experiment import Member, next_experiment  # noqa: E402
 from cosim.gap.naming.plain import plain_knobs  # noqa: E402
 from cosim.gap.naming.scales import scales  # noqa: E402
-from cosim.gap.naming.search import Tried  # noqa: E402
+from cosim.gap.naming.tried import Tried  # noqa: E402
 from cosim.gap.naming.verdict import FITS, alike  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
 from cosim.gap.shooting.data import prepared  # noqa: E402

@@ -1,7 +1,8 @@
-"""A model with a candidate added to it, starting where the model was fitted."""
+"""A model with a candidate added to it, or taken from it, starting where the model was fitted."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from cosim.gap.shooting.knob import Knob
@@ -23,6 +24,20 @@ def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Mod
     taken = {knob.key for knob in candidate.knobs}
     kept = tuple(moved(knob, fitted) for knob in base.knobs if knob.key not in taken)
     return Model(kept + candidate.knobs, {**base.settings, **candidate.settings}, base.added + 1)
+
+
+def reduced(
+    model: Model, candidate: Candidate, fitted: dict[str, float], keep: Sequence[str]
+) -> Model:
+    """The model without a candidate, starting from where it was fitted.
+
+    keep : settings of it that others need
+    """
+    gone = {knob.key for knob in candidate.knobs}
+    knobs = tuple(moved(knob, fitted) for knob in model.knobs if knob.key not in gone)
+    settings = {key: value for key, value in model.settings.items()
+                if key not in candidate.settings or key in keep}
+    return Model(knobs, settings, model.added - 1)
 
 
 def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float]):

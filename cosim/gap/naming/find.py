@@ -29,7 +29,8 @@ from .intervals import determined, intervals
 from .other_starts import other_starts
 from .plain import plain_knobs
 from .scales import scales
-from .search import SKETCH, Search, Tried
+from .search import SKETCH, Search
+from .tried import Tried
 from .verdict import Finding, judge
 
 #: Another start must leave less than this part of the sum of squares: mu_s may be felt nowhere.

@@ -13,7 +13,8 @@ from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Trial
 
 from .measures import as_good, excess
-from .search import ACROSS, Search, Tried
+from .search import Search
+from .tried import ACROSS, Tried
 
 #: By effect of the catalogue: what looks like it.
 _LOOKALIKES = {

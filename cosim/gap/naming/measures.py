@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.trial import Trial
 
-from .search import ACROSS, Tried
+from .tried import ACROSS, Tried
 
 #: The plain model fits when its gap is at most this: what a real contact has beside any model
 #: (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fitted import Fitted
@@ -11,34 +10,27 @@ from cosim.gap.shooting.trial import Trial
 
 from .measures import (
     PART_OF_OTHERS,
-    PLAIN_FITS,
     as_good,
     excess,
     explained,
     gone,
     telling,
 )
-from .search import ACROSS, Search, Tried, penalised
+from .refined_pair import Pair, alternated, doubled, gap_of, is_worth_more, polished
+from .search import Search
+from .tried import ACROSS, Tried, penalised
 
 #: So many single effects are tried with a second one, the best and those that take away this part
 #: alone, in short windows or in long ones.
 FIRSTS, WORTH_A_SECOND = 3, 0.2
 #: So many pairs are fitted in long windows.
 PAIRS = 3
-#: A pair that has taken away this part is fitted more closely, if it does not fit.
-NEARLY = 0.8
-#: A pair that takes away this part in short windows and does not fit has its periods looked for
-#: anew, in so many turns at most, each of which must leave less than this part of the squares.
-MOST, TURNS, LEADS_ON = 0.6, 2, 0.98
 #: No other first effect is tried when a pair leaves less than this part in short windows, and
 #: hardly more than noise: else its first may be another's double.
 REST, HARDLY = 0.05, 1.1
 #: Beside one that has taken away so much alone, another effect must take away this part of what it
 #: leaves, in squares: the first one's law may be a little wrong, and another law mend some of that.
 DOMINANT, NEEDED = 0.85, 0.7
-
-#: The first effect alone, and the second on top of it.
-Pair = tuple[Tried, Tried]
 
 
 def best_pair(
@@ -53,12 +45,12 @@ def best_pair(
     best, *others = _sketched(search, plain, sketched, done, candidates) or [None]
     if best is None:
         return None
-    best = _alternated(search, sketched, best, candidates)
-    pairs = sorted(search.together([best, *others]), key=_gap)
-    if _is_worth_more(plain, pairs[0]):
-        better = _polished(search, pairs[0], candidates)
-        doubles = _doubles(search, better, alone, plain, candidates)
-        pairs = sorted([better, *doubles, *pairs[1:]], key=_gap)
+    best = alternated(search, sketched, best, candidates)
+    pairs = sorted(search.together([best, *others]), key=gap_of)
+    if is_worth_more(plain, pairs[0]):
+        better = polished(search, pairs[0], candidates)
+        doubles = doubled(search, better, alone, plain, candidates)
+        pairs = sorted([better, *doubles, *pairs[1:]], key=gap_of)
     for first, second in pairs:
         others = [first.trial, alone.get(second.candidate.effect, first.trial)]
         if all(_is_needed(plain, one, second.trial) for one in others):
@@ -66,82 +58,10 @@ def best_pair(
     return None
 
 
-def _alternated(
-    search: Search, plain: Fitted, pair: Pair, candidates: Sequence[Candidate]
-) -> Pair:
-    """Each periodic effect's period anew beside the other: it was found while that was missing.
-
-    Backfitting (Breiman & Friedman 1985), in short windows; only of a pair that does most and does
-    not fit.
-    """
-    for _ in range(TURNS):
-        now = pair[1].sketched
-        if now.gap() <= PLAIN_FITS or gone(plain.gap(), now.gap()) < MOST:
-            break
-        for place in (0, 1):
-            pair = _anew(search, pair, place, candidates)
-        if pair[1].sketched.cost > LEADS_ON * now.cost:
-            break
-    return pair
-
-
-def _anew(search: Search, pair: Pair, place: int, candidates: Sequence[Candidate]) -> Pair:
-    """A pair with one of its effects looked for anew, if it is periodic and that is better."""
-    first, second = pair
-    law = pair[place].candidate
-    found = search.anew(second, law, candidates) if law.periodic else None
-    if found is None or penalised(found.sketched) >= penalised(second.sketched):
-        return pair
-    return _with_law(pair, place, found)
-
-
-def _with_law(pair: Pair, place: int, found: Tried) -> Pair:
-    """A pair with another law of its first or second effect."""
-    first, second = pair
-    if place == 1:
-        return first, found
-    return replace(first, candidate=found.candidate), replace(found, candidate=second.candidate)
-
-
-def _is_worth_more(plain: Trial, pair: Pair) -> bool:
-    """Whether other laws of its effects may be what a pair lacks."""
-    both = pair[1]
-    if both.trial.gap <= PLAIN_FITS:
-        return False
-    return both.sketched.gap() <= PLAIN_FITS or explained(plain, both.trial) >= NEARLY
-
-
-def _polished(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
-    """The pair by the best of either effect's laws."""
-    laws = [t.candidate for t in reversed(pair)]
-    found, *_ = search.polished([replace(pair[1], candidate=law) for law in laws], candidates)
-    return _with_law(pair, 0 if found.candidate.effect == laws[1].effect else 1, found)
-
-
-def _doubles(
-    search: Search, pair: Pair, alone: Mapping[str, Trial], plain: Trial,
-    candidates: Sequence[Candidate],
-) -> list[Pair]:
-    """Others in place of an effect that moves the block off its line, if a pair does not fit."""
-    aside = [t.candidate.lateral for t in pair]
-    if _gap(pair) <= PLAIN_FITS or not any(aside):
-        return []
-    names = {t.candidate.effect for t in pair}
-    others = [c for c in candidates if c.lateral and c.effect not in names]
-    dropped, kept = (pair[1], pair[0]) if aside[1] else pair
-    found = search.instead(pair[1], dropped.candidate, others, tuple(kept.candidate.settings))
-    kept = replace(kept, trial=alone.get(kept.candidate.effect, plain))
-    return [(kept, other) for other in found]
-
-
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
     """Whether two effects do so much better than one of them that the other has a part in it."""
     little = (1.0 - NEEDED) * excess(alone)
     return explained(plain, alone) < DOMINANT or excess(both) <= little
-
-
-def _gap(pair: Pair) -> float:
-    return pair[1].trial.gap
 
 
 def _sketched(

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.extend import extended, moved
+from cosim.gap.candidates.extend import extended, reduced
 from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.glance import glance, ground
 from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, Trial, finished, sketch, try_model
+from cosim.gap.shooting.trial import Model, finished, sketch, try_model
 from cosim.processes import Map
 
 from .breadth import ALONE, ANEW, BESIDE, Breadth
+from .other_laws import other_laws
 from .other_starts import other_starts
 from .scan import NOISE, scan
 from .screen import screened
+from .tried import ACROSS, Tried, best_laws, in_the_running, penalised, rank
 from .wave_answer import wave_answer
 
 #: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
@@ -30,27 +32,12 @@ GLANCE, LOOK, SKETCH = 3, 2, 6
 FINALISTS, FORMS = 5, 2
 #: Rounds in long windows before the best few, so many, are fitted to the end.
 FIRST, FINISHED = 6, 2
-#: Where a law leaves less than this part of the misfit, others are out that leave more than that.
-NEARLY_ALL, HOPELESS = 0.1, 0.5
 #: So many laws set out as next to nothing as well; on top of a first effect no others are tried.
 PROMISING = 10
 #: Laws of one effect that set out again, by other values or other laws, and go to long windows.
 AGAIN = 3
 
-#: The setting by which friction acts across the motion.
-ACROSS = "lateral_friction.ratio"
-
 Progress = Callable[[int], object]
-
-
-@dataclass(frozen=True)
-class Tried:
-    """A candidate on top of a base model; `trial` is None where a shorter look ruled it out."""
-
-    candidate: Candidate
-    model: Model
-    sketched: Fitted
-    trial: Trial | None = None
 
 
 class Search:
@@ -66,9 +53,9 @@ class Search:
         fitted : the base in short windows.
         """
         sketches, seen = self._sketches(base, fitted, candidates, ALONE)
-        done = self._tried(_best_forms(sketches, FORMS)[:FINALISTS])
+        done = self._tried(best_laws(sketches, FORMS)[:FINALISTS])
         effects = {t.candidate.effect for t in done}
-        rest = [t for t in _best_forms([*sketches, *seen], 1) if t.candidate.effect not in effects]
+        rest = [t for t in best_laws([*sketches, *seen], 1) if t.candidate.effect not in effects]
         return done + rest
 
     def beside(
@@ -76,7 +63,7 @@ class Search:
     ) -> list[Tried]:
         """The best laws beside an effect that is in the base, in short windows, best first."""
         sketches, _ = self._sketches(base, fitted, candidates, BESIDE)
-        return _best_forms(sketches, FORMS)
+        return best_laws(sketches, FORMS)
 
     def concealed(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
@@ -110,16 +97,16 @@ class Search:
         keep : settings of that law that the other needs
         """
         values = second.trial.fitted.values
-        rest = _without(second.model, law, values, keep)
+        rest = reduced(second.model, law, values, keep)
         tried = [Tried(c, extended(rest, c, values), second.sketched) for c in candidates]
-        return self._tried(_best_forms(self._run(_sketched, [(self.data, t) for t in tried]), 1))
+        return self._tried(best_laws(self._run(_sketched, [(self.data, t) for t in tried]), 1))
 
     def less(self, tried: Tried, dropped: Candidate, keep: Sequence[str]) -> Tried:
         """A trial's model without an effect, fitted to the end from where the trial ended.
 
         keep : settings of the dropped effect that others need
         """
-        model = _without(tried.model, dropped, tried.trial.fitted.values, keep)
+        model = reduced(tried.model, dropped, tried.trial.fitted.values, keep)
         (again,) = self._run(_sketched, [(self.data, replace(tried, model=model))])
         (trial,) = self._run(try_model, [(self.data, model, again.sketched)])
         return replace(again, trial=trial)
@@ -132,7 +119,7 @@ class Search:
         second : the pair's second effect on top of the first; law : that of either that is dropped
         """
         fitted = second.sketched
-        model = _without(second.model, law, fitted.values, ())
+        model = reduced(second.model, law, fitted.values, ())
         (rest,) = self._run(_left, [(self.data, model, fitted)])
         laws = [c for c in candidates if c.effect == law.effect]
         sketches, _ = self._sketches(model, rest, laws, ANEW)
@@ -148,9 +135,9 @@ class Search:
         again = [replace(t, model=model) for i, t in enumerate(tried)
                  if all(t.model is not other.model for other in tried[:i])
                  for model in other_starts(t.model, t.trial.fitted.values)]
-        again += [law for t in tried for law in _other_laws(t, candidates)]
-        again = _best_forms(self._run(_sketched, [(self.data, t) for t in again]), AGAIN)
-        return _best_forms([*tried, *self._tried(again)], 1, lambda t: t.trial.gap)
+        again += [law for t in tried for law in other_laws(t, candidates)]
+        again = best_laws(self._run(_sketched, [(self.data, t) for t in again]), AGAIN)
+        return best_laws([*tried, *self._tried(again)], 1, lambda t: t.trial.gap)
 
     def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
         """Those that were ruled out early judged as well, by what little fit they had."""
@@ -166,10 +153,10 @@ class Search:
         """The best laws sketched, at most so many, and all that were looked at for it."""
         seen, unseen = self._glanced(base, fitted, candidates, breadth)
         # the best law of every effect: by derivatives of afar a glance may miss how well one does
-        chosen = sorted(_best_forms(seen, FORMS), key=lambda t: _rank(t, seen))
+        chosen = sorted(best_laws(seen, FORMS), key=lambda t: rank(t, seen))
         looks = [(self.data, t, LOOK) for t in chosen[: breadth.looked_at]]
         looks = self._run(_continued, looks)
-        chosen = _in_the_running(_best_forms(looks, FORMS)[: breadth.sketched], fitted)
+        chosen = in_the_running(best_laws(looks, FORMS)[: breadth.sketched], fitted)
         sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
         return sketches, [*looks, *seen, *unseen]
 
@@ -195,7 +182,7 @@ class Search:
         """The best law of each effect in long windows, best first; the best few to the end."""
         trials = self._run(try_model, [(self.data, t.model, t.sketched, FIRST) for t in sketched])
         done = [replace(t, trial=trial) for t, trial in zip(sketched, trials, strict=True)]
-        done = _best_forms(done, 1, lambda t: t.trial.gap)
+        done = best_laws(done, 1, lambda t: t.trial.gap)
         trials = self._run(finished, [(self.data, t.trial) for t in done[:FINISHED]])
         ended = [replace(t, trial=trial) for t, trial in zip(done, trials, strict=False)]
         return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.gap)
@@ -257,18 +244,6 @@ class Search:
         return placed, feeble
 
 
-def _in_the_running(tried: Sequence[Tried], fitted: Fitted) -> list[Tried]:
-    """Best first, without those that do little where the best does nearly all.
-
-    fitted : the base
-    """
-    before = fitted.gap() ** 2 - 1.0
-    left = [max(t.sketched.gap() ** 2 - 1.0, 0.0) for t in tried]
-    if not tried or min(left) > NEARLY_ALL * before:
-        return list(tried)
-    return [t for t, rest in zip(tried, left, strict=True) if rest <= HOPELESS * before]
-
-
 def _across(base: Model, candidate: Candidate) -> tuple[tuple[str, float], ...]:
     """What it sets that changes the motion even where there is next to nothing else of it."""
     new = candidate.settings.items() - base.settings.items()
@@ -293,63 +268,3 @@ def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
     point = Point(fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own),
                   fitted.point.states)
     return fit(Problem(data.short, model.knobs, model.settings), point, LOOK, fixed=True)
-
-
-def _without(
-    model: Model, dropped: Candidate, values: dict[str, float], keep: Sequence[str]
-) -> Model:
-    """A model without an effect, setting out from where it was fitted.
-
-    keep : settings of the dropped effect that others need
-    """
-    gone = {knob.key for knob in dropped.knobs}
-    knobs = tuple(moved(knob, values) for knob in model.knobs if knob.key not in gone)
-    settings = {key: value for key, value in model.settings.items()
-                if key not in dropped.settings or key in keep}
-    return Model(knobs, settings, model.added - 1)
-
-
-def _other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
-    """The effect's other laws, as far as they can be said with the numbers fitted."""
-    values = {**tried.model.settings, **tried.trial.fitted.values}
-    own = {knob.key for knob in tried.candidate.knobs}
-    settings = {k: v for k, v in tried.model.settings.items() if k not in tried.candidate.settings}
-    knobs = tuple(k for k in tried.model.knobs if k.key not in own)
-    base = Model(knobs, settings, tried.model.added - 1)
-    laws: dict[tuple, Tried] = {}
-    for law in candidates:
-        if law.effect == tried.candidate.effect and law.form != tried.candidate.form:
-            if law.periodic and law.periodic not in own:
-                continue
-            told = any(knob.key in values for knob in law.knobs[:1])
-            law = replace(law, knobs=tuple(moved(knob, values) for knob in law.knobs),
-                          grows=0.0 if told else law.grows)
-            model = extended(base, law, values)
-            key = (law.knobs, *law.settings.items())
-            laws.setdefault(key, replace(tried, candidate=law, model=model))
-    return list(laws.values())
-
-
-def _rank(tried: Tried, seen: Sequence[Tried]) -> int:
-    """How many laws of its effect did better."""
-    cost = penalised(tried.sketched)
-    return sum(t.candidate.effect == tried.candidate.effect and penalised(t.sketched) < cost
-               for t in seen)
-
-
-def _best_forms(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:
-    """The best laws of each effect, best first."""
-    counts: dict[str, int] = {}
-    best = []
-    for t in sorted(tried, key=key or (lambda t: penalised(t.sketched))):
-        counts[t.candidate.effect] = counts.get(t.candidate.effect, 0) + 1
-        if counts[t.candidate.effect] <= most:
-            best.append(t)
-    return best
-
-
-def penalised(fitted: Fitted) -> float:
-    """Sum of squares and the BIC's penalty for the campaign's knobs."""
-    rows = sum(r.size for r in fitted.residuals)
-    count = sum(not knob.per_run for knob in fitted.knobs)
-    return fitted.cost + count * float(np.log(max(rows, 2)))

@@ -29,7 +29,8 @@ from .measures import (
     telling,
 )
 from .pairs import across_alone, best_pair, needed_alone
-from .search import ACROSS, Search, Tried
+from .search import Search
+from .tried import ACROSS, Tried
 
 #: What takes away this part of the excess leaves nothing for a second effect, only its own law's
 #: small misfit.
