@@ -6,6 +6,7 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
 from cosim.gap.candidates.candidate import Candidate
+from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.candidates.extend import extended
 from cosim.gap.naming.search import Search
 from cosim.gap.naming.tried import Tried
@@ -24,17 +25,21 @@ DRAG = Candidate("film_drag", "linear", (Knob("film_drag.coefficient", 0.01, 0.1
 CUBIC = Candidate("spring_hardening", "cubic", (Knob("spring_hardening.cubic", 10.0, 1e3, 0.0),))
 
 
-@pytest.fixture(scope="module")
-def data(tmp_path_factory):
-    hidden = {"static_strengthening": {"rate": 0.05, "hold_time": 0.01},
-              "film_drag": {"coefficient": 0.8}}
+def measured(folder, hidden):
+    """Runs with two effects in them, ready to be fitted."""
     runs = [{"surface_speed": v, "hold_out": v == SPEEDS[2],
              "columns": {"t": run.time, "x": noisy(run["x"], number)}}
             for number, v in enumerate(SPEEDS)
             for run in [motion(speed=v, duration=6.0, **hidden)]]
-    folder = tmp_path_factory.mktemp("campaign")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
     return prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    hidden = {"static_strengthening": {"rate": 0.05, "hold_time": 0.01},
+              "film_drag": {"coefficient": 0.8}}
+    return measured(tmp_path_factory.mktemp("campaign"), hidden)
 
 
 @pytest.fixture(scope="module")
@@ -42,18 +47,27 @@ def plain(data):
     return sketch(data, PLAIN, 25)
 
 
-@pytest.fixture(scope="module")
-def search(data):
+def on(data):
     return Search(data, lambda function, arguments: (function(*each) for each in arguments))
 
 
 @pytest.fixture(scope="module")
-def both(data, plain):
-    """The right pair, fitted: strengthening first, drag on top of it."""
-    first = extended(PLAIN, RATE, plain.values)
-    model = extended(first, DRAG, sketch(data, first, 8).values)
+def search(data):
+    return on(data)
+
+
+def pair_of(data, plain, first, second):
+    """Two effects, fitted, the second on top of the first."""
+    below = extended(PLAIN, first, plain.values)
+    model = extended(below, second, sketch(data, below, 8).values)
     sketched = sketch(data, model, 8)
-    return Tried(DRAG, model, sketched, try_model(data, model, sketched))
+    return Tried(second, model, sketched, try_model(data, model, sketched))
+
+
+@pytest.fixture(scope="module")
+def both(data, plain):
+    """The right pair."""
+    return pair_of(data, plain, RATE, DRAG)
 
 
 def test_the_ground_is_the_fit_itself(data, plain):
@@ -103,3 +117,34 @@ def test_the_second_effect_is_among_those_beside_the_first(data, plain, search):
     assert beside[0].sketched.gap() < 1.1
     ((_, pair),) = search.together([(Tried(RATE, first, sketched), beside[0])])
     assert pair.trial.gap < 1.1
+
+
+@pytest.mark.parametrize("first, second, wrong, right", [
+    (RATE, CUBIC, CUBIC, DRAG), (CUBIC, DRAG, CUBIC, RATE)])
+def test_another_effect_may_take_the_place_of_either_of_a_pair(
+    data, plain, search, first, second, wrong, right
+):
+    pair = pair_of(data, plain, first, second)
+    kept = second if wrong is first else first
+    found, *others = search.instead(pair, wrong, [right], tuple(kept.settings))
+    keys = {knob.key for knob in found.model.knobs}
+    assert not others and found.candidate.effect == right.effect
+    assert keys == {knob.key for knob in (*PLAIN.knobs, *kept.knobs, *right.knobs)}
+    assert found.trial.gap < 1.1 < pair.trial.gap
+
+
+def test_a_wrong_period_beside_another_effect_is_put_right(tmp_path):
+    hidden = {"speed_ripple": {"amplitude": 0.3, "frequency": 2.3},
+              "film_drag": {"coefficient": 0.8}}
+    rippled = measured(tmp_path, hidden)
+    extent = Scales(speed=0.1, distance=0.6, heat=1.0, duration=6.0, stiffness=38.5, travel=0.05,
+                    mass=0.87, force=8.5, extension=0.03)
+    laws = [c for c in candidates(extent) if c.effect == "speed_ripple"]
+    wrong = laws[0].at(3.7, 0.2, 0.01)
+    pair = pair_of(rippled, sketch(rippled, PLAIN, 8), DRAG, wrong)
+    found = on(rippled).anew(pair, wrong, [*laws, CUBIC])
+    values = found.sketched.values
+    assert values["speed_ripple.frequency"] == pytest.approx(2.3, abs=0.02)
+    assert values["speed_ripple.amplitude"] == pytest.approx(0.3, abs=0.02)
+    assert values["film_drag.coefficient"] == pytest.approx(0.8, abs=0.05)
+    assert found.sketched.gap() < 1.1 < pair.sketched.gap()

@@ -28,6 +28,7 @@ from cosim.gap.naming.tried import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.flight import TILT
+from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Model, Trial
 
 ROWS = 1000
@@ -325,6 +326,28 @@ def test_a_pair_that_fits_in_short_windows_is_fitted_more_closely():
         pair = replace(tried("run_in", astray), sketched=trial(short).fitted)
         found, _ = finding(first, second={"film_drag": [pair]}, polish=[tried("run_in", 1.02)])
         assert found.effects == effects
+
+
+def ended(at, time):
+    """A trial whose law has a time that ended here; at 0.03 s it is a plain number."""
+    knob = Knob("static_strengthening.saturation_time", 0.1, 0.5, 0.03, 30.0, log=True,
+                plain_below=True)
+    fitted = Fitted((knob,), Point(np.array([knob.scaled(time)]), (), ()), (np.full(ROWS, at),))
+    return replace(trial(at), model=Model((knob,), {}), fitted=fitted)
+
+
+@pytest.mark.parametrize("time, verdict", [(0.03, "unknown"), (0.1, "named")])
+def test_a_law_that_has_become_a_plain_number_is_no_effect(time, verdict):
+    found, _ = finding([tried("static_strengthening", ended(1.02, time)), tried("run_in", 9.0)])
+    assert found.verdict == verdict
+    # nor does one that explains most stand alone where such a law does the rest
+    most = after(0.5 * (1.0 + EXPLAINED_BY_ONE))
+    assert most.gap > FITS and repaired(trial(FAR), most, EXPLAINED_BY_ONE)
+    first = [tried("run_in", most), tried("static_strengthening", after(0.1))]
+    second = {"run_in": [tried("static_strengthening", ended(1.02, time))]}
+    found, _ = finding(first, second=second)
+    assert found.verdict == verdict
+    assert found.nearest.gap == pytest.approx(1.02)
 
 
 def test_two_effects_must_take_away_so_much():

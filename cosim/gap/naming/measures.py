@@ -53,15 +53,15 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
 
     Also of what was held out, and by what is more than plain numbers by another name.
     """
-    if not holds(trial) or is_plain(trial):
+    if not stands(trial):
         return False
     share = explained(plain, trial)
     return share >= part or (share >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
 
 
-def holds(trial: Trial) -> bool:
-    """Whether what was found in the runs for fitting is true of those held out."""
-    return trial.held_out_gap <= HOLDS * max(trial.fitted.gap(), 1.0)
+def stands(trial: Trial) -> bool:
+    """Whether an effect is one at all: true of the runs held out too, and no plain number."""
+    return trial.held_out_gap <= HOLDS * max(trial.fitted.gap(), 1.0) and not is_plain(trial)
 
 
 def is_plain(trial: Trial) -> bool:

@@ -21,11 +21,11 @@ from .measures import (
     alike,
     as_good,
     explained,
-    holds,
     in_reach,
     is_little,
     is_plain,
     repaired,
+    stands,
     telling,
 )
 from .pairs import across_alone, best_pair, needed_alone
@@ -170,5 +170,5 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
 
 def _dominates(plain: Trial, done: Sequence[Tried]) -> bool:
     parts = [explained(plain, t.trial) for t in done]
-    does_most = parts[0] >= DOES_MOST and holds(done[0].trial)
+    does_most = parts[0] >= DOES_MOST and stands(done[0].trial)
     return does_most and all(part <= RIVAL * parts[0] for part in parts[1:])
