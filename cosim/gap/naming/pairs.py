@@ -97,11 +97,16 @@ def _concealed(
 
 
 def _firsts(plain: Trial, sketched: Fitted, done: Sequence[Tried]) -> list[Tried]:
-    """Best first, without those that add nothing to the friction across that they bring along."""
+    """Best first, without those that add nothing to the friction across that they bring along.
+
+    Of those that move the block off its line only one: the others may take its place in a pair.
+    """
     best, *others = telling(done)
-    others = [t for t in others if WORTH_A_SECOND <= max(
+    aside = next((t for t in (best, *others) if t.candidate.lateral), None)
+    others = [t for t in others if t is aside or not t.candidate.lateral]
+    worth = [t for t in others if WORTH_A_SECOND <= max(
         explained(plain, t.trial), gone(sketched.gap(), t.sketched.gap()))]
-    return [best, *others][:FIRSTS]
+    return [best, *worth][:FIRSTS]
 
 
 def _simplest(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
