@@ -52,8 +52,8 @@ def best_pair(
         doubles = doubled(search, better, alone, plain, candidates)
         pairs = sorted([better, *doubles, *pairs[1:]], key=gap_of)
     for first, second in pairs:
-        others = [first.trial, alone.get(second.candidate.effect, first.trial)]
-        if all(_is_needed(plain, one, second.trial) for one in others):
+        either = (first.trial, alone.get(second.candidate.effect, first.trial))
+        if all(_is_needed(plain, one, second.trial) for one in either):
             return _simplest(search, (first, second), candidates)
     return None
 

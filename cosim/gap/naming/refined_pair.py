@@ -53,10 +53,9 @@ def alternated(
 
 def _anew(search: Search, pair: Pair, place: int, candidates: Sequence[Candidate]) -> Pair:
     """A pair with one of its effects looked for anew, if it is periodic and that is better."""
-    first, second = pair
-    law = pair[place].candidate
-    found = search.anew(second, law, candidates) if law.periodic else None
-    if found is None or penalised(found.sketched) >= penalised(second.sketched):
+    law, now = pair[place].candidate, pair[1]
+    found = search.anew(now, law, candidates) if law.periodic else None
+    if found is None or penalised(found.sketched) >= penalised(now.sketched):
         return pair
     return _with_law(pair, place, found)
 
