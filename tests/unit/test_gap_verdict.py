@@ -340,6 +340,11 @@ def ended(at, time):
 def test_a_law_that_has_become_a_plain_number_is_no_effect(time, verdict):
     found, _ = finding([tried("static_strengthening", ended(1.02, time)), tried("run_in", 9.0)])
     assert found.verdict == verdict
+    # one that does as well and is an effect is named; with the other one where that is one too
+    as_well = [tried("static_strengthening", ended(1.02, time)), tried("stick_stiffness", 1.03)]
+    found, _ = finding(as_well)
+    assert ("static_strengthening" in found.effects) == (verdict == "named")
+    assert "stick_stiffness" in found.effects
     # nor does one that explains most stand alone where such a law does the rest
     most = after(0.5 * (1.0 + EXPLAINED_BY_ONE))
     assert most.gap > FITS and repaired(trial(FAR), most, EXPLAINED_BY_ONE)

@@ -79,7 +79,8 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
         return Finding("unknown", (), None, [*done, *early], nearest, words)
     single = _of_one(plain, [*done, *early])
     if single and (single.nearest.gap <= FITS or explained(plain, single.nearest) >= ALL):
-        return _with_friction_across(search, single, done[0], candidates)
+        best = next(t for t in done if t.trial is single.chosen)
+        return _with_friction_across(search, single, best, candidates)
     if is_little(plain, sketched):  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)
     return _of_two(search, plain, sketched, [*done, *early], candidates, single)
@@ -95,10 +96,11 @@ def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
 def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
     """One effect, or several that do as well as one another, if they repair the model."""
     done, _ = _parted(ranking)
-    best = done[0].trial
-    if not repaired(plain, best, EXPLAINED_BY_ONE):
+    # one that is plain numbers by another name may do as well as an effect
+    done = [t for t in done if t.trial.gap**2 <= as_good(done[0].trial) and stands(t.trial)]
+    if not done or not repaired(plain, done[0].trial, EXPLAINED_BY_ONE):
         return None
-    members = alike(done)
+    best, members = done[0].trial, alike(done)
     return Finding("named" if len(members) == 1 else "class", members, best, ranking, best)
 
 
