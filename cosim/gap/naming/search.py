@@ -193,7 +193,8 @@ class Search:
         """The base with its derivatives, as it is and with the friction across that laws bring."""
         kinds = list(dict.fromkeys([(), *(_across(base, c) for c in candidates)]))
         models = [replace(base, settings={**base.settings, **dict(kind)}) for kind in kinds]
-        grounds = self._run(ground, [(self.data, model, fitted) for model in models])
+        tasks = [(self.data, m, fitted, bool(kind)) for kind, m in zip(kinds, models, strict=True)]
+        grounds = self._run(ground, tasks)
         return dict(zip(kinds, grounds, strict=True))
 
     def _promising(

@@ -15,7 +15,7 @@ from .columns import Columns
 from .data import Data
 from .fit import fit, with_columns
 from .fitted import Fitted, Point
-from .phases import with_phases
+from .phases import best_states, with_phases
 from .problem import Problem
 from .trial import Model
 
@@ -23,10 +23,20 @@ from .trial import Model
 _TRIES = 4
 
 
-def ground(data: Data, model: Model, fitted: Fitted) -> Fitted:
-    """A fit in short windows with derivatives at its end; ``model`` may have other settings."""
+def ground(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fitted:
+    """A fit in short windows with derivatives at its end.
+
+    other : ``model`` has other settings than the fitted one; windows whose states have made up for
+    those start from what was read off the data.
+    """
     problem = Problem(data.short, model.knobs, model.settings)
-    return with_columns(problem, replace(fitted, residuals=problem.all_residuals(fitted.point)))
+    point = fitted.point
+    if other:
+        states = [best_states(problem, run, point.shared, own, at)
+                  for run, (own, at) in enumerate(zip(point.own, point.states, strict=True))]
+        point = replace(point, states=tuple(states))
+    fitted = replace(fitted, point=point, residuals=problem.all_residuals(point))
+    return with_columns(problem, fitted)
 
 
 def glance(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
