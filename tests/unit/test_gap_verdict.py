@@ -25,7 +25,7 @@ from cosim.gap.naming.measures import (
 from cosim.gap.naming.pairs import DOMINANT, HARDLY, NEEDED
 from cosim.gap.naming.refined_pair import MOST, NEARLY
 from cosim.gap.naming.tried import Tried
-from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, judge
+from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, SEEN, WAVE, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.flight import TILT
 from cosim.gap.shooting.knob import Knob
@@ -160,6 +160,24 @@ def test_a_plain_model_that_fits_lacks_nothing_whatever_fits_better():
     assert (found.verdict, found.effects, found.chosen) == ("none", (), None)
     assert found.nearest.gap == pytest.approx(LESS * PLAIN_FITS)
     assert [t.candidate.effect for t in found.ranking] == ["film_drag"]
+
+
+@pytest.mark.parametrize("period, part, rival, verdict", [
+    ("speed_ripple.frequency", MORE * WAVE, LESS * RIVAL, "named"),
+    ("speed_ripple.frequency", LESS * WAVE, LESS * RIVAL, "none"),
+    ("speed_ripple.frequency", MORE * WAVE, MORE * RIVAL * MORE, "none"),
+    ("", MORE * WAVE, LESS * RIVAL, "none")])
+def test_a_wave_is_named_though_the_plain_model_fits(period, part, rival, verdict):
+    plain = np.sqrt(1.0 + MORE * SEEN)
+    assert plain < PLAIN_FITS
+    first = [tried("speed_ripple", after(part, plain)),
+             tried("run_in", after(rival * part, plain))]
+    first[0] = replace(first[0], candidate=replace(first[0].candidate, periodic=period))
+    assert finding(first, plain=plain)[0].verdict == verdict
+    # of an excess that is hardly there nothing is said
+    hardly = np.sqrt(1.0 + LESS * SEEN)
+    first[0] = replace(first[0], trial=after(part, hardly))
+    assert finding(first[:1], plain=hardly)[0].verdict == "none"
 
 
 def test_one_effect_is_named():

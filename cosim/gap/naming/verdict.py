@@ -20,6 +20,7 @@ from .measures import (
     WORTH_A_POLISH,
     alike,
     as_good,
+    excess,
     explained,
     in_reach,
     is_little,
@@ -38,6 +39,9 @@ ALL = 0.99
 #: Where no second effect helps, one that does the most alone is named all the same, if no other
 #: comes near: it takes away this part, and none more than that part of what it does.
 DOES_MOST, RIVAL = 0.9, 0.5
+#: A plain model that fits leaves what a contact has beside any model. That is no wave: one that
+#: takes away this part of an excess over the noise of so much, and no other effect near it, is one.
+WAVE, SEEN = 0.8, 0.1
 #: So many effects are tried once more when the best one leaves more than noise.
 POLISHED = 2
 
@@ -67,9 +71,12 @@ class Finding:
 def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[Candidate]):
     """Look for one effect, then for two: `Finding`."""
     ranking = search.on(plain.model, sketched, candidates)
-    if plain.gap <= PLAIN_FITS:
-        return Finding("none", (), None, ranking, plain)
     done, early = _parted(ranking)
+    if plain.gap <= PLAIN_FITS:
+        if done and excess(plain) >= SEEN and _is_wave(plain, done):
+            wave = done[0]
+            return Finding("named", (wave.candidate.effect,), wave.trial, ranking, wave.trial)
+        return Finding("none", (), None, ranking, plain)
     best = done[0].trial
     if best.gap > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
         done = _merged(search.polished(in_reach(telling(done))[:POLISHED], candidates), done)
@@ -170,7 +177,13 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
     return sorted([*better, *rest], key=lambda t: t.trial.gap)
 
 
-def _dominates(plain: Trial, done: Sequence[Tried]) -> bool:
+def _is_wave(plain: Trial, done: Sequence[Tried]) -> bool:
+    """Whether the best effect is periodic, and alone in what it does."""
+    return bool(done[0].candidate.periodic) and _dominates(plain, done, WAVE)
+
+
+def _dominates(plain: Trial, done: Sequence[Tried], most: float = DOES_MOST) -> bool:
+    """Whether one effect takes away so much, and no other comes near."""
     parts = [explained(plain, t.trial) for t in done]
-    does_most = parts[0] >= DOES_MOST and stands(done[0].trial)
+    does_most = parts[0] >= most and stands(done[0].trial)
     return does_most and all(part <= RIVAL * parts[0] for part in parts[1:])
