@@ -417,6 +417,13 @@ def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_r
     assert (found.verdict, found.effects) == ("named", effects)
 
 
+def test_an_effect_that_leaves_noise_once_it_sets_out_from_the_pair_needs_no_other():
+    first = [tried("film_drag", after(0.5)), tried("run_in", after(0.3))]
+    found, _ = finding(first, second={"film_drag": [tried("run_in", 0.997)]},
+                       without={"run_in": 1.003})
+    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+
+
 def test_beside_an_effect_that_explains_all_no_other_is_looked_for():
     first = [tried("film_drag", after(1.0 - LESS * (1.0 - ALL), 100.0))]
     assert first[0].trial.gap > FITS

@@ -60,6 +60,8 @@ def best_pair(
 
 def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
     """Whether two effects do so much better than one of them that the other has a part in it."""
+    if alone.gap**2 <= as_good(both):  # next to the noise, a part of what is left says nothing
+        return False
     little = (1.0 - NEEDED) * excess(alone)
     return explained(plain, alone) < DOMINANT or excess(both) <= little
 
