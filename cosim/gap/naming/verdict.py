@@ -73,9 +73,8 @@ def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[C
     ranking = search.on(plain.model, sketched, candidates)
     done, early = _parted(ranking)
     if plain.gap <= PLAIN_FITS:
-        if done and excess(plain) >= SEEN and _is_wave(plain, done):
-            wave = done[0]
-            return Finding("named", (wave.candidate.effect,), wave.trial, ranking, wave.trial)
+        if done and _is_wave(plain, done):
+            return _named(done[0], ranking)
         return Finding("none", (), None, ranking, plain)
     best = done[0].trial
     if best.gap > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
@@ -98,6 +97,11 @@ def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
     done = [t for t in ranking if t.trial is not None]
     early = [t for t in ranking if t.trial is None]
     return sorted(done, key=lambda t: t.trial.gap), early
+
+
+def _named(best: Tried, ranking: Sequence[Tried]) -> Finding:
+    """One effect alone."""
+    return Finding("named", (best.candidate.effect,), best.trial, ranking, best.trial)
 
 
 def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
@@ -126,7 +130,7 @@ def _with_friction_across(
     if simpler:
         simpler = replace(simpler, candidate=across[0])
         rest = [t for t in single.ranking if t.candidate.effect != PART_OF_OTHERS]
-        return Finding("named", (PART_OF_OTHERS,), simpler.trial, [simpler, *rest], simpler.trial)
+        return _named(simpler, [simpler, *rest])
     if effect == DRAGS_ASIDE or len(single.effects) > 1:
         return single
     without = search.less(best, across[0], keep=())
@@ -158,7 +162,7 @@ def _of_two(
         return single
     best = done[0]
     if _dominates(plain, done):
-        return Finding("named", (best.candidate.effect,), best.trial, ranking, best.trial)
+        return _named(best, ranking)
     nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.gap)
     return Finding("unknown", (), None, ranking, nearest)
 
@@ -178,8 +182,9 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
 
 
 def _is_wave(plain: Trial, done: Sequence[Tried]) -> bool:
-    """Whether the best effect is periodic, and alone in what it does."""
-    return bool(done[0].candidate.periodic) and _dominates(plain, done, WAVE)
+    """Whether there is something to see, and the best effect, a periodic one, alone does it."""
+    periodic = bool(done[0].candidate.periodic)
+    return periodic and excess(plain) >= SEEN and _dominates(plain, done, WAVE)
 
 
 def _dominates(plain: Trial, done: Sequence[Tried], most: float = DOES_MOST) -> bool:
