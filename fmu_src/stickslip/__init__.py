@@ -29,7 +29,7 @@ from .effects import (
     VelocityWeakening,
 )
 from .friction_law import friction_coefficient
-from .parameters import Friction, Initial, Parameters, Rig, Solver, Springs, Surface
+from .parameters import Friction, Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
 from .simulate import simulate
 from .trajectory import Trajectory
 
@@ -38,6 +38,7 @@ __all__ = [
     "CATALOGUE",
     "FilmDrag",
     "Friction",
+    "Imperfections",
     "Initial",
     "LateralFriction",
     "LoadDependence",

@@ -23,6 +23,7 @@ from .kernel.layout import (
     P_QUADRATURE,
     P_RADIUS,
     P_RATE,
+    P_RELATIVE_STIFFNESS,
     P_RIPPLE,
     P_RIPPLE_PHASE,
     P_RIPPLE_RATE,
@@ -119,6 +120,8 @@ def pack(values: dict[str, float]) -> list[float]:
     p = [0.0] * P_SIZE
     for name, slot in SLOTS.items():
         p[getattr(layout, slot)] = float(values[name])
+    departures = _imperfections(values)
+    p[P_MASS] *= 1.0 + departures["mass"]
     p[P_INERTIA] = values["rig.inertia"] or 0.5 * p[P_MASS] * p[P_RADIUS] ** 2
     p[P_NORMAL_FORCE] = p[P_MASS] * GRAVITY
     load = p[P_NORMAL_FORCE] / values["load_dependence.reference_force"]
@@ -134,7 +137,13 @@ def pack(values: dict[str, float]) -> list[float]:
     p[P_FEEDING] = float(layout.REMEMBERED if remembers else layout.MOVING)
     for i, name in enumerate(("x", "y", "phi", "vx", "vy", "omega")):
         p[P_INITIAL + i] = values[f"initial.{name}"]
+    for i, departure in enumerate(departures["start"]):
+        p[P_INITIAL + i] += departure
     _place_springs(p, values)
+    for i in range(4):
+        p[P_RELATIVE_STIFFNESS + i] = 1.0 + departures["stiffness"][i]
+    for i in range(8):
+        p[P_ANCHOR + i] += departures["anchors"][i]
     _set_curve(p, values)
     _set_surface(p, values)
     _set_scales(p)
@@ -142,6 +151,27 @@ def pack(values: dict[str, float]) -> list[float]:
     tableau = flat_tableau()
     p[P_TABLEAU : P_TABLEAU + len(tableau)] = tableau
     return p
+
+
+def _imperfections(values: dict[str, float]) -> dict[str, float | list[float]]:
+    """What this rig departs by from the drawing: relative, relative, m, (m, m, rad).
+
+    Normally distributed, cut at three standard deviations. The draws are the same whichever of
+    them is switched on.
+    """
+    draw = Random(int(values["imperfections.seed"]))
+
+    def departures(deviation: float, count: int) -> list[float]:
+        return [deviation * max(-3.0, min(3.0, draw.gauss(0.0, 1.0))) for _ in range(count)]
+
+    place = values["imperfections.start_position"]
+    turn = radians(values["imperfections.start_angle_deg"])
+    return {
+        "mass": departures(values["imperfections.mass"], 1)[0],
+        "stiffness": departures(values["imperfections.spring_stiffness"], 4),
+        "anchors": departures(values["imperfections.anchor_position"], 8),
+        "start": departures(place, 2) + departures(turn, 1),
+    }
 
 
 def _set_melting(p: list[float], values: dict[str, float]) -> None:

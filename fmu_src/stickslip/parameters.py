@@ -142,6 +142,28 @@ class Initial(Block):
     omega: float = quantity(0.0, "rad/s", "angular velocity")
 
 
+class Imperfections(Block):
+    """What a real rig departs by from its drawing: drawn at random, the same for the same seed.
+
+    Each is the standard deviation of a normal distribution that is cut at three of them.
+    """
+
+    seed: int = quantity(1, "1", "which rig it is", ge=0, le=2**31 - 1)
+    mass: float = quantity(0.0, "1", "of the block's mass, part of it", ge=0, le=0.1)
+    spring_stiffness: float = quantity(
+        0.0, "1", "of the stiffness of each of the four springs, part of it", ge=0, le=0.2
+    )
+    anchor_position: float = quantity(
+        0.0, "m", "of the place, in x and in y, at which each spring is held", ge=0, le=0.02
+    )
+    start_position: float = quantity(
+        0.0, "m", "of x and of y at the start, on top of [initial]", ge=0, le=0.02
+    )
+    start_angle_deg: float = quantity(
+        0.0, "deg", "of the rotation at the start, on top of [initial]", ge=0, le=10
+    )
+
+
 class Solver(Block):
     """Internal integrator."""
 
@@ -162,6 +184,7 @@ class Parameters(EffectBlocks):
     friction: Friction = Friction()
     surface: Surface = Surface()
     initial: Initial = Initial()
+    imperfections: Imperfections = Imperfections()
     solver: Solver = Solver()
 
     @model_validator(mode="after")

@@ -149,7 +149,8 @@ P_SATURATING = 579  # growth of mu_s that a long hold comes to
 P_SATURATION_TIME = 580  # s
 P_STICK_CREEP = 581  # sliding speed of a stick per load, m/(s N), see stick
 P_NEUTRAL = 582  # extension of a spring at which its cubic term vanishes, m
-P_SIZE = 583
+P_RELATIVE_STIFFNESS = 583  # of each spring: what its force is multiplied by, see imperfections
+P_SIZE = 587
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4

@@ -14,6 +14,7 @@ from .layout import (
     P_DAMPING_ROTATION,
     P_NATURAL_LENGTH,
     P_NEUTRAL,
+    P_RELATIVE_STIFFNESS,
     P_STIFFNESS,
     PHI,
     VX,
@@ -110,7 +111,8 @@ def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
         dx = p[P_ANCHOR + 2 * i] - x - arm_x
         dy = p[P_ANCHOR + 2 * i + 1] - y - arm_y
         length = sqrt(dx * dx + dy * dy)
-        pull = spring_tension(p, length - p[P_NATURAL_LENGTH]) / length
+        tension = p[P_RELATIVE_STIFFNESS + i] * spring_tension(p, length - p[P_NATURAL_LENGTH])
+        pull = tension / length
         force_x += pull * dx
         force_y += pull * dy
         moment += pull * (arm_x * dy - arm_y * dx)
@@ -149,7 +151,8 @@ def elastic_energy(p: "float[:]", z: "float[:]", block: int) -> float:
     """Elastic energy of the four springs at a block of ``z``, J."""
     energy = 0.0
     for i in range(4):
-        energy += spring_energy(p, spring_length(p, z, block, i) - p[P_NATURAL_LENGTH])
+        extension = spring_length(p, z, block, i) - p[P_NATURAL_LENGTH]
+        energy += p[P_RELATIVE_STIFFNESS + i] * spring_energy(p, extension)
     return energy
 
 

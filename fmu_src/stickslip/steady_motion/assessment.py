@@ -1,0 +1,95 @@
+"""What a run's motion is worth: could a rig make it, and does another exist beside it?"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..parameters import Parameters
+from .live import RunEnded
+from .pretension import COARSE, PretensionBorders, pretension_borders
+from .regimes import Regime, coexisting, regimes
+from .stability import Stability, stability
+
+#: Longest part at constant speed that is looked at: s, and in natural periods.
+LONGEST, PERIODS = 60.0, 40.0
+#: Time after which borders that are not found yet are not looked for any longer, s.
+PATIENCE = 20.0
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """Stability, regimes, and the pretension that would be stable.
+
+    Attributes
+    ----------
+    stability : of the straight motion, or of the run's own where the rig has no straight one
+    regimes : by the names of `regimes.STARTS`, the scenario's own first
+    pretension : m, as it is
+    borders : pretensions at which the motion is unstable; None where that takes too long
+    """
+
+    stability: Stability
+    regimes: dict[str, Regime]
+    pretension: float
+    borders: PretensionBorders | None
+
+    @property
+    def coexisting(self) -> dict[str, Regime]:
+        """Regimes from other starts that differ from the run's own."""
+        return coexisting(self.regimes)
+
+
+def assess(
+    parameters: Parameters,
+    duration: float = 30.0,
+    temperature: float | None = None,
+    *,
+    patience: float = PATIENCE,
+) -> Assessment | None:
+    """Assess a run of ``duration`` (s); of its part at constant speed at most a minute or 40 swings.
+
+    temperature: of the interface, degC; left out, the reference of temperature_dependence.
+    patience: time for each of two parts of the work, s. None where the contact follows
+    rate_and_state, whose runs take too long to be repeated, and where the motion ends before
+    ``duration``.
+    """
+    law = parameters.rate_and_state
+    if law.direct != 0.0 or law.evolution != 0.0:
+        return None
+    ramp = parameters.surface.run_up_time
+    longest = max(LONGEST, PERIODS / max(parameters.natural_frequency, 0.1))
+    duration = min(duration, ramp + longest)
+    if duration <= ramp:
+        return None
+    try:
+        return Assessment(
+            stability(parameters, duration, temperature),
+            regimes(parameters, duration, temperature),
+            parameters.rig.spring_length - parameters.rig.spring_natural_length,
+            _borders(parameters, duration, temperature, patience),
+        )
+    except RunEnded:
+        return None
+
+
+def _borders(parameters, duration, temperature, patience: float) -> PretensionBorders | None:
+    if parameters.rig.degrees_of_freedom == ("x",) or parameters.springs.stiffness == 0.0:
+        return PretensionBorders(())
+    try:
+        return pretension_borders(parameters, duration, temperature, step=COARSE,
+                                  look=_deadline(patience))
+    except TimeoutError:
+        return None
+
+
+def _deadline(patience: float) -> Callable[[], None]:
+    """What raises TimeoutError when it is called after ``patience`` (s)."""
+    end = time.monotonic() + patience
+
+    def look() -> None:
+        if time.monotonic() > end:
+            raise TimeoutError
+
+    return look

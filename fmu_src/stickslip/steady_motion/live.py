@@ -1,0 +1,94 @@
+"""A run that can be copied, disturbed and continued: what stability is measured with."""
+
+from __future__ import annotations
+
+from typing import Self
+
+import numpy as np
+
+from ..compiled import compiled_kernel
+from ..kernel.layout import (
+    DONE,
+    E_CAPACITY,
+    E_FIRST,
+    E_WIDTH,
+    MODE,
+    SHOWN,
+    STICK,
+    TIME,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    W_SIZE,
+    Z_HAS_NEXT,
+    Z_SIZE,
+    Z_STARTED,
+    Z_STATUS,
+    X,
+)
+from ..kernel.status import WHY_NOT
+from ..parameters import Parameters
+
+#: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
+STATE = 6
+
+
+class RunEnded(ValueError):
+    """The motion cannot be followed any further; the message says when and why."""
+
+
+class LiveRun:
+    """The compiled kernel at one moment of a run.
+
+    Everything that the run remembers is in it, so that a copy goes on exactly as the original
+    would. temperature: of the interface, degC; left out, the reference of temperature_dependence.
+    """
+
+    def __init__(self, parameters: Parameters, temperature: float | None = None) -> None:
+        if temperature is None:
+            temperature = parameters.temperature_dependence.reference_degC
+        self._kernel = compiled_kernel()
+        self._p, self._u = np.array(parameters.pack()), np.zeros(U_SIZE)
+        self._u[U_SPEED], self._u[U_TEMPERATURE] = parameters.surface.speed, temperature
+        self._z, self._w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
+        self._e = np.zeros(E_FIRST + E_WIDTH)
+        self._e[E_CAPACITY] = 1.0
+        self._kernel.initialise(self._p, self._z, 0.0)
+
+    @property
+    def time(self) -> float:
+        """s"""
+        return float(self._z[SHOWN + TIME])
+
+    @property
+    def state(self) -> np.ndarray:
+        """(6,) x, y, phi, vx, vy, omega; a copy."""
+        return self._z[SHOWN + X : SHOWN + X + STATE].copy()
+
+    @property
+    def sticks(self) -> bool:
+        """Does the contact hold?"""
+        return bool(self._z[SHOWN + MODE] == STICK)
+
+    def copy(self) -> Self:
+        """The same moment, to go another way from."""
+        twin = object.__new__(type(self))
+        twin.__dict__ = self.__dict__ | {"_z": self._z.copy()}
+        return twin
+
+    def advance(self, time: float) -> Self:
+        """Go on to ``time`` (s). RunEnded where that cannot be."""
+        arrays = self._p, self._u, self._z, self._w, self._e
+        if self._kernel.advance(*arrays, time) != DONE:
+            raise RunEnded(f"at t = {self.time:.9g} s: {WHY_NOT[self._z[Z_STATUS]]}")
+        return self
+
+    def displace(self, change: np.ndarray) -> Self:
+        """Add ``change`` (6,) to the state; a contact that holds keeps the surface's velocity."""
+        p, u, z, w = self._p, self._u, self._z, self._w
+        z[SHOWN + X : SHOWN + X + STATE] += change
+        if self.sticks:
+            self._kernel.look_at(p, u, z, w, SHOWN)
+            self._kernel.follow_surface(p, u, z, w, SHOWN, 0.0)
+        z[Z_STARTED], z[Z_HAS_NEXT] = 0.0, 0.0
+        return self.advance(self.time)

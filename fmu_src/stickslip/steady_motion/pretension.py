@@ -1,0 +1,80 @@
+"""How far the springs must be stretched for a block to keep to its line.
+
+Springs without pretension push sideways where they are compressed, and turn the block away from the
+line on which friction drags it. Pretension holds it there, as the tension of a string does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import bisect
+
+from ..parameters import Parameters
+from .stability import CLOSE_TO_ONE, stability
+
+#: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
+FINE, COARSE, MOST = 0.005, 0.01, 0.30
+#: To which the borders are found, m.
+RESOLUTION = 1e-5
+
+
+@dataclass(frozen=True)
+class PretensionBorders:
+    """Extensions of the springs as installed at which a motion is unstable.
+
+    windows : (begin, end), m, growing; an end of None is beyond what was looked at, `MOST` of the
+        installed length. A window narrower than a step of the search can be missed.
+    """
+
+    windows: tuple[tuple[float, float | None], ...]
+
+    @property
+    def least(self) -> float | None:
+        """Least pretension that is not unstable, m; None where there is none."""
+        if not self.windows or self.windows[0][0] > 0.0:
+            return 0.0
+        return self.windows[0][1]
+
+    @property
+    def further(self) -> tuple[tuple[float, float | None], ...]:
+        """Windows of instability above `least`."""
+        return tuple(window for window in self.windows if window[0] > 0.0)
+
+
+def pretension_borders(
+    parameters: Parameters,
+    duration: float = 30.0,
+    temperature: float | None = None,
+    *,
+    step: float = FINE,
+    look: Callable[[], None] = lambda: None,
+) -> PretensionBorders:
+    """Where a run of ``duration`` (s) is unstable, everything but the pretension as given.
+
+    temperature: of the interface, degC; left out, the reference of temperature_dependence. step: of
+    the search, part of the installed length. look: called before each pretension; may raise.
+    Raises `live.RunEnded` where a motion cannot be followed.
+    """
+
+    def excess(pretension: float) -> float:
+        look()
+        changed = with_pretension(parameters, pretension)
+        return stability(changed, duration, temperature).growth - 1.0 - CLOSE_TO_ONE
+
+    steps = parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)
+    unstable = [excess(step) > 0.0 for step in steps]
+    borders = [0.0] if unstable[0] else []
+    for i in np.flatnonzero(np.diff(unstable)):
+        borders.append(float(bisect(excess, steps[i], steps[i + 1], xtol=RESOLUTION)))
+    ends = [*borders[1::2], None] if unstable[-1] else borders[1::2]
+    return PretensionBorders(tuple(zip(borders[::2], ends, strict=True)))
+
+
+def with_pretension(parameters: Parameters, pretension: float) -> Parameters:
+    """The same rig, its springs stretched by ``pretension`` (m) as installed."""
+    rig = parameters.rig
+    changed = rig.model_copy(update={"spring_natural_length": rig.spring_length - pretension})
+    return parameters.model_copy(update={"rig": changed})
