@@ -84,6 +84,7 @@ class StickSlip3DOF(Fmi2Slave):
         self._register_parameters()
         self.phase = "instantiated"  # then "initialising", "stepping", "terminated"
         self.failure = ""
+        self.said_to_creep = False
         self.tolerance = None
         self.start = self.time = 0.0
         self.stepped = False  # before the first step all follows from parameters and inputs
@@ -201,7 +202,20 @@ class StickSlip3DOF(Fmi2Slave):
             raise
         self.time = current_time + step_size
         self.stepped = True
+        self._say_if_creeping()
         return True
+
+    def _say_if_creeping(self):
+        """Warn, once, of a surface that a stick's creep keeps up with: it would stick for ever."""
+        creep, speed = self.p[layout.P_STICK_CREEP], abs(self.u[layout.U_SPEED])
+        creep *= max(self.p[layout.P_MU_S], self.p[layout.P_MU_K]) * self.p[layout.P_NORMAL_FORCE]
+        if not self.said_to_creep and 0.0 < speed <= creep:
+            self.said_to_creep = True
+            self.log(
+                f"surface_speed = {speed:g} m/s is not above friction.stick_creep = {creep:g} m/s: "
+                "the contact creeps as fast as the surface and never breaks away; its mode stays 0",
+                Fmi2Status.warning,
+            )
 
     def _check_step(self, time, size):
         if not (isfinite(time) and isfinite(size)):

@@ -38,6 +38,10 @@ STUDIES = {
         "the source study's claims C1 to C15, each with its number, ours, and a verdict",
         "stickslip reproduce C6 C13 -o results/claims",
     ),
+    "stability": (
+        "which steady motions a rig has, and which it can keep to: maps and a page",
+        "stickslip stability study --grid 20 -o results/stability",
+    ),
     "sweep": (
         "parameter sweep: every combination of some values",
         "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82",
@@ -50,6 +54,7 @@ STUDY_MODULES = {
     "friction-map": "cosim.studies.friction_regimes_command",
     "gap": "cosim.gap_command",
     "reproduce": "cosim.studies.reproduction_command",
+    "stability": "cosim.studies.stability_command",
     "sweep": "cosim.studies.sweep_command",
 }
 

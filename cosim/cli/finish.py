@@ -10,9 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
+from stickslip.steady_motion.regimes import CREEPING, OWN
+from stickslip.steady_motion.stability import UNSTABLE
 
 from cosim.cli.patience import Patience
 from cosim.cli.progress import progress_over_files
+from cosim.motion_words import regime_sentence, unstable_line
 from cosim.report import Views, summary, write_results
 
 COMPLETE = "complete"
@@ -79,8 +82,21 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
                 if sink != "melting" or shares.get(sink)
             ),
         ]
+    lines += _assessed_lines(numbers)
     lines.append(f"  ledgers      {_ledger_line(ledgers)}")
     lines.append(f"  results      {folder / 'report.html'} and beside it")
+    return lines
+
+
+def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
+    """A line where no rig could make this motion, and one where another exists beside it."""
+    if "stability" not in numbers:
+        return []
+    lines = []
+    if numbers["stability"]["verdict"] == UNSTABLE:
+        lines.append(f"  unstable     {unstable_line(numbers)}")
+    if numbers["other_regimes"] or numbers["regimes"][OWN]["name"] == CREEPING:
+        lines.append(f"  regimes      {regime_sentence(numbers)}")
     return lines
 
 

@@ -6,6 +6,7 @@ import time
 from argparse import Namespace
 from pathlib import Path
 
+from cosim.cli.assessing import attach, compile_model
 from cosim.cli.errors import BadInput, refusing
 from cosim.cli.files import results_folder, scenario_to_run, writable_folder
 from cosim.cli.finish import finish
@@ -28,6 +29,7 @@ def main(arguments: Namespace) -> int:
     scenario = scenario_to_run(arguments.scenario, coupled=True)
     folder = results_folder(arguments.output, scenario)
     fields = writable_folder(folder / FIELDS, ())
+    compile_model()
     with patient_interrupts() as patience:
         with progress_over(scenario.run.duration) as show:
 
@@ -39,6 +41,7 @@ def main(arguments: Namespace) -> int:
                             views=arguments.animation)
         patience.hold()
         dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
+        attach(dataset, scenario, patience)
         return finish(dataset, folder, began, patience, _field_files(done, folder),
                       views=done.snapshots.views)
 

@@ -6,13 +6,12 @@ import time
 from argparse import Namespace
 
 from stickslip import Trajectory, simulate
-from stickslip.compiled import compiled_kernel
 
+from cosim.cli.assessing import attach, compile_model
 from cosim.cli.files import results_folder, scenario_to_run
 from cosim.cli.finish import finish
 from cosim.cli.patience import Patience, patient_interrupts
 from cosim.cli.progress import progress_over
-from cosim.interrupts import held_interrupts
 from cosim.report import trajectory_dataset
 from cosim.scenario import Scenario
 
@@ -22,13 +21,13 @@ def main(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario = scenario_to_run(arguments.scenario, coupled=False)
     folder = results_folder(arguments.output, scenario)
-    with held_interrupts():
-        compiled_kernel()
+    compile_model()
     with patient_interrupts() as patience:
         start = time.perf_counter()
         trajectory = _simulated(scenario, patience)
         stepped = time.perf_counter() - start
         dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
+        attach(dataset, scenario, patience)
         return finish(dataset, folder, began, patience)
 
 

@@ -10,7 +10,9 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from cosim.inline import inline
+from cosim.motion_words import STARTS, regime_sentence, stability_sentence
 
+from .assessment import REGIME_UNITS
 from .blocks import stored_blocks
 from .figures import Plate
 from .style import DPI
@@ -59,6 +61,8 @@ def page(
         ledgers=list(ledgers(numbers)),
         tables=list(number_tables(numbers)),
         temperatures=temperature_rows(numbers),
+        assessed=assessed(numbers),
+        regimes=regime_rows(numbers),
         figures=figures,
         blocks=parameter_tables(dataset),
         files=own | dict(files or {}),
@@ -100,6 +104,22 @@ def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
     for name, title in titles.items():
         if name in numbers:
             yield Table(title, _rows(numbers, name, numbers[name]))
+
+
+def assessed(numbers: Mapping[str, Any]) -> list[str]:
+    """Sentences on stability and regimes; none for a run that was not assessed."""
+    if "stability" not in numbers:
+        return []
+    return [stability_sentence(numbers), regime_sentence(numbers)]
+
+
+def regime_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Start, regime, and what the motion is like, of the run's own start and of the others."""
+    return [
+        (STARTS[start], regime["name"],
+         *(_told(numbers, f"regimes.{start}.{key}") for key in REGIME_UNITS))
+        for start, regime in numbers.get("regimes", {}).items()
+    ]
 
 
 def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:

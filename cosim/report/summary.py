@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from .assessment import assessment_numbers
 from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, temperatures
 from .motion_numbers import after_run_up, whole_run
 from .quantities import Quantity, ratio, split_units
@@ -52,6 +53,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         numbers["temperatures"] = temperatures(dataset)
     numbers["after_run_up"] = after_run_up(dataset)
     numbers["whole_run"] = whole_run(dataset)
+    numbers |= assessment_numbers(dataset) or {}
     return numbers
 
 

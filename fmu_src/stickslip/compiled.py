@@ -44,12 +44,17 @@ def kernel_source() -> str:
     return "\n".join(parts)
 
 
+def is_cached() -> bool:
+    """Has machine code of this kernel been made on this machine before?"""
+    name = _name(kernel_source())
+    return any(next((folder / "__pycache__").glob(f"{name}*.nbi"), None) for folder in _folders())
+
+
 @cache
 def compiled_kernel() -> ModuleType:
     """The kernel as a module of numba functions; machine code is cached between processes."""
     source = kernel_source()
-    key = f"{source}{OPTIONS}"  # numba's cache does not know with which options it was filled
-    name = "stickslip_kernel_" + hashlib.sha256(key.encode()).hexdigest()[:16]
+    name = _name(source)
     spec = importlib.util.spec_from_file_location(name, _write_module(name, source))
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # numba's cache finds the functions again by this name
@@ -60,9 +65,19 @@ def compiled_kernel() -> ModuleType:
     return module
 
 
+def _name(source: str) -> str:
+    key = f"{source}{OPTIONS}"  # numba's cache does not know with which options it was filled
+    return "stickslip_kernel_" + hashlib.sha256(key.encode()).hexdigest()[:16]
+
+
+def _folders() -> tuple[Path, ...]:
+    """Where numba may keep its cache, the preferred first."""
+    return platformdirs.user_cache_path("stickslip"), Path(tempfile.gettempdir())
+
+
 def _write_module(name: str, source: str) -> Path:
     """Write the module where numba may keep its cache beside it; processes may race for it."""
-    for folder in (platformdirs.user_cache_path("stickslip"), Path(tempfile.gettempdir())):
+    for folder in _folders():
         path = folder / f"{name}.py"
         if path.exists() and path.read_text(encoding="utf-8") == source:
             return path

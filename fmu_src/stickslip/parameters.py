@@ -200,6 +200,13 @@ class Parameters(EffectBlocks):
                 f"friction.stick_creep = {self.friction.stick_creep:g} m/s beside rate_and_state, "
                 "whose contact creeps by its own law; give one of the two"
             )
+        speed = abs(self.surface.speed)
+        if 0.0 < speed <= self.friction.stick_creep:
+            raise ValueError(
+                f"friction.stick_creep = {self.friction.stick_creep:g} m/s is not below "
+                f"surface.speed = {speed:g} m/s: the contact would creep as fast as the surface, "
+                "and stick while it slides; allowed is less than the surface's speed"
+            )
         if self.friction.mu_k > self.friction.mu_s:
             warnings.warn(
                 f"friction.mu_k = {self.friction.mu_k:g} exceeds friction.mu_s = "

@@ -25,6 +25,7 @@ WIDTHS = {
     "P_CURVE": 16 * layout.CURVE_WIDTH,
     "P_SCATTER_WAVES": 2 * layout.WAVES,
     "P_INITIAL": 2 * MOTION,
+    "P_RELATIVE_STIFFNESS": 4,
     "P_QUADRATURE": len(quadrature_tables()),
     "P_TABLEAU": layout.T_D + layout.EXTRA_POWERS * layout.ALL_STAGES,
     "W_STATE": layout.BLOCK,

@@ -12,8 +12,8 @@ fastest that the block comes to is its first velocity peak, so that it sticks at
 
 without damping, where v <= F_k/(m omega). Riding on the belt it breaks away at (F_s - c v)/K with
 the speed v; without damping and with F_s > F_k it then always comes back to that speed. On a belt
-that runs up as v t/t_r stick and slip follow one another as long as a slip catches up with the belt,
-which grows faster by v/t_r all the while: the sequence is worked off piece by piece.
+that runs up as v t/t_r stick and slip follow one another as long as a slip catches up with the
+belt, which grows faster by v/t_r all the while: the sequence is worked off piece by piece.
 """
 
 from __future__ import annotations

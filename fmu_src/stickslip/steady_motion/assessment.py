@@ -46,45 +46,34 @@ def assess(
     duration: float = 30.0,
     temperature: float | None = None,
     *,
-    patience: float = PATIENCE,
+    look: Callable[[], None] | None = None,
 ) -> Assessment | None:
-    """Assess a run of ``duration`` (s); of its part at constant speed at most a minute or 40 swings.
+    """Assess a run of ``duration`` (s), of which at most a minute, or 40 swings, at constant speed.
 
     temperature: of the interface, degC; left out, the reference of temperature_dependence.
-    patience: time for each of two parts of the work, s. None where the contact follows
-    rate_and_state, whose runs take too long to be repeated, and where the motion ends before
-    ``duration``.
+    look: called between runs, and raises TimeoutError when there is no time for more; left out, it
+    does so after `PATIENCE`. None where the contact follows rate_and_state, whose runs take too
+    long to be repeated, where the motion ends early, and where there is no time.
     """
     law = parameters.rate_and_state
-    if law.direct != 0.0 or law.evolution != 0.0:
-        return None
     ramp = parameters.surface.run_up_time
-    longest = max(LONGEST, PERIODS / max(parameters.natural_frequency, 0.1))
-    duration = min(duration, ramp + longest)
-    if duration <= ramp:
+    duration = min(duration, ramp + max(LONGEST, PERIODS / max(parameters.natural_frequency, 0.1)))
+    if law.direct != 0.0 or law.evolution != 0.0 or duration <= ramp:
         return None
+    look = look or deadline(PATIENCE)
     try:
+        look()
         return Assessment(
             stability(parameters, duration, temperature),
             regimes(parameters, duration, temperature),
             parameters.rig.spring_length - parameters.rig.spring_natural_length,
-            _borders(parameters, duration, temperature, patience),
+            _borders(parameters, duration, temperature, look),
         )
-    except RunEnded:
+    except (RunEnded, TimeoutError):
         return None
 
 
-def _borders(parameters, duration, temperature, patience: float) -> PretensionBorders | None:
-    if parameters.rig.degrees_of_freedom == ("x",) or parameters.springs.stiffness == 0.0:
-        return PretensionBorders(())
-    try:
-        return pretension_borders(parameters, duration, temperature, step=COARSE,
-                                  look=_deadline(patience))
-    except TimeoutError:
-        return None
-
-
-def _deadline(patience: float) -> Callable[[], None]:
+def deadline(patience: float) -> Callable[[], None]:
     """What raises TimeoutError when it is called after ``patience`` (s)."""
     end = time.monotonic() + patience
 
@@ -93,3 +82,12 @@ def _deadline(patience: float) -> Callable[[], None]:
             raise TimeoutError
 
     return look
+
+
+def _borders(parameters, duration, temperature, look) -> PretensionBorders | None:
+    if parameters.rig.degrees_of_freedom == ("x",) or parameters.springs.stiffness == 0.0:
+        return PretensionBorders(())
+    try:
+        return pretension_borders(parameters, duration, temperature, step=COARSE, look=look)
+    except (RunEnded, TimeoutError):
+        return None

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .live import RunEnded
 from ..parameters import Parameters
 from ..simulate import simulate
 from ..trajectory import Trajectory, slip_share
+from .live import RunEnded
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
 OWN, REST, RIDING, RAMP = "own", "rest", "riding", "ramp"

@@ -18,10 +18,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from .live import LiveRun, RunEnded
 from ..parameters import Parameters
 from ..simulate import simulate
 from ..trajectory import Trajectory
+from .live import LiveRun, RunEnded
 
 STABLE, NEUTRAL, UNSTABLE, GUIDED = "stable", "neutral", "unstable", "guided"
 #: Multipliers this close to 1 are told as 1: what grows by e in a thousand cycles is in no run.

@@ -1,0 +1,45 @@
+"""The motion of a run, assessed: whether a rig could make it, and what exists beside it."""
+
+from __future__ import annotations
+
+import sys
+
+import xarray as xr
+from stickslip import Parameters, simulate
+from stickslip.compiled import is_cached
+from stickslip.steady_motion import assess
+from stickslip.steady_motion.assessment import PATIENCE, deadline
+
+from cosim.cli.patience import Patience
+from cosim.report.assessment import attach_assessment
+from cosim.scenario import Scenario
+
+
+def compile_model() -> None:
+    """Have the compiled mechanics ready; says so where that takes a while."""
+    if not is_cached():
+        print("compiling the mechanical model for this machine; once, up to half a minute",
+              file=sys.stderr)
+    simulate(Parameters(), 1e-3, 1e-3)
+
+
+def attach(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:
+    """Let a complete run's dataset carry the assessment of its motion.
+
+    Friction that feels the interface has it at the temperature of the run's end. A Ctrl-C that came
+    in the meantime ends the work: what was computed goes to disk without it.
+    """
+    if dataset.attrs["status"] != "complete":
+        return
+    temperature = scenario.ambient.temperature_degC
+    if "interface_temperature" in dataset:
+        temperature = float(dataset["interface_temperature"].values[-1])
+    in_time = deadline(PATIENCE)
+
+    def look() -> None:
+        if patience.requested:
+            raise TimeoutError
+        in_time()
+
+    attach_assessment(
+        dataset, assess(scenario.mechanics, scenario.run.duration, temperature, look=look))

@@ -1,0 +1,54 @@
+"""Growth of small disturbances over pretension and speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from stickslip import Parameters
+from stickslip.steady_motion import RunEnded, stability, with_pretension
+from stickslip.steady_motion.regimes import regime_of
+
+from .case import Case, at_speed, run_length
+
+
+@dataclass(frozen=True)
+class PretensionMap:
+    """growth (n, m): largest multiplier of a cycle at pretensions (n,) m and speeds (m,) m/s.
+
+    sticks (n, m): whether the block sticks there. NaN: not computed, or no motion that can be
+    followed.
+    """
+
+    pretensions: np.ndarray
+    speeds: np.ndarray
+    growth: np.ndarray
+    sticks: np.ndarray
+
+
+def pretension_map(
+    case: Case, pretensions: np.ndarray, speeds: np.ndarray, done: Callable[[int], object]
+) -> PretensionMap:
+    """The map around a case; ``done`` is called with 1 after each cell."""
+    growth = np.full((len(pretensions), len(speeds)), np.nan)
+    sticks = growth.copy()
+    for j, speed in enumerate(speeds):
+        moving = at_speed(case.parameters, speed)
+        for i, pretension in enumerate(pretensions):
+            parameters = with_pretension(moving, pretension)
+            growth[i, j], sticks[i, j] = _cell(parameters, case.temperature)
+            done(1)
+    return PretensionMap(np.asarray(pretensions), np.asarray(speeds), growth, sticks)
+
+
+def _cell(parameters: Parameters, temperature: float) -> tuple[float, float]:
+    """Growth, and 1 where the block sticks on its line, else 0; NaN where it cannot be followed."""
+    rig = parameters.rig.model_copy(update={"degrees_of_freedom": ("x",)})
+    guided = parameters.model_copy(update={"rig": rig})
+    duration = run_length(parameters)
+    try:
+        growth = stability(parameters, duration, temperature).growth
+        return growth, float(regime_of(guided, duration, temperature).slip_share < 1.0)
+    except RunEnded:
+        return np.nan, np.nan
