@@ -12,6 +12,8 @@ from typing import Any
 from stickslip.steady_motion.regimes import CREEPING, OWN, STARTS
 from stickslip.steady_motion.stability import GUIDED, NEUTRAL, UNSTABLE
 
+#: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
+MUCH = 100.0
 EXPLAINED = {
     "stick-slip": "sticks and slips",
     "sliding": "slides without ever sticking",
@@ -29,7 +31,8 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
     if found["verdict"] != UNSTABLE:
         fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
         return (f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
-                f"{fares}, by the factor {found['growth']:.3g} in a cycle.{_further(found)}")
+                f"{fares}, by the factor {found['growth']:.3g} in a cycle. "
+                f"{run_up_sentence(numbers)}".rstrip() + _further(found))
     return (
         f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
         f"{found['time_to_grow']:.3g} s, and no rig is without one.{_remedy(found)}"
@@ -55,6 +58,15 @@ def _remedy(found: Mapping[str, Any]) -> str:
         return " No pretension that was tried makes it stable."
     return (f" Springs stretched by {1e3 * least:.3g} mm as installed would hold the block to it; "
             f"they are by {1e3 * found['pretension']:.3g} mm.")
+
+
+def run_up_sentence(numbers: Mapping[str, Any]) -> str:
+    """What the way to a stable motion makes of a disturbance, where that is much; else nothing."""
+    amplification = numbers["stability"]["amplification"] or 0.0
+    if amplification < MUCH:
+        return ""
+    return (f"On the way there, in the run-up, a disturbance grows up to {amplification:.2g} "
+            "times: a rig that is not as drawn may have swerved by then, and stay there.")
 
 
 def _further(found: Mapping[str, Any]) -> str:

@@ -17,7 +17,7 @@ from cosim.scenario import Scenario
 
 def compile_model() -> None:
     """Have the compiled mechanics ready; says so where that takes a while."""
-    if not is_cached():
+    if sys.stderr.isatty() and not is_cached():
         print("compiling the mechanical model for this machine; once, up to half a minute",
               file=sys.stderr)
     simulate(Parameters(), 1e-3, 1e-3)

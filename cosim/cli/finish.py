@@ -15,7 +15,7 @@ from stickslip.steady_motion.stability import UNSTABLE
 
 from cosim.cli.patience import Patience
 from cosim.cli.progress import progress_over_files
-from cosim.motion_words import regime_sentence, unstable_line
+from cosim.motion_words import regime_sentence, run_up_sentence, unstable_line
 from cosim.report import Views, summary, write_results
 
 COMPLETE = "complete"
@@ -95,6 +95,8 @@ def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
     lines = []
     if numbers["stability"]["verdict"] == UNSTABLE:
         lines.append(f"  unstable     {unstable_line(numbers)}")
+    elif way := run_up_sentence(numbers):
+        lines.append(f"  unstable     {way}")
     if numbers["other_regimes"] or numbers["regimes"][OWN]["name"] == CREEPING:
         lines.append(f"  regimes      {regime_sentence(numbers)}")
     return lines

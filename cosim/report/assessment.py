@@ -10,7 +10,7 @@ import xarray as xr
 from stickslip.steady_motion import Assessment
 from stickslip.steady_motion.regimes import OWN
 
-from .quantities import Quantity
+from .quantities import Quantity, finite
 
 ATTRIBUTE = "assessment"
 REGIME_UNITS = {
@@ -30,6 +30,7 @@ def attach_assessment(dataset: xr.Dataset, assessment: Assessment | None) -> Non
         "growth": assessment.stability.growth,
         "cycle": assessment.stability.period,
         "time_to_grow": assessment.stability.time_to_grow,
+        "amplification": finite(assessment.stability.amplification),
         "pretension": assessment.pretension,
         "least_pretension": None if borders is None else borders.least,
         "unstable_pretensions": None if borders is None else borders.windows,
@@ -51,6 +52,7 @@ def assessment_numbers(dataset: xr.Dataset) -> dict[str, Any] | None:
             "growth": Quantity(found["growth"], "1"),
             "cycle": Quantity(found["cycle"], "s"),
             "time_to_grow": Quantity(found["time_to_grow"], "s"),
+            "amplification": Quantity(found["amplification"], "1"),
             "pretension": Quantity(found["pretension"], "m"),
             "least_pretension": Quantity(found["least_pretension"], "m"),
             "unstable_pretensions": found["unstable_pretensions"],

@@ -28,6 +28,8 @@ def as_json(
             "growth": case.stability.growth,
             "cycle": case.stability.period,
             "time_to_grow": case.stability.time_to_grow,
+            "amplification": case.stability.amplification
+            if math.isfinite(case.stability.amplification) else None,
             "pretension": rig.spring_length - rig.spring_natural_length,
             "least_pretension": case.borders.least,
             "unstable_pretensions": case.borders.windows,

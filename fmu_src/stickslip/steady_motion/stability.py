@@ -29,6 +29,8 @@ CLOSE_TO_ONE = 1e-3
 #: Disturbance, m: the model's own error, some 1e-11, is a hundred-thousandth of it, and so are the
 #: terms of third order.
 DISTURBANCE = 1e-6
+#: Of the start, m: far above rounding, and free to grow by a factor of millions.
+START = 1e-9
 #: Cycles are the same where they last equally long to this part; then one is enough. Where they are
 #: not, as many are multiplied as there are, up to so many.
 SAME, CYCLES = 1e-3, 32
@@ -45,12 +47,15 @@ class Stability:
     multipliers : (n,) moduli of the multipliers of one cycle, the largest first; n = 2 for each of
         y and phi that is free, none where the rig guides the block
     period : of a cycle, s
+    amplification : what a disturbance of the start grows by at most in the whole run, its run-up
+        included; NaN where the run's own motion was looked at
     straight : whether the motion along the x axis was looked at, as of a rig without imperfections
         that starts on its line; else the run's own motion, of a rig that has no such line
     """
 
     multipliers: np.ndarray
     period: float
+    amplification: float
     straight: bool
 
     @property
@@ -97,7 +102,7 @@ def stability(
     if np.ptp(lengths) < SAME * period:
         moments = moments[-2:]
     if not beside:
-        return Stability(np.empty(0), period, straight)
+        return Stability(np.empty(0), period, 0.0, straight)
     scale = _scale(parameters)[beside]
     product, cycles = np.eye(len(beside)), len(moments) - 1
     live = LiveRun(parameters, temperature)
@@ -105,7 +110,10 @@ def stability(
         live.advance(begin)
         product = _transfer(live, end, beside, scale, sticking) @ product
     moduli = np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles)
-    return Stability(np.sort(moduli)[::-1], period, straight)
+    amplified = np.nan
+    if straight:
+        amplified = _amplification(parameters, run.time, temperature)
+    return Stability(np.sort(moduli)[::-1], period, amplified, straight)
 
 
 def _has_line(parameters: Parameters) -> bool:
@@ -192,6 +200,23 @@ def _transfer(
         moved -= moved[0] * course  # compared where the surface has carried both equally far
         columns.append(moved[beside] / (2.0 * DISTURBANCE * scale))
     return np.column_stack(columns)
+
+
+def _amplification(
+    parameters: Parameters, time: np.ndarray, temperature: float | None
+) -> float:
+    """Largest distance from the line over that at the start, of a block displaced, and turned."""
+    arm, largest = parameters.rig.contact_radius, 0.0
+    for name in ("y", "phi"):
+        if name not in parameters.rig.degrees_of_freedom:
+            continue
+        start = {name: START / (arm if name == "phi" else 1.0)}
+        moved = parameters.model_copy(
+            update={"initial": parameters.initial.model_copy(update=start)})
+        run = simulate(moved, time[-1], time[1], interface_temperature=temperature)
+        far = np.hypot(run["y"], arm * run["phi"])
+        largest = max(largest, float(far.max()) / START)
+    return largest
 
 
 def _course(live: LiveRun, moment: float) -> np.ndarray:
