@@ -24,6 +24,12 @@ CASES = {
         "surface": {"speed": 0.03},
         "initial": {"vx": 0.03, "y": 0.002},
     },
+    "not as drawn": {
+        "lateral_friction": {"ratio": 1.0},
+        "rig": {"spring_natural_length": 0.17},
+        "imperfections": {"seed": 5, "mass": 0.01, "spring_stiffness": 0.02,
+                          "anchor_position": 1e-3, "start_position": 1e-3, "start_angle_deg": 1.0},
+    },
     "stiff": {"springs": {"stiffness": 9999.0}, "surface": {"speed": 0.0}},
 }
 TIMES = ("x", "y", "phi", "heat", "sliding_distance", "surface_travel")

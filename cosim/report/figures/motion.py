@@ -23,7 +23,7 @@ from ..style import (
 SMALLEST_LENGTH = 1e-4
 SMALLEST_ANGLE_DEG = 0.1
 # m or rad: below this a motion is told in words instead of drawn as a flat line
-NOTHING = 1e-9
+NOTHING = 1e-7
 COLOURS = {"x": BLUE, "y": GREEN, "phi": RED}
 
 

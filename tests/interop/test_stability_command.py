@@ -1,0 +1,73 @@
+"""`stickslip stability`, and what `run` and `simulate` say of a motion that no rig keeps to."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+SLOW = '[surface]\nspeed = 0.2\nrun_up_time = 10.0\n[rig]\nspring_natural_length = 0.17\n'
+SLOW += "[lateral_friction]\nratio = 1.0\n"
+
+
+def stickslip(folder, *arguments):
+    return subprocess.run([sys.executable, "-m", "cosim", *map(str, arguments)], cwd=folder,
+                          capture_output=True, text=True, timeout=300)
+
+
+def test_it_writes_maps_a_page_and_numbers(tmp_path):
+    done = stickslip(tmp_path, "stability", "study", "--grid", "3", "-o", "out", "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    numbers = json.loads(done.stdout)
+    assert numbers == json.loads((tmp_path / "out" / "stability.json").read_text())
+    assert numbers["stability"]["verdict"] == "unstable"
+    assert numbers["stability"]["least_pretension"] == pytest.approx(8.29e-3, abs=5e-5)
+    growth = numbers["pretension_map"]["growth"]
+    assert growth[0][0] > 1.0 > growth[2][0]  # none, and a fifth of the length
+    found = numbers["regime_map"]
+    assert set(found["simulated"]) == set(found["closed_form"]) == {"rest", "riding", "ramp"}
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert page.count("<img") == 2 and "unstable" in page
+    assert {file.name for file in (tmp_path / "out").iterdir()} == {
+        "stability.json", "report.html", "pretension_map.png", "regime_map.png"}
+
+
+def test_a_run_on_an_unstable_path_says_so(tmp_path):
+    done = stickslip(tmp_path, "simulate", "study", "-o", "out")
+    assert done.returncode == 0
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("  unstable")]
+    assert "tenfold in 3.78 s" in line and "stable from 8.29 mm" in line
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["stability"]["verdict"] == "unstable"
+    assert summary["units"]["stability.least_pretension"] == "m"
+    assert "is unstable" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
+    (tmp_path / "fast.toml").write_text(SLOW)
+    done = stickslip(tmp_path, "simulate", "fast.toml", "-o", "out")
+    assert done.returncode == 0 and "  unstable" not in done.stdout
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("  regimes")]
+    assert "slides without ever sticking" in line and "riding on a surface" in line
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["other_regimes"] == ["riding"]
+    assert summary["regimes"]["riding"]["name"] == "stick-slip"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["stability", "--grid", "1"], "--grid = 1: must be at least 2, or 0 for none"),
+        (["stability", "still.toml"], "still: surface.speed = 0: needed is a surface that moves"),
+        (["stability", "free.toml"], "free: springs.stiffness = 0: needed are springs"),
+        (["stability", "nowhere.toml"], "nowhere.toml: no such file"),
+        (["simulate", "creep.toml"], "creep.toml: friction.stick_creep: 0.2 m/s is not below"),
+    ],
+)
+def test_bad_input_is_one_line(tmp_path, arguments, line):
+    (tmp_path / "still.toml").write_text("[surface]\nspeed = 0.0\n")
+    (tmp_path / "free.toml").write_text("[springs]\nstiffness = 0.0\n")
+    (tmp_path / "creep.toml").write_text("[friction]\nstick_creep = 0.2\n")
+    done = stickslip(tmp_path, *arguments)
+    assert done.returncode == 2
+    assert line in done.stderr and len(done.stderr.splitlines()) == 1
