@@ -76,6 +76,12 @@ class LiveRun:
         twin.__dict__ = self.__dict__ | {"_z": self._z.copy()}
         return twin
 
+    def of(self, parameters: Parameters) -> Self:
+        """A copy of the same moment, to go on as a rig of other parameters."""
+        twin = self.copy()
+        twin._p = np.array(parameters.pack())
+        return twin
+
     def advance(self, time: float) -> Self:
         """Go on to ``time`` (s). RunEnded where that cannot be."""
         arrays = self._p, self._u, self._z, self._w, self._e

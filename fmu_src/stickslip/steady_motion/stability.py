@@ -89,11 +89,13 @@ def stability(
     `live.RunEnded` where the motion cannot be followed that far.
     """
     straight = _has_line(parameters)
+    on_line = parameters
     if straight:
-        parameters = _on_its_line(parameters)
+        parameters = _as_drawn(parameters)
+        on_line = _guided(parameters)
     beside = [i for name in ("y", "phi") if name in parameters.rig.degrees_of_freedom
               for i in BESIDE[name]]
-    run = simulate(parameters, duration, _sampling(parameters), interface_temperature=temperature)
+    run = simulate(on_line, duration, _sampling(parameters), interface_temperature=temperature)
     if not run.complete:
         raise RunEnded(run.reason)
     moments, sticking = _sections(run)
@@ -105,10 +107,10 @@ def stability(
         return Stability(np.empty(0), period, 0.0, straight)
     scale = _scale(parameters)[beside]
     product, cycles = np.eye(len(beside)), len(moments) - 1
-    live = LiveRun(parameters, temperature)
+    live = LiveRun(on_line, temperature)
     for begin, end in pairwise(moments):
-        live.advance(begin)
-        product = _transfer(live, end, beside, scale, sticking) @ product
+        free = live.advance(begin).of(parameters)
+        product = _transfer(free, end, beside, scale, sticking) @ product
     moduli = np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles)
     amplified = np.nan
     if straight:
@@ -130,7 +132,13 @@ def _has_line(parameters: Parameters) -> bool:
     )
 
 
-def _on_its_line(parameters: Parameters) -> Parameters:
+def _guided(parameters: Parameters) -> Parameters:
+    """The same rig, its block held to the x axis: rounding would carry it off an unstable one."""
+    rig = parameters.rig.model_copy(update={"degrees_of_freedom": ("x",)})
+    return parameters.model_copy(update={"rig": rig})
+
+
+def _as_drawn(parameters: Parameters) -> Parameters:
     """The same rig without imperfections, started on the x axis."""
     start = {"y": 0.0, "phi": 0.0, "vy": 0.0, "omega": 0.0}
     return parameters.model_copy(update={
