@@ -13,7 +13,6 @@ ROUNDING = 1e-12
 
 PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     interface_temperature="degC",
-    flash_temperature="degC",
     belt_entry_temperature="degC",
     belt_exit_temperature="degC",
     ice_face_temperature="degC",
