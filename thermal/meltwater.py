@@ -23,17 +23,18 @@ Array = NDArray[np.float64]
 class Meltwater:
     """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`.
 
-    melting: the melting point, K above the air.
+    melting: the melting point, K above the air. load: weight on the contact, N; 0: that of the
+    ice.
     """
 
     def __init__(self, parameters: IceParameters, footprint: Footprint, ice: IceBody, belt: Belt,
-                 melting: float) -> None:
+                 melting: float, load: float = 0.0) -> None:
         self._footprint = footprint
         self._latent = parameters.latent_heat
         self.ablation = Ablation(ice, parameters, footprint.area, melting)
         self.melt_heat = self.ablation.melt_heat
-        weight = GRAVITY * ice.space.whole_capacity / parameters.heat_capacity
-        self.film = MeltFilm(footprint.area, footprint.length, weight / footprint.area)
+        load = load or GRAVITY * ice.space.whole_capacity / parameters.heat_capacity
+        self.film = MeltFilm(footprint.area, footprint.length, load / footprint.area)
         self.on_belt = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
         self.melted = 0.0
 
