@@ -43,8 +43,8 @@ class BeltIceModel:
         self.belt = self.track.belt
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
-        self.meltwater = Meltwater(parameters.ice, self.footprint, self.ice, self.belt,
-                                   MELTING_POINT_DEGC - self._ambient, parameters.contact.load)
+        self.meltwater = Meltwater(parameters, self.footprint, self.ice, self.belt,
+                                   MELTING_POINT_DEGC - self._ambient)
         self.longest_movement = _MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
         self._probe = 0.5 * min((1.0 + 2.0 * _PROBE) * self.footprint.length,
