@@ -29,12 +29,18 @@ Array = NDArray[np.float64]
 
 #: What a run is like before melting and at its end: means over so long, s.
 WINDOW = 1.0
+#: Water that is thinner than a molecule, m, is what rounding leaves of a film that froze.
+THINNEST = 3e-10
 
 
 class Film(NamedTuple):
-    """Water and friction over time (n,): thickness m, stress of friction, shear of a film that
-    covers the whole contact and of the one that is there, Pa; flooded share and the most of it
-    that friction allows; thickness that the melting of the moment alone would feed, m."""
+    """Water and friction over time, each (n,).
+
+    thickness: mean over the contact, m. friction: its stress, Pa. whole, water: shear of the film
+    if it covered the whole contact, and of the water as mixed_lubrication has it, Pa. flooded,
+    at_most: share of the contact that it floods there, and the most that friction allows. fed:
+    thickness that the melting of the moment alone would feed, m.
+    """
 
     thickness: Array
     friction: Array
@@ -68,7 +74,7 @@ def film_of(dataset: xr.Dataset) -> Film:
     p = mechanics_of(dataset).pack()
     pressure = p[P_NORMAL_FORCE] / (np.pi * p[P_RADIUS] ** 2)
     thickness = np.where(
-        (dataset["film_thickness"] > 0.0) & (dataset["mode"] == SLIP),
+        (dataset["film_thickness"] > THINNEST) & (dataset["mode"] == SLIP),
         dataset["film_thickness"], np.nan)
     friction = pressure * friction_coefficient(dataset)
     couette = pressure * p[P_COUETTE] * dataset["sliding_speed"].values / thickness

@@ -294,7 +294,8 @@ class MeltFilm(Block):
     """A film of melt that its own shear melts: friction with the root of the speed, hydrodynamic.
 
     mu_f = sqrt(2 eta v rho L / l) / p, where the pressure p is the load on the wetted part of the
-    contact.
+    contact. The melt is taken to move with the surface; in Couette flow, at half its speed, the
+    same friction belongs to half the length.
     """
 
     wetted_share: float = quantity(
