@@ -29,8 +29,9 @@ CONNECTIONS = (
     Connection(f"{MECHANICS}.heat", f"{THERMAL}.heat", taken="heat_received"),
     Connection(f"{MECHANICS}.surface_travel", f"{THERMAL}.surface_travel"),
     Connection(f"{MECHANICS}.x", f"{THERMAL}.x"),
-    # always: without temperature_dependence.sensitivity the friction does not feel it
+    # always: which of the two friction feels, if any, is a matter of its effects
     Connection(f"{THERMAL}.interface_temperature", f"{MECHANICS}.interface_temperature"),
+    Connection(f"{THERMAL}.film_thickness", f"{MECHANICS}.film_thickness"),
 )
 RESIDUALS = (f"{MECHANICS}.energy_residual", f"{THERMAL}.heat_residual")
 
@@ -64,7 +65,8 @@ def run_scenario(
     in ParaView). views: keep what belt and ice look like, as `snapshots.views`. progress: called
     with the time reached (s) after each macro step.
 
-    A run that is interrupted (Ctrl-C) or fails returns what it had; `result.status` says so.
+    A run that is interrupted (Ctrl-C) or fails returns what it had; `result.status` says so. Ice
+    that melts beside friction that does not feel it is such a failure.
     Raises ScenarioError, FmuError, FmuBuildError, CouplingError or thermal.ParameterError (all
     ValueErrors of one line) for input that cannot be, ParticipantError when a model fails before
     the first step.
@@ -82,7 +84,8 @@ def run_scenario(
         parameters=scenario.mechanics.flat(),
         inputs={"surface_speed": scenario.surface.speed},
     )
-    heat = ThermalParticipant(BeltIceModel(scenario.thermal), THERMAL, look=snapshots)
+    heat = ThermalParticipant(BeltIceModel(scenario.thermal), THERMAL, look=snapshots,
+                              melts=feels_melting(scenario))
     with CoupledSystem([mechanics, heat], CONNECTIONS, RESIDUALS) as system:
         result = run(
             system,
@@ -94,6 +97,15 @@ def run_scenario(
         )
         result = _with_last_picture(result, snapshots, heat.model)
     return CoupledRun(scenario, result, snapshots)
+
+
+def feels_melting(scenario: Scenario) -> bool:
+    """Whether friction is another where the face of the ice melts, by law or by the water there."""
+    return (
+        scenario.temperature_dependence.sensitivity > 0.0
+        or scenario.asperity_melting.length > 0.0
+        or scenario.mixed_lubrication.share > 0.0
+    )
 
 
 def _with_last_picture(

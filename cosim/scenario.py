@@ -18,6 +18,7 @@ from typing import Any, Self
 import tomli_w
 from pydantic import Field, PrivateAttr, ValidationError, create_model, model_validator
 from stickslip import Parameters
+from stickslip.packing import GRAVITY
 from stickslip.parameters import Block, quantity
 
 from cosim.scenario_faults import ScenarioError, describe_faults, nearest
@@ -28,7 +29,9 @@ SUFFIX = ".toml"
 MOST_STEPS = 10_000_000
 #: Two intervals that differ by less than this part of themselves are the same: 0.3 / 0.1.
 ROUNDING = 1e-9
-#: The contact's heat; its radius is the block's.
+#: What the contact has of the block.
+FROM_BLOCK = ("radius", "load")
+#: The contact's heat.
 ContactHeat = create_model(
     "ContactHeat",
     __base__=Block,
@@ -36,7 +39,7 @@ ContactHeat = create_model(
     **{
         key: (field.annotation, field)
         for key, field in Contact.model_fields.items()
-        if key != "radius"
+        if key not in FROM_BLOCK
     },
 )
 
@@ -87,7 +90,8 @@ class Scenario(Parameters):
             self._take_length_from_slab()
         if fault := self._too_fine("run.output_interval", self.run.output_interval):
             raise ValueError(fault)
-        contact = {"radius": self.rig.contact_radius} | self.contact.model_dump()
+        contact = {"radius": self.rig.contact_radius, "load": GRAVITY * self.rig.mass}
+        contact |= self.contact.model_dump()
         try:
             self._thermal = ThermalParameters.checked(
                 {"ambient": self.ambient, "belt": self.belt, "ice": self.ice, "contact": contact}

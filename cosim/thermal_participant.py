@@ -13,7 +13,6 @@ ROUNDING = 1e-12
 
 PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     interface_temperature="degC",
-    flash_temperature="degC",
     belt_entry_temperature="degC",
     belt_exit_temperature="degC",
     ice_face_temperature="degC",
@@ -35,6 +34,10 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
 Look = Callable[[float, BeltIceModel], None]
 
 
+class UnfeltMelting(RuntimeError):
+    """The ice melts beside friction that stays dry; the message is one line."""
+
+
 class Handed(NamedTuple):
     """What the mechanical side has handed over since the start: heat in J, ways in m."""
 
@@ -52,10 +55,13 @@ class ThermalParticipant:
 
     look: called as look(time, model) with every state that a step starts from, so never with
     one that a coupling scheme takes back; `look_now` does the same for the last one.
+    melts: whether the ice may; a step in which it does is else refused by UnfeltMelting.
     """
 
-    def __init__(self, model: BeltIceModel, name: str = "thermal", look: Look | None = None):
+    def __init__(self, model: BeltIceModel, name: str = "thermal", look: Look | None = None,
+                 melts: bool = True):
         self.name = name
+        self._melts = melts
         self.model = model
         self.ports = port_table(PORTS)
         self._look = look
@@ -94,9 +100,20 @@ class ThermalParticipant:
         if abs(way) <= ROUNDING * (abs(now.surface_travel) + abs(now.x)):
             # stick; taken as it is, its sign would tell the belt to run backwards
             way, now = 0.0, now._replace(surface_travel=taken.surface_travel, x=taken.x)
-        self.model.step(size, heat, way)
+        self._advance(size, heat, way)
         self._taken = now
         self._time = time + size
+
+    def _advance(self, size: float, heat: float, way: float) -> None:
+        """Step the model; back again where it may not melt and does."""
+        before = None if self._melts else self.model.state()
+        self.model.step(size, heat, way)
+        if before is not None and self.model.meltwater.melted > 0.0:
+            self.model.restore(before)
+            raise UnfeltMelting(
+                "the face of the ice has come to 0 degC and melts, which friction does not feel:"
+                " switch on mixed_lubrication (the water is sheared), asperity_melting or"
+                " temperature_dependence")
 
     def look_now(self) -> None:
         """Show the present state to `look`."""

@@ -7,11 +7,13 @@ comes under the block again joins the film.
 
 Approximated: water and ice on the belt have no heat capacity of their own (10 um of ice hold 3 % of
 a belt's 588 J/m2K), so freezing gives the belt at once all that melting took; what freezing in
-one place does to its neighbours within a step is taken as if all places froze. Nothing wipes or
-dries the belt.
+one place does to its neighbours within a step is taken as if all places froze. Nothing dries the
+belt, but a wiper in front of the contact may take water and ice off it.
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +49,19 @@ class BeltWater:
         first, loads = strip_loads(np.array([-half, half]), 1.0, edge, movement, self._cell)
         share = loads[0] / loads[0].sum()
         np.add.at(self.water, (first + np.arange(share.size)) % self.water.size, mass * share)
+
+    def wipe(self, edge: float, movement: float, share: float) -> float:
+        """Mass (kg) of water that a wiper takes off the nodes it passes, and as much of the ice.
+
+        It stands where the edge (m) does and moves along; share: what it takes of either.
+        """
+        low, high = sorted((edge, edge + movement))
+        nodes = np.arange(math.ceil(low / self._cell), math.ceil(high / self._cell))
+        nodes = np.unique(nodes % self.water.size)
+        taken = share * float(self.water[nodes].sum())
+        self.water[nodes] *= 1.0 - share
+        self.frozen[nodes] *= 1.0 - share
+        return taken
 
     def pick_up(self, centre: float, length: float) -> float:
         """Mass (kg) of water on the nodes below the contact, a cell from its edges; taken away."""

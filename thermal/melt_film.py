@@ -10,9 +10,14 @@ residence l/|v|,
 h the mean thickness, l the length of the contact. The last term is the slow approach of a disc of
 radius a under the pressure p to a plane through water of viscosity eta (Stefan 1874; Reynolds
 1886). Melting, shear and squeeze are the balance that Colbeck (The kinetic friction of snow,
-J. Glaciol. 34, 1988) takes for a melt film. The pressure is that of the ice's own weight; what
-else the block weighs counts only for films above some 50 um, below which shear does nearly
-everything. Each term is advanced exactly, melting and shear together, then the squeeze.
+J. Glaciol. 34, 1988) takes for a melt film. Each term is advanced exactly, melting and shear
+together, then the squeeze.
+
+Where the shear of the film itself is all that melts, melt rate = eta v^2 / (rho L h), so that a
+steady film is h = sqrt(eta v l / (rho L)) thick and is sheared with sqrt(eta v rho L / l). The
+latter is exact: along the way x the film grows as sqrt(4 eta v x / (rho L)), and that is the mean
+of eta v / h over it. (Water that moved with the belt, at twice the speed, would leave a film that
+is thinner by the root of two, and sheared with sqrt(2 eta v rho L / l).)
 """
 
 from __future__ import annotations

@@ -15,27 +15,29 @@ from .contact import Fluxes, IceFace
 from .footprint import Footprint
 from .ice_body import IceBody
 from .melt_film import MeltFilm
-from .parameters import Ice as IceParameters
+from .parameters import ThermalParameters
 
 Array = NDArray[np.float64]
 
 
 class Meltwater:
-    """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`.
+    """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`; `wiped` off, kg.
 
     melting: the melting point, K above the air.
     """
 
-    def __init__(self, parameters: IceParameters, footprint: Footprint, ice: IceBody, belt: Belt,
-                 melting: float) -> None:
+    def __init__(self, parameters: ThermalParameters, footprint: Footprint, ice: IceBody,
+                 belt: Belt, melting: float) -> None:
+        of_ice, contact = parameters.ice, parameters.contact
         self._footprint = footprint
-        self._latent = parameters.latent_heat
-        self.ablation = Ablation(ice, parameters, footprint.area, melting)
+        self._latent = of_ice.latent_heat
+        self._wiper = contact.wiper
+        self.ablation = Ablation(ice, of_ice, footprint.area, melting)
         self.melt_heat = self.ablation.melt_heat
-        weight = GRAVITY * ice.space.whole_capacity / parameters.heat_capacity
-        self.film = MeltFilm(footprint.area, footprint.length, weight / footprint.area)
+        load = contact.load or GRAVITY * ice.space.whole_capacity / of_ice.heat_capacity
+        self.film = MeltFilm(footprint.area, footprint.length, load / footprint.area)
         self.on_belt = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
-        self.melted = 0.0
+        self.melted = self.wiped = 0.0
 
     def exchange(self, duration: float, displacement: float,
                  solve: Callable[[IceFace], Fluxes]) -> Receding:
@@ -61,12 +63,20 @@ class Meltwater:
             exit_edge = centre + 0.5 * np.copysign(length, displacement)
             self.on_belt.lay(left, exit_edge, -displacement)
         if self.on_belt.wet:
+            self._wipe(displacement, centre)
             self.film.mass += self.on_belt.pick_up(centre - displacement, length)
+
+    def _wipe(self, displacement: float, centre: float) -> None:
+        """Take water and ice off the belt that comes under the block."""
+        if self._wiper == 0.0 or displacement == 0.0:
+            return
+        entry_edge = centre - 0.5 * np.copysign(self._footprint.length, displacement)
+        self.wiped += self.on_belt.wipe(entry_edge, -displacement, self._wiper)
 
     @property
     def water(self) -> float:
-        """All water that there is, kg: under the block, beside it, on the belt."""
-        return self.film.mass + self.film.squeezed + float(self.on_belt.water.sum())
+        """All water that there is, kg: under the block, beside it, on the belt, off it."""
+        return self.film.mass + self.film.squeezed + self.wiped + float(self.on_belt.water.sum())
 
     @property
     def heat(self) -> float:
@@ -81,11 +91,11 @@ class Meltwater:
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy."""
         return np.concatenate((
-            [self.ablation.speed, self.film.mass, self.film.squeezed, self.melted],
+            [self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped],
             self.on_belt.water, self.on_belt.frozen))
 
     def restore(self, state: Array) -> None:
         """Take a state that `state` returned."""
-        self.ablation.speed, self.film.mass, self.film.squeezed, self.melted = (
-            float(x) for x in state[:4])
-        self.on_belt.water[:], self.on_belt.frozen[:] = state[4:].reshape(2, -1)
+        self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped = (
+            float(x) for x in state[:5])
+        self.on_belt.water[:], self.on_belt.frozen[:] = state[5:].reshape(2, -1)

@@ -43,7 +43,7 @@ class BeltIceModel:
         self.belt = self.track.belt
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
-        self.meltwater = Meltwater(parameters.ice, self.footprint, self.ice, self.belt,
+        self.meltwater = Meltwater(parameters, self.footprint, self.ice, self.belt,
                                    MELTING_POINT_DEGC - self._ambient)
         self.longest_movement = _MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
@@ -110,22 +110,19 @@ class BeltIceModel:
         """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, m, J.
 
         The interface temperature is the mean of the two faces, each averaged over the contact's
-        area; the flash temperature is that of the hottest strip across the belt (what an asperity
-        adds to it is in `flash`). Entry and exit: belt face an eighth of the contact's length
-        before and behind the contact, seen in the direction of the last movement. Melted: what
-        the block has lost; refrozen: what of it lies on the belt as ice.
+        area. Entry and exit: belt face an eighth of the contact's length before and behind the
+        contact, seen in the direction of the last movement. Melted: what the block has lost;
+        refrozen: what of it lies on the belt as ice.
         """
         face = self.belt.face()
         first, loads = self.footprint.loads(self.contact_position, 0.0, self.belt.cell)
         under = face[(first + np.arange(loads.shape[1])) % face.size]
-        strips = loads @ under / self.footprint.strip_area
-        belt_face = float(strips.mean())
+        belt_face = float((loads @ under / self.footprint.strip_area).mean())
         ice_face = self.ice.face()
         ahead = self._direction * self._probe
         ledger = self.ledger
         return {
             "interface_temperature": self._ambient + 0.5 * (belt_face + ice_face),
-            "flash_temperature": self._ambient + 0.5 * (float(strips.max()) + ice_face),
             "belt_entry_temperature": self._ambient + self._at(face, -ahead),
             "belt_exit_temperature": self._ambient + self._at(face, ahead),
             "ice_face_temperature": self._ambient + ice_face,

@@ -177,6 +177,12 @@ class Contact(Block):
         ge=0.0, le=20.0)
     conductance: float = quantity(
         1e4, "W/(m2.K)", "contact conductance between the two faces", gt=0.0, le=1e12)
+    wiper: float = quantity(
+        0.0, "1", "part of the water and of the ice on the belt that a wiper in front of the"
+        " contact takes off", ge=0.0, le=1.0)
+    load: float = quantity(
+        0.0, "N", "weight on the contact, which squeezes melt water out; 0: that of the ice",
+        ge=0.0, le=1e9)
     strips: int = Field(
         16, ge=1, le=64,
         description="strips across the belt in each of which the flux is uniform; 1 makes the"

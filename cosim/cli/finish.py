@@ -63,7 +63,7 @@ def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any
 
 
 def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:
-    """Three to six lines for whoever waited."""
+    """Three to seven lines for whoever waited."""
     late, ledgers = numbers["after_run_up"], numbers["ledger"]
     lines = [
         f"{numbers['name']}: {numbers['time_reached']:g} s in {wall_time:.1f} s of wall time, "
@@ -82,6 +82,8 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
                 if sink != "melting" or shares.get(sink)
             ),
         ]
+    if "melting" in numbers:
+        lines.append(f"  melting      {_melting_line(numbers['melting'])}")
     lines += _assessed_lines(numbers)
     lines.append(f"  ledgers      {_ledger_line(ledgers)}")
     lines.append(f"  results      {folder / 'report.html'} and beside it")
@@ -108,6 +110,16 @@ def _motion_line(late: Mapping[str, Any]) -> str:
     return (
         f"{late['frequency']:.3f} break-aways per second at constant speed, "
         f"slip share {_number(late['slip_share'], '.3f')}"
+    )
+
+
+def _melting_line(melting: Mapping[str, Any]) -> str:
+    film = melting["film_thickness"]
+    return (
+        f"from {melting['onset']:.4g} s, {1e3 * melting['melted_mass']:.3g} g in all; film "
+        f"{_number(film and 1e6 * film, '.3g')} um at the end, friction coefficient "
+        f"{_number(melting['friction_before'], '.3f')} before, "
+        f"{_number(melting['friction_end'], '.3f')} at the end"
     )
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import xarray as xr
 from pydantic import BaseModel
 from stickslip import Parameters
+from stickslip.packing import GRAVITY
 
 from thermal import ThermalParameters
 
@@ -68,12 +69,12 @@ def mechanics_of(dataset: xr.Dataset) -> Parameters:
 def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
     """The thermal parameters that a dataset was computed with.
 
-    A scenario states the contact's radius once, with the rig.
+    A scenario states the contact's radius and the block's mass once, with the rig.
     """
     blocks = _selected(dataset, ThermalParameters)
-    radius = value_of(dataset, "rig", "contact_radius")
+    radius, mass = (value_of(dataset, "rig", key) for key in ("contact_radius", "mass"))
     if radius is not None:
-        blocks["contact"] = {"radius": radius} | blocks.get("contact", {})
+        blocks["contact"] = {"radius": radius, "load": GRAVITY * mass} | blocks.get("contact", {})
     return ThermalParameters.model_validate(blocks)
 
 

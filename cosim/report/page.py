@@ -98,9 +98,10 @@ def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
 
 
 def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """Motion after the run-up and over the whole run, and the shares of the heat."""
+    """Motion after the run-up and over the whole run, the shares of the heat, melting."""
     titles = {"after_run_up": "After the run-up", "whole_run": "Whole run",
-              "heat_shares": "Where the heat is at the end"}
+              "heat_shares": "Where the heat is at the end",
+              "melting": "Melting, and the balance of the film in the last second"}
     for name, title in titles.items():
         if name in numbers:
             yield Table(title, _rows(numbers, name, numbers[name]))

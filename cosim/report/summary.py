@@ -10,12 +10,13 @@ import xarray as xr
 
 from .assessment import assessment_numbers
 from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, temperatures
+from .melting_numbers import melting, melts
 from .motion_numbers import after_run_up, whole_run
 from .quantities import Quantity, ratio, split_units
 
 
 def summary(dataset: xr.Dataset) -> dict[str, Any]:
-    """Status, ledgers, shares, temperatures, stick-slip numbers, versions and scenario.
+    """Status, ledgers, shares, temperatures, melting, stick-slip numbers, versions, scenario.
 
     Numbers stand in a tree whose units are in ``units`` (``path.to.key`` -> unit); a number
     that a run does not have (too short, failed, no heat) is None.
@@ -51,6 +52,8 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         numbers["ledger"]["coupling"] = coupling_ledger(dataset)
         numbers["heat_shares"] = heat_shares(dataset)
         numbers["temperatures"] = temperatures(dataset)
+        if melts(dataset):
+            numbers["melting"] = melting(dataset)
     numbers["after_run_up"] = after_run_up(dataset)
     numbers["whole_run"] = whole_run(dataset)
     numbers |= assessment_numbers(dataset) or {}

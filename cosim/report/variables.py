@@ -9,7 +9,6 @@ MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUT
 
 THERMAL = {
     "interface_temperature": ("degC", "temperature between block and belt, mean of both faces"),
-    "flash_temperature": ("degC", "hottest strip of the contact, mean of both faces"),
     "belt_entry_temperature": ("degC", "belt face just before the contact"),
     "belt_exit_temperature": ("degC", "belt face just behind the contact"),
     "ice_face_temperature": ("degC", "face of the ice, mean over the contact"),

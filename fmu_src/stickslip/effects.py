@@ -294,7 +294,8 @@ class MeltFilm(Block):
     """A film of melt that its own shear melts: friction with the root of the speed, hydrodynamic.
 
     mu_f = sqrt(2 eta v rho L / l) / p, where the pressure p is the load on the wetted part of the
-    contact.
+    contact. The melt is taken to move with the surface; in Couette flow, at half its speed, the
+    same friction belongs to half the length.
     """
 
     wetted_share: float = quantity(
@@ -323,6 +324,35 @@ class MeltFilm(Block):
         gt=0,
         le=1e10,
         typical=(3.0e8, 3.1e8),
+    )
+
+
+class MixedLubrication(Block):
+    """Water of the melting face floods part of the contact and is sheared in place of dry friction.
+
+    Its mean thickness h is an input: that of the heat model in a coupled run. It fills the share
+    w = f h / (h + s) of a surface of roughness s, h / w thick there, and bears that share of the
+    load: mu = (1 - w) mu_dry + w^2 eta v / (h p), p the mean pressure.
+    """
+
+    share: float = quantity(
+        0.0,
+        "1",
+        "f, part of the contact that water can fill; 0 is off, 1 a surface that ends up afloat",
+        ge=0,
+        le=1,
+        typical=(0.2, 1.0),
+    )
+    roughness: float = quantity(
+        5e-6,
+        "m",
+        "s, of both faces together: water as thick as this fills half of what it can",
+        ge=1e-9,
+        le=1e-2,
+        typical=(1e-6, 1e-4),
+    )
+    viscosity: float = quantity(
+        1.79e-3, "Pa.s", "eta of water at 0 degC", gt=0, le=1e3, typical=(1.79e-3, 3e-3)
     )
 
 
@@ -375,6 +405,7 @@ class EffectBlocks(Block):
     asperity_melting: AsperityMelting = AsperityMelting()
     melt_film: MeltFilm = MeltFilm()
     rate_and_state: RateAndState = RateAndState()
+    mixed_lubrication: MixedLubrication = MixedLubrication()
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -522,6 +553,12 @@ CATALOGUE = tuple(
             ("wetted_share",),
             "friction",
             "Oksanen & Keinonen, Wear 78 (1982): sqrt(v) near melting",
+        ),
+        (
+            "mixed_lubrication",
+            ("share",),
+            "friction",
+            "melt water shares the load with the dry contact: Colbeck, J. Glaciol. 34 (1988)",
         ),
     )
 )

@@ -6,18 +6,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .compiled import compiled_kernel
-from .kernel.layout import P_NORMAL_FORCE, U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
+from .kernel.layout import P_NORMAL_FORCE, U_FILM, U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
 from .parameters import Parameters
 
 
 def friction_coefficient(
-    parameters: Parameters, speed: ArrayLike, interface_temperature: float | None = None
+    parameters: Parameters,
+    speed: ArrayLike,
+    interface_temperature: float | None = None,
+    film_thickness: float = 0.0,
 ) -> NDArray[np.float64]:
     """Friction over normal force of a contact that slides along x without turning, speeds (n,) m/s.
 
     Every effect of friction that is on has its say, with its memory as at the start of a run: no
     recent heat, no way slid. interface_temperature: degC; left out, the reference temperature of
-    ``temperature_dependence``. Raises ValueError for a speed that is not positive.
+    ``temperature_dependence``. film_thickness: water in the contact, mean over it, m. Raises
+    ValueError for a speed that is not positive.
 
     >>> friction_coefficient(Parameters(), [0.1])
     array([0.2086])
@@ -29,7 +33,7 @@ def friction_coefficient(
         interface_temperature = parameters.temperature_dependence.reference_degC
     kernel = compiled_kernel()
     p, u, w = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(W_SIZE)
-    u[U_TEMPERATURE] = interface_temperature
+    u[U_TEMPERATURE], u[U_FILM] = interface_temperature, film_thickness
     coefficients = np.empty(speeds.size)
     for i, value in enumerate(speeds):
         kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)

@@ -8,6 +8,7 @@ from .kernel.layout import (
     P_ANCHOR,
     P_ASPERITY,
     P_ATTACH,
+    P_COUETTE,
     P_CURVE,
     P_CURVE_POINTS,
     P_FEEDING,
@@ -86,6 +87,8 @@ SLOTS = {
     "temperature_dependence.sensitivity": "P_SENSITIVITY",
     "temperature_dependence.static_sensitivity": "P_STATIC_SENSITIVITY",
     "temperature_dependence.reference_degC": "P_REFERENCE",
+    "mixed_lubrication.share": "P_FLOODED",
+    "mixed_lubrication.roughness": "P_ROUGHNESS",
     "surface.run_up_time": "P_RUN_UP",
     "solver.tolerance": "P_TOLERANCE",
 }
@@ -99,6 +102,7 @@ LOCAL_LAWS = (
     "film_drag.root_coefficient",
     "asperity_melting.length",
     "melt_film.wetted_share",
+    "mixed_lubrication.share",
 )
 # by these, friction depends on the way of the surface, the distance slid, the heat or the age
 MEMORIES = (
@@ -175,7 +179,11 @@ def _imperfections(values: dict[str, float]) -> dict[str, float | list[float]]:
 
 
 def _set_melting(p: list[float], values: dict[str, float]) -> None:
-    """Both laws as kernel's `melting_coefficient` wants them: l (H / (C e))^2 and (mu_f)^2 / v."""
+    """The laws as the kernel wants them: l (H / (C e))^2, (mu_f)^2 / v, and eta / p.
+
+    p is the load on what a film covers; water of the melting face (mixed_lubrication) is spread
+    over the whole contact.
+    """
     asperity = {name: values[f"asperity_melting.{name}"] for name in ASPERITY}
     warming = asperity["constant"] * asperity["effusivity"]
     p[P_ASPERITY] = asperity["length"] * (asperity["hardness"] / warming) ** 2
@@ -183,6 +191,8 @@ def _set_melting(p: list[float], values: dict[str, float]) -> None:
     area = film["wetted_share"] * pi * p[P_RADIUS] ** 2
     shear = 2.0 * film["viscosity"] * film["latent_heat"] / film["length"]  # (Pa)^2 s/m
     p[P_MELT_FILM] = shear * (area / p[P_NORMAL_FORCE]) ** 2
+    whole = pi * p[P_RADIUS] ** 2
+    p[P_COUETTE] = values["mixed_lubrication.viscosity"] * whole / p[P_NORMAL_FORCE]
 
 
 def _place_springs(p: list[float], values: dict[str, float]) -> None:

@@ -36,6 +36,15 @@ INPUTS = (
     Port("external_force_x", "U_FORCE_X", "N", 1.0, "Force on the block along x", start=0.0),
     Port("external_force_y", "U_FORCE_Y", "N", 1.0, "Force on the block along y", start=0.0),
     Port("external_moment", "U_MOMENT", "N.m", 0.1, "Moment on the block", start=0.0),
+    Port(
+        "film_thickness",
+        "U_FILM",
+        "m",
+        1e-6,
+        "Water between block and surface, mean over the contact",
+        min=0.0,
+        start=0.0,
+    ),
 )
 OUTPUTS = (
     Port("x", "O_X", "m", 0.1, "Position along the motion of the surface; 0 as installed"),

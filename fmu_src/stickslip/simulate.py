@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +16,7 @@ from .kernel.layout import (
     E_FIRST,
     E_WIDTH,
     O_SIZE,
+    U_FILM,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -47,6 +49,7 @@ def simulate(
     output_interval: float = 0.01,
     *,
     interface_temperature: float | None = None,
+    film_thickness: float = 0.0,
     interpreted: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Trajectory:
@@ -54,19 +57,25 @@ def simulate(
 
     The samples are the model's own accuracy, not interpolated, and have no influence on it. The
     interface stays at ``interface_temperature`` (degC; left out, at the reference temperature of
-    ``temperature_dependence``). ``progress`` is called with the time reached, and may raise: what
-    was computed until then is in the exception's ``trajectory``.
+    ``temperature_dependence``), with water of the mean ``film_thickness`` (m) on it.
+    ``progress`` is called with the time reached, and may raise: what was computed until then is in
+    the exception's ``trajectory``.
 
-    Raises ValueError for a duration or an interval that is not positive.
+    Raises ValueError for a duration or an interval that is not positive, or a negative thickness.
     """
     if not duration > 0.0:
         raise ValueError(f"duration = {duration!r}: must be above 0 s")
     if not 0.0 < output_interval:
         raise ValueError(f"output_interval = {output_interval!r}: must be above 0 s")
+    if not 0.0 <= film_thickness < inf:
+        raise ValueError(f"film_thickness = {film_thickness!r}: must be at least 0 m and finite")
     if interface_temperature is None:
         interface_temperature = parameters.temperature_dependence.reference_degC
     times = sample_times(duration, output_interval)
-    run = _Run(parameters, times, interface_temperature, interpreted)
+    u = np.zeros(U_SIZE)
+    u[U_SPEED] = parameters.surface.speed
+    u[U_TEMPERATURE], u[U_FILM] = interface_temperature, film_thickness
+    run = _Run(parameters, times, u, interpreted)
     try:
         while run.reason is None:
             run.next_rows()
@@ -91,15 +100,10 @@ def sample_times(duration: float, interval: float) -> np.ndarray:
 class _Run:
     """The kernel's arrays for one run, filled block of rows by block of rows."""
 
-    def __init__(
-        self, parameters: Parameters, times: np.ndarray, temperature: float, interpreted: bool
-    ):
+    def __init__(self, parameters: Parameters, times: np.ndarray, u: np.ndarray, interpreted: bool):
         self.parameters = parameters
         self.kernel = INTERPRETED if interpreted else compiled_kernel()
         array = list if interpreted else np.array
-        u = np.zeros(U_SIZE)
-        u[U_SPEED] = parameters.surface.speed
-        u[U_TEMPERATURE] = temperature
         self.p, self.u = array(parameters.pack()), array(u)
         self.z, self.w = array(np.zeros(Z_SIZE)), array(np.zeros(W_SIZE))
         self.e = array(np.zeros(E_FIRST + E_WIDTH * EVENTS_PER_BLOCK))

@@ -23,6 +23,17 @@ elements = 3
 """
 
 
+#: A film of ice that the first friction melts away.
+MELTS = """
+[ice]
+height = 1e-6
+latent_heat = 1.0
+heat_capacity = 1.0
+[ambient]
+temperature_degC = -1e-6
+"""
+
+
 def run(folder, fmu, text, *arguments):
     (folder / "case.toml").write_text(text)
     command = [sys.executable, "-m", "cosim", "run", "case.toml", "--fmu", str(fmu), "-o", "out"]
@@ -62,8 +73,8 @@ def test_a_bad_mesh_is_one_line(tmp_path, fmu, mesh, factor, says):
 
 
 def test_without_asking_there_is_no_animation_and_melting_away_ends_the_run(tmp_path, fmu):
-    text = SHORT + "[ice]\nheight = 1e-6\nlatent_heat = 1.0\nheat_capacity = 1.0\n"
-    done = run(tmp_path, fmu, text + "[ambient]\ntemperature_degC = -1e-6\n")
+    text = SHORT + MELTS + "[mixed_lubrication]\nshare = 1e-6\n"
+    done = run(tmp_path, fmu, text)
     assert done.returncode == 1
     assert "the ice has melted: of its 1e-06 m less than 5e-08 m are left" in done.stderr
     assert done.stderr.count("\n") == 1
@@ -71,3 +82,15 @@ def test_without_asking_there_is_no_animation_and_melting_away_ends_the_run(tmp_
     with xr.open_dataset(tmp_path / "out" / "result.nc") as dataset:
         assert dataset.attrs["status"] == "failed"
         assert dataset.sizes["time"] > 1
+
+
+def test_ice_that_melts_under_friction_that_stays_dry_ends_the_run(tmp_path, fmu):
+    done = run(tmp_path, fmu, SHORT + "[ambient]\ntemperature_degC = -1e-3\n")
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1)
+    assert done.stderr.startswith("error: thermal: failed in the step from t = ")
+    assert "melts, which friction does not feel: switch on mixed_lubrication" in done.stderr
+    with xr.open_dataset(tmp_path / "out" / "result.nc") as dataset:
+        assert dataset.attrs["status"] == "failed"
+        assert dataset.sizes["time"] > 1
+        assert float(dataset["melted_mass"].max()) == 0.0
+        assert np.all(np.isfinite(dataset["belt_temperature"]))

@@ -105,6 +105,41 @@ def test_a_scenario_or_an_fmu_that_does_not_fit_is_refused(fmu, tmp_path):
         run_scenario(case(), fmu=broken)
 
 
+#: Ice so near to melting that the first friction melts it.
+WARM = {
+    "ambient.temperature_degC": -1e-6, "surface.run_up_time": 0.5, "run.duration": 0.8,
+    "run.snapshot_interval": 0.5,
+}
+FEELING = {
+    "temperature_dependence.sensitivity": 0.02, "asperity_melting.length": 1e-3,
+    "mixed_lubrication.share": 0.5,
+}
+
+
+@pytest.mark.parametrize("effect", FEELING)
+def test_melting_goes_on_where_friction_feels_it(fmu, effect):
+    run = run_scenario(case().changed(WARM | {effect: FEELING[effect]}), fmu=fmu)
+    assert run.result.status == "complete"
+    if effect != "asperity_melting.length":  # which leaves no friction where the ice would melt
+        assert last(run, "thermal.melted_mass") > 0.0
+
+
+@pytest.mark.parametrize("effect", [{}, {"melt_film.wetted_share": 1e-3}])
+def test_melting_beside_dry_friction_ends_the_run_before_it(fmu, effect):
+    run = run_scenario(case().changed(WARM | effect), fmu=fmu)
+    assert run.result.status == "failed"
+    assert "the face of the ice has come to 0 degC and melts" in run.result.reason
+    assert last(run, "thermal.melted_mass") == 0.0 and len(run.result.time) > 1
+    assert run.snapshots.time[-1] == run.result.time[-1]
+    assert run.snapshots.temperature[-1].max() <= 0.0
+
+
+def test_the_film_is_handed_over(fmu):
+    run = run_scenario(case().changed(WARM | {"mixed_lubrication.share": 0.5}), fmu=fmu)
+    np.testing.assert_array_equal(
+        run.result["mechanics.film_thickness"][1:], run.result["thermal.film_thickness"][:-1])
+
+
 def model():
     return BeltIceModel(case().thermal)
 

@@ -10,7 +10,7 @@ COARSE = ThermalParameters(belt=Belt(cell_length=4e-3))
 INSULATED = ThermalParameters(
     belt=Belt(cell_length=4e-3, air_heat_transfer=0.0), ice=Ice(air_heat_transfer=0.0))
 OUTPUTS = {
-    "interface_temperature", "flash_temperature", "belt_entry_temperature", "belt_exit_temperature",
+    "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
     "ice_face_temperature", "belt_share", "melt_rate", "melted_mass", "heat_received",
     "belt_heat", "ice_heat", "air_heat", "latent_heat", "support_heat",
     "refrozen_mass", "film_thickness", "meltwater_heat", "heat_residual"}

@@ -19,6 +19,7 @@ from stickslip.kernel.layout import (
     SLIPS,
     STATES,
     TIME,
+    U_FILM,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -28,10 +29,13 @@ from stickslip.kernel.layout import (
 from stickslip.kernel.runge_kutta import state_scale
 
 
-def memory_of(parameters: Parameters, temperature: float = -8.0) -> SimpleNamespace:
+def memory_of(
+    parameters: Parameters, temperature: float = -8.0, film_thickness: float = 0.0
+) -> SimpleNamespace:
     """The kernel's arrays as lists, settled at the start of a run."""
     u = [0.0] * U_SIZE
     u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, temperature
+    u[U_FILM] = film_thickness
     memory = SimpleNamespace(p=parameters.pack(), u=u, z=[0.0] * Z_SIZE)
     advance.initialise(memory.p, memory.z, 0.0)
     advance.take_inputs(memory.p, u, memory.z, [0.0] * W_SIZE, [0.0] * E_FIRST)

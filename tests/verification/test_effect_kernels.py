@@ -14,13 +14,14 @@ from kernel_steps import largest_step_difference, memory_of
 from stickslip.compiled import compiled_kernel
 
 SETS, STEPS = 10, 60
+FILM = 3e-6  # m of water, which mixed_lubrication feels
 
 
 @pytest.mark.parametrize("effect", IDS)
 def test_interpreted_and_compiled_take_the_same_step(effect):
     draw = random.Random(f"kernels {effect}")
     for _ in range(SETS):
-        memory = memory_of(draw_parameters((effect,), draw), temperature=draw.uniform(-20.0, 2.0))
+        memory = memory_of(draw_parameters((effect,), draw), draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(compiled_kernel(), memory, STEPS) < 1e-12
 
 
@@ -29,14 +30,14 @@ def test_a_stick_that_creeps():
     for _ in range(2 * SETS):
         on = tuple(draw.sample(BESIDE_CREEP, 2))
         parameters = with_stick_creep(draw_parameters(on, draw), 5e-3)
-        memory = memory_of(parameters, temperature=draw.uniform(-20.0, 2.0))
+        memory = memory_of(parameters, draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(compiled_kernel(), memory, STEPS) < 1e-12
 
 
 def test_all_effects_at_once():
     draw = random.Random("all")
     for _ in range(SETS):
-        memory = memory_of(draw_parameters(IDS, draw), temperature=draw.uniform(-20.0, 2.0))
+        memory = memory_of(draw_parameters(IDS, draw), draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(compiled_kernel(), memory, STEPS) < 1e-12
 
 

@@ -16,6 +16,7 @@ from stickslip.kernel.layout import (
     PHI,
     SHOWN,
     SLIP,
+    U_FILM,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -26,6 +27,7 @@ from stickslip.kernel.layout import (
 
 RADIUS = 0.04
 WARMER = -6.0  # interface, degC; the reference is -8
+WATER = 3e-6  # m in the contact
 IN_SLIP = {
     "rig": {"spring_natural_length": 0.17, "contact_radius": RADIUS},
     "lateral_friction": {"ratio": 1.0},
@@ -59,6 +61,7 @@ SLIDING = {
     "temperature_dependence.sensitivity": (0.02, {}, 1),
     "asperity_melting.length": (5e-6, {}, 1),
     "melt_film.wetted_share": (2e-3, {}, 2),
+    "mixed_lubrication.share": (0.2, {}, 1),
     "rate_and_state.direct": (0.01, {}, 1),
     "rate_and_state.evolution": (0.01, {"distance": 1e-3}, 1),
 }
@@ -81,11 +84,11 @@ def with_effect(base: dict, name: str, share: float, size: float, other: dict) -
 
 
 def position_in_slip(parameters: Parameters) -> np.ndarray:
-    """(x, y, a phi) in m after 0.2 s at an interface 2 K warmer than the reference."""
+    """(x, y, a phi) in m after 0.2 s on a film of water, 2 K warmer than the reference."""
     kernel = compiled_kernel()
     p, u, z = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(Z_SIZE)
     w, e = np.zeros(W_SIZE), np.zeros(E_FIRST)
-    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, WARMER
+    u[U_SPEED], u[U_TEMPERATURE], u[U_FILM] = parameters.surface.speed, WARMER, WATER
     kernel.initialise(p, z, 0.0)
     kernel.advance(p, u, z, w, e, 0.2)
     assert e[E_COUNT] == 0.0 and z[SHOWN + MODE] == SLIP

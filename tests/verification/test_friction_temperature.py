@@ -7,7 +7,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import dblquad, quad, solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel.coefficient import holding_coefficient, local_coefficient
@@ -89,6 +89,34 @@ def test_static_friction_is_linear_as_well(temperature):
 def test_the_three_constants_are_those_of_conduction(constant, warmed):
     """C is 1 over the face's rise for unit flux, effusivity and passage; r is a root of time."""
     assert constant == pytest.approx(1.0 / warmed(), abs=5e-4)
+
+
+def mean_over_square(peclet):
+    """Flash temperature of a square of side 2 b that moves over a half-space, as T k / (q b).
+
+    A point source's rise exp(-P (r - x)) / (2 pi k r), P = v b / (2 alpha), b = 1 (Jaeger 1942),
+    integrated over the square and averaged over it: weighted by how often a distance occurs.
+    """
+    def weighted(y, x):
+        r = np.hypot(x, y)
+        both_ways = np.exp(-peclet * (r - x)) + np.exp(-peclet * (r + x))
+        return (2.0 - x) * (2.0 - y) * both_ways / r
+
+    total = dblquad(weighted, 0.0, 2.0, 0.0, lambda x: x, epsabs=1e-9)[0]
+    total += dblquad(weighted, 0.0, 2.0, lambda x: x, 2.0, epsabs=1e-9)[0]
+    return 2.0 * total / (8.0 * np.pi)
+
+
+@pytest.mark.parametrize("peclet, within", [(100.0, 0.025), (1000.0, 0.01)])
+def test_the_flash_temperature_of_an_asperity_is_the_melting_point(peclet, within):
+    """With the friction of the law, uniform flux: T + flash = 0 degC, less what leaves sideways."""
+    conductivity, diffusivity, half = 2.2, (2.2 / 2034.0) ** 2, 0.5 * ASPERITY["length"]
+    speed = 2.0 * diffusivity * peclet / half
+    (mu,) = law(speeds=[speed], asperity_melting=ASPERITY | {"constant": 1.329})
+    boundary = 1.0 / sqrt(mu**-2 - DRY**-2)
+    flux = boundary * ASPERITY["hardness"] * speed
+    flash = mean_over_square(peclet) * flux * half / conductivity
+    assert COLD + flash == pytest.approx(0.0, abs=within * -COLD)
 
 
 @pytest.mark.parametrize("constant", [0.886, 1.128, 1.329])

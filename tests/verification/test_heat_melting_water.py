@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from thermal import Ambient, Belt, BeltIceModel, Ice, ThermalParameters
+from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
 from thermal.belt_water import BeltWater
 from thermal.melt_film import VISCOSITY, WATER_DENSITY, MeltFilm
 
@@ -79,6 +79,47 @@ def test_picked_up_under_the_block_only():
     assert taken == pytest.approx((1e-6) * 39)
     assert belt.water.sum() + taken == pytest.approx(200e-6)
     assert np.flatnonzero(belt.water == 0.0).size == 39
+
+
+@pytest.mark.parametrize("movement", [0.0301, -0.0301])
+def test_a_wiper_takes_its_part_of_what_passes(movement):
+    belt = BeltWater(200, 1e-3, 350e3, 8.0)
+    belt.water[:], belt.frozen[:] = 2e-6, 4e-6
+    taken = belt.wipe(0.1905, movement, 0.75)
+    passed = 30  # nodes, across the seam of the loop or not
+    assert taken == pytest.approx(passed * 1.5e-6)
+    assert belt.water.sum() + taken == pytest.approx(200 * 2e-6)
+    assert belt.frozen.sum() == pytest.approx((200 - 0.75 * passed) * 4e-6)
+    assert belt.wipe(0.05, 0.0, 1.0) == 0.0
+
+
+def test_a_belt_that_is_wiped_brings_no_water_back():
+    """Warm air and belt, so that nothing freezes: all that was wiped is on the books."""
+    wet, wiped = (BeltIceModel(ThermalParameters(
+        ambient=Ambient(temperature_degC=-1e-3), contact=Contact(wiper=share),
+        belt=Belt(cell_length=2e-3))) for share in (0.0, 1.0))
+    for model in (wet, wiped):
+        drive(model, 600)
+        outputs = model.outputs()
+        assert abs(outputs["heat_residual"]) < 1e-10 * outputs["heat_received"]
+        assert mass_found(model) == pytest.approx(outputs["melted_mass"], rel=1e-12)
+    assert wet.meltwater.wiped == 0.0
+    # all but what one loop has left on the belt
+    assert wiped.meltwater.wiped > 0.6 * wiped.outputs()["melted_mass"]
+    assert wet.outputs()["film_thickness"] > 2.0 * wiped.outputs()["film_thickness"]
+
+
+def test_what_the_block_weighs_squeezes_the_film():
+    """Left at rest, h^-2 grows by 4 p t/(3 eta a^2): with the load given, or the ice's own."""
+    for load in (0.0, 400.0):
+        model = BeltIceModel(ThermalParameters(
+            ambient=Ambient(temperature_degC=-1e-9), contact=Contact(load=load)))
+        film, area = model.meltwater.film, model.footprint.area
+        film.mass = 1e-4 * WATER_DENSITY * area
+        film.advance(5.0, 0.0, 0.0)
+        weight = load or 917.0 * math.pi * 0.04**2 * 0.1 * 9.81
+        grown = 4.0 * weight / area * 5.0 / (3.0 * VISCOSITY * area / math.pi)
+        assert film.thickness**-2 == pytest.approx(1e8 + grown, rel=1e-9)
 
 
 def drive(model, steps, duration=0.01, power=100.0, speed=0.5):

@@ -22,6 +22,7 @@ pytestmark = pytest.mark.skipif(
     reason="no pyccel (pip install 'stickslip[native]') or no C compiler",
 )
 SETS, STEPS = 10, 60
+FILM = 3e-6  # m of water, which mixed_lubrication feels
 NAME = "kernel_in_c"
 # the command `pyccel` of this very interpreter, wherever its script may be
 PYCCEL = "from pyccel.commands.console import pyccel_command; pyccel_command()"
@@ -51,7 +52,7 @@ def translated(tmp_path_factory):
 def test_interpreted_and_translated_take_the_same_step(translated, effect):
     draw = random.Random(f"kernels {effect}")
     for _ in range(SETS):
-        memory = memory_of(draw_parameters((effect,), draw), temperature=draw.uniform(-20.0, 2.0))
+        memory = memory_of(draw_parameters((effect,), draw), draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(translated, memory, STEPS) < 1e-12
 
 
@@ -60,12 +61,12 @@ def test_a_stick_that_creeps(translated):
     for _ in range(2 * SETS):
         on = tuple(draw.sample(BESIDE_CREEP, 2))
         parameters = with_stick_creep(draw_parameters(on, draw), 5e-3)
-        memory = memory_of(parameters, temperature=draw.uniform(-20.0, 2.0))
+        memory = memory_of(parameters, draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(translated, memory, STEPS) < 1e-12
 
 
 def test_all_effects_at_once(translated):
     draw = random.Random("all")
     for _ in range(SETS):
-        memory = memory_of(draw_parameters(IDS, draw), temperature=draw.uniform(-20.0, 2.0))
+        memory = memory_of(draw_parameters(IDS, draw), draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(translated, memory, STEPS) < 1e-12

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from .belt_temperature import draw_belt_temperature
 from .friction_force import draw_friction_force
 from .heat import draw_heat
+from .melting import draw_melting
 from .motion import draw_motion
 from .phase_portrait import draw_phase_portrait
 from .temperatures import draw_temperatures
@@ -19,12 +20,16 @@ from .top_view import draw_top_view
 
 @dataclass(frozen=True)
 class Plate:
-    """A figure: name of its file, caption, how it is drawn, and the variable that it needs."""
+    """A figure: name of its file, caption, how it is drawn, the variable that it needs.
+
+    grows: that variable must rise above 0, or there is nothing to see.
+    """
 
     name: str
     caption: str
     draw: Callable[[xr.Dataset], Figure]
     needs: str = "x"
+    grows: bool = False
 
 
 PLATES = (
@@ -63,6 +68,17 @@ PLATES = (
         needs="interface_temperature",
     ),
     Plate(
+        "melting",
+        "Stress of friction on the contact; mean thickness of the water under the block, and what"
+        " the melting of the moment alone would feed (the rest has come round on the belt); ice"
+        " that the block has lost, and what of it lies frozen on the belt. Dotted: what the film"
+        " would be sheared with if it covered the whole contact; where that is more than friction,"
+        " it does not.",
+        draw_melting,
+        needs="melted_mass",
+        grows=True,
+    ),
+    Plate(
         "belt_temperature",
         "Contact face of the belt along its length, in the belt's own coordinate, at several times."
         " Below, in the same colours: where the block stood. Where the belt runs forwards the"
@@ -83,4 +99,10 @@ def plates_of(dataset: xr.Dataset) -> list[Plate]:
     """The figures that a dataset has the variables (and at least one row) for."""
     if dataset.sizes["time"] == 0:
         return []
-    return [plate for plate in PLATES if plate.needs in dataset and dataset[plate.needs].size > 0]
+    return [plate for plate in PLATES if _has(dataset, plate)]
+
+
+def _has(dataset: xr.Dataset, plate: Plate) -> bool:
+    if plate.needs not in dataset or dataset[plate.needs].size == 0:
+        return False
+    return not plate.grows or float(dataset[plate.needs].max()) > 0.0

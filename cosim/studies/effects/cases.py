@@ -59,4 +59,5 @@ CASES = {
     "temperature_dependence": Case({"sensitivity": 0.125, "reference_degC": -8.0}),
     "asperity_melting": Case({"length": 1e-3}),
     "melt_film": Case({"wetted_share": 0.01}, window=(0.0, 8.0)),
+    "mixed_lubrication": Case({"share": 0.8}, window=(0.0, 8.0)),
 }

@@ -6,9 +6,6 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from stickslip import Parameters, simulate
-from stickslip.compiled import compiled_kernel
-from stickslip.kernel import layout
-from stickslip.ports import OUTPUTS
 
 from cosim.studies.drawing import BLUE, GREY, RC, Picture, picture
 
@@ -16,6 +13,7 @@ from .cases import CASES
 
 INTERVAL = 0.005  # s
 WARMER = 3.0  # K above the reference: what temperature_dependence is shown at
+WATER = 5e-6  # m in the contact: what mixed_lubrication is shown at
 
 
 def effect_figure(effect_id: str) -> Picture:
@@ -30,6 +28,8 @@ def effect_figure(effect_id: str) -> Picture:
     where = f"; both with {rig}" if rig else ""
     if effect_id == "temperature_dependence":
         where += f"; interface {WARMER:g} K above the reference"
+    if effect_id == "mixed_lubrication":
+        where += f"; {1e6 * WATER:g} µm of water in the contact"
     draw = picture(effect_id, f"Motion without and with the effect ({sizes}){where}.")(_draw)
     return draw(effect_id)
 
@@ -53,18 +53,11 @@ def _draw(effect_id: str) -> Figure:
 
 
 def _motion(parameters: Parameters, end: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n,) and x (n,), m; at a warmer interface where friction feels that."""
-    if parameters.temperature_dependence.sensitivity == 0.0:
-        run = simulate(parameters, end, INTERVAL)
-        return run.time, run["x"]
-    kernel = compiled_kernel()
-    time = np.arange(0.0, end + 0.5 * INTERVAL, INTERVAL)
-    p, u = np.array(parameters.pack()), np.zeros(layout.U_SIZE)
-    u[layout.U_SPEED] = parameters.surface.speed
-    u[layout.U_TEMPERATURE] = parameters.temperature_dependence.reference_degC + WARMER
-    z, w, e = np.zeros(layout.Z_SIZE), np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST)
-    o = np.zeros(layout.O_SIZE * time.size)
-    kernel.initialise(p, z, 0.0)
-    kernel.record(p, u, z, w, e, time, o, 0, time.size)
-    slot = next(getattr(layout, port.slot) for port in OUTPUTS if port.name == "x")
-    return time, o.reshape(-1, layout.O_SIZE)[:, slot]
+    """Times (n,) and x (n,), m; on a warmer and wet interface where friction feels that."""
+    law = parameters.temperature_dependence
+    warmer = WARMER if law.sensitivity > 0.0 else 0.0
+    run = simulate(
+        parameters, end, INTERVAL,
+        interface_temperature=law.reference_degC + warmer, film_thickness=WATER,
+    )
+    return run.time, run["x"]

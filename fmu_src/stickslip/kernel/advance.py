@@ -7,7 +7,7 @@ change, the trajectory therefore does not depend on when anybody looks at it.
 
 from math import isfinite
 
-from .coefficient import feels_temperature, holding_coefficient
+from .coefficient import holding_coefficient, is_felt
 from .contact import rest_speed, scaled_sliding_speed
 from .creep import can_creep
 from .events import (
@@ -51,7 +51,6 @@ from .layout import (
     TIME,
     TOO_STIFF,
     U_SIZE,
-    U_TEMPERATURE,
     W_ALONG,
     W_SLIDING,
     Z_ENERGY,
@@ -216,11 +215,11 @@ def internal_step(
 def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]") -> int:
     """Start afresh from SHOWN where inputs that matter have changed; 1 if so in mid-run.
 
-    A temperature that friction does not feel is no change.
+    A temperature or a film of water that friction does not feel is no change.
     """
     changed = 0
     for i in range(U_SIZE):
-        if z[Z_INPUTS + i] != u[i] and (i != U_TEMPERATURE or feels_temperature(p)):
+        if z[Z_INPUTS + i] != u[i] and is_felt(p, i):
             changed = 1
         z[Z_INPUTS + i] = u[i]
     if z[Z_STARTED] == 0.0:

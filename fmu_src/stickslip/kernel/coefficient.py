@@ -1,4 +1,4 @@
-"""Friction coefficients: how mu_s and mu_k depend on place, time, heat, distance and speed."""
+"""Friction coefficients: how mu_s and mu_k depend on place, time, heat, distance, speed, water."""
 
 from math import cos, exp, log, log10, sqrt
 
@@ -8,10 +8,12 @@ from .layout import (
     HOLD_SINCE,
     MODE,
     P_ASPERITY,
+    P_COUETTE,
     P_CREEP_SPEED,
     P_DIRECT,
     P_EVOLUTION,
     P_FILM_ROOT,
+    P_FLOODED,
     P_HOLD_TIME,
     P_HYPERBOLIC,
     P_INVERSE_ROOT,
@@ -26,6 +28,7 @@ from .layout import (
     P_PATTERN_SECOND_PHASE,
     P_PATTERN_WAVENUMBER,
     P_REFERENCE,
+    P_ROUGHNESS,
     P_RUN_IN,
     P_RUN_IN_DISTANCE,
     P_SATURATING,
@@ -44,6 +47,7 @@ from .layout import (
     STICK,
     TIME,
     TRAVEL,
+    U_FILM,
     U_TEMPERATURE,
     W_STATE,
     WARMTH,
@@ -88,6 +92,31 @@ def feels_temperature(p: "float[:]") -> bool:
     """Does the interface temperature matter to friction?"""
     linear = p[P_SENSITIVITY] != 0.0 or p[P_STATIC_SENSITIVITY] != 0.0
     return linear or p[P_ASPERITY] != 0.0
+
+
+def is_felt(p: "float[:]", i: int) -> bool:
+    """Does input i of ``u`` matter to the motion?"""
+    if i == U_TEMPERATURE:
+        return feels_temperature(p)
+    if i == U_FILM:
+        return p[P_FLOODED] != 0.0
+    return True
+
+
+def flooded_share(p: "float[:]", u: "float[:]") -> float:
+    """Part of the contact that water fills, and with it of the load that it bears.
+
+    Water of the mean thickness h first fills the valleys of a surface of roughness s, and all
+    that it can fill (f) once it is much thicker: f h / (h + s), mixed_lubrication.
+    """
+    if p[P_FLOODED] == 0.0 or u[U_FILM] <= 0.0:
+        return 0.0
+    return p[P_FLOODED] * u[U_FILM] / (u[U_FILM] + p[P_ROUGHNESS])
+
+
+def dry_share(p: "float[:]", u: "float[:]") -> float:
+    """Part of the load that the solid contact bears."""
+    return 1.0 - flooded_share(p, u)
 
 
 def warm_factor(loss: float, curvature: float) -> float:
@@ -166,7 +195,9 @@ def local_coefficient(p: "float[:]", u: "float[:]", mu: float, speed: float) -> 
 
     velocity_weakening: linear, hyperbolic 1/(1 + delta v), inverse root 1/sqrt(1 + c v), Stribeck
     peak; then asperity_melting and melt_film (`melting_coefficient`); film_drag: a film whose shear
-    grows with the root of the speed.
+    grows with the root of the speed. Where water floods a share w of the contact
+    (mixed_lubrication) all that holds for the rest; the water, h / w thick there, is sheared in
+    Couette flow, eta v w / h on the share w.
     """
     factor = max(0.0, 1.0 - p[P_LINEAR] * speed) / (1.0 + p[P_HYPERBOLIC] * speed)
     if p[P_INVERSE_ROOT] != 0.0:
@@ -176,6 +207,9 @@ def local_coefficient(p: "float[:]", u: "float[:]", mu: float, speed: float) -> 
     mu = melting_coefficient(p, u, mu * factor, speed)
     if p[P_FILM_ROOT] != 0.0:
         mu += p[P_FILM_ROOT] * sqrt(speed) / p[P_NORMAL_FORCE]
+    flooded = flooded_share(p, u)
+    if flooded != 0.0:
+        mu = (1.0 - flooded) * mu + flooded * flooded / u[U_FILM] * p[P_COUETTE] * speed
     return mu
 
 
@@ -183,7 +217,7 @@ def slow_coefficient(p: "float[:]", u: "float[:]", w: "float[:]", speed: float) 
     """mu_k of a slip whose speed (m/s) is small to every law but rate_and_state."""
     mu = local_coefficient(p, u, kinetic_coefficient(p, u, w), 0.0)
     if has_state_law(p):
-        mu = max(0.0, mu + rate_and_state(p, w[W_STATE + AGE], speed))
+        mu = max(0.0, mu + dry_share(p, u) * rate_and_state(p, w[W_STATE + AGE], speed))
     return mu
 
 
@@ -208,6 +242,7 @@ def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     mu_s grows with the time at rest (static_strengthening). With
     mu_k > mu_s a block that breaks away at mu_s is stopped at once; at rest it therefore holds up
     to mu_k. With rate_and_state the age of the contact says what it holds, and mu_s is not used.
+    Water holds nothing at rest.
     """
     onset = onset_coefficient(p, u, w)
     if has_state_law(p):
@@ -216,4 +251,4 @@ def holding_coefficient(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     mu *= max(0.0, 1.0 - p[P_STATIC_SENSITIVITY] * (ice_temperature(u) - p[P_REFERENCE]))
     if w[W_STATE + MODE] == STICK:
         mu += strengthening(p, max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE]))
-    return max(mu, onset)
+    return max(dry_share(p, u) * mu, onset)

@@ -10,6 +10,7 @@ motion for every kappa.
 from math import sqrt
 
 from .coefficient import (
+    dry_share,
     has_state_law,
     kinetic_coefficient,
     local_coefficient,
@@ -86,7 +87,7 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
         reference = local_coefficient(p, u, mu, mean_speed)
     aged = 0.0
     if has_state_law(p):
-        aged = rate_and_state(p, w[W_STATE + AGE], mean_speed)
+        aged = dry_share(p, u) * rate_and_state(p, w[W_STATE + AGE], mean_speed)
     whole = max(0.0, reference + aged)
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole

@@ -60,13 +60,13 @@ Z_HAS_NEXT = 93  # 1 while NEXT holds the end of the internal step that begins i
 Z_ENERGY = 94  # kinetic and spring energy at the start, J
 Z_STARTED = 95
 Z_INPUTS = 96  # the inputs that HERE and NEXT were computed with
-Z_HEAT_BEFORE = 101  # friction heat at the communication point before, J
-Z_TIME_BEFORE = 102
-Z_STATUS = 103  # what the last call of `advance` returned
-Z_SPAN = 104  # size of the internal step from HERE to NEXT, s
-Z_SMOOTH = 105  # 1 where the interpolant over that step is accurate enough
-Z_DENSE = 106  # the interpolant: POWERS rows of STATES coefficients
-Z_SIZE = 204
+Z_HEAT_BEFORE = 102  # friction heat at the communication point before, J
+Z_TIME_BEFORE = 103
+Z_STATUS = 104  # what the last call of `advance` returned
+Z_SPAN = 105  # size of the internal step from HERE to NEXT, s
+Z_SMOOTH = 106  # 1 where the interpolant over that step is accurate enough
+Z_DENSE = 107  # the interpolant: POWERS rows of STATES coefficients
+Z_SIZE = 205
 
 # --- u: inputs ----------------------------------------------------------------------------------
 U_SPEED = 0  # m/s
@@ -74,7 +74,8 @@ U_TEMPERATURE = 1  # interface temperature, degC
 U_FORCE_X = 2
 U_FORCE_Y = 3
 U_MOMENT = 4
-U_SIZE = 5
+U_FILM = 5  # water between block and surface, mean over the contact, m
+U_SIZE = 6
 
 # --- p: parameters ------------------------------------------------------------------------------
 P_MASS = 0
@@ -149,8 +150,11 @@ P_SATURATING = 579  # growth of mu_s that a long hold comes to
 P_SATURATION_TIME = 580  # s
 P_STICK_CREEP = 581  # sliding speed of a stick per load, m/(s N), see stick
 P_NEUTRAL = 582  # extension of a spring at which its cubic term vanishes, m
-P_RELATIVE_STIFFNESS = 583  # of each spring: what its force is multiplied by, see imperfections
-P_SIZE = 587
+P_FLOODED = 583  # mixed_lubrication: part of the contact that water can fill
+P_ROUGHNESS = 584  # m
+P_COUETTE = 585  # friction coefficient of a film of 1 m at 1 m/s, s
+P_RELATIVE_STIFFNESS = 586  # of each spring: what its force is multiplied by, see imperfections
+P_SIZE = 590
 
 # --- sizes inside p -----------------------------------------------------------------------------
 CURVE_WIDTH = 4
