@@ -9,6 +9,8 @@ from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.studies.drawing import Picture
 
+from .printed import Printed
+
 HOLDS = "holds"
 FOLLOWS = "follows from the assumption"
 UNDECIDED = "undecided"
@@ -29,26 +31,22 @@ FAR = "far"  # the study says otherwise: only how far it is to the turn
 class Row:
     """One quantity: the study's figure, what follows from the study's numbers, and ours.
 
-    study: a number that the study prints, or a range of such numbers, and nothing else; place:
-    section, table, figure or equation where it stands. derived: computed from the study's numbers,
-    not printed there; how: in what way. None: there is none. digits: significant ones that are
-    shown of ours. ValueError for a figure without its place or its way.
+    study: what the study prints, with its place. derived: computed from the study's numbers, not
+    printed there; how: in what way. None: there is none. digits: significant ones that are shown
+    of ours. ValueError for a derived figure without its way.
     """
 
     quantity: str
     unit: str
-    study: float | str | None = None
+    study: Printed | None = None
     printed: float | None = None
     mended: float | None = None
     exact: float | None = None
     digits: int = 4
-    place: str = ""
     derived: float | str | None = None
     how: str = ""
 
     def __post_init__(self) -> None:
-        if (self.study is not None) != bool(self.place):
-            raise ValueError(f"{self.quantity}: a figure of the study and its place go together")
         if (self.derived is not None) != bool(self.how):
             raise ValueError(f"{self.quantity}: a derived figure and its way go together")
 

@@ -16,6 +16,7 @@ from stickslip.reference.spring_angles import ATTACHMENT_RADIUS
 
 from .cases import DATASET_1, DATASET_2, SCATTER, SEEDS, WEAKENING, Case, many, scheme
 from .motion import Motion, MotionFigures, average, figures
+from .printed import STUDY
 
 SETTLING_CYCLES = 10  # section 5 of the study
 STEADY = 20.0  # s
@@ -44,14 +45,18 @@ class Mark:
         return self.low <= value <= self.high
 
 
+MEAN_2 = STUDY["mean_x_dataset_2"]
+TURN_1, TURN_2 = STUDY["rotation_dataset_1"], STUDY["rotation_dataset_2"]
+FACTOR = 1.5
 #: A run turns by half as much again as another of the same kind; a window may cut an oscillation.
 MARKS = (
     Mark("oscillations in 20 s, #2", "1", 2, "oscillations", "30 or 31", 29.5, 32.0,
          "one or two more than the 29 of §5.4, fig. 5.11c"),
-    Mark("mean of x, #2", "m", 2, "mean_x", 0.004, 0.0035, 0.0045, "§4.6.3, fig. 4.18c"),
-    Mark("largest rotation, #2", "deg", 2, "max_rotation", 15.0, 10.0, 22.5, "§4.6.4, eq. 4.26"),
-    Mark("largest rotation, #1", "deg", 1, "max_rotation", 150.0, 100.0, 225.0,
-         "§4.6.4, eq. 4.26"),
+    Mark("mean of x, #2", "m", 2, "mean_x", MEAN_2.value, 0.0035, 0.0045, MEAN_2.place),
+    Mark("largest rotation, #2", "deg", 2, "max_rotation", TURN_2.value, TURN_2.value / FACTOR,
+         TURN_2.value * FACTOR, TURN_2.place),
+    Mark("largest rotation, #1", "deg", 1, "max_rotation", TURN_1.value, TURN_1.value / FACTOR,
+         TURN_1.value * FACTOR, TURN_1.place),
 )
 
 
@@ -119,7 +124,7 @@ READINGS = (
     Reading("r in the rise, scatter 0.05 that lasts a slip", "", PRINTED.without("F2", "F5"),
             changes=(("scatter", 0.05), ("correlation_length", 1.3 * ATTACHMENT_RADIUS))),
 )  # fmt: skip
-AS_PRINTED = READINGS[0]
+AS_PRINTED, ROUNDED, BALANCED = READINGS[0], READINGS[3], READINGS[4]
 
 
 def steady_figures(motion: Motion) -> MotionFigures:

@@ -57,8 +57,9 @@ class Scheme:
     """The scheme's numbers; SI units.
 
     stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip; of all
-    strips alike where it is common_scatter) and of mu_s (per cycle). mu_slope: loss of mu_k per m/s of sliding speed above mu_k_speed, at
-    which mu_k holds. correlation_length: of the scatter on the surface once F5 is mended.
+    strips alike where it is common_scatter) and of mu_s (per cycle). mu_slope: loss of mu_k per m/s
+    of sliding speed above mu_k_speed, at which mu_k holds. correlation_length: of the scatter
+    on the surface once F5 is mended.
     curvature: 1/R of a turning slab, whose speed falls across the block. effects: of the catalogue,
     none by default.
     """

@@ -29,6 +29,7 @@ from ..cases import (
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS, study_line
 from ..motion import MotionFigures
+from ..printed import STUDY, Printed
 
 Y_STIFFNESS = 38.50  # the mean of y is known for these springs
 ENOUGH = 1.5  # one fault explains by itself what others do not lessen by a third
@@ -38,17 +39,21 @@ PRETENSIONS = tuple(0.001 * mm for mm in range(13))
 
 @dataclass(frozen=True)
 class Observation:
-    """A figure of the experiment: value, and how far off still counts as the same."""
+    """A figure of the experiment, and how far off still counts as the same."""
 
     name: str
     unit: str
-    value: float
+    study: Printed
     spread: float
     figure: str  # of `MotionFigures`
-    place: str  # where the study prints it
-    study: float | str = ""  # as it stands there, where that is not the value
+    middle: float | None = None  # the value, where the study prints a range
     how: str = ""  # of the value, where the study prints something else
     mirrored: bool = False  # its sign is a matter of chance: the rig is its own mirror image
+
+    @property
+    def value(self) -> float:
+        """What counts as observed."""
+        return float(self.study.value) if self.middle is None else self.middle
 
     def distance(self, value: float) -> float:
         """How far ``value`` is from the observation, in spreads."""
@@ -56,13 +61,13 @@ class Observation:
 
 
 OBSERVATIONS = (
-    Observation("oscillations in 20 s", "1", 34.0, 1.0, "oscillations", "§5.4, fig. 5.11"),
-    Observation("mean of x", "m", 0.02, 0.005, "mean_x", "§4.6.3, fig. 4.18c"),
-    Observation("share of time in slip", "1", 0.925, 0.025, "slip_share", "§4.6.3", "90 to 95 %",
+    Observation("oscillations in 20 s", "1", STUDY["oscillations_measured"], 1.0, "oscillations"),
+    Observation("mean of x", "m", STUDY["mean_x_measured"], 0.005, "mean_x"),
+    Observation("share of time in slip", "1", STUDY["percent_in_slip"], 0.025, "slip_share", 0.925,
                 "the middle of the range"),
-    Observation("largest rotation", "deg", 20.0, 10.0, "max_rotation", "§4.6.4"),
-    Observation(f"mean of y, k {Y_STIFFNESS:.2f} N/m", "m", 0.01, 0.005, "mean_y",
-                "§6.2, fig. 6.4b", mirrored=True),
+    Observation("largest rotation", "deg", STUDY["rotation_measured"], 10.0, "max_rotation"),
+    Observation(f"mean of y, k {Y_STIFFNESS:.2f} N/m", "m", STUDY["mean_y_measured"], 0.005,
+                "mean_y", mirrored=True),
 )
 ROTATION = OBSERVATIONS[3]
 EVEN = (1.0,) * len(OBSERVATIONS)
@@ -203,14 +208,15 @@ def _turns(of: dict[str, Variant]) -> list[Turn]:
 
 
 def _turn(change: str, full: float, cut: float) -> Turn:
-    return Turn(change, f"misfit {full:.2f} with µ full, {cut:.2f} with µ quarter", cut < full, OPEN)
+    figure = f"misfit {full:.2f} with µ full, {cut:.2f} with µ quarter"
+    return Turn(change, figure, cut < full, OPEN)
 
 
 def _row(i: int, of: dict[str, Variant]) -> Row:
     o = OBSERVATIONS[i]
     models = (of[f"{model}_full"].values[i] for model in ("printed", "mended", "exact"))
     derived = {"derived": o.value, "how": o.how} if o.how else {}
-    return Row(f"{o.name}, µ full", o.unit, o.study or o.value, *models, place=o.place, **derived)
+    return Row(f"{o.name}, µ full", o.unit, o.study, *models, **derived)
 
 
 def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]:
@@ -228,12 +234,13 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     return (
         f"Does the one-spring fault F1 alone explain the factor of four? {answer.capitalize()}: "
         f"misfit {share[0]} with µ cut to a quarter, {share[1]} "
-        f"with µ full and F1 mended, {share[2]} with F12 mended too, {share[3]} with F2 too. With F1 "
-        f"alone mended the block still turns by {turned}°.",
-        f"The number of oscillations cannot decide: {alike[0]} with µ full, {alike[1]} with a quarter "
-        "in the exact model, for the block slides most of the time and swings at its own frequency.",
-        f"Pretension is not printed: the exact model's misfit with µ full is {loose.misfit:.2f} at 10 "
-        f"mm and {fitted.misfit:.2f} at the best.",
+        f"with µ full and F1 mended, {share[2]} with F12 mended too, {share[3]} with F2 too. With "
+        f"F1 alone mended the block still turns by {turned}°.",
+        f"The number of oscillations cannot decide: {alike[0]} with µ full, {alike[1]} with a "
+        "quarter in the exact model, for the block slides most of the time and swings at its own "
+        "frequency.",
+        f"Pretension is not printed: the exact model's misfit with µ full is {loose.misfit:.2f} "
+        f"at 10 mm and {fitted.misfit:.2f} at the best.",
         "Faults with which, mended alone, µ full fits better than the study's dataset #2: "
         f"{', '.join(faults) or 'none'}.",
         f"Closest of all: {best.name}, misfit {best.misfit:.1f}.",

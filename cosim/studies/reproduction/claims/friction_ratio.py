@@ -22,16 +22,16 @@ from ..cases import (
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn
 from ..drawing import COLOURS, LABELS
 from ..motion import MotionFigures
+from ..printed import STUDY
 
 RATIOS = (0.5, 0.77, 1.0)
-COUNTED = 29
-PLACE = "§5.4, fig. 5.11c"
+COUNTED = int(STUDY["oscillations_at_1"].value)
+MEASURED = int(STUDY["oscillations_measured"].value)
 #: What the study's words say of the other two; the captions that count them are not to be had
 DERIVED = {
     0.5: ("28 to 30", "one or two less than that at 0.77"),
     0.77: ("30 or 31", "one or two more than the 29 at 1.0"),
 }
-MEASURED = 34
 # "one or two more" and "29" are counts: half an oscillation either way rounds to them
 MORE = (0.5, 2.5)
 NEAR = 1.0
@@ -65,7 +65,8 @@ def judge() -> Claim:
     }
     rows = [
         Row(f"oscillations in 20 s, µ_k/µ_s = {ratio:g}", "1",
-            None if ratio in DERIVED else COUNTED, *(counts[model][ratio] for model in counts),
+            None if ratio in DERIVED else STUDY["oscillations_at_1"],
+            *(counts[model][ratio] for model in counts),
             **_source(ratio))
         for ratio in RATIOS
     ]
@@ -104,10 +105,7 @@ def judge() -> Claim:
 
 
 def _source(ratio: float) -> dict[str, str]:
-    if ratio not in DERIVED:
-        return {"place": PLACE}
-    derived, how = DERIVED[ratio]
-    return {"derived": derived, "how": how}
+    return dict(zip(("derived", "how"), DERIVED.get(ratio, ()), strict=False))
 
 
 def _gap(counts: dict[float, float]) -> float:

@@ -12,6 +12,7 @@ from cosim.studies.drawing import panels, picture
 from ..cases import CYCLES, Case, exact_motion, exact_parameters, longest, many, scheme
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS
+from ..printed import STUDY
 from ..series import ASSUMED, CASE, cases
 
 NAMED = tuple(CASE.changed(stiffness=68.22, mass=2.03, speed=v) for v in (0.50, 0.63, 0.82))
@@ -51,8 +52,8 @@ def judge() -> Claim:
             derived="1 or more", how="a run is named for its jump, §5.1")
         for case in NAMED
     ]
-    rows.append(Row(f"runs with a jump, of {len(plan)}", "1", "three", float(len(jumping)),
-                    float(mended), place="§5.1"))
+    rows.append(Row(f"runs with a jump, of {len(plan)}", "1", STUDY["runs_with_a_jump"],
+                    float(len(jumping)), float(mended)))
     named = sum(_jumps(case, PRINTED) > 0 for case in NAMED)
     before = sum(_jumps(case, PRINTED) for case in witnesses)
     left = {f: sum(many(_jumps, witnesses, PRINTED.without(f))) for f in ("F6", "F14")}

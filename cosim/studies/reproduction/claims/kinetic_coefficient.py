@@ -20,12 +20,11 @@ from ..cases import (
 )
 from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS
+from ..printed import STUDY
 from ..series import ASSUMED, CASE, Grid, grid
 from .mean_displacement import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)
-RANGE = (0.05, 0.11)
-TOLD = "executive summary"
 # lines over mass count as horizontal where mu_k strays by less than this part of its mean
 HORIZONTAL = 0.05
 OTHER_WEAKENINGS = (0.2, 0.6)
@@ -48,8 +47,10 @@ def judge() -> Claim:
     strays = [_strays(mu[model]) for model in MODELS]
     changes = [_change_over_mass(mu[model]) for model in MODELS]
     rows = [
-        Row("smallest mean µ_k", "1", RANGE[0], *(float(mu[m].min()) for m in MODELS), place=TOLD),
-        Row("largest mean µ_k", "1", RANGE[1], *(float(mu[m].max()) for m in MODELS), place=TOLD),
+        Row("smallest mean µ_k", "1", STUDY["least_mu_k"],
+            *(float(mu[m].min()) for m in MODELS)),
+        Row("largest mean µ_k", "1", STUDY["largest_mu_k"],
+            *(float(mu[m].max()) for m in MODELS)),
         Row("largest spread over mass, part of the mean", "1", None, *strays),
     ]
     rows += [
@@ -69,7 +70,7 @@ def judge() -> Claim:
                   turns=(_load_dependent(),)),
             Check("linear in mass, as the study's summary has it",
                   *(value >= HORIZONTAL for value in changes),
-                  margin=Margin("change from the least to the largest mass, part of the mean, exact",
+                  margin=Margin("change over the masses, part of the mean, exact",
                                 changes[-1], HORIZONTAL)),
             Check("falls with speed",
                   *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS),
@@ -83,9 +84,9 @@ def judge() -> Claim:
                   turns=tuple(_weakened(part) for part in OTHER_WEAKENINGS)),
         ),
         remarks=(
-            "The study says both: its summary, that friction coefficients depend linearly on mass; "
-            "§5.3, that a similar one is found per mass. Its figures 5.8 show the latter. Linear in "
-            "mass is the friction force.",
+            "The study says both: its summary, that friction coefficients depend linearly on "
+            "mass; §5.3, that a similar one is found per mass, with figure 5.8. Linear in mass is "
+            "the friction force.",
             "Over a whole cycle the mean sliding speed is the surface's own; in slip it is that "
             "divided by the share of slip, which stiffness brings to 1. So µ_k at high stiffness "
             "differs between speeds by what the friction law differs.",

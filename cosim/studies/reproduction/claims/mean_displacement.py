@@ -69,9 +69,9 @@ def judge() -> Claim:
                   margin=_least_fall("speed", by_speed["exact"]), turns=(_no_weakening(),)),
         ),
         remarks=(
-            f"The scheme as printed does not bear the study's own line: R² {r2[0]:.2f}, and of its "
-            "trends only the one with speed, for its rotation throws the mean about. What is linear "
-            "is the scheme without the rotation, and the exact model.",
+            f"The scheme as printed does not bear the study's own line (R² {r2[0]:.2f}): its "
+            "rotation throws the mean about. The mended scheme, which does not rotate, and the "
+            "exact model do.",
             "With a constant µ_k the mean of x is µ_k m g/(4k) whatever the speed: it falls with "
             "speed only as far as µ_k does.",
         ),

@@ -20,12 +20,12 @@ from ..cases import (
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS, LABELS, study_line
 from ..motion import Motion, MotionFigures, figures
+from ..printed import STUDY
 from ..readings import MARKS, READINGS, outcomes, reading_figures
 
 SEEDS = tuple(range(8))
-STUDY = {"#1": (150.0, 880.0), "#2": (15.0, 56.0)}
-MEASURED = 20.0
-PLACES = {"#1": "§4.6.4, eq. 4.26", "#2": "§4.6.4, eq. 4.26"}
+FAR_TURN = STUDY["rotation_dataset_1"].value
+MEASURED = STUDY["rotation_measured"].value
 # the motion is chaotic: the largest angle of one run and of another differ by as much
 FACTOR = 1.5
 
@@ -38,7 +38,7 @@ def _largest(case: Case, faults: Faults) -> MotionFigures:
 
 def _turns_still(faults: Faults) -> bool:
     """Turns by more than chance could make of 150 degrees, once and again."""
-    return _largest(DATASET_1, faults).max_rotation > STUDY["#1"][0] / FACTOR**2
+    return _largest(DATASET_1, faults).max_rotation > FAR_TURN / FACTOR**2
 
 
 def _stays(ours: MotionFigures) -> bool:
@@ -51,12 +51,12 @@ def judge() -> Claim:
     for name, case in (("#1", DATASET_1), ("#2", DATASET_2)):
         exact = figures(exact_motion(exact_parameters(case)))
         found[name] = (_largest(case, PRINTED), _largest(case, MENDED), exact)
-        angle, rate = STUDY[name]
+        angle, rate = (STUDY[f"{what}_dataset_{name[1:]}"] for what in ("rotation", "swing"))
         rows.append(Row(f"largest rotation, dataset {name}", "deg", angle,
-                        *(one.max_rotation for one in found[name]), place=PLACES[name]))
+                        *(one.max_rotation for one in found[name])))
         rows.append(Row(f"angle by duration of the fastest swing, dataset {name}", "deg/s", rate,
-                        *(one.swing_rate for one in found[name]), place=PLACES[name]))
-    far = [one.max_rotation > STUDY["#1"][0] / FACTOR for one in found["#1"]]
+                        *(one.swing_rate for one in found[name])))
+    far = [one.max_rotation > FAR_TURN / FACTOR for one in found["#1"]]
     near = [_stays(one) for one in found["#2"]]
     both = [one and other for one, other in zip(far, near, strict=True)]
     loose = {name: figures(exact_motion(exact_parameters(case, pretension=0.0)))
@@ -65,10 +65,10 @@ def judge() -> Claim:
     return Claim(
         "C7", "dataset #1 rotates up to 150°, dataset #2 stays within 20°", tuple(rows),
         (
-            Check(f"dataset #1 turns by more than {STUDY['#1'][0] / FACTOR:.0f}°", *far,
+            Check(f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°", *far,
                   faults=responsible(_turns_still),
                   margin=Margin("largest rotation #1, exact", found["#1"][2].max_rotation,
-                                STUDY["#1"][0] / FACTOR, "°")),
+                                FAR_TURN / FACTOR, "°")),
             Check(f"dataset #2 stays within {FACTOR * MEASURED:.0f}°", *near,
                   margin=Margin("largest rotation #2, exact", found["#2"][2].max_rotation,
                                 FACTOR * MEASURED, "°")),
@@ -82,7 +82,7 @@ def judge() -> Claim:
             f"{found['#2'][0].max_rotation:.0f}°: not within the {MEASURED:.0f}° that the study "
             "takes for measured. In the mended scheme and in the exact model it stays within, for "
             "there nothing turns: neither does dataset #1.",
-            "The study's angular speeds are angles of a swing divided by its duration; so are ours.",
+            "The study's angular speeds are the angle of a swing by its duration; so are ours.",
         ),
         place="§4.6.4, fig. 4.21, eq. 4.26",
         rests="the readings of the scheme, of which none gives both datasets",
@@ -96,7 +96,7 @@ def judge() -> Claim:
 
 
 def _both(first: MotionFigures, second: MotionFigures) -> bool:
-    return first.max_rotation > STUDY["#1"][0] / FACTOR and _stays(second)
+    return first.max_rotation > FAR_TURN / FACTOR and _stays(second)
 
 
 def _without_pretension(loose: dict[str, MotionFigures]) -> Turn:
@@ -133,7 +133,8 @@ def _draw():
             style = {"color": COLOURS[model], "label": LABELS[model], "lw": 1.0}
             ax.plot(run.time, np.degrees(run.phi), **style)
         for sign in (1, -1):
-            study_line(ax, sign * STUDY[name][0], "study's largest" if sign == 1 else "_")
+            largest = STUDY[f"rotation_dataset_{name[1:]}"].value
+            study_line(ax, sign * largest, "study's largest" if sign == 1 else "_")
         ax.set_title(f"dataset {name}")
         ax.set_xlabel("time, s")
         ax.set_ylabel("φ, °")

@@ -12,6 +12,7 @@ from stickslip.reference.interpreted_scheme import interpreted_run
 
 from ..cases import DATASET_1, exact_parameters, scheme
 from ..claim import Check, Claim, Margin, Row, Turn
+from ..printed import STUDY as PRINTED_TIMES
 
 # one stick and one slip, then the next ones begin: what a script needs grows with the slips
 DURATION = 0.7
@@ -19,7 +20,7 @@ WHOLE = 20.0
 STUDY = (5 * 60 / 30, 8 * 60 / 20)  # the least and the most that its minutes allow
 # machines and numpy versions differ; a ratio within a factor of 3 of the range is the same finding
 LEEWAY = 3.0
-CYCLES, PLACE = 40, "§4.3.2"  # the runs that the study compares
+CYCLES = 40  # the runs that the study compares
 
 
 def seconds(call: Callable[[], object], repeats: int) -> float:
@@ -56,10 +57,10 @@ def judge() -> Claim:
     return Claim(
         "C12", "updating the spring angles takes 5 to 8 min, other treatments 20 to 30 s",
         (
-            Row(f"run time of {CYCLES} cycles, updated, strips in Python", "min", "5 to 8",
-                CYCLES * python[0] / 60.0, place=PLACE, digits=3),
-            Row(f"run time of {CYCLES} cycles, zero, strips in Python", "s", "20 to 30",
-                CYCLES * python[1], place=PLACE, digits=3),
+            Row(f"run time of {CYCLES} cycles, updated, strips in Python", "min",
+                PRINTED_TIMES["minutes_updated"], CYCLES * python[0] / 60.0, digits=3),
+            Row(f"run time of {CYCLES} cycles, zero, strips in Python", "s",
+                PRINTED_TIMES["seconds_others"], CYCLES * python[1], digits=3),
             Row("run time, updated / zero, strips in Python", "1", None, ratio,
                 derived=f"{STUDY[0]:.0f} to {STUDY[1]:.0f}", how="5 min/30 s to 8 min/20 s"),
             Row("run time, updated / zero, strips in numpy", "1", None, numpy[0] / numpy[1]),

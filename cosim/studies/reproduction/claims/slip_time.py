@@ -71,11 +71,8 @@ def _varied(change: str, weight: str = FAR, **numbers: float) -> Turn:
         exact_figures(CASE.changed(speed=v, **numbers), rig=GUIDED).slip_time for v in SPEEDS
     ])
     known = times[np.isfinite(times)]
-    return Turn(
-        change,
-        f"from {known[0]:.3f} to {known[-1]:.3f} s, {len(known)} of {len(SPEEDS)} speeds with stick",
-        _grows(times), weight,
-    )
+    figure = f"from {known[0]:.3f} to {known[-1]:.3f} s, stick at {len(known)} of {len(SPEEDS)}"
+    return Turn(change, f"{figure} speeds", _grows(times), weight)
 
 
 def _grows(times: np.ndarray) -> bool:
