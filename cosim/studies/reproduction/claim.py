@@ -63,7 +63,7 @@ class Margin:
     @property
     def text(self) -> str:
         """In words."""
-        unit = "" if self.unit == "1" else f" {self.unit}"
+        unit = "" if self.unit == "1" else self.unit if self.unit == "°" else f" {self.unit}"
         return f"{self.what} {self.value:.4g}{unit}, limit {self.limit:.4g}{unit}"
 
 

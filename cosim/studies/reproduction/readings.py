@@ -1,8 +1,8 @@
 """Readings of the study's scheme: what its print leaves open, and what each makes of its datasets.
 
-The study prints four marks of its two datasets. The scheme as printed meets one of them. Each
-reading takes one thing otherwise, as another passage of the study has it or as the print leaves it
-open, and is laid beside all four.
+The study prints five marks of its two datasets. The scheme as printed meets one of them. Each
+reading takes something otherwise, as another passage of the study has it or as the print leaves it
+open, and is laid beside all five.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from functools import cache
 
 import numpy as np
 from stickslip.reference.faults import PRINTED, Faults
-from stickslip.reference.spring_angles import ATTACHMENT_RADIUS
 
 from .cases import DATASET_1, DATASET_2, SCATTER, SEEDS, WEAKENING, Case, many, scheme
 from .motion import Motion, MotionFigures, average, figures
@@ -25,6 +24,7 @@ CYCLES, LONGEST = 80, 40.0  # s: ten cycles of #1 take 16 s
 ROUNDING = 1e-15
 # rad; radius of the slab: not printed
 SLAB_RADIUS = 0.5
+WAY_OF_A_SLIP = 0.065  # m that the surface moves in one, at 0.15 m/s
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Mark:
     name: str
     unit: str
     dataset: int
-    figure: str  # of `MotionFigures`
+    figure: str  # of `MotionFigures`, or the onset of a rotation that is seen
     printed: float | str
     low: float
     high: float
@@ -47,7 +47,9 @@ class Mark:
 
 MEAN_2 = STUDY["mean_x_dataset_2"]
 TURN_1, TURN_2 = STUDY["rotation_dataset_1"], STUDY["rotation_dataset_2"]
+SETS_IN = STUDY["rotation_sets_in"]
 FACTOR = 1.5
+SEEN = 5.0  # deg: a rotation that shows in a plot of some hundred
 #: A run turns by half as much again as another of the same kind; a window may cut an oscillation.
 MARKS = (
     Mark("oscillations in 20 s, #2", "1", 2, "oscillations", "30 or 31", 29.5, 32.0,
@@ -57,6 +59,8 @@ MARKS = (
          TURN_2.value * FACTOR, TURN_2.place),
     Mark("largest rotation, #1", "deg", 1, "max_rotation", TURN_1.value, TURN_1.value / FACTOR,
          TURN_1.value * FACTOR, TURN_1.place),
+    Mark("rotation sets in, #1", "s", 1, "onset", SETS_IN.value, SETS_IN.value / FACTOR,
+         SETS_IN.value * FACTOR, SETS_IN.place),
 )
 
 
@@ -86,6 +90,12 @@ class Reading:
         if self.quarter and dataset == 2:
             case = case.changed(mu_s=self.quarter[0], mu_k=self.quarter[1])
         return case if self.speed is None else case.changed(speed=self.speed)
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        """One where there is no chance in the reading."""
+        chance = dict(self.changes).get("scatter") != 0.0 and not self.weakening
+        return SEEDS if chance else SEEDS[:1]
 
     def mended(self, *faults: str) -> Reading:
         """This reading with some faults mended."""
@@ -122,7 +132,14 @@ READINGS = (
     Reading("slips never cut (F14 mended)", "", PRINTED.without("F14")),
     Reading("angles fixed at 0", "§4.2.2", changes=(("treatment", "zero"),)),
     Reading("r in the rise, scatter 0.05 that lasts a slip", "", PRINTED.without("F2", "F5"),
-            changes=(("scatter", 0.05), ("correlation_length", 1.3 * ATTACHMENT_RADIUS))),
+            changes=(("scatter", 0.05), ("correlation_length", WAY_OF_A_SLIP))),
+    Reading("clean switching: r in the rise, events located, velocities handed over (F2, F6, F12)",
+            "", PRINTED.without("F2", "F6", "F12")),
+    Reading("clean switching, slips never cut (F14 too)", "",
+            PRINTED.without("F2", "F6", "F12", "F14")),
+    Reading("clean switching, scatter 0.1 that lasts a slip", "",
+            PRINTED.without("F2", "F5", "F6", "F12"),
+            changes=(("scatter", 0.1), ("correlation_length", WAY_OF_A_SLIP))),
 )  # fmt: skip
 AS_PRINTED, ROUNDED, BALANCED = READINGS[0], READINGS[3], READINGS[4]
 
@@ -141,9 +158,7 @@ def reading_figures(reading: Reading, dataset: int, **case) -> MotionFigures:
 
     case: of `Reading.case`.
     """
-    chance = dict(reading.changes).get("scatter") != 0.0 and not reading.weakening
-    seeds = SEEDS if chance else SEEDS[:1]
-    runs = [steady_figures(reading.motion(dataset, seed, **case)) for seed in seeds]
+    runs = [steady_figures(reading.motion(dataset, seed, **case)) for seed in reading.seeds]
     return replace(average(runs), max_rotation=max(one.max_rotation for one in runs))
 
 
@@ -170,8 +185,15 @@ def onset(motion: Motion, angle: float = 1.0) -> float:
 @cache
 def outcome(reading: Reading) -> Outcome:
     """A reading laid beside the marks."""
-    values = (getattr(reading_figures(reading, mark.dataset), mark.figure) for mark in MARKS)
-    return Outcome(reading, tuple(values), onset(reading.motion(2)))
+    return Outcome(reading, tuple(_value(reading, mark) for mark in MARKS),
+                   onset(reading.motion(2)))
+
+
+def _value(reading: Reading, mark: Mark) -> float:
+    """The reading's figure for a mark; an onset is the mean over seeds, NaN if one never turns."""
+    if mark.figure != "onset":
+        return getattr(reading_figures(reading, mark.dataset), mark.figure)
+    return float(np.mean([onset(reading.motion(mark.dataset, s), SEEN) for s in reading.seeds]))
 
 
 def outcomes() -> list[Outcome]:

@@ -64,9 +64,10 @@ def judge() -> Claim:
             Check("the printed scheme jumps in the three named runs",
                   named == len(NAMED), None, None,
                   margin=Margin("named runs with a jump", named, len(NAMED)),
-                  turns=tuple(_other_laws())),
+                  turns=(*_other_laws(), _located())),
             Check("and in no other of the plan", len(jumping) - named == 0, None, None,
-                  margin=Margin("other runs with a jump", len(jumping) - named, 0.0)),
+                  margin=Margin("other runs with a jump", len(jumping) - named, 0.0),
+                  turns=(_no_rotation(plan),)),
             Check("the jumps are the scheme's own: it has some, a sound model has none",
                   bool(jumping), mended == 0 and bool(jumping), exact == 0 and bool(jumping),
                   margin=Margin("jumps, exact, in the named runs", exact, 0.0)),
@@ -108,6 +109,21 @@ def _exact_jump() -> int:
         speed = np.diff(motion.x) / np.diff(motion.time)
         jumps += int(np.sum(np.abs(np.diff(speed)) > _threshold(case)))
     return jumps
+
+
+def _located() -> Turn:
+    counts = many(_jumps, NAMED, PRINTED.without("F6"))
+    return Turn("re-sticks of the printed scheme located (F6 mended)",
+                f"jumps at 0.50, 0.63, 0.82 m/s: {', '.join(str(count) for count in counts)}",
+                all(counts))
+
+
+def _no_rotation(plan: list[Case]) -> Turn:
+    """The whole plan without what makes the printed scheme rotate."""
+    counts = many(_jumps, plan, PRINTED.without("F2"))
+    others = sum(n > 0 and case not in NAMED for case, n in zip(plan, counts, strict=True))
+    return Turn("r in the rise of the printed scheme (F2 mended)",
+                f"{others} other runs with a jump", others == 0)
 
 
 @picture("C14_jump", "x' in a run with jumps, as printed and mended; crosses: slips that "

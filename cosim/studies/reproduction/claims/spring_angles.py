@@ -94,6 +94,7 @@ def judge() -> Claim:
                     _sets_in(printed["updated"]), _sets_in(mended["updated"])))
     apart = [_disagreement(runs) for runs in (printed, mended)]
     rows.append(Row("treatments apart in x at break-away, before rotation", "m", None, *apart))
+    back = _put_back()
     free = max(_rotation(exact), _rotation(loose))
     rotates = [_only_updated_rotates(runs) for runs in (printed, mended)]
     bounded = [_only_updated_bounded(runs) for runs in (printed, mended)]
@@ -106,7 +107,7 @@ def judge() -> Claim:
               faults=responsible(lambda faults: _only_updated_rotates(_runs(faults))),
               margin=Margin("largest rotation, exact, with or without pretension", free, ROTATES,
                             "°"),
-              turns=tuple(_freer())),
+              turns=(*_freer(), back)),
         Check("y moves away for good with constant angles, comes back with updated ones",
               *bounded, None,
               faults=responsible(lambda faults: _only_updated_bounded(_runs(faults))),
@@ -119,6 +120,8 @@ def judge() -> Claim:
     return Claim(
         "C5", "the treatments agree in x until `updated` begins to rotate", tuple(rows), checks,
         remarks=(
+            "F2 makes the printed scheme rotate, and is not needed for it: "
+            f"{back.change} gives a {back.figure}.",
             f"Exact model without pretension: {_rotation(loose):.1f}° and |y| up to "
             f"{100 * np.abs(loose.y).max():.1f} cm within {EXACT_DURATION:.0f} s, from a start "
             "turned by 1°.",
@@ -151,6 +154,12 @@ def _freer() -> list[Turn]:
             f"largest rotation {_rotation(run):.1f}°", _rotation(run) > ROTATES, OPEN,
         ))
     return turns
+
+
+def _put_back() -> Turn:
+    """The mended scheme with the faults of the springs put back, F2 apart."""
+    turned = _rotation(_runs(MENDED.only("F1", "F13"))["updated"])
+    return Turn("mended: F1 and F13 put back", f"largest rotation {turned:.0f}°", turned > ROTATES)
 
 
 def _bounded_by_scatter() -> Turn:
