@@ -10,6 +10,7 @@ import time
 from argparse import ArgumentParser, Namespace
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tqdm import tqdm
 
@@ -17,6 +18,9 @@ from cosim.atomic import write_bytes, write_text
 from cosim.folders import OutputRefused, writable
 from cosim.interrupts import held_interrupts
 from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
+
+if TYPE_CHECKING:
+    from cosim.studies.reproduction.attributions import Datasets
 
 DONE, FAILED = 0, 1
 RESULT, PAGE = "reproduction.json", "report.html"
@@ -49,7 +53,8 @@ def execute(arguments: Namespace) -> int:
     try:
         for one in tqdm(wanted, disable=None, unit="claim", leave=False):
             claims += reproduce([one])
-        _write(claims, folder, result, time.perf_counter() - began)
+        found = _datasets(wanted)
+        _write(claims, folder, result, time.perf_counter() - began, found)
     except KeyboardInterrupt:
         if not claims:
             raise
@@ -62,19 +67,42 @@ def execute(arguments: Namespace) -> int:
     for claim in claims:
         print(f"{claim.id:<4} {claim.verdict:<30} {claim.title}")
         print(f"     {claim.reason}")
+        print(f"     {_firmness(claim)}")
+    if found:
+        print(f"Datasets: {found.says}")
     print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {result}")
     return DONE
 
 
-def _write(claims: list[Claim], folder: Path, result: Path, wall_time: float) -> None:
+def _datasets(wanted: tuple[str, ...]) -> Datasets | None:
+    """The study's datasets in every reading, where a claim was asked for that hangs on them."""
+    from cosim.studies.reproduction.attributions import CLAIMS, datasets
+
+    return datasets() if set(wanted) & set(CLAIMS) else None
+
+
+def _firmness(claim: Claim) -> str:
+    """What would turn the verdict, in a line."""
+    turn = claim.turns[0] if claim.turns else None
+    if turn is None:
+        return "turned by: nothing was tried"
+    if claim.steady:
+        return f"turned by: none of {len(claim.turns)} changes tried"
+    return f"turned by: {turn.change} ({turn.figure})"
+
+
+def _write(
+    claims: list[Claim], folder: Path, result: Path, wall_time: float,
+    datasets: Datasets | None = None,
+) -> None:
     """Numbers first, then figures, then the page."""
     from stickslip.reference.faults import DESCRIPTIONS
 
     from cosim.studies.reproduction.page import page
     from cosim.studies.reproduction.result import as_json
 
-    write_text(as_json(claims, wall_time), result)
+    write_text(as_json(claims, wall_time, datasets), result)
     for claim in claims:
         for picture in claim.pictures:
             write_bytes(picture.png, folder / f"{picture.name}.png")
-    write_text(page(claims, DESCRIPTIONS), folder / PAGE)
+    write_text(page(claims, DESCRIPTIONS, datasets), folder / PAGE)

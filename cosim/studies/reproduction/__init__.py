@@ -9,18 +9,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from .claim import CANNOT_BE_CHECKED, DOES_NOT_HOLD, HOLDS, ONLY_WITH_FAULT, Check, Claim, Row
+from .claim import (
+    CANNOT_BE_CHECKED,
+    DOES_NOT_HOLD,
+    FOLLOWS,
+    HOLDS,
+    ONLY_WITH_FAULT,
+    UNDECIDED,
+    Check,
+    Claim,
+    Margin,
+    Row,
+    Turn,
+)
 from .names import CLAIM_IDS, UnknownClaim, claim_ids
 
 __all__ = [
     "CANNOT_BE_CHECKED",
     "CLAIM_IDS",
     "DOES_NOT_HOLD",
+    "FOLLOWS",
     "HOLDS",
     "ONLY_WITH_FAULT",
+    "UNDECIDED",
     "Check",
     "Claim",
+    "Margin",
     "Row",
+    "Turn",
     "UnknownClaim",
     "claim_ids",
     "reproduce",

@@ -9,28 +9,76 @@ from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.studies.drawing import Picture
 
+from .printed import Printed
+
 HOLDS = "holds"
+FOLLOWS = "follows from the assumption"
+UNDECIDED = "undecided"
 ONLY_WITH_FAULT = "holds only with fault"
 DOES_NOT_HOLD = "does not hold"
 CANNOT_BE_CHECKED = "cannot be checked"
 # from good to bad: a claim is as good as its worst part that can be checked
-ORDER = (HOLDS, ONLY_WITH_FAULT, DOES_NOT_HOLD)
+# (an undecided part may yet be one that does not hold)
+ORDER = (HOLDS, FOLLOWS, ONLY_WITH_FAULT, UNDECIDED, DOES_NOT_HOLD)
+
+# what a change of an assumption is to the study
+PUT_IN = "put in"  # what was put in amounts to what came out
+OPEN = "open"  # the study leaves it open
+FAR = "far"  # the study says otherwise: only how far it is to the turn
 
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: the study's figure as it stands there, and ours; None: there is none.
+    """One quantity: the study's figure, what follows from the study's numbers, and ours.
 
-    digits: significant ones that are shown of ours.
+    study: what the study prints, with its place. derived: computed from the study's numbers, not
+    printed there; how: in what way. None: there is none. digits: significant ones that are shown
+    of ours. ValueError for a derived figure without its way.
     """
 
     quantity: str
     unit: str
-    study: float | str | None = None
+    study: Printed | None = None
     printed: float | None = None
     mended: float | None = None
     exact: float | None = None
     digits: int = 4
+    derived: float | str | None = None
+    how: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.derived is not None) != bool(self.how):
+            raise ValueError(f"{self.quantity}: a derived figure and its way go together")
+
+
+@dataclass(frozen=True)
+class Margin:
+    """How far a part is from its limit; of the model that decides."""
+
+    what: str
+    value: float
+    limit: float
+    unit: str = "1"
+
+    @property
+    def text(self) -> str:
+        """In words."""
+        unit = "" if self.unit == "1" else self.unit if self.unit == "°" else f" {self.unit}"
+        return f"{self.what} {self.value:.4g}{unit}, limit {self.limit:.4g}{unit}"
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What becomes of a part when an assumption is changed; computed, like the part itself.
+
+    change: of what into what; figure: what comes out; sound: whether the part is then so; weight:
+    what the change is to the study (`PUT_IN`, `OPEN`, `FAR`).
+    """
+
+    change: str
+    figure: str
+    sound: bool
+    weight: str = FAR
 
 
 @dataclass(frozen=True)
@@ -45,6 +93,8 @@ class Check:
     mended: bool | None
     exact: bool | None
     faults: tuple[str, ...] = ()
+    margin: Margin | None = None
+    turns: tuple[Turn, ...] = ()
 
     @property
     def sound(self) -> bool | None:
@@ -53,10 +103,20 @@ class Check:
         return next((answer for answer in asked if answer is not None), None)
 
     @property
+    def turned_by(self) -> tuple[Turn, ...]:
+        """The changes after which the answer is another one."""
+        return tuple(turn for turn in self.turns if turn.sound != self.sound)
+
+    @property
     def verdict(self) -> str:
-        """One of the four words."""
+        """One of the six words."""
         if self.sound is None:
             return CANNOT_BE_CHECKED
+        weights = {turn.weight for turn in self.turned_by}
+        if self.sound and PUT_IN in weights:
+            return FOLLOWS
+        if OPEN in weights:
+            return UNDECIDED
         if self.sound:
             return HOLDS
         return ONLY_WITH_FAULT if self.printed else DOES_NOT_HOLD
@@ -66,8 +126,9 @@ class Check:
 class Claim:
     """A claim of the study, judged.
 
-    remarks: what was found on the way; assumed: what the study does not print and was assumed;
-    leading: place of the row that stands for the claim.
+    place: where the study makes it; rests: what the verdict rests on; first: what must be known to
+    read the numbers; remarks: what was found on the way; assumed: what the study does not print and
+    was assumed; leading: place of the row that stands for the claim.
     """
 
     id: str
@@ -78,6 +139,9 @@ class Claim:
     assumed: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
     leading: int = 0
+    place: str = ""
+    rests: str = ""
+    first: str = ""
 
     @property
     def word(self) -> str:
@@ -98,19 +162,40 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """holds / holds only with fault Fn / does not hold / cannot be checked."""
+        """The word, and behind `holds only with fault` the faults."""
         if self.word != ONLY_WITH_FAULT:
             return self.word
         return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or 'of the scheme (several together)'}"
 
     @property
+    def deciding(self) -> tuple[Check, ...]:
+        """The parts that the verdict is taken from."""
+        return tuple(check for check in self.checks if check.verdict == self.word)
+
+    @property
+    def margins(self) -> tuple[Margin, ...]:
+        """How far the deciding parts are from their limits."""
+        return tuple(check.margin for check in self.deciding if check.margin is not None)
+
+    @property
+    def turns(self) -> tuple[Turn, ...]:
+        """What turns a deciding part; where nothing that was tried does, all that was tried."""
+        turned = tuple(turn for check in self.deciding for turn in check.turned_by)
+        return turned or tuple(turn for check in self.deciding for turn in check.turns)
+
+    @property
+    def steady(self) -> bool:
+        """Whether nothing that was tried turns a deciding part."""
+        return not any(check.turned_by for check in self.deciding)
+
+    @property
     def reason(self) -> str:
         """Why, in a sentence: the parts that decide, and how many are sound."""
-        sound = sum(check.verdict == HOLDS for check in self.checks)
-        deciding = [check for check in self.checks if check.verdict == self.word]
-        said = "; ".join(_reason(check) for check in deciding)
-        if sound and self.word != HOLDS:
-            said += f" ({sound} of {len(self.checks)} parts hold)"
+        said = "; ".join(_reason(check) for check in self.deciding)
+        words = [check.verdict for check in self.checks]
+        others = [word for word in dict.fromkeys(words) if word != self.word]
+        if others:
+            said += " (other parts: " + ", ".join(f"{words.count(w)} {w}" for w in others) + ")"
         return said
 
 

@@ -59,9 +59,14 @@ class Motion:
 
     def since(self, start: float) -> Motion:
         """From ``start`` (s) on."""
-        keep, phases = self.time >= start, self.phases[:, 1] > start
+        return self.between(start, float("inf"))
+
+    def between(self, start: float, end: float) -> Motion:
+        """From ``start`` to ``end`` (s)."""
+        keep = (self.time >= start) & (self.time <= end)
+        phases = (self.phases[:, 1] > start) & (self.phases[:, 0] < end)
         cut = self.phases[phases].copy()
-        cut[:, 0] = np.maximum(cut[:, 0], start)
+        cut[:, :2] = np.clip(cut[:, :2], start, end)
         return Motion(
             self.time[keep], self.x[keep], self.y[keep], self.phi[keep], self.omega[keep],
             self.friction[keep], self.mode[keep], cut, self.jumps[phases],
@@ -82,6 +87,7 @@ class MotionFigures:
     mean_y: float
     range_y: float
     mean_friction: float  # size of the force along x, in slip, N
+    swing_rate: float  # of the fastest swing of phi: its angle by its duration, deg/s
 
 
 def figures(motion: Motion) -> MotionFigures:
@@ -97,6 +103,7 @@ def figures(motion: Motion) -> MotionFigures:
         mean_y=time_mean(motion.y, motion.time),
         range_y=float(np.ptp(motion.y)),
         mean_friction=_mean_friction(motion),
+        swing_rate=_swing_rate(motion),
     )
 
 
@@ -153,3 +160,18 @@ def _slip_time(phases: np.ndarray) -> float:
 def _mean_friction(motion: Motion) -> float:
     slip = motion.mode == 1
     return float(np.abs(motion.friction[slip]).mean()) if slip.any() else float("nan")
+
+
+def _swing_rate(motion: Motion) -> float:
+    """Largest angle by duration of a swing from one turning point of phi to the next, deg/s.
+
+    Only swings of more than a tenth of the largest one: a fast shiver is no swing.
+    """
+    ways = np.diff(motion.phi)
+    moves = np.flatnonzero(ways)
+    turning = moves[1:][np.sign(ways[moves[1:]]) != np.sign(ways[moves[:-1]])]
+    angle = np.abs(np.diff(np.degrees(motion.phi[turning])))
+    if not len(angle):
+        return 0.0
+    whole = angle > 0.1 * angle.max()
+    return float((angle / np.diff(motion.time[turning]))[whole].max())

@@ -9,21 +9,38 @@ from jinja2 import Environment, StrictUndefined
 
 from cosim.inline import inline
 
-from .claim import CANNOT_BE_CHECKED, DOES_NOT_HOLD, HOLDS, ONLY_WITH_FAULT, Claim, Row
+from .attributions import Datasets
+from .claim import (
+    CANNOT_BE_CHECKED,
+    DOES_NOT_HOLD,
+    FOLLOWS,
+    HOLDS,
+    ONLY_WITH_FAULT,
+    UNDECIDED,
+    Claim,
+    Row,
+)
+from .readings import MARKS
 from .result import OTHER_FAULTS
 
 CLASSES = {
-    HOLDS: "holds", ONLY_WITH_FAULT: "fault", DOES_NOT_HOLD: "fails", CANNOT_BE_CHECKED: "unknown"
+    HOLDS: "holds", FOLLOWS: "follows", ONLY_WITH_FAULT: "fault", UNDECIDED: "undecided",
+    DOES_NOT_HOLD: "fails", CANNOT_BE_CHECKED: "unknown",
 }
 #: The verdicts after a number of claims.
 COUNTED = {
-    HOLDS: "hold", ONLY_WITH_FAULT: "hold only with a fault", DOES_NOT_HOLD: "do not hold",
-    CANNOT_BE_CHECKED: "cannot be checked",
+    HOLDS: "hold", FOLLOWS: "follow from an assumption",
+    ONLY_WITH_FAULT: "hold only with a fault", UNDECIDED: "are undecided",
+    DOES_NOT_HOLD: "do not hold", CANNOT_BE_CHECKED: "cannot be checked",
 }
+#: Changes of assumptions that are told of a claim in the referee's table.
+TOLD = 3
 MODELS = ("printed", "mended", "exact")
 
 
-def page(claims: list[Claim], faults: dict[str, str]) -> str:
+def page(
+    claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None
+) -> str:
     """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
                               lstrip_blocks=True)
@@ -32,7 +49,7 @@ def page(claims: list[Claim], faults: dict[str, str]) -> str:
     counts = {COUNTED[word]: sum(claim.word == word for claim in claims) for word in CLASSES}
     return environment.from_string(source).render(
         claims=claims, classes=CLASSES, models=MODELS, faults=faults | OTHER_FAULTS, counts=counts,
-        leading=leading,
+        leading=leading, datasets=datasets, marks=MARKS, told=TOLD,
     )
 
 

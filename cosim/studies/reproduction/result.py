@@ -7,9 +7,12 @@ import math
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
 from stickslip.reference.faults import DESCRIPTIONS
 
-from .claim import Claim
+from .attributions import Attribution, Datasets
+from .claim import Claim, Row
+from .readings import MARKS, Outcome
 
 #: The study's faults that are no switch of the scheme but stand behind a verdict.
 OTHER_FAULTS = {
@@ -18,26 +21,78 @@ OTHER_FAULTS = {
 }
 
 
-def as_data(claims: list[Claim], wall_time: float | None = None) -> dict[str, Any]:
+def as_data(
+    claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
+) -> dict[str, Any]:
     """A tree of plain values; numbers that a model does not have are None."""
-    return {
+    return _plain({
+        "datasets": _datasets(datasets) if datasets else None,
+        "referee": [_referee(one) for one in claims],
         "claims": [_claim(one) for one in claims],
         "faults": DESCRIPTIONS | OTHER_FAULTS,
         "wall_time": wall_time,
+    })
+
+
+def as_json(
+    claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
+) -> str:
+    """The same as JSON text, without NaN."""
+    return json.dumps(
+        as_data(claims, wall_time, datasets), indent=2, ensure_ascii=False, allow_nan=False
+    ) + "\n"
+
+
+def _referee(claim: Claim) -> dict[str, Any]:
+    """A claim in the referee's table: how firm its verdict is."""
+    return {
+        "id": claim.id,
+        "claim": claim.title,
+        "place": claim.place,
+        "verdict": claim.verdict,
+        "margins": [asdict(one) | {"text": one.text} for one in claim.margins],
+        "steady": claim.steady,
+        "turns": [asdict(one) for one in claim.turns],
+        "rests_on": claim.rests,
     }
 
 
-def as_json(claims: list[Claim], wall_time: float | None = None) -> str:
-    """The same as JSON text, without NaN."""
-    return json.dumps(
-        as_data(claims, wall_time), indent=2, ensure_ascii=False, allow_nan=False
-    ) + "\n"
+def _datasets(datasets: Datasets) -> dict[str, Any]:
+    """The study's datasets in every reading of its scheme."""
+    return {
+        "says": datasets.says,
+        "bears": datasets.bears,
+        "found": datasets.found,
+        "marks": [asdict(mark) for mark in MARKS],
+        "readings": [_outcome(one) for one in datasets.outcomes],
+        "attributions": [_attribution(one) for one in datasets.attributions],
+    }
+
+
+def _outcome(outcome: Outcome) -> dict[str, Any]:
+    return {
+        "reading": outcome.reading.name,
+        "place": outcome.reading.place,
+        "values": list(outcome.values),
+        "met": list(outcome.met),
+        "turned_by_1deg_after_s": outcome.onset,
+    }
+
+
+def _attribution(one: Attribution) -> dict[str, Any]:
+    return asdict(one) | {
+        "reading": one.reading.name,
+        "quarter_fits_better": one.quarter_fits_better,
+        "one_spring_explains": one.one_spring_explains,
+    }
 
 
 def _claim(claim: Claim) -> dict[str, Any]:
     return {
         "id": claim.id,
         "title": claim.title,
+        "place": claim.place,
+        "first": claim.first,
         "verdict": claim.verdict,
         "word": claim.word,
         "faults": list(claim.faults),
@@ -46,17 +101,28 @@ def _claim(claim: Claim) -> dict[str, Any]:
             asdict(check) | {"verdict": check.verdict, "faults": list(check.faults)}
             for check in claim.checks
         ],
-        "numbers": [{key: _plain(value) for key, value in asdict(row).items()
-                     if key != "digits"}
-                    for row in claim.rows],
+        "numbers": [_number(row) for row in claim.rows],
         "remarks": list(claim.remarks),
         "assumed": list(claim.assumed),
         "figures": [f"{picture.name}.png" for picture in claim.pictures],
     }
 
 
+def _number(row: Row) -> dict[str, Any]:
+    """The study's number stands beside its place, not in a tree of its own."""
+    data = {key: value for key, value in asdict(row).items() if key != "digits"}
+    study = data.pop("study") or {"value": None, "place": ""}
+    return data | {"study": study["value"], "place": study["place"]}
+
+
 def _plain(value: Any) -> Any:
-    """NaN and infinities are no JSON."""
+    """NaN and infinities are no JSON, numpy's numbers neither."""
+    if isinstance(value, dict):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if isinstance(value, np.generic):
+        value = value.item()
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value

@@ -56,9 +56,10 @@ MOST_PHASES = 20_000
 class Scheme:
     """The scheme's numbers; SI units.
 
-    stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip) and
-    of mu_s (per cycle). mu_slope: loss of mu_k per m/s of sliding speed above mu_k_speed, at
-    which mu_k holds. correlation_length: of the scatter on the surface once F5 is mended.
+    stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip; of all
+    strips alike where it is common_scatter) and of mu_s (per cycle). mu_slope: loss of mu_k per m/s
+    of sliding speed above mu_k_speed, at which mu_k holds. correlation_length: of the scatter
+    on the surface once F5 is mended.
     curvature: 1/R of a turning slab, whose speed falls across the block. effects: of the catalogue,
     none by default.
     """
@@ -70,6 +71,7 @@ class Scheme:
     mu_k: float = 0.2086
     treatment: str = "updated"
     scatter: float = 0.02
+    common_scatter: bool = False
     static_scatter: float = 0.0
     mu_slope: float = 0.0
     mu_k_speed: float = 0.15
@@ -96,9 +98,17 @@ class Scheme:
             if getattr(self, name) < 0.0:
                 raise ValueError(f"{name} = {getattr(self, name):g}: must not be negative")
 
-    def run(self, *, cycles: int = 1_000_000, duration: float = 300.0, seed: int = 0) -> SchemeRun:
-        """Stick-slip from rest at the springs' middle, until ``cycles`` or ``duration`` (s)."""
+    def run(
+        self, *, cycles: int = 1_000_000, duration: float = 300.0, seed: int = 0,
+        turned: float = 0.0,
+    ) -> SchemeRun:
+        """Stick-slip from rest at the springs' middle, until ``cycles`` or ``duration`` (s).
+
+        turned: rad, of the block at the start; the mirror images cancel exactly here, so that
+        without scatter an unstable straight motion stays straight unless the start is turned.
+        """  # fmt: skip
         memory = self._memory(duration)
+        memory.q[2] = turned
         linearised_motion.run(
             self._rig(seed), self._faults(), self.effects, memory, cycles, float(duration)
         )
@@ -119,6 +129,9 @@ class Scheme:
         normal_force = self.mass * GRAVITY
         shares, middles = strips(self.radius)
         scatter = self.scatter * normal_force
+        force_share, arm = float(np.sqrt(np.sum(shares**2))), shares * middles
+        if self.common_scatter:
+            force_share, arm = float(shares.sum()), np.zeros_like(arm)
         return SchemeRig(
             mass=self.mass,
             inertia=self.mass * self.radius**2,
@@ -131,8 +144,8 @@ class Scheme:
             mu_slope=self.mu_slope,
             mu_k_speed=self.mu_k_speed,
             static_scatter=self.static_scatter,
-            force_scatter=scatter * float(np.sqrt(np.sum(shares**2))),
-            moment_scatter=scatter * float(np.sqrt(np.sum((shares * middles) ** 2))),
+            force_scatter=scatter * force_share,
+            moment_scatter=scatter * float(np.sqrt(np.sum(arm**2))),
             correlation_length=self.correlation_length,
             covered=float(shares.sum()),
             reach=1.0 if self.faults.F2 else self.radius,

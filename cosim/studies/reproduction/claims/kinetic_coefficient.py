@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from cosim.studies.drawing import SERIES, panels, picture
 
-from ..cases import EXTRA_STIFFNESS, GUIDED_ASSUMED, MASSES, SPEEDS, STIFFNESSES
-from ..claim import Check, Claim, Row
+from ..cases import (
+    EXTRA_STIFFNESS,
+    GUIDED,
+    GUIDED_ASSUMED,
+    MASSES,
+    SPEEDS,
+    STIFFNESSES,
+    WEAKENING,
+    exact_figures,
+)
+from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS
-from ..series import ASSUMED, Grid, grid
+from ..printed import STUDY
+from ..series import ASSUMED, CASE, Grid, grid
+from .mean_displacement import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)
-RANGE = (0.05, 0.11)
 # lines over mass count as horizontal where mu_k strays by less than this part of its mean
 HORIZONTAL = 0.05
+OTHER_WEAKENINGS = (0.2, 0.6)
 
 def _strays(mu: np.ndarray) -> float:
     """Largest spread over mass at one stiffness and speed, relative to the mean there."""
@@ -32,13 +45,16 @@ def judge() -> Claim:
     spreads = {model: _spread_over_speed(mu[model]) for model in MODELS}
     by_speed = {model: mu[model].mean(axis=(0, 1)) for model in MODELS}
     strays = [_strays(mu[model]) for model in MODELS]
+    changes = [_change_over_mass(mu[model]) for model in MODELS]
     rows = [
-        Row("smallest mean µ_k", "1", RANGE[0], *(float(mu[m].min()) for m in MODELS)),
-        Row("largest mean µ_k", "1", RANGE[1], *(float(mu[m].max()) for m in MODELS)),
-        Row("largest spread over mass, part of the mean", "1", "none", *strays),
+        Row("smallest mean µ_k", "1", STUDY["least_mu_k"],
+            *(float(mu[m].min()) for m in MODELS)),
+        Row("largest mean µ_k", "1", STUDY["largest_mu_k"],
+            *(float(mu[m].max()) for m in MODELS)),
+        Row("largest spread over mass, part of the mean", "1", None, *strays),
     ]
     rows += [
-        Row(f"spread over speed at k {k:.2f} N/m", "1", "shrinks with k",
+        Row(f"spread over speed at k {k:.2f} N/m", "1", None,
             *(float(spreads[model][i]) for model in MODELS))
         for i, k in enumerate(ALL_STIFFNESSES)
     ]
@@ -49,20 +65,80 @@ def judge() -> Claim:
             Check("lies in 0.05 to 0.11: the friction data behind it are not printed",
                   None, None, None),
             Check(f"constant in mass within {100 * HORIZONTAL:.0f} %",
-                  *(value < HORIZONTAL for value in strays)),
+                  *(value < HORIZONTAL for value in strays),
+                  margin=Margin("largest spread over mass, exact", strays[-1], HORIZONTAL),
+                  turns=(_load_dependent(constant=True),)),
+            Check("linear in mass, as the study's summary has it",
+                  *(value >= HORIZONTAL for value in changes),
+                  margin=Margin("change over the masses, part of the mean, exact",
+                                changes[-1], HORIZONTAL),
+                  turns=(_load_dependent(constant=False),)),
             Check("falls with speed",
-                  *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS)),
+                  *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS),
+                  margin=Margin("smallest step from one speed to the next, exact",
+                                float(np.diff(by_speed["exact"]).max()), 0.0),
+                  turns=(_constant(),)),
             Check("spread over speed shrinks with stiffness",
-                  *(bool(np.all(np.diff(spreads[model]) < 0.0)) for model in MODELS)),
+                  *(bool(np.all(np.diff(spreads[model]) < 0.0)) for model in MODELS),
+                  margin=Margin("spread at the stiffest by that at the softest, exact",
+                                float(spreads["exact"][-1] / spreads["exact"][0]), 1.0),
+                  turns=tuple(_weakened(part) for part in OTHER_WEAKENINGS)),
         ),
         remarks=(
+            "The study says both: its summary, that friction coefficients depend linearly on "
+            "mass; §5.3, that a similar one is found per mass, with figure 5.8. Linear in mass is "
+            "the friction force.",
             "Over a whole cycle the mean sliding speed is the surface's own; in slip it is that "
             "divided by the share of slip, which stiffness brings to 1. So µ_k at high stiffness "
             "differs between speeds by what the friction law differs.",
         ),
         assumed=(*ASSUMED, GUIDED_ASSUMED),
         pictures=(_draw(mu),),
+        place="§5.3, fig. 5.8 to 5.10; executive summary",
+        rests="a friction law that is put in: constant in mass, falling with speed",
     )
+
+
+def _change_over_mass(mu: np.ndarray) -> float:
+    """Change of a straight line through the mean over all else, part of the mean."""
+    by_mass = mu.mean(axis=(0, 2))
+    slope = np.polyfit(MASSES, by_mass, 1)[0]
+    return float(abs(slope) * (MASSES[-1] - MASSES[0]) / by_mass.mean())
+
+
+def _load_dependent(constant: bool) -> Turn:
+    """What a mu_k that falls with the load would show: whether it is constant, or is not."""
+    mu = (np.array(MASSES) / MASSES[0]) ** LOAD_POWER
+    spread = float(np.ptp(mu) / mu.mean())
+    return Turn("µ_k falling with the load's power −1/3 instead of constant in mass",
+                f"spread over mass {spread:.2f}", (spread < HORIZONTAL) == constant, PUT_IN)
+
+
+def _means(weakening: float, speeds: Sequence[float], stiffness: float) -> np.ndarray:
+    """Mean mu_k of the exact model at the least mass, over the speeds."""
+    return np.array([
+        exact_figures(case, rig=GUIDED).mean_friction / case.weight
+        for case in (
+            CASE.changed(weakening=weakening, speed=v, stiffness=stiffness) for v in speeds
+        )
+    ])
+
+
+def _constant() -> Turn:
+    mu = _means(0.0, SPEEDS, STIFFNESSES[0])
+    return Turn("µ_k constant instead of falling with speed",
+                f"{mu[0]:.5f} at {SPEEDS[0]:.2f} m/s, {mu[-1]:.5f} at {SPEEDS[-1]:.2f} m/s",
+                bool(np.all(np.diff(mu) < -LEVEL * mu[:-1])), PUT_IN)
+
+
+def _weakened(part: float) -> Turn:
+    """The spread over the study's slowest and fastest surface, by stiffness, with another law."""
+    spreads = [
+        float(np.ptp(_means(part, (SPEEDS[0], SPEEDS[-1]), k))) for k in ALL_STIFFNESSES
+    ]
+    return Turn(f"µ_k falling by {100 * part:.0f} % instead of {100 * WEAKENING:.0f} %",
+                f"spread {spreads[0]:.4f} at the softest, {spreads[-1]:.4f} at the stiffest",
+                bool(np.all(np.diff(spreads) < 0.0)), OPEN)
 
 
 @picture("C10_mu_k", "Mean µ_k over mass for stiffnesses to 136.44 N/m (columns) and speeds "

@@ -1,0 +1,65 @@
+"""The study's column: every number stands in the study's text, in the section that is named."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from cosim.studies.reproduction.printed import Printed, every
+
+TEXT = Path(__file__).resolve().parents[3] / "shared" / "thesis.txt"
+SECTION = re.compile(r"§(\d+(?:\.\d+)+)")
+HEADING = re.compile(r"^(\d+(?:\.\d+)+)\.?\s", re.MULTILINE)
+
+
+def numbers(one: Printed) -> list[str]:
+    """The digits to look for, without sign: of a range both of its ends."""
+    if isinstance(one.value, float):
+        return [f"{abs(one.value):.10g}"]
+    return re.findall(r"\d+", one.value) or [one.value]
+
+
+def section(text: str, name: str) -> str:
+    """The text from a section's heading to the next one that is not within it."""
+    if name == "executive summary":
+        return text[text.index("Executive Summary"):text.index("Chapter 1")]
+    headings = [(m.group(1), m.start()) for m in HEADING.finditer(text)]
+    begin = next(start for number, start in headings if number == name)
+    after = (start for number, start in headings
+             if start > begin and not number.startswith(name) and number[0] == name[0])
+    return text[begin:next(after, len(text))]
+
+
+@pytest.mark.parametrize("one", every(), ids=lambda one: f"{one.value}")
+def test_every_number_has_its_place(one):
+    assert one.place
+    assert SECTION.search(one.place) or one.place == "executive summary"
+
+
+@pytest.mark.skipif(not TEXT.is_file(), reason="the study's text is not here")
+@pytest.mark.parametrize("one", every(), ids=lambda one: f"{one.value} in {one.place}")
+def test_the_number_is_printed_where_it_is_said_to_be(one):
+    text = TEXT.read_text(encoding="utf-8")
+    for name in SECTION.findall(one.place) or [one.place]:
+        inside = section(text, name)
+        for number in numbers(one):
+            # 0.0698 may stand there as 0.06980, but not as part of another number
+            assert re.search(rf"(?<![\d.]){re.escape(number)}0*(?![\d])", inside), (number, name)
+
+
+@pytest.mark.skipif(not TEXT.is_file(), reason="the study's text is not here")
+@pytest.mark.parametrize("number", ["409.27", "1.7465", "0.925", "31.8", "0.0565"])
+def test_what_is_derived_is_not_printed(number):
+    """These were once taken for the study's own."""
+    assert number not in TEXT.read_text(encoding="utf-8")
+    assert number not in {digits for one in every() for digits in numbers(one)}
+
+
+def test_a_wrong_place_is_found():
+    """The check can fail: a number, and a section that does not print it."""
+    text = "Chapter 4\n4.1 One\n880 here\n4.2 Two\n56 there\n5.1 Three\n"
+    assert "880" in section(text, "4.1") and "880" not in section(text, "4.2")
+    assert numbers(Printed("20 to 30", "§4.2")) == ["20", "30"]
+    assert numbers(Printed(-7.9435, "§4.2")) == ["7.9435"]
