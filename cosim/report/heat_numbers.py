@@ -24,8 +24,11 @@ def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
     residual = _largest(dataset, "heat_residual")
     found = {sink: Quantity(_last(dataset, name), "J") for sink, name in SINKS.items()
              if name in dataset}
+    railing = railing_heat(dataset)
+    rubbed = {"from_railing": Quantity(float(railing[-1]), "J")} if railing.any() else {}
     return {
         "received": Quantity(received, "J"),
+        **rubbed,
         **found,
         "residual": Quantity(_last(dataset, "heat_residual"), "J"),
         "largest_residual": Quantity(residual, "J"),
@@ -34,17 +37,25 @@ def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
 
 
 def heat_shares(dataset: xr.Dataset) -> dict[str, Quantity]:
-    """Share of the heat received that each sink holds at the end.
+    """Share of the heat received, at the contact and from the railing, that each sink holds at
+    the end.
 
-    from_contact_to_belt: share that entered the belt at the contact, part of which went on to
-    the air.
+    from_contact_to_belt: share of the contact's that entered the belt there, part of which went on
+    to the air.
     """
-    received = _last(dataset, "heat_received")
+    received = _last(dataset, "heat_received") + float(railing_heat(dataset)[-1])
     shares = {sink: Quantity(ratio(_last(dataset, name), received), "1")
               for sink, name in SINKS.items() if name in dataset}
     if "belt_share" in dataset:
         shares["from_contact_to_belt"] = Quantity(_last(dataset, "belt_share"), "1")
     return shares
+
+
+def railing_heat(dataset: xr.Dataset) -> np.ndarray:
+    """What entered the belt of the heat of its rubbing on the railing, J: (times,)."""
+    if "railing_heat" not in dataset:
+        return np.zeros(dataset.sizes["time"])
+    return dataset["railing_heat"].values
 
 
 def coupling_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:

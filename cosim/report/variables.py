@@ -19,6 +19,7 @@ THERMAL = {
     "refrozen_mass": ("kg", "ice on the belt, frozen from melt water"),
     "film_thickness": ("m", "water between block and belt, mean over the contact"),
     "heat_received": ("J", "friction heat that the thermal model took up since the start"),
+    "railing_heat": ("J", "heat of the belt's rubbing on its railing that entered the belt"),
     "belt_heat": ("J", "heat stored in the belt above the start"),
     "ice_heat": ("J", "heat stored in the ice above the start"),
     "air_heat": ("J", "heat given to the air since the start"),
