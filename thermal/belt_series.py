@@ -26,6 +26,9 @@ from .thickness import thickness_of
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
+#: Steps whose response is kept: those of a ramp, for the next one.
+_KEPT = 64
+
 
 class Response(NamedTuple):
     """What a step of given duration and speed does; (modes, numbers) unless said."""
@@ -40,6 +43,8 @@ class BeltSeries:
     """Temperature of a belt that runs under a contact; `amplitudes` (modes, numbers), complex.
 
     waves: of the series along the loop; left out, two cells of the belt make the shortest.
+    `rubbing`, `warmth`: part of the railing's friction heat, and of the rollers' rise, that acts;
+    the answer is linear in both.
     """
 
     def __init__(self, belt: BeltParameters, footprint: Footprint,
@@ -48,6 +53,7 @@ class BeltSeries:
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
         self._wave = 2.0 * np.pi / belt.length * number
         self._weight = np.where(number == 0, 1.0, 2.0)
+        self.rubbing = self.warmth = 1.0
         self._supports = supports(belt, footprint.length / footprint.strips, footprint.lane)
         self._place_rows(footprint)
         self._diagonalise(belt.film)
@@ -62,8 +68,7 @@ class BeltSeries:
         on = np.repeat([0] + [1] * len(self._supports), [e.size - 1 for e in edges])
         self._on = [on == face for face in (0, 1) if np.any(on == face)]
         self._conductances = each_strip(self._supports, lambda support: support.conductance)
-        self._warmth = each_strip(
-            self._supports, lambda support: support.conductance * support.rise)
+        self._rises = each_strip(self._supports, lambda support: support.rise)
         self._drags = each_strip(self._supports, lambda support: support.drag)
         self._rows = self._areas[:, None] * (
             np.sinc(np.outer(lengths, self._wave) / (2.0 * np.pi))
@@ -75,7 +80,7 @@ class BeltSeries:
         self._modes = modes = thickness_of(self._belt, self._lane, film)
         self._faces = modes.faces[:len(self._on)]
         self._rates = modes.rates[:, None] + modes.along[:, None] * self._wave**2
-        self.response = lru_cache(maxsize=8)(self._respond)
+        self.response = lru_cache(maxsize=_KEPT)(self._respond)
 
     def set_film(self, film: float) -> None:
         """Another heat transfer to the air, W/m2K; the temperatures stay what they are."""
@@ -100,8 +105,10 @@ class BeltSeries:
     def see(self, duration: float, speed: float) -> Eliminated:
         """The belt as the contact finds it in a step (s) at a speed (m/s)."""
         response = self.response(duration, speed)
+        given = (self.warmth * self._conductances * self._rises
+                 + self.rubbing * self._drags * abs(speed))
         return eliminate(self._means(response.mean * self.amplitudes), response.rows,
-                         self._conductances - self.film, self._warmth + self._drags * abs(speed))
+                         self._conductances - self.film, given)
 
     def advance(self, duration: float, speed: float, fluxes: Array) -> None:
         """Advance by a step that was seen, under the fluxes of all rows, W/m2."""
