@@ -1,10 +1,10 @@
 """Belt and ice under steady friction: long steps, and the steady state directly.
 
-Seen from the ice a flux that stands still loads a belt that runs below it (`belt_series`). A step of
-any length is exact for fluxes and a speed that are constant in it; a step of endless length is the
-steady state: its fixed point, the same for every step. What has to be resolved in time is only how
-the fluxes themselves change, quickly at the start, then from loop to loop, and how the speed does
-in a ramp: its steps have the mean speed, so the belt's way is exact at the end of each.
+Seen from the ice a flux that stands still loads a belt that runs below it (`belt_series`). A step
+of any length is exact for fluxes and a speed that are constant in it; a step of endless length is
+the steady state: its fixed point, the same for every step. What has to be resolved in time is only
+how the fluxes themselves change, quickly at the start, then from loop to loop, and how the speed
+does in a ramp: its steps have the mean speed, so the belt's way is exact at the end of each.
 
 The strips of the contact, the supports and the heat exchange with the ice are those of
 `BeltIceModel`; here the loads are exact Fourier coefficients, there they are hat functions that
@@ -80,8 +80,8 @@ class SteadySliding:
     waves: of the Fourier series along the loop; left out, two cells of the belt make the shortest.
     block: contact and ice of these parameters, when they are there from another belt, for the modes
     of the ice take time. sensitivity: part of the friction lost for each kelvin of the interface's
-    rise, 1/K. ice_rise: of the ice above the air at the start, K. `ramp` and `pause` are what there is beside the
-    constant speed. `state` tells the present temperatures; ValueError for a speed or force that
+    rise, 1/K. ice_rise: of the ice above the air at the start, K. `ramp`, `run` and `pause` make
+    an experiment, `state` tells the present temperatures. ValueError for a speed or force that
     cannot be.
     """
 

@@ -44,6 +44,7 @@ DONE, FAILED = 0, 1
 REFUSED = (StudyError, ScenarioError, ParameterError, MeshError, NoSteadyState, NotLaminar,
            OutputRefused)
 RESULT, TABLE = "belt_length.json", "belt_length.csv"
+CHANGES, DOUBT = "changes.csv", "doubt.csv"
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
 
@@ -209,8 +210,11 @@ def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
         }
     text = json.dumps(numbers, indent=1)
     write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
-    table = study.table()
-    write_atomically(folder / TABLE, lambda path: table.to_csv(path, index=False))
+    for name, table in ((TABLE, study.table()), (CHANGES, study.changes()),
+                        (DOUBT, study.doubt())):
+        if name == TABLE or not table.empty:
+            write_atomically(
+                folder / name, lambda path, table=table: table.to_csv(path, index=False))
 
 
 def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> None:
@@ -240,4 +244,15 @@ def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:
         print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}"))
     for sentence in verdict(study):
         print(sentence)
+    if study.rows:
+        _print_changes(study)
     print(f"{len(study.rows)} cases in {wall_time:.1f} s; {folder / TABLE}, {folder / RESULT}")
+
+
+def _print_changes(study: Study) -> None:
+    """What would help, in the case that drifts most."""
+    row = study.worst
+    print(f"One change alone, {row.case.length:g} m at {row.case.speed:g} m/s: belt at entry,"
+          " interface at constant speed, K")
+    for one in row.changes:
+        print(f"  {one.what:60} {one.run:9.3f} {one.interface_drift:9.3f}")

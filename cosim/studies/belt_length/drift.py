@@ -14,10 +14,10 @@ CAMERA = 0.07
 class Drift:
     """Rises over the air, K, where the belt enters the contact unless said.
 
-    study: one pass, all heat to the belt, the study's rate; single_pass: mended; run, steady: finite
-    elements at the end of the last run and for ever. interface_run: mean of the two faces then,
-    interface_drift: what of it came at constant speed; both again on a belt that never comes round
-    (endless). belt_share: of the friction heat so far. Where the ice melts for ever,
+    study: one pass, all heat to the belt, the study's rate; single_pass: mended; run, steady:
+    finite elements at the end of the last run and for ever. interface_run: mean of the two faces
+    then, interface_drift: what of it came at constant speed; both again on a belt that never comes
+    round (endless). belt_share: of the friction heat so far. Where the ice melts for ever,
     `steady_melts`.
     """
 
@@ -52,7 +52,8 @@ def drift(case: Case) -> Drift:
     return Drift(
         study=case.as_the_study().temperature_degC(case.length) - ambient,
         single_pass=case.single_pass().temperature_degC(case.length) - ambient,
-        run=0.0 if never_comes_round(case) else run.entry, steady=steady.entry, ice_run=run.ice_face, ice_steady=steady.ice_face,
+        run=0.0 if never_comes_round(case) else run.entry, steady=steady.entry,
+        ice_run=run.ice_face, ice_steady=steady.ice_face,
         interface_run=run.mean_interface,
         interface_drift=run.mean_interface - before.mean_interface,
         interface_run_endless=endless.mean_interface,

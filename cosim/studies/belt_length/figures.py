@@ -18,16 +18,21 @@ from .study import Row, Study
 
 #: Points along a curve.
 _CURVE = 40
+#: From one speed's bar to the next, a factor.
+_ASIDE = 1.025
 #: Lowest rise that is drawn on a logarithmic axis, K.
 _FLOOR = 1e-3
 
 
-def _title(case: Case, films: set[float]) -> str:
-    """What all curves share; the films (W/m2K) may differ where they follow from the speed."""
+def _title(cases: list[Case]) -> str:
+    """What all curves share; heat transfer by still air differs from speed to speed."""
+    first = cases[0]
+    films = {case.film for case in cases}
     film = " to ".join(f"{h:.3g}" for h in sorted({min(films), max(films)}))
-    belt = case.thermal().belt.stack[0]
-    said = (f"friction {case.force:.2f} N, h {film} W/(m² K), belt {belt.conductivity:g}"
-            f" W/(m K), air {case.ambient_degC:g} °C; {case.protocol.in_words()}")
+    where = f" (still air, {first.length:g} m)" if first.h is None else ""
+    belt = first.thermal().belt.stack[0]
+    said = (f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt.conductivity:g}"
+            f" W/(m K), air {first.ambient_degC:g} °C\n{first.protocol.in_words()}")
     return said.replace("-", "−")
 
 
@@ -45,14 +50,15 @@ def draw_drift(study: Study) -> Figure:
     figure, axes = panels(2, 1, height=3.9, width=7.5, sharex=True)
     for i, case in enumerate(firsts):
         _curves(axes[:, 0], case, curve, SERIES[i % len(SERIES)])
-        _bars(axes[0, 0], study, case, SERIES[i % len(SERIES)])
+        aside = _ASIDE ** (i - 0.5 * (len(firsts) - 1))
+        _bars(axes[0, 0], study, case, SERIES[i % len(SERIES)], aside)
     for ax in axes[:, 0]:
         ax.axhline(study.options.limit, color=INK, linewidth=1.0)
         ax.text(1.01, study.options.limit, f"limit\n{study.options.limit:g} K", va="center",
                 transform=ax.get_yaxis_transform())
         ax.set(xscale="log", yscale="log")
     axes[0, 0].set(ylabel="belt's rise at entry [K]",
-                   title=_title(firsts[0], {case.film for case in firsts}))
+                   title=_title(firsts))
     axes[1, 0].set(xlabel="length of the belt [m]",
                    ylabel="interface's rise\nat constant speed [K]")
     axes[0, 0].set_ylim(bottom=_FLOOR)
@@ -101,10 +107,11 @@ def _falling(rises: list[float]) -> list[float]:
     return [max(rise, 1e-3 * _FLOOR) for rise in rises]
 
 
-def _bars(ax, study: Study, case: Case, colour: str) -> None:
+def _bars(ax, study: Study, case: Case, colour: str, aside: float) -> None:
+    """At the length, or a little aside of it where several speeds have one."""
     for row in study.rows:
         if row.uncertainty is not None and row.case == case.with_length(row.case.length):
-            ax.plot([row.case.length] * 2,
+            ax.plot([aside * row.case.length] * 2,
                     [max(row.uncertainty.low, _FLOOR), row.uncertainty.high],
                     color=colour, linewidth=5.0, alpha=0.35, solid_capstyle="butt")
 
@@ -115,9 +122,9 @@ def _plain_ticks(axis, places, low: float, high: float) -> None:
     axis.set_ticks([], minor=True)
 
 
-@picture("doubt", "What the doubt is made of, in the case that drifts most. Left: the drift with one "
-         "unknown at either end of its range, all else as the case is. Right: total Sobol indices, "
-         "with their 95 % intervals.")
+@picture("doubt", "What the doubt is made of, in the case that drifts most. Left: the drift with "
+         "one unknown at either end of its range, all else as the case is but for what stands in "
+         "brackets. Right: total Sobol indices, with their 95 % intervals.")
 def draw_doubt(row: Row) -> Figure:
     """Bars of single changes beside the indices, one line an unknown."""
     doubt = row.uncertainty
@@ -125,17 +132,15 @@ def draw_doubt(row: Row) -> Figure:
     left, right = axes[0]
     single = doubt.single_changes[::-1]
     places = np.arange(len(single))
-    for place, one in zip(places, single, strict=True):
-        for end, colour in ((one.drift_low, BLUE), (one.drift_high, RED)):
-            left.plot([row.drift.run, end], [place, place], color=colour, linewidth=7.0,
-                      solid_capstyle="butt")
-    left.axvline(row.drift.run, color=INK, linewidth=1.0)
+    ends = np.array([(one.drift_low, one.drift_high) for one in single])
+    left.hlines(places, *ends.T, color=GREY, linewidth=5.0, alpha=0.5)
+    left.plot(ends[:, 0], places, "o", color=BLUE, markersize=6.0, label="low end")
+    left.plot(ends[:, 1], places, "o", color=RED, markersize=6.0, label="high end")
+    left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
     left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
     left.set(xlabel="belt's rise at entry [K]",
              title=f"{row.case.length:g} m at {row.case.speed:g} m/s, single changes")
-    left.legend(handles=[Line2D([], [], color=BLUE, linewidth=7.0, label="low end"),
-                         Line2D([], [], color=RED, linewidth=7.0, label="high end")],
-                loc="lower right")
+    figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
     indices = {one.key: one for one in doubt.influences}
     totals = [indices[one.key].total for one in single]
     errors = [indices[one.key].total_half_width for one in single]
@@ -147,7 +152,10 @@ def draw_doubt(row: Row) -> Figure:
 
 def _span_of(one) -> str:
     unit = {"x": " times", "1": ""}.get(one.unit, f" {one.unit}")
-    return f"{one.low:g} to {one.high:g}{unit}".replace("W/m2K", "W/(m² K)")
+    others = {"railing_friction": "friction on it {:g}",
+              "roller_conductance": "conductance to them {:g} W/m2K"}
+    seen_in = "".join(f" ({others[key].format(value)})" for key, value in one.with_others.items())
+    return f"{one.low:g} to {one.high:g}{unit}{seen_in}".replace("W/m2K", "W/(m² K)")
 
 
 @picture("map", "Rise of the belt where it enters the contact at the end of the runs, over length "

@@ -3,8 +3,8 @@
 Kinetic friction that falls linearly with the interface temperature, to nothing at the melting
 point, as measured on rock; or with a sensitivity that is given. Less friction makes less heat, so
 belt and ice are followed once more with the friction that their temperature leaves. Quasi-steady:
-a run of the mechanics with the friction at the end beside one with that of the start. The temperature
-varies over a stick-slip cycle by far less than over the run; coupled runs agree.
+a run of the mechanics with the friction at the end beside one with that of the start. The
+temperature varies over a stick-slip cycle by far less than over the run; coupled runs agree.
 """
 
 from __future__ import annotations
@@ -47,7 +47,8 @@ def linear_sensitivity(ambient_degC: float) -> float:
 def stick_slip_frequency(speed: float, mass: float, stiffness: float, mu_s: float,
                          mu_k: float) -> float | None:
     """Break-aways per second along x on a belt, Hz; None where there are none."""
-    run = simulate(mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION, output_interval=1.0)
+    run = simulate(mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION,
+                   output_interval=1.0)
     starts = run.slip_starts
     if len(starts) < 3:
         return None

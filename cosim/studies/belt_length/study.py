@@ -125,6 +125,25 @@ class Study:
         """One row a case."""
         return pd.DataFrame([row.flat() for row in self.rows])
 
+    def changes(self) -> pd.DataFrame:
+        """One row a case and change: what would help."""
+        return self._each(lambda row: [asdict(one) for one in row.changes])
+
+    def doubt(self) -> pd.DataFrame:
+        """One row a case and unknown: single changes beside Sobol indices."""
+        return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
+
+    def _each(self, of: Callable[[Row], list[dict]]) -> pd.DataFrame:
+        return pd.DataFrame([
+            {"length [m]": row.case.length, "speed [m/s]": row.case.speed,
+             "ambient [degC]": row.case.ambient_degC} | one
+            for row in self.rows for one in of(row)])
+
+    @property
+    def worst(self) -> Row:
+        """The case that drifts most."""
+        return max(self.rows, key=lambda row: row.drift.run)
+
     def as_dict(self) -> dict[str, object]:
         """Everything, for JSON."""
         first = {} if not self.rows else {

@@ -9,7 +9,7 @@ misses is measured on runs of the model that it has not seen.
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from scipy.stats import qmc
 
 from .case import Case
 from .surrogate import fitted
-from .unknowns import SHAPING, UNKNOWNS, Melts, Unknown, answers, as_it_is, combined
+from .unknowns import SHAPING, UNKNOWNS, Melts, Unknown, answers, combined, needs, with_one
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,10 @@ class Influence:
 
 @dataclass(frozen=True)
 class SingleChange:
-    """The drift, K, with one unknown at either end of its range, the rest as the case is."""
+    """The drift, K, with one unknown at either end of its range, the rest as the case is.
+
+    with_others: what else is not as the case is, key -> value: one of nothing is seen in something.
+    """
 
     key: str
     says: str
@@ -54,6 +57,7 @@ class SingleChange:
     high: float
     drift_low: float
     drift_high: float
+    with_others: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -78,6 +82,11 @@ class Uncertainty:
         """Largest half-width of the indices' 95 % intervals."""
         return max(max(one.first_order_half_width, one.total_half_width)
                    for one in self.influences)
+
+    def table(self) -> list[dict[str, object]]:
+        """Single change and indices of each unknown, side by side."""
+        indices = {one.key: asdict(one) for one in self.influences}
+        return [asdict(one) | indices[one.key] for one in self.single_changes]
 
 
 def uncertainty(case: Case, samples: int) -> Uncertainty | None:
@@ -136,10 +145,11 @@ def _single_changes(case: Case) -> tuple[SingleChange, ...]:
     for one in UNKNOWNS:
         ends = []
         for end in (one.low, one.high):
-            values = as_it_is(case, one.key) | {one.key: end}
+            values = with_one(case, one.key, end)
             parts = answers(case, values)[None, :]
             ends.append(float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0]))
-        found.append(SingleChange(one.key, one.says, one.unit, one.low, one.high, *ends))
+        found.append(SingleChange(one.key, one.says, one.unit, one.low, one.high, *ends,
+                                  with_others=needs(case, one.key)))
     return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
 
 

@@ -121,7 +121,8 @@ def as_it_is(case: Case, key: str) -> dict[str, float]:
     """Values with which the rig is as the case says, to be changed in one of them, `key`.
 
     Railing and rollers that it has not take as much heat as the air in their place. To see what a
-    share of the railing's heat or a warm roller does there must be such heat, or a contact.
+    share of the railing's heat or a warm roller does there must be such heat, or a contact:
+    `needs` says with which they are seen.
     """
     belt, contact = case.rig.belt, case.rig.contact
     factors = dict.fromkeys((one.key for one in UNKNOWNS if one.unit == "x"), 1.0)
@@ -134,11 +135,22 @@ def as_it_is(case: Case, key: str) -> dict[str, float]:
         "roller_conductance": belt.roller_conductance if rollers else case.film,
         "roller_rise": belt.roller_rise if rollers else 0.0,
     }
-    if key == "railing_share" and belt.railing_friction == 0.0:
-        values["railing_friction"] = SOME_FRICTION
-    if key == "roller_rise" and not rollers:
-        values["roller_conductance"] = SOME_CONDUCTANCE
-    return values
+    return values | needs(case, key)
+
+
+def with_one(case: Case, key: str, value: float) -> dict[str, float]:
+    """Values with which the rig is as the case says but for one; where no railing or roller is, the
+    air's heat transfer is another there, too."""
+    return as_it_is(replace(case, h=value) if key == "h" else case, key) | {key: value}
+
+
+def needs(case: Case, key: str) -> dict[str, float]:
+    """What else is changed to see one unknown alone, for it is a part of it: key -> value."""
+    if key == "railing_share" and case.rig.belt.railing_friction == 0.0:
+        return {"railing_friction": SOME_FRICTION}
+    if key == "roller_rise" and case.rig.belt.rollers == 0:
+        return {"roller_conductance": SOME_CONDUCTANCE}
+    return {}
 
 
 def _shaped(case: Case, values: dict[str, float]) -> Case:

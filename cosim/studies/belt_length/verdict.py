@@ -120,7 +120,7 @@ def _wait(study: Study) -> list[str]:
 
 def _helps(study: Study) -> list[str]:
     """What helps most, in the case that drifts most: by one change alone."""
-    row = max(study.rows, key=lambda one: one.drift.run)
+    row = study.worst
     start, rest = row.changes[0], row.changes[1:]
 
     def best(name: str) -> str:
@@ -164,5 +164,6 @@ def _melting(study: Study) -> list[str]:
 
 
 def _span(low: float, high: float) -> str:
-    one, other = f"{low:.2g}", f"{high:.2g}"
+    one, other = (f"{round(value, -1 if value >= 100.0 else 0):g}" if value >= 10.0
+                  else f"{value:.2g}" for value in (low, high))
     return one if one == other else f"{one} to {other}"
