@@ -8,8 +8,8 @@ all over gives the latent heat
     s = (L M_v)/(c_p M_a p Le^(2/3)) dp_s/dT,
 
 beside h_c (T - T_air): the first term acts like more heat transfer, the second keeps such a face
-below the air (the ice bulb's depression) whether it is rubbed or not. Over ice at -8 degC
-s = 0.53, and a face in air without any moisture would be 4 K colder. A dry belt has neither.
+below the air (the ice bulb's depression) whether it is rubbed or not, so that it is no drift. Over
+ice at -8 degC s is about a half. A dry belt has neither.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ THERMAL = {
     "belt_heat": ("J", "heat stored in the belt above the start"),
     "ice_heat": ("J", "heat stored in the ice above the start"),
     "air_heat": ("J", "heat given to the air since the start"),
-    "support_heat": ("J", "heat given to railing and rollers since the start"),
+    "support_heat": ("J", "heat given to railing and rollers since the start, less what they gave"),
     "meltwater_heat": ("J", "heat in what has melted, above ice of the air's temperature"),
     "latent_heat": ("J", "the latent part of the heat in what has melted"),
     "heat_residual": ("J", "heat received less heat found: the thermal model's error"),

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..heat_numbers import SINKS, railing_heat
+from ..heat_numbers import SINKS, held, other_heat
 from ..style import (
     BLUE,
     GREEN,
@@ -42,14 +42,14 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
     figure, axes = time_panels(dataset, rows=3 if sinks else 2)
     time = dataset["time"].values
     flow = readable(dataset["heat_flow"].values, "W")
-    rubbed = railing_heat(dataset)
-    heat = readable(dataset["heat"].values + rubbed, "J")
+    beside = sum(other_heat(dataset).values())
+    heat = readable(dataset["heat"].values + beside, "J")
     for column in range(axes.shape[1]):
         line(axes[0, column], time, flow(dataset["heat_flow"].values), color=RED)
         _stack(axes[1, column], dataset, sinks, heat)
         line(axes[1, column], time, heat(dataset["heat"].values), color=INK)
-        if rubbed.any():
-            line(axes[1, column], time, heat(dataset["heat"].values + rubbed), color=INK,
+        if beside.any():
+            line(axes[1, column], time, heat(dataset["heat"].values + beside), color=INK,
                  linestyle="--")
         if sinks:
             _shares(axes[2, column], dataset, sinks)
@@ -63,8 +63,8 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
     figure.align_ylabels(axes[:, 0])
     title(figure, "Friction heat", dataset)
     handles = [Line2D([], [], color=INK, label="friction heat")]
-    if rubbed.any():
-        handles += [Line2D([], [], color=INK, linestyle="--", label="and the railing's")]
+    if beside.any():
+        handles += [Line2D([], [], color=INK, linestyle="--", label="with railing's, rollers'")]
     handles += [Patch(facecolor=COLOURS[sink], alpha=0.75, label=LABELS[sink]) for sink in sinks]
     handles += [slip_patch()]
     figure.legend(handles=handles, loc="outside upper right", ncols=len(handles))
@@ -82,14 +82,14 @@ def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
 def _stack(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str], heat: Scaled) -> None:
     if sinks:
         axes.stackplot(
-            dataset["time"].values, *(heat(dataset[name].values) for name in sinks.values()),
+            dataset["time"].values, *(heat(held(dataset, name)) for name in sinks.values()),
             colors=[COLOURS[sink] for sink in sinks], alpha=0.75, linewidth=0.0,
         )
 
 
 def _shares(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str]) -> None:
-    received = dataset["heat_received"].values + railing_heat(dataset)
+    received = dataset["heat_received"].values + sum(other_heat(dataset).values())
     known = received > 0.0
     for sink, name in sinks.items():
-        share = 100.0 * dataset[name].values[known] / received[known]
+        share = 100.0 * held(dataset, name)[known] / received[known]
         line(axes, dataset["time"].values[known], share, color=COLOURS[sink], linewidth=1.8)

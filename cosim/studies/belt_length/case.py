@@ -71,7 +71,10 @@ class Case:
 
     @property
     def film(self) -> float:
-        """Heat transfer on each face of the running belt, W/m2K; also in its ramp."""
+        """Heat transfer on each face of the running belt, W/m2K.
+
+        In the ramp, too: the still air of a slower belt would change the drift by less than 0.3 %.
+        """
         return self.h if self.h is not None else self._still_air(self.speed)
 
     @property
@@ -113,6 +116,7 @@ class Case:
         """The same with other numbers of the thermal model, `block.key` -> value."""
         own = {OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS}
         rig = self.rig.model_dump()
+        rig["belt"]["length"] = self.length  # railing and rollers must find room on this belt
         for key in keys.keys() - OWN_KEYS.keys():
             block, _, entry = key.partition(".")
             rig[block] = rig[block] | {entry: keys[key]}

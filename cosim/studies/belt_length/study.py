@@ -179,14 +179,14 @@ def scenario_case(scenario: Scenario) -> Case:
             f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
             f" surface.run_up_time = {surface.run_up_time:g} s")
     thermal, belt = scenario.thermal, scenario.belt
-    given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
+    given = "air_heat_transfer" in belt.model_fields_set or belt.still_air_speed > 0.0
     friction = scenario.friction
     return Case(
         length=belt.length, speed=abs(surface.speed), mass=rig.mass,
-        h=belt.air_heat_transfer if given else None, friction=friction.mu_k,
+        h=belt.film if given else None, friction=friction.mu_k,
         ambient_degC=scenario.ambient.temperature_degC,
         protocol=Protocol(surface.run_up_time, constant),
-        rig=thermal.model_copy(update={"belt": belt}),
+        rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
         static_over_kinetic=friction.mu_s / friction.mu_k if friction.mu_k > 0.0 else 1.0,
         stiffness=scenario.springs.stiffness)
 
