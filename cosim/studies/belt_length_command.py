@@ -10,7 +10,7 @@ import math
 import os
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from dataclasses import replace
 from pathlib import Path
 
@@ -116,7 +116,10 @@ def _add_protocol(parser: ArgumentParser) -> None:
 
 def number_or_air(text: str) -> float | str:
     """A number, or AIR."""
-    return AIR if text == AIR else float(text)
+    try:
+        return AIR if text == AIR else float(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text}: allowed is a number in W/m2K, or {AIR}") from None
 
 
 def _own(case: Case, field: str) -> float | str:

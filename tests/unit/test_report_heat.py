@@ -11,7 +11,8 @@ def dataset(**last):
     """Totals that grow evenly to these, J."""
     totals = {"heat_received": 2.0, "heat_residual": 0.0, "belt_heat": 1.0, "ice_heat": 0.6,
               "air_heat": 0.4, "support_heat": 0.0, "railing_heat": 0.0} | last
-    return xr.Dataset({name: ("time", np.linspace(0.0, value, 5)) for name, value in totals.items()})
+    return xr.Dataset(
+        {name: ("time", np.linspace(0.0, value, 5)) for name, value in totals.items()})
 
 
 def shares(found):
