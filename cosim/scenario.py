@@ -23,6 +23,7 @@ from stickslip.parameters import Block, quantity
 
 from cosim.scenario_faults import ScenarioError, describe_faults, nearest
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
+from thermal.constants import GRAVITY
 
 SUFFIX = ".toml"
 #: More output times or macro steps than this are a slip of the unit, and would fill the memory.
@@ -94,11 +95,22 @@ class Scenario(Parameters):
         contact |= self.contact.model_dump()
         try:
             self._thermal = ThermalParameters.checked(
-                {"ambient": self.ambient, "belt": self.belt, "ice": self.ice, "contact": contact}
+                {
+                    "ambient": self.ambient,
+                    "belt": self._belt_under_block(),
+                    "ice": self.ice,
+                    "contact": contact,
+                }
             )
         except ParameterError as error:
             raise ValueError(str(error).replace("contact.radius", "rig.contact_radius")) from None
         return self
+
+    def _belt_under_block(self) -> Belt:
+        """The belt as the thermal model sees it: a railing carries the block's weight."""
+        if self.belt.railing_friction == 0.0 or self.belt.railing_load > 0.0:
+            return self.belt
+        return self.belt.model_copy(update={"railing_load": self.rig.mass * GRAVITY})
 
     def _take_length_from_slab(self) -> None:
         """The way that the contact describes on a slab: one turn."""

@@ -22,6 +22,7 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     refrozen_mass="kg",
     film_thickness="m",
     heat_received="J",
+    railing_heat="J",
     belt_heat="J",
     ice_heat="J",
     air_heat="J",
@@ -51,7 +52,8 @@ class ThermalParticipant:
 
     Heat and ways arrive as totals since the start, and a step takes what was added: exactly the
     joules and the metres of the step, whatever its size. The belt's way under the contact is
-    what the surface has travelled more than the block.
+    what the surface has travelled more than the block; its way over the railing is all of it, for
+    it goes on where the block sticks.
 
     look: called as look(time, model) with every state that a step starts from, so never with
     one that a coupling scheme takes back; `look_now` does the same for the last one.
@@ -67,6 +69,7 @@ class ThermalParticipant:
         self._look = look
         self._time = 0.0
         self._now = self._taken = Handed()
+        self._railed = 0.0
         self._fresh = model.state()
 
     def enter_initialisation(self, start: float, stop: float) -> None:
@@ -74,10 +77,12 @@ class ThermalParticipant:
         self.model.restore(self._fresh)
         self._time = start
         self._now = self._taken = Handed()
+        self._railed = 0.0
 
     def exit_initialisation(self) -> None:
         """What was handed over before the start is no heat of this run."""
         self._taken = self._now
+        self._railed = self._now.surface_travel
 
     def write(self, values: Mapping[str, float]) -> None:
         """New totals: heat in J, surface_travel and x in m."""
@@ -92,6 +97,7 @@ class ThermalParticipant:
         self._time = time
         self.look_now()
         now, taken = self._now, self._taken
+        travelled = now.surface_travel
         heat = now.heat - taken.heat
         if -ROUNDING * abs(now.heat) <= heat < 0.0:
             # not taken yet: the total stays that of the mechanical side
@@ -100,14 +106,14 @@ class ThermalParticipant:
         if abs(way) <= ROUNDING * (abs(now.surface_travel) + abs(now.x)):
             # stick; taken as it is, its sign would tell the belt to run backwards
             way, now = 0.0, now._replace(surface_travel=taken.surface_travel, x=taken.x)
-        self._advance(size, heat, way)
-        self._taken = now
+        self._advance(size, heat, way, travelled - self._railed)
+        self._taken, self._railed = now, travelled
         self._time = time + size
 
-    def _advance(self, size: float, heat: float, way: float) -> None:
+    def _advance(self, size: float, heat: float, way: float, railed: float) -> None:
         """Step the model; back again where it may not melt and does."""
         before = None if self._melts else self.model.state()
-        self.model.step(size, heat, way)
+        self.model.step(size, heat, way, railed)
         if before is not None and self.model.meltwater.melted > 0.0:
             self.model.restore(before)
             raise UnfeltMelting(
@@ -122,11 +128,11 @@ class ThermalParticipant:
 
     def get_state(self) -> object:
         """Temperatures, ledger and what was taken so far."""
-        return self.model.state(), self._taken, self._now, self._time
+        return self.model.state(), self._taken, self._now, self._railed, self._time
 
     def set_state(self, state: object) -> None:
         """Go back to a state that `get_state` gave."""
-        temperatures, self._taken, self._now, self._time = state
+        temperatures, self._taken, self._now, self._railed, self._time = state
         self.model.restore(temperatures)
 
     def free_state(self, state: object) -> None:

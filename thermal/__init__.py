@@ -14,10 +14,10 @@ from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, Ther
 from .rig_view import RigView, rig_view
 from .single_pass import SinglePass
 from .steady import NoSteadyState, settle
-from .steady_sliding import SteadySliding
+from .steady_sliding import SlidingState, SteadySliding
 
 __all__ = [
     "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "MeshError",
-    "NoSteadyState", "ParameterError", "RigView", "SinglePass", "SteadySliding",
-    "ThermalParameters", "rig_view", "settle",
+    "NoSteadyState", "ParameterError", "RigView", "SinglePass", "SlidingState",
+    "SteadySliding", "ThermalParameters", "rig_view", "settle",
 ]

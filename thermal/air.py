@@ -47,12 +47,18 @@ def _air(temperature: float) -> tuple[float, float]:
 
 def moving_belt(speed: float, span: float, temperature_degC: float = -8.0, width: float = 0.075,
                 rise: float = 1.0) -> float:
-    """Mean heat transfer coefficient of a belt's faces, W/m2K.
+    """Mean heat transfer coefficient of a belt's faces, convection and radiation, W/m2K.
 
     speed m/s, either way; span m of belt from one roller to the next, about half a loop; air
     temperature degC; width m and rise K of the belt matter for natural convection alone.
     NotLaminar above Re = 5e5.
     """
+    return convection(speed, span, temperature_degC, width, rise) + radiation(temperature_degC)
+
+
+def convection(speed: float, span: float, temperature_degC: float = -8.0, width: float = 0.075,
+               rise: float = 1.0) -> float:
+    """The convective part of `moving_belt`, W/m2K."""
     if not (span > 0.0 and width > 0.0 and rise >= 0.0 and temperature_degC > -ZERO_DEGC):
         raise ValueError(
             f"span = {span:g} m, width = {width:g} m, rise = {rise:g} K at {temperature_degC:g}"
@@ -68,5 +74,16 @@ def moving_belt(speed: float, span: float, temperature_degC: float = -8.0, width
     size = span * width / (2.0 * (span + width))
     rayleigh = 0.7 * GRAVITY / temperature * rise * size**3 / viscosity**2
     natural = 0.5 * (0.54 + 0.27) * rayleigh**0.25 * conductivity / size
-    return ((forced**3 + natural**3) ** (1.0 / 3.0)
-            + 4.0 * _EMISSIVITY * _STEFAN_BOLTZMANN * temperature**3)
+    return (forced**3 + natural**3) ** (1.0 / 3.0)
+
+
+def radiation(temperature_degC: float) -> float:
+    """The radiative part, to walls as cold as the air, W/m2K."""
+    temperature = temperature_degC + ZERO_DEGC
+    return 4.0 * _EMISSIVITY * _STEFAN_BOLTZMANN * temperature**3
+
+
+def laminar_span(speed: float, temperature_degC: float) -> float:
+    """Longest span over which the air along a belt is known to be laminar, m."""
+    viscosity, _ = _air(temperature_degC + ZERO_DEGC)
+    return LAMINAR * viscosity / abs(speed) if speed != 0.0 else math.inf

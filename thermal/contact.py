@@ -1,10 +1,10 @@
 """Heat exchange between belt face and ice face over one step.
 
-Friction produces the flux f, half of it at either face; a conductance h joins the faces. With
-p_j the flux into strip j of the belt, q_j its part that comes through the contact, and g the flux
-into the ice, all constant over the step and in W/m2 of contact,
+Friction produces the flux f, a part s of it at the belt's face (half, unless one knows better); a
+conductance h joins the faces. With p_j the flux into strip j of the belt, q_j its part that comes
+through the contact, and g the flux into the ice, all constant over the step and in W/m2 of contact,
 
-    q_j = f/2 + h (T_ice - T_j),        mean(q) + g + m = f,
+    q_j = s f + h (T_ice - T_j),        mean(q) + g + m = f,
 
 m the flux that melts ice; the strips have equal areas. The temperatures are means over the step
 of the faces, averaged over each strip and over its way, so the conditions are the Galerkin
@@ -72,36 +72,39 @@ class Fluxes:
 
 
 def _belt_fluxes(belt: BeltFace, resistance: float, free_face_h: float,
-                 ice_temperature: float, ice_response: float, friction: float) -> tuple:
-    """Solve the strips for an ice face at ice_temperature - ice_response * mean(q)."""
+                 ice_temperature: float, ice_response: float, own: float) -> tuple:
+    """Solve the strips for an ice face at ice_temperature - ice_response * mean(q).
+
+    own: friction heat that arises on the belt's face, W/m2.
+    """
     through = np.eye(belt.free.size) - free_face_h * belt.response
     matrix = (resistance * through + belt.response
               + ice_response * through.mean(axis=0))
     kept = free_face_h * belt.free
-    right = (ice_temperature - belt.free + 0.5 * friction * resistance
+    right = (ice_temperature - belt.free + own * resistance
              + resistance * kept + ice_response * kept.mean())
     into_belt = np.linalg.solve(matrix, right)
     return into_belt, through @ into_belt - kept
 
 
 def exchange(belt: BeltFace, ice: IceFace, conductance: float, free_face_h: float,
-             friction: float) -> Fluxes:
+             friction: float, belt_side: float = 0.5) -> Fluxes:
     """Fluxes of one step.
 
     conductance: of the contact, free_face_h: of the belt's film that the ice covers, W/m2K;
-    friction: W/m2.
+    friction: W/m2; belt_side: share of it that arises on the belt's face.
     """
-    resistance = 1.0 / conductance
+    resistance, own = 1.0 / conductance, belt_side * friction
     given = friction + ice.refreezing
     into_belt, from_contact = _belt_fluxes(
         belt, resistance, free_face_h,
-        ice.free_mean + ice.response_mean * given, ice.response_mean, friction)
+        ice.free_mean + ice.response_mean * given, ice.response_mean, own)
     into_ice = given - float(from_contact.mean())
     if ice.free_end + ice.response_end * into_ice <= ice.melting:
         return Fluxes(into_belt, from_contact, into_ice, -ice.refreezing)
     into_ice = (ice.melting - ice.free_end) / ice.response_end
     into_belt, from_contact = _belt_fluxes(
         belt, resistance, free_face_h,
-        ice.free_mean + ice.response_mean * into_ice, 0.0, friction)
+        ice.free_mean + ice.response_mean * into_ice, 0.0, own)
     melting = friction - float(from_contact.mean()) - into_ice
     return Fluxes(into_belt, from_contact, into_ice, melting)

@@ -185,6 +185,11 @@ class IceBody:
         self.melted_depth, self._fitted_depth = present, depth
         self.amplitudes = self._shapes.T @ field
 
+    def fill(self, rise: float) -> None:
+        """Make the whole block as warm, K above the air."""
+        # phi^T C phi = 1, so the coefficients of 1 are phi^T C 1: the heat of each mode
+        self.amplitudes[:] = rise * self._heat
+
     def heat(self) -> float:
         """Heat stored above ambient, J."""
         return float(self._heat @ self.amplitudes)

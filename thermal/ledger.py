@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 class HeatLedger:
     """Totals since the start, J.
 
+    `received`: friction heat of the contact; `from_railing`: what entered the belt of the heat that
+    its rubbing on the railing makes.
     `to_air` and `to_supports` are integrated along with the temperatures, `belt` and `ice` are
     read off the temperature fields, `meltwater` off the water that there is: none of them is
     inferred from the others, so `residual` can fail.
     """
 
     received: float = 0.0
+    from_railing: float = 0.0
     from_contact_to_belt: float = 0.0
     to_air: float = 0.0
     to_supports: float = 0.0
@@ -28,7 +31,7 @@ class HeatLedger:
     @property
     def residual(self) -> float:
         """Received less everything found: 0 up to rounding."""
-        return self.received - (
+        return self.received + self.from_railing - (
             self.belt + self.ice + self.to_air + self.to_supports + self.meltwater)
 
     @property

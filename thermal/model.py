@@ -59,34 +59,40 @@ class BeltIceModel:
         length = self.parameters.belt.length
         return (0.5 * length - self._travel) % length
 
-    def step(self, duration: float, heat: float, displacement: float) -> None:
+    def step(self, duration: float, heat: float, displacement: float,
+             travel: float | None = None) -> None:
         """Advance by duration (s, > 0).
 
         heat: friction heat produced in the step, J, >= 0. displacement: way of the belt
-        material under the contact, m, signed, up to 1000 loops. Heat and movement are spread
-        evenly over the step. ValueError for anything else; the state is then unchanged.
+        material under the contact, m, signed, up to 1000 loops. travel: way of the belt over its
+        railing, m, signed; left out: the displacement, of a block that stands still. Heat and
+        ways are spread evenly over the step. ValueError for anything else; the state is then
+        unchanged.
         """
-        _check_step(duration, heat, displacement, self.parameters.belt.length)
+        travel = displacement if travel is None else travel
+        _check_step(duration, heat, displacement, travel, self.parameters.belt.length)
         parts = max(math.ceil(abs(displacement) / self.longest_movement),
                     self.meltwater.ablation.parts(heat))
         melted = self.meltwater.melted
         for _ in range(parts):
-            self._advance(duration / parts, heat / parts, displacement / parts)
+            self._advance(duration / parts, heat / parts, displacement / parts, travel / parts)
         if displacement != 0.0:
             self._direction = math.copysign(1.0, displacement)
         self.ledger.belt, self.ledger.ice = self.belt.heat(), self.ice.heat()
         self.ledger.meltwater = self.meltwater.heat
         self._melt_rate = (self.meltwater.melted - melted) / duration
 
-    def _advance(self, duration: float, heat: float, displacement: float) -> None:
+    def _advance(self, duration: float, heat: float, displacement: float,
+                 travel: float) -> None:
         """One internal step: what it finds, the fluxes, both fields, the ledger."""
         centre, area = self.contact_position, self.footprint.area
-        seen = self.track.see(duration, centre, -displacement)
+        seen = self.track.see(duration, centre, -displacement, travel)
 
         def solve(ice_face: IceFace) -> Fluxes:
             return exchange(
                 seen.contact.face, ice_face, self.parameters.contact.conductance,
-                self.parameters.belt.film, heat / (duration * area))
+                self.parameters.belt.film, heat / (duration * area),
+                self.parameters.contact.belt_side)
 
         fluxes, sinking, recession = self.meltwater.exchange(duration, displacement, solve)
         given = self.track.advance(
@@ -94,6 +100,7 @@ class BeltIceModel:
         to_air = self.ice.advance(duration, fluxes.ice * area, sinking, recession)
         self.meltwater.advance(duration, displacement, centre, fluxes.melting)
         self._book(duration, heat, fluxes, given, to_air)
+        self.ledger.from_railing += seen.rubbed
         self._travel = math.fmod(self._travel + displacement, self.parameters.belt.length)
 
     def _book(self, duration: float, heat: float, fluxes: Fluxes, given: Given,
@@ -132,6 +139,7 @@ class BeltIceModel:
             "refrozen_mass": float(self.meltwater.on_belt.frozen.sum()),
             "film_thickness": self.meltwater.film.thickness,
             "heat_received": ledger.received,
+            "railing_heat": ledger.from_railing,
             "belt_heat": ledger.belt,
             "ice_heat": ledger.ice,
             "air_heat": ledger.to_air,
@@ -184,9 +192,10 @@ class BeltIceModel:
         self.belt.amplitudes.view(np.float64)[:] = belt.reshape(self.belt.amplitudes.shape[0], -1)
 
 
-def _check_step(duration: float, heat: float, displacement: float, length: float) -> None:
+def _check_step(duration: float, heat: float, displacement: float, travel: float,
+                length: float) -> None:
     for name, value, unit in (("duration", duration, "s"), ("heat", heat, "J"),
-                              ("displacement", displacement, "m")):
+                              ("displacement", displacement, "m"), ("travel", travel, "m")):
         if not math.isfinite(value):
             raise ValueError(f"{name} = {value} {unit} is not a finite number")
     if duration <= 0.0:

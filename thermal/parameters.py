@@ -58,7 +58,9 @@ class Belt(Block):
     to a light draught; the study's rate of 0.25 1/s would need 73.5 W/m2K.
 
     A railing carries the belt below the ice, rollers turn it: where they touch the back, they
-    take the place of the air, at the air's temperature. A railing of conductance 0 only covers.
+    take the place of the air, at the air's temperature unless the rollers are warmer. A railing of
+    conductance 0 only covers. The belt rubs on its railing under the block's weight; the part of
+    that heat that enters the belt does so evenly along the railing, the rest is the railing's.
     """
 
     length: float = quantity(1.0, "m", "length of the loop", gt=0.0, le=100.0)
@@ -81,6 +83,14 @@ class Belt(Block):
         ge=0.0, le=100.0)
     railing_conductance: float = quantity(
         0.0, "W/(m2.K)", "from the back of the belt to the railing", ge=0.0, le=1e12)
+    railing_friction: float = quantity(
+        0.0, "1", "coefficient of friction of the belt on its railing; 0: none; PTFE 0.04 to 0.2",
+        ge=0.0, le=10.0)
+    railing_load: float = quantity(
+        0.0, "N", "load of the belt on its railing; 0: the block's weight in a scenario, none where"
+        " there is no block", ge=0.0, le=1e6)
+    railing_share: float = quantity(
+        0.5, "1", "share of the railing's friction heat that enters the belt", ge=0.0, le=1.0)
     rollers: int = Field(
         0, ge=0, le=20, description="rollers, evenly spread from half a spacing after the contact")
     roller_arc: float = quantity(
@@ -88,6 +98,9 @@ class Belt(Block):
         gt=0.0, le=100.0)
     roller_conductance: float = quantity(
         100.0, "W/(m2.K)", "from the back of the belt to a roller", ge=0.0, le=1e12)
+    roller_rise: float = quantity(
+        0.0, "K", "rollers above the air, warmed by their drive and by flexing the belt", ge=-100.0,
+        le=100.0)
     elements: int = Field(
         6, ge=1, le=40, description="P2 elements through the thickness, finest at the contact")
     cell_length: float = quantity(
@@ -183,6 +196,10 @@ class Contact(Block):
     load: float = quantity(
         0.0, "N", "weight on the contact, which squeezes melt water out; 0: that of the ice",
         ge=0.0, le=1e9)
+    belt_side: float = quantity(
+        0.5, "1", "share of the friction heat that arises on the belt's face, the rest on the"
+        " ice's; what each keeps follows from the conductance and from how both conduct", ge=0.0,
+        le=1.0)
     strips: int = Field(
         16, ge=1, le=64,
         description="strips across the belt in each of which the flux is uniform; 1 makes the"
@@ -254,6 +271,15 @@ class ThermalParameters(Block):
                 f"belt.length = {belt.length:g} m is too short for a railing of"
                 f" {belt.railing_length:g} m and {belt.rollers} rollers that touch"
                 f" {belt.roller_arc:g} m each")
+        return self
+
+    @model_validator(mode="after")
+    def _railing_to_rub_on(self) -> Self:
+        belt = self.belt
+        if belt.railing_friction > 0.0 and belt.railing_length == 0.0:
+            raise ValueError(
+                f"belt.railing_friction = {belt.railing_friction:g} and belt.railing_length = 0:"
+                " there is no railing to rub on; allowed is a length above 0")
         return self
 
     @classmethod

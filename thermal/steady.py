@@ -51,13 +51,14 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
     check_gives_heat(float(model.belt.rates[0, 0]), model.track.takes_heat)
     parameters, area = model.parameters, model.footprint.area
     response = model.belt.periodic_response(duration, round(shift))
-    seen = model.track.see(duration, model.contact_position, -displacement, response)
+    seen = model.track.see(
+        duration, model.contact_position, -displacement, displacement, response)
     ice = model.ice.response(FOREVER)
     melting = MELTING_POINT_DEGC - parameters.ambient.temperature_degC
     fluxes = exchange(
         seen.contact.face, IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),
         parameters.contact.conductance, parameters.belt.film,
-        heat / (duration * area))
+        heat / (duration * area), parameters.contact.belt_side)
     if fluxes.melting > 0.0:
         raise NoSteadyState(
             f"heat = {heat:g} J in {duration:g} s: the ice face reaches the melting point and melts"

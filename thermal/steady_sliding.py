@@ -1,15 +1,10 @@
-"""Belt and ice while the belt runs at a constant speed: long steps, and the steady state directly.
+"""Belt and ice under steady friction: long steps, and the steady state directly.
 
-Seen from the ice, the belt's temperature obeys u_t + v u_x = ..., and a flux that stands still
-loads it. In the Fourier series along the loop, and in the modes through the thickness, each
-coefficient then has the complex rate
-
-    lambda_m + k^2 along_m + i k v,
-
-so that a step of any length is exact for fluxes that are constant in the contact's frame, however
-many loops the belt makes in it. A step of endless length is the steady state: its fixed point, the
-same for every step. What has to be resolved in time is only how the fluxes themselves change:
-quickly at the start, then from loop to loop.
+Seen from the ice a flux that stands still loads a belt that runs below it (`belt_series`). A step
+of any length is exact for fluxes and a speed that are constant in it; a step of endless length is
+the steady state: its fixed point, the same for every step. What has to be resolved in time is only
+how the fluxes themselves change, quickly at the start, then from loop to loop, and how the speed
+does in a ramp: its steps have the mean speed, so the belt's way is exact at the end of each.
 
 The strips of the contact, the supports and the heat exchange with the ice are those of
 `BeltIceModel`; here the loads are exact Fourier coefficients, there they are hat functions that
@@ -24,25 +19,31 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .belt_series import BeltSeries
 from .block import standing_block
 from .constants import MELTING_POINT_DEGC
 from .contact import Fluxes, IceFace, exchange
 from .footprint import Footprint
-from .ice import Ice
+from .ice_body import IceBody
 from .parameters import ThermalParameters
-from .relaxation import LastDurations, decay, mean_decay, mean_response
-from .sinks import eliminate, supports
 from .steady import FOREVER, check_gives_heat
-from .thickness import thickness_of
 
 Array = NDArray[np.float64]
-Spectrum = NDArray[np.complex128]
 
 #: First steps of a transient: parts of the usual one, since fluxes start like the root of time.
 _START = (1 / 32, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2)
 
 #: Usual steps in a loop, and the most in a transient: 0.03 % of the rise; half as many 0.2 %.
 _STEPS_IN_A_LOOP, _MOST_STEPS = 8, 240
+
+#: Fewest steps in a run, and in a ramp: a slow belt makes but a few loops.
+_FEWEST_STEPS, _FEWEST_RAMP_STEPS = 48, 40
+
+#: Last step of a ramp, in parts: the speed at its end is that of the run, not the mean of a step.
+_END_OF_RAMP = (1 / 2, 1 / 4, 1 / 8, 1 / 8)
+
+#: Steps in a pause: each longer than the one before by the same factor.
+_PAUSE_STEPS, _FIRST_OF_PAUSE = 24, 1e-3
 
 
 class SlidingState(NamedTuple):
@@ -64,88 +65,47 @@ class SlidingState(NamedTuple):
     melting: float
 
 
-class _Response(NamedTuple):
-    """What a step of given duration does; (modes, numbers) unless said."""
+class Snapshot(NamedTuple):
+    """What a continuation needs of `SteadySliding`."""
 
-    decay: Spectrum
-    mean: Spectrum            # step-mean of the decay
-    forced: Spectrum          # amplitude at the end for load 1 on the mode
-    rows: Array               # (rows, rows) step-mean of the rows for 1 W/m2 on the rows, K
+    numbers: tuple[float, ...]
+    film: float
+    belt: NDArray[np.complex128]
+    ice: Array
 
 
 class SteadySliding:
     """Belt at a constant speed (m/s, > 0) under friction (force when cold, N), from a cold start.
 
     waves: of the Fourier series along the loop; left out, two cells of the belt make the shortest.
-    sensitivity: part of the friction lost for each kelvin of the interface's rise, 1/K.
-    `state` tells the present temperatures; ValueError for a speed or force that cannot be.
+    block: contact and ice of these parameters, when they are there from another belt, for the modes
+    of the ice take time. sensitivity: part of the friction lost for each kelvin of the interface's
+    rise, 1/K. ice_rise: of the ice above the air at the start, K. `ramp`, `run` and `pause` make
+    an experiment, `state` tells the present temperatures. ValueError for a speed or force that
+    cannot be.
     """
 
     def __init__(self, parameters: ThermalParameters, speed: float, force: float,
-                 waves: int | None = None, ice: Ice | None = None,
-                 sensitivity: float = 0.0) -> None:
+                 waves: int | None = None, block: tuple[Footprint, IceBody] | None = None,
+                 sensitivity: float = 0.0, ice_rise: float = 0.0) -> None:
         if not (math.isfinite(speed) and speed > 0.0):
             raise ValueError(f"speed = {speed:g} m/s must be above 0: the belt slides steadily")
         if not (math.isfinite(force) and force >= 0.0):
             raise ValueError(f"force = {force:g} N must not be negative: friction produces heat")
-        belt, contact = parameters.belt, parameters.contact
         self.parameters, self.speed, self.force = parameters, speed, force
-        if ice is None:
-            self.footprint, self.ice = standing_block(parameters)
-        else:
-            self.ice = ice
-            self.footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
-        self._modes = thickness_of(belt, self.footprint.lane)
-        self.ice.amplitudes[:] = 0.0
-        number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
-        self._wave = 2.0 * np.pi / belt.length * number
-        self._weight = np.where(number == 0, 1.0, 2.0)
-        self._rates = (self._modes.rates[:, None] + self._modes.along[:, None] * self._wave**2
-                       + 1j * speed * self._wave)
-        self._place_rows()
-        self.amplitudes: Spectrum = np.zeros(self._rates.shape, dtype=np.complex128)
-        self._response = LastDurations(self._respond)
-        self.sensitivity, self._left = sensitivity, 1.0
+        self.footprint, self.ice = standing_block(parameters) if block is None else block
+        self.belt = BeltSeries(parameters.belt, self.footprint, waves)
+        self.sensitivity = sensitivity
+        self.reset(ice_rise)
+
+    def reset(self, ice_rise: float = 0.0) -> None:
+        """Back to a cold belt and an ice of one temperature, K above the air."""
+        self.belt.amplitudes[:] = 0.0
+        self.ice.fill(ice_rise)
+        self._left = 1.0
         self._time = self._into_belt = self._produced = 0.0
+        self._sliding = False
         self._fluxes: Fluxes | None = None
-
-    def _place_rows(self) -> None:
-        """Faces, areas and Fourier coefficients of all places with a flux of their own."""
-        belt, footprint = self.parameters.belt, self.footprint
-        beneath = supports(belt, footprint.length / footprint.strips)
-        edges = [footprint.edges, *(s.behind + s.edges for s in beneath)]
-        middles = np.concatenate([0.5 * (e[1:] + e[:-1]) for e in edges])
-        lengths = np.concatenate([np.diff(e) for e in edges])
-        self._areas = lengths * footprint.lane
-        on = np.repeat([0] + [1] * len(beneath), [e.size - 1 for e in edges])
-        self._on = [on == face for face in (0, 1) if np.any(on == face)]
-        self._faces = self._modes.faces[:len(self._on)]
-        self._excess = np.concatenate([np.zeros(0)] + [
-            np.full(s.edges.size - 1, s.conductance - belt.film) for s in beneath])
-        self._rows = self._areas[:, None] * (
-            np.sinc(np.outer(lengths, self._wave) / (2.0 * np.pi))
-            * np.exp(-1j * np.outer(middles, self._wave)))
-
-    def _respond(self, duration: float) -> _Response:
-        x, length, faces = self._rates * duration, self.parameters.belt.length, self._faces
-        mean = mean_decay(x)
-        held = mean_response(x) * (duration / length * self._weight)
-        rows = np.empty((self._areas.size, self._areas.size))
-        for on_a, face_a in zip(self._on, faces, strict=True):
-            for on_b, face_b in zip(self._on, faces, strict=True):
-                # Re(conj(r) g s) summed, by a real product: half the work of a complex one.
-                right = self._rows[on_b] * ((face_a * face_b) @ held)
-                rows[np.ix_(on_a, on_b)] = (
-                    self._rows[on_a].view(np.float64) @ right.view(np.float64).T)
-        return _Response(decay(x), mean, mean * (duration / length), rows / self._areas[:, None])
-
-    def _means(self, amplitudes: Spectrum) -> Array:
-        """Means over the rows' areas of a field's faces, K: (rows,)."""
-        means = np.empty(self._areas.size)
-        for on, face in zip(self._on, self._faces, strict=True):
-            series = self._weight * (face @ amplitudes)
-            means[on] = self._rows[on].view(np.float64) @ series.view(np.float64)
-        return means / self._areas
 
     def _ice_face(self, duration: float) -> IceFace:
         mean, end = self.ice.free_face(duration)
@@ -153,56 +113,100 @@ class SteadySliding:
         return IceFace(mean, end, response.face_mean * area, response.face_end * area,
                        MELTING_POINT_DEGC - self.parameters.ambient.temperature_degC)
 
-    def step(self, duration: float) -> None:
-        """Advance by duration (s, > 0) with constant fluxes."""
+    def step(self, duration: float, speed: float | None = None, lifted: bool = False) -> None:
+        """Advance by duration (s, > 0) with constant fluxes.
+
+        speed: of the belt in it, m/s, >= 0; left out, the constant one. lifted: the ice does not
+        touch the belt, its base gives heat to the air as its side does.
+        """
         if not duration > 0.0:
             raise ValueError(f"duration = {duration:g} s must be positive")
-        response, belt = self._response(duration), self.parameters.belt
-        means = self._means(response.mean * self.amplitudes)
-        contact = eliminate(means, response.rows, self._excess)
-        friction = self._friction()
-        self._fluxes = exchange(
-            contact.face, self._ice_face(duration), self.parameters.contact.conductance,
-            belt.film, friction)
-        powers = contact.fluxes(self._fluxes.belt)
-        self.amplitudes *= response.decay
-        load = sum(np.outer(face, powers[on] @ self._rows[on])
-                   for on, face in zip(self._on, self._faces, strict=True))
-        self.amplitudes += response.forced * load
-        self.ice.advance(duration, self._fluxes.ice * self.footprint.area)
-        self._into_belt += float(self._fluxes.from_contact.mean()) * duration
+        speed = self.speed if speed is None else speed
+        contact = self.belt.see(duration, speed)
+        friction = 0.0 if lifted else self._friction(speed)
+        self._fluxes = fluxes = (
+            self._apart(duration) if lifted else self._together(contact.face, duration, friction))
+        self.belt.advance(duration, speed, contact.fluxes(fluxes.belt))
+        self.ice.advance(duration, fluxes.ice * self.footprint.area)
+        self._into_belt += float(fluxes.from_contact.mean()) * duration
         self._produced += friction * duration
         self._time += duration
         self._left = max(0.0, 1.0 - self.sensitivity * self._interface())
 
-    def _friction(self) -> float:
+    def _together(self, belt, duration: float, friction: float) -> Fluxes:
+        contact = self.parameters.contact
+        return exchange(belt, self._ice_face(duration), contact.conductance, self.belt.film,
+                        friction, contact.belt_side)
+
+    def _apart(self, duration: float) -> Fluxes:
+        """Nothing into the belt; the ice's base cools with the mean temperature of the step."""
+        ice, h = self._ice_face(duration), self.parameters.ice.air_heat_transfer
+        nothing = np.zeros(self.footprint.strips)
+        return Fluxes(nothing, nothing, -h * ice.free_mean / (1.0 + h * ice.response_mean), 0.0)
+
+    def _friction(self, speed: float) -> float:
         """Friction heat, W/m2 of contact."""
-        return self._left * self.force * self.speed / self.footprint.area
+        return self._left * self.force * speed / self.footprint.area
 
     def _interface(self) -> float:
         """Mean rise of the two faces over the contact, K."""
-        return 0.5 * (float(self.strip_means().mean()) + self.ice.face())
+        return 0.5 * (float(self.belt.strip_means().mean()) + self.ice.face())
 
     def until(self, time: float, coarseness: float = 1.0) -> SlidingState:
-        """Advance to a time (s), in steps that follow the loops; the state there.
+        """Advance to a time (s) at the constant speed; the state there."""
+        return self.run(time - self._time, coarseness)
 
-        coarseness: factor of the steps; 2 changes the temperatures by 0.2 % of their rise.
+    def run(self, duration: float, coarseness: float = 1.0) -> SlidingState:
+        """Advance by a time (s) at the constant speed; the state there.
+
+        The steps follow the loops. coarseness: factor of the steps; 2 changes the temperatures by
+        0.4 % of their rise.
         """
-        remaining = time - self._time
-        if remaining > 0.0:
-            usual = coarseness * max(self.parameters.belt.length / (self.speed * _STEPS_IN_A_LOOP),
-                                     remaining / _MOST_STEPS)
-            usual = remaining / math.ceil(remaining / usual)
-            start = _START if self._time == 0.0 else (1.0,)
-            parts = [*start, *[1.0] * (round(remaining / usual) - 1)]
+        if duration > 0.0:
+            usual = coarseness * max(min(self._of_a_loop(), duration / _FEWEST_STEPS),
+                                     duration / _MOST_STEPS)
+            usual = duration / math.ceil(duration / usual)
+            start = (1.0,) if self._sliding else _START
+            parts = [*start, *[1.0] * (round(duration / usual) - 1)]
             for part in parts:
                 self.step(part * usual)
+            self._sliding = True
+        return self.state()
+
+    def _of_a_loop(self) -> float:
+        return self.parameters.belt.length / (self.speed * _STEPS_IN_A_LOOP)
+
+    def ramp(self, duration: float, coarseness: float = 1.0) -> SlidingState:
+        """From standstill to the constant speed, evenly in a time (s); the state there."""
+        if duration > 0.0:
+            usual = max(self._of_a_loop(), duration / _MOST_STEPS)
+            count = math.ceil(max(duration / usual, _FEWEST_RAMP_STEPS) / coarseness)
+            ends = np.cumsum([0.0, *[1.0] * (count - 1), *_END_OF_RAMP]) / count
+            for begin, end in zip(ends[:-1], ends[1:], strict=True):
+                self.step(duration * (end - begin), self.speed * 0.5 * (begin + end))
+            self._sliding = True
+        return self.state()
+
+    def pause(self, duration: float, film: float | None = None,
+              lifted: bool = False) -> SlidingState:
+        """The belt stands still for a time (s); the state at its end.
+
+        film: heat transfer to the air meanwhile, W/m2K, for a belt that stands drags no air along;
+        left out, as when it runs. lifted: the ice is, too.
+        """
+        if duration > 0.0:
+            running = self.belt.film
+            self.belt.set_film(running if film is None else film)
+            ends = duration * np.geomspace(_FIRST_OF_PAUSE, 1.0, _PAUSE_STEPS)
+            for step in np.diff(ends, prepend=0.0):
+                self.step(float(step), 0.0, lifted)
+            self.belt.set_film(running)
+            self._sliding = False
         return self.state()
 
     def settle(self) -> SlidingState:
         """Go to the steady state; NoSteadyState when the belt gives no heat to anything."""
-        takes = any(s.conductance > 0.0 for s in supports(self.parameters.belt, 1.0))
-        check_gives_heat(float(self._modes.rates[0]), takes)
+        check_gives_heat(self.belt.slowest_rate, self.belt.supports_take_heat)
         self._left = 1.0
         self.step(FOREVER)
         if self.sensitivity > 0.0:
@@ -214,8 +218,8 @@ class SteadySliding:
     def state(self) -> SlidingState:
         """The present temperatures."""
         probe = 0.5 * min(1.25 * self.footprint.length, self.parameters.belt.length)
-        entry, exit_ = self.face(np.array([-probe, probe]))
-        strips = self.strip_means()
+        entry, exit_ = self.belt.face(np.array([-probe, probe]))
+        strips = self.belt.strip_means()
         ice = self.ice.face()
         share = so_far = melting = 0.0
         if self._fluxes is not None and self._produced > 0.0:
@@ -223,28 +227,30 @@ class SteadySliding:
             share = float(self._fluxes.from_contact.mean() / produced) if produced > 0.0 else 0.0
             so_far = self._into_belt / self._produced
             melting = self._fluxes.melting
-        slow = self.amplitudes[:, 0].real
-        stored = float(self._modes.heat @ slow)
         return SlidingState(
             time=self._time, entry=float(entry), exit=float(exit_),
             mean_interface=self._interface(),
             flash_interface=0.5 * (float(strips.max()) + ice), ice_face=ice,
-            belt_mean=stored / (self.parameters.belt.capacity_per_area * self.footprint.lane),
+            belt_mean=self.belt.mean_rise(),
             belt_share=share, belt_share_so_far=so_far, melting=melting)
+
+    def snapshot(self) -> Snapshot:
+        """The present temperatures, as a copy."""
+        return Snapshot((self._time, self._into_belt, self._produced, self._left), self.belt.film,
+                        self.belt.amplitudes.copy(), self.ice.state())
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Back to a snapshot of standing still, for the friction starts anew."""
+        self._time, self._into_belt, self._produced, self._left = snapshot.numbers
+        self.belt.set_film(snapshot.film)
+        self.belt.amplitudes = snapshot.belt.copy()
+        self.ice.restore(snapshot.ice)
+        self._fluxes, self._sliding = None, False
 
     def strip_means(self) -> Array:
         """Belt face under the strips of the contact, from entry to exit, K: (strips,)."""
-        return self._means(self.amplitudes)[:self.footprint.strips]
+        return self.belt.strip_means()
 
     def face(self, x: Array) -> Array:
         """Contact face at places (n,) m behind the contact's middle, K above the air."""
-        # Lanczos' factors: the series is cut off, which would ripple near the contact's edges.
-        smooth = np.sinc(np.arange(self._wave.size) / self._wave.size)
-        series = smooth * self._weight * (self._faces[0] @ self.amplitudes)
-        return (np.exp(1j * np.outer(x, self._wave)) @ series).real
-
-
-def standing_ice(parameters: ThermalParameters, footprint: Footprint) -> Ice:
-    """The cylinder of ice, cold; to be used again for other belts, since its modes take time."""
-    return Ice(parameters.ice, parameters.contact.radius, footprint.arc_share,
-               touching=footprint.touching)
+        return self.belt.face(x)

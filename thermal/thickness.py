@@ -80,6 +80,9 @@ def _solved(layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> 
     return Thickness(layers, h, elements, lane)
 
 
-def thickness_of(belt: BeltParameters, lane: float) -> Thickness:
-    """The modes of a belt; those of belts that differ in length alone are solved once."""
-    return _solved(belt.stack, belt.film, belt.elements, lane)
+def thickness_of(belt: BeltParameters, lane: float, film: float | None = None) -> Thickness:
+    """The modes of a belt; those of belts that differ in length alone are solved once.
+
+    film: on its faces, W/m2K, when it is another than the belt's.
+    """
+    return _solved(belt.stack, belt.film if film is None else film, belt.elements, lane)

@@ -12,24 +12,32 @@ from scipy.fft import rfft
 from .belt import BACK, CONTACT, Belt, Response, Window
 from .footprint import Footprint, strip_loads
 from .parameters import Belt as BeltParameters
-from .sinks import Eliminated, eliminate, supports
+from .sinks import Eliminated, each_strip, eliminate, supports
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Seen:
-    """The belt as a step finds it: places, their step-means without flux, their response."""
+    """The belt as a step finds it: places, their step-means without flux, their response.
+
+    rubbed: friction heat that enters the belt from its railing in the step, J.
+    """
 
     windows: list[Window]
     free: Array
     response: Array
     contact: Eliminated
+    rubbed: float
 
 
 @dataclass(frozen=True)
 class Given:
-    """Heat that the belt gave away in a step, J: to the air and to its supports."""
+    """Heat that the belt gave away in a step, J: to the air and to its supports.
+
+    What warm rollers give to the belt counts as negative; what the belt's rubbing makes does not
+    count.
+    """
 
     to_air: float
     to_supports: float
@@ -41,12 +49,13 @@ class Track:
     def __init__(self, parameters: BeltParameters, footprint: Footprint) -> None:
         self.belt = Belt(parameters, footprint.lane)
         self._footprint = footprint
-        self._supports = supports(parameters, footprint.length / footprint.strips)
+        self._supports = supports(
+            parameters, footprint.length / footprint.strips, footprint.lane)
         self._air = parameters.film
         strips = [np.diff(support.edges) for support in self._supports]
-        self._conductances = np.concatenate([np.zeros(0)] + [
-            np.full(lengths.size, support.conductance)
-            for support, lengths in zip(self._supports, strips, strict=True)])
+        self._conductances = each_strip(self._supports, lambda support: support.conductance)
+        self._rises = each_strip(self._supports, lambda support: support.rise)
+        self._drags = each_strip(self._supports, lambda support: support.drag)
         #: Areas of all places with a flux of their own, m2: the contact's strips come first.
         self._areas = np.concatenate(
             [np.full(footprint.strips, footprint.strip_area)]
@@ -57,11 +66,12 @@ class Track:
         """Does a support take heat?"""
         return bool(np.any(self._conductances > 0.0))
 
-    def see(self, duration: float, centre: float, movement: float,
+    def see(self, duration: float, centre: float, movement: float, travel: float,
             belt: Response | None = None) -> Seen:
         """What a step of some duration (s) finds, the contact moving from `centre` (m).
 
-        belt: how it responds, when not as to a step.
+        travel: way of the belt over its supports, m, signed. belt: how it responds, when not as to
+        a step.
         """
         cell = self.belt.cell
         windows = [Window(CONTACT, *self._footprint.loads(centre, movement, cell))]
@@ -71,8 +81,11 @@ class Track:
             for support in self._supports]
         means, response = self.belt.face_means(duration, windows, belt)
         free, response = means / self._areas, response / self._areas[:, None]
-        contact = eliminate(free, response, self._conductances - self._air)
-        return Seen(windows, free, response, contact)
+        rubbing = self._drags * (abs(travel) / duration)
+        contact = eliminate(free, response, self._conductances - self._air,
+                            self._conductances * self._rises + rubbing)
+        rubbed = duration * float(rubbing @ self._areas[self._footprint.strips:])
+        return Seen(windows, free, response, contact, rubbed)
 
     def advance(self, duration: float, seen: Seen, contact: Array,
                 freezing: Callable[[Array, float], Array] | None = None) -> Given:
@@ -88,6 +101,8 @@ class Track:
             loads[CONTACT] = loads[CONTACT] + rfft(power)
         everywhere = self.belt.advance(duration, loads)
         times = duration * self._areas * (seen.free + seen.response @ fluxes)
+        own = self._footprint.strips
         return Given(
             everywhere - self._air * float(times.sum()),
-            float(self._conductances @ times[self._footprint.strips:]))
+            float(self._conductances @ (
+                times[own:] - duration * self._areas[own:] * self._rises)))

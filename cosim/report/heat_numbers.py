@@ -24,8 +24,11 @@ def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
     residual = _largest(dataset, "heat_residual")
     found = {sink: Quantity(_last(dataset, name), "J") for sink, name in SINKS.items()
              if name in dataset}
+    railing = other_heat(dataset)["railing"]
+    rubbed = {"from_railing": Quantity(float(railing[-1]), "J")} if railing.any() else {}
     return {
         "received": Quantity(received, "J"),
+        **rubbed,
         **found,
         "residual": Quantity(_last(dataset, "heat_residual"), "J"),
         "largest_residual": Quantity(residual, "J"),
@@ -34,17 +37,35 @@ def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
 
 
 def heat_shares(dataset: xr.Dataset) -> dict[str, Quantity]:
-    """Share of the heat received that each sink holds at the end.
+    """Share of the heat received, at the contact and from elsewhere, that each sink holds at the
+    end; supports that give heat hold none.
 
-    from_contact_to_belt: share that entered the belt at the contact, part of which went on to
-    the air.
+    from_contact_to_belt: share of the contact's that entered the belt there, part of which went on
+    to the air.
     """
-    received = _last(dataset, "heat_received")
-    shares = {sink: Quantity(ratio(_last(dataset, name), received), "1")
+    received = _last(dataset, "heat_received") + float(sum(other_heat(dataset).values())[-1])
+    shares = {sink: Quantity(ratio(float(held(dataset, name)[-1]), received), "1")
               for sink, name in SINKS.items() if name in dataset}
     if "belt_share" in dataset:
         shares["from_contact_to_belt"] = Quantity(_last(dataset, "belt_share"), "1")
     return shares
+
+
+def other_heat(dataset: xr.Dataset) -> dict[str, np.ndarray]:
+    """What entered the belt beside the contact's heat, J, each (times,).
+
+    From its rubbing on the railing, and from supports that gave more than they took.
+    """
+    none = np.zeros(dataset.sizes["time"])
+    railing = dataset["railing_heat"].values if "railing_heat" in dataset else none
+    supports = dataset["support_heat"].values if "support_heat" in dataset else none
+    return {"railing": railing, "supports": np.maximum(-supports, 0.0)}
+
+
+def held(dataset: xr.Dataset, name: str) -> np.ndarray:
+    """Heat that a sink holds, J: (times,); none where supports have given more than they took."""
+    values = dataset[name].values
+    return np.maximum(values, 0.0) if name == SINKS["supports"] else values
 
 
 def coupling_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:

@@ -10,15 +10,19 @@ import math
 import os
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from dataclasses import replace
 from pathlib import Path
 
 from tqdm import tqdm
 
 from cosim.atomic import write_atomically
+from cosim.scenario import read_scenario
+from cosim.scenario_faults import ScenarioError
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
+    FEWEST_SAMPLES,
     Case,
     DriftMap,
     Options,
@@ -27,40 +31,53 @@ from cosim.studies.belt_length import (
     cases,
     empty_map,
     fill_map,
+    scenario_case,
     verdict,
     work_off,
 )
 from cosim.studies.drawing import OutputRefused, Picture, writable
-from thermal import ParameterError
+from thermal import MeshError, ParameterError
 from thermal.air import NotLaminar
 from thermal.steady import NoSteadyState
 
 DONE, FAILED = 0, 1
-REFUSED = (StudyError, ParameterError, NoSteadyState, NotLaminar, OutputRefused)
+REFUSED = (StudyError, ScenarioError, ParameterError, MeshError, NoSteadyState, NotLaminar,
+           OutputRefused)
 RESULT, TABLE = "belt_length.json", "belt_length.csv"
+CHANGES, DOUBT = "changes.csv", "doubt.csv"
+#: The study's rig: speeds and lengths are varied, the rest is a case's default.
+STUDY = Case(1.0, 0.82)
 
-#: Choice -> default, unit, what it is.
-CHOICES: dict[str, tuple[tuple[float, ...], str, str]] = {
-    "length": ((1.0, 2.0, 3.0, 4.0), "M", "lengths of the belt, m"),
-    "speed": ((0.15, 0.5, 0.82), "V", "speeds of the belt, m/s"),
-    "mass": ((1.371,), "M", "masses on the belt, kg"),
-    "h": ((15.0,), "H", f"heat transfer to the air on each face of the belt, W/m2K; or {AIR}: that"
-                        " of a belt moving through still air"),
-    "conductivity": ((0.5,), "K", "conductivities of the belt, W/mK"),
-    "friction": ((0.3,), "MU", "kinetic friction coefficients"),
-    "ambient": ((-8.0, -16.0), "T", "temperatures of the air, degC"),
-    "conductance": ((1e4,), "HC", "contact conductances, W/m2K"),
-    "thickness": ((1e-3,), "D", "thicknesses of the belt, m"),
+#: Choice -> field of a case, the study's values (None: the default case's), unit, what it is.
+CHOICES: dict[str, tuple[str, tuple[float, ...] | None, str, str]] = {
+    "length": ("length", (1.0, 2.0, 3.0, 4.0), "M", "lengths of the belt, m"),
+    "speed": ("speed", (0.15, 0.5, 0.82), "V", "speeds of the belt, m/s"),
+    "mass": ("mass", None, "M", "masses on the belt, kg"),
+    "h": ("h", None, "H", f"heat transfer to the air on each face of the belt, W/m2K; or {AIR}:"
+          " boundary layer, convection and radiation of a belt moving through still air"),
+    "conductivity": ("conductivity", None, "K", "conductivities of the belt, W/mK"),
+    "friction": ("friction", None, "MU", "kinetic friction coefficients"),
+    "ambient": ("ambient_degC", None, "T", "temperatures of the air, degC; the rises hardly"
+                " depend on it"),
+    "conductance": ("conductance", None, "HC", "contact conductances, W/m2K"),
+    "thickness": ("thickness", None, "D", "thicknesses of the belt, m"),
 }
+#: What a case takes from the thermal model where it says nothing itself.
+_FROM_RIG = {"conductivity": "belt", "thickness": "belt", "conductance": "contact"}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    for name, (default, metavar, text) in CHOICES.items():
-        shown = " ".join(f"{value:g}" for value in default)
-        kind = number_or_air if name == "h" else float
-        parser.add_argument(f"--{name}", metavar=metavar, type=kind, nargs="+", default=default,
-                            help=f"{text} (default: {shown})")
+    parser.add_argument(
+        "scenario", nargs="?",
+        help="TOML file or packaged scenario that says belt, block, air, ramp and run, in front of"
+             " the options; without one, the study's rig and protocol")
+    for name, (field, values, metavar, text) in CHOICES.items():
+        shown = " ".join(_shown(value) for value in values or (_own(STUDY, field),))
+        parser.add_argument(f"--{name}", metavar=metavar, nargs="+",
+                            type=number_or_air if name == "h" else float,
+                            help=f"{text} (default: the scenario's, or {shown})")
+    _add_protocol(parser)
     parser.add_argument(
         "--limit", metavar="K", type=float, default=CAMERA,
         help=f"drift that is allowed, K (default: {CAMERA:g}, what the camera sees)")
@@ -68,11 +85,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--sensitivity", metavar="S", type=float,
         help="part of the friction lost per kelvin, 1/K (default: linear to the melting point)")
     parser.add_argument(
-        "--samples", metavar="N", type=int, default=32,
-        help="samples of the uncertainty, a power of two, 0 for none (default: 32)")
+        "--samples", metavar="N", type=int, default=128,
+        help="runs of the model for the uncertainty, a power of two, 0 for none (default: 128)")
     parser.add_argument(
-        "--map", metavar="N", type=int, default=40,
-        help="points a side of the map length x speed, 0 for none (default: 40)")
+        "--map", metavar="N", type=int, default=30,
+        help="points a side of the map length x speed, 0 for none (default: 30)")
     parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count() or 1,
                         help="processes (default: all cores)")
     parser.add_argument("--json", action="store_true", help="print JSON")
@@ -81,9 +98,40 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="folder of table, numbers and figures (default: results/belt-length)")
 
 
+def _add_protocol(parser: ArgumentParser) -> None:
+    """How the experiment is run."""
+    protocol = STUDY.protocol
+    for name, text, from_where in (
+            ("ramp", "from standstill to the speed", "the scenario's, or "),
+            ("run", "at constant speed", "the scenario's, or "),
+            ("pause", "between two runs, the belt at a standstill", "")):
+        parser.add_argument(
+            f"--{name}", metavar="S", type=float,
+            help=f"{text}, s (default: {from_where}{getattr(protocol, name):g})")
+    parser.add_argument("--runs", metavar="N", type=int, default=protocol.runs,
+                        help=f"runs in a row (default: {protocol.runs})")
+    parser.add_argument("--lifted", action="store_true",
+                        help="the ice is lifted off the belt in a pause, not left resting on it")
+
+
 def number_or_air(text: str) -> float | str:
     """A number, or AIR."""
-    return AIR if text == AIR else float(text)
+    try:
+        return AIR if text == AIR else float(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text}: allowed is a number in W/m2K, or {AIR}") from None
+
+
+def _own(case: Case, field: str) -> float | str:
+    """What a case has where it is not told otherwise."""
+    value = getattr(case, field)
+    if value is None and field in _FROM_RIG:
+        return getattr(getattr(case.rig, _FROM_RIG[field]), field)
+    return AIR if value is None else value
+
+
+def _shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def execute(arguments: Namespace) -> int:
@@ -113,26 +161,45 @@ def execute(arguments: Namespace) -> int:
 
 def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     """Cases and options, all of them checked before anything is computed."""
-    if not (math.isfinite(arguments.limit) and arguments.limit > 0.0):
-        raise StudyError(f"--limit = {arguments.limit:g} K: must be above 0")
-    if arguments.sensitivity is not None and not 0.0 <= arguments.sensitivity < math.inf:
-        raise StudyError(f"--sensitivity = {arguments.sensitivity:g} 1/K: must not be negative")
-    if arguments.samples < 0 or arguments.samples & (arguments.samples - 1):
-        raise StudyError(f"--samples = {arguments.samples}: must be a power of two, or 0")
-    if arguments.map < 0 or arguments.map == 1:
-        raise StudyError(f"--map = {arguments.map}: must be at least 2, or 0 for none")
-    if arguments.jobs < 1:
-        raise StudyError(f"--jobs = {arguments.jobs}: must be at least 1")
-    choices = {name: getattr(arguments, name) for name in CHOICES}
-    choices["ambient_degC"] = choices.pop("ambient")
+    _check_options(arguments)
+    given = arguments.scenario is not None
+    base = scenario_case(read_scenario(arguments.scenario)) if given else STUDY
+    base = replace(base, protocol=_protocol(base, arguments))
+    choices = {}
+    for name, (field, values, _, _) in CHOICES.items():
+        asked = getattr(arguments, name)
+        own = (getattr(base, field),) if given or values is None else values
+        choices[field] = own if asked is None else asked
     if 0.0 in choices["h"]:
         raise NoSteadyState(
             "--h = 0: a belt that gives no heat to the air warms for ever, and the study asks for"
             " its steady state; allowed is above 0 W/m2K")
-    wanted = cases(**choices)
+    wanted = cases(base, **choices)
     for case in wanted:
         case.thermal()
     return wanted, Options(arguments.limit, arguments.sensitivity, arguments.samples)
+
+
+def _check_options(arguments: Namespace) -> None:
+    if not (math.isfinite(arguments.limit) and arguments.limit > 0.0):
+        raise StudyError(f"--limit = {arguments.limit:g} K: must be above 0")
+    if arguments.sensitivity is not None and not 0.0 <= arguments.sensitivity < math.inf:
+        raise StudyError(f"--sensitivity = {arguments.sensitivity:g} 1/K: must not be negative")
+    samples = arguments.samples
+    if samples and (samples < FEWEST_SAMPLES or samples & (samples - 1)):
+        raise StudyError(f"--samples = {samples}: must be a power of two from {FEWEST_SAMPLES},"
+                         " or 0")
+    if arguments.map < 0 or arguments.map == 1:
+        raise StudyError(f"--map = {arguments.map}: must be at least 2, or 0 for none")
+    if arguments.jobs < 1:
+        raise StudyError(f"--jobs = {arguments.jobs}: must be at least 1")
+
+
+def _protocol(base: Case, arguments: Namespace):
+    """The base's, with what the options say."""
+    said = {name: getattr(arguments, name) for name in ("ramp", "run", "pause")
+            if getattr(arguments, name) is not None}
+    return replace(base.protocol, runs=arguments.runs, lifted=arguments.lifted, **said)
 
 
 def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
@@ -146,14 +213,20 @@ def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
         }
     text = json.dumps(numbers, indent=1)
     write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
-    table = study.table()
-    write_atomically(folder / TABLE, lambda path: table.to_csv(path, index=False))
+    for name, table in ((TABLE, study.table()), (CHANGES, study.changes()),
+                        (DOUBT, study.doubt())):
+        if name == TABLE or not table.empty:
+            write_atomically(
+                folder / name, lambda path, table=table: table.to_csv(path, index=False))
 
 
 def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> None:
-    from cosim.studies.belt_length.figures import draw_drift, draw_loop, draw_map
+    from cosim.studies.belt_length.figures import draw_doubt, draw_drift, draw_map
 
-    pictures: list[Picture] = [draw_drift(study), draw_loop(study)]
+    pictures: list[Picture] = [draw_drift(study)]
+    doubted = [row for row in study.rows if row.uncertainty is not None]
+    if doubted:
+        pictures.append(draw_doubt(max(doubted, key=lambda row: row.drift.run)))
     if grid is not None:
         pictures.append(draw_map(grid, case, study.options.limit))
     for one in pictures:
@@ -167,12 +240,22 @@ def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:
         return
     if study.rows:
         shown = study.table()[[
-            "length [m]", "speed [m/s]", "h [W/m2K]", "ambient [degC]", "study [K]",
-            "single pass mended [K]", "drift 20 s [K]", "drift 30 s [K]", "drift steady [K]",
-            "ice 20 s [K]", "belt share 20 s", "seen by camera", "mu change 20 s",
-            "frequency change 20 s",
+            "length [m]", "speed [m/s]", "h [W/m2K]", "study [K]", "drift [K]", "drift low [K]",
+            "drift high [K]", "drift steady [K]", "interface drift [K]",
+            "interface drift, endless belt [K]", "ice [K]", "belt share", "wait [s]", "mu change",
         ]]
         print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}"))
     for sentence in verdict(study):
         print(sentence)
+    if study.rows:
+        _print_changes(study)
     print(f"{len(study.rows)} cases in {wall_time:.1f} s; {folder / TABLE}, {folder / RESULT}")
+
+
+def _print_changes(study: Study) -> None:
+    """What would help, in the case that drifts most."""
+    row = study.worst
+    print(f"One change alone, {row.case.length:g} m at {row.case.speed:g} m/s: belt at entry,"
+          " interface at constant speed, K")
+    for one in row.changes:
+        print(f"  {one.what:60} {one.run:9.3f} {one.interface_drift:9.3f}")

@@ -14,6 +14,7 @@ from cosim.studies.belt_length import (
     CAMERA,
     Case,
     Options,
+    Protocol,
     Study,
     cases,
     drift,
@@ -23,18 +24,16 @@ from cosim.studies.belt_length import (
     run_drift,
     shortest_belt,
     steady_drift,
-    uncertainty,
     verdict,
     work_off,
 )
 from cosim.studies.belt_length.friction_effect import linear_sensitivity
 from cosim.studies.belt_length.length_speed_map import LENGTHS, SPEEDS
-from cosim.studies.belt_length.shortest import SHORTEST
-from cosim.studies.belt_length.uncertainty import RANGES
 from thermal.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
+NO_RAMP = Protocol(ramp=0.0)
 
 
 def call(*argv):
@@ -60,7 +59,9 @@ def test_mended_single_pass_is_force_over_capacity_less_newton_cooling():
 
 def test_drifts_in_the_order_that_they_must_have():
     found = drift(Case(1.0, 0.82))
-    assert found.study < found.single_pass < found.run < found.long_run < found.steady
+    assert found.study < found.single_pass < found.run < found.steady
+    assert found.interface_drift_endless < found.interface_drift < found.interface_run
+    assert drift(Case(1.0, 0.82, protocol=NO_RAMP)).run < found.run
     assert found.run < found.interface_run < found.flash_run
     assert 0.5 < found.belt_share < found.belt_share_steady < 1.0
     assert found.seen_by_camera and not found.steady_melts
@@ -68,8 +69,9 @@ def test_drifts_in_the_order_that_they_must_have():
 
 def test_the_studys_resolution_is_good_to_half_a_percent():
     case = Case(1.0, 0.82)
-    fine = SteadySliding(case.thermal(fine=True), case.speed, case.force).until(20.0)
-    assert run_drift(case) == pytest.approx(fine.entry, rel=5e-3)
+    fine = SteadySliding(case.thermal(fine=True), case.speed, case.force)
+    fine.ramp(10.0)
+    assert run_drift(case) == pytest.approx(fine.run(20.0).entry, rel=5e-3)
 
 
 def test_shortest_belt_meets_the_limit():
@@ -77,7 +79,7 @@ def test_shortest_belt_meets_the_limit():
     length = shortest_belt(case, limit, run_drift)
     assert run_drift(case.with_length(length)) == pytest.approx(limit, rel=0.02)
     assert shortest_belt(case, 0.05, steady_drift) > length
-    assert shortest_belt(case, 1e3, run_drift) == SHORTEST
+    assert shortest_belt(case, 1e3, run_drift) == case.shortest == 1.05 * 0.08
     assert shortest_belt(case, 1e-7, steady_drift) is None
 
 
@@ -94,14 +96,6 @@ def test_friction_falls_linearly_to_the_melting_point():
     assert unfeeling.drift == found.run
 
 
-def test_uncertainty_brackets_and_names_the_air():
-    case = Case(1.0, 0.82)
-    found = uncertainty(case, 8)
-    assert found.evaluations == 8 * (len(RANGES) + 2)
-    assert found.low < run_drift(case) < found.high
-    assert found.influences[0].key == "h" and found.influences[0].total > 0.5
-
-
 def test_drift_map_rises_with_speed_and_falls_with_length():
     found = empty_map(4)
     fill_map(found, Case(1.0, 0.82), 1)
@@ -114,40 +108,48 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
 
 
 def test_ambient_does_not_change_rises_but_friction():
-    warm, cold = (asdict(drift(Case(1.0, 0.5, ambient_degC=t))) for t in (-8.0, -16.0))
+    warm, cold = (asdict(drift(Case(1.0, 0.5, h=15.0, ambient_degC=t))) for t in (-8.0, -16.0))
     assert warm == pytest.approx(cold, rel=1e-9)
 
 
 def test_still_air_takes_its_number_from_speed_and_length():
-    slow, fast = cases(length=(1.0,), speed=(0.15, 0.82), h=(AIR,))
-    assert 5.0 < slow.h < fast.h < 12.0
-    assert fast.h == moving_belt(0.82, 0.5, -8.0)
+    slow, fast = cases(Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(AIR,))
+    assert 5.0 < slow.film < fast.film < 12.0
+    assert fast.film == moving_belt(0.82, 0.5, -8.0)
+    assert fast.pause_film == moving_belt(0.0, 0.5, -8.0) < fast.film
+    assert fast.with_length(4.0).film == moving_belt(0.82, 2.0, -8.0)
+    assert Case(50.0, 0.82).film == pytest.approx(moving_belt(0.82, 7.6, -8.0), rel=0.01), "laminar"
+    assert Case(1.0, 0.5, h=15.0).film == Case(1.0, 0.5, h=15.0).pause_film == 15.0
 
 
 def test_files_and_words(tmp_path, capsys):
-    assert call("--length", 1, 2, "--speed", 0.15, 0.82, "--ambient", -8, "-o", tmp_path,
+    assert call("--length", 1, 2, "--speed", 0.15, 0.82, "--h", 15, "--ramp", 0, "-o", tmp_path,
                 *FAST) == 0
     said = capsys.readouterr().out
     assert 'C13, "1 m of belt is enough": holds at 0.15 m/s, not at 0.82 m/s.' in said
     assert "At 0.82 m/s 1 m of belt does not suffice" in said
     assert "At 0.15 m/s 1 m of belt suffices" in said
+    assert "the interface warms by" in said and "within 0.07 K of the air again" in said
+    assert "belt that never comes round" in said
     numbers = json.loads((tmp_path / "belt_length.json").read_text())
     assert numbers["complete"] and len(numbers["cases"]) == 4
     assert numbers["verdict"]
     table = pd.read_csv(tmp_path / "belt_length.csv")
     assert list(table["length [m]"]) == [1.0, 2.0, 1.0, 2.0]
-    assert table["drift 20 s [K]"][2] == pytest.approx(
+    assert table["drift [K]"][2] == pytest.approx(
         numbers["cases"][2]["drift"]["run"], rel=1e-12)
-    assert {path.name for path in tmp_path.glob("*.png")} == {
-        "drift_over_length.png", "along_the_loop.png"}
+    assert len(pd.read_csv(tmp_path / "changes.csv")) == sum(
+        len(case["changes"]) for case in numbers["cases"])
+    assert {path.name for path in tmp_path.glob("*.png")} == {"drift_over_length.png"}
 
 
 def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
-    assert call("--length", 1, "--speed", 0.5, "--ambient", -8, "--json", "-o", tmp_path,
-                "--samples", 2, "--map", 3, "--jobs", 1) == 0
+    assert call("--length", 1, "--speed", 0.15, "--json", "-o", tmp_path,
+                "--samples", 32, "--map", 3, "--jobs", 1) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert printed["cases"][0]["uncertainty"]["evaluations"] == 10
-    assert (tmp_path / "map.png").exists()
+    assert printed["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 13
+    assert (tmp_path / "map.png").exists() and (tmp_path / "doubt.png").exists()
+    assert len(pd.read_csv(tmp_path / "doubt.csv")) == 13
     assert np.shape(json.loads((tmp_path / "belt_length.json").read_text())["map"]["drift"]) == (
         3, 3)
 
@@ -158,12 +160,18 @@ def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
     (("--ambient", 1.0), "ambient.temperature_degC = 1.0"),
     (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
     (("--h", -1.0), "belt.air_heat_transfer = -1.0"),
-    (("--h", "air", "--speed", 100.0), "speed = 100 m/s over a span of 0.5 m"),
+    (("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
+    (("--run", 0.0), "--run = 0 s: must be above 0"),
+    (("--pause", float("inf")), "--pause = inf s: must be at least 0"),
+    (("--runs", 0), "--runs = 0: must be 1 to 100"),
+    (("slab",), 'rig.surface = "slab": has no belt; allowed is "belt"'),
+    (("no_such_case",), "no_such_case: no such file"),
     (("--h", "air", "--length", 0.05), "belt.length = 0.05 m is shorter than the contact"),
     (("--speed", 0.0), "speed = 0: must be above 0"),
     (("--mass", float("nan")), "mass = nan: must be above 0"),
     (("--limit", 0.0), "--limit = 0 K: must be above 0"),
-    (("--samples", 3), "--samples = 3: must be a power of two"),
+    (("--samples", 48), "--samples = 48: must be a power of two from 32, or 0"),
+    (("--samples", 16), "--samples = 16: must be a power of two from 32, or 0"),
     (("--map", 1), "--map = 1: must be at least 2"),
     (("--jobs", 0), "--jobs = 0: must be at least 1"),
     (("--sensitivity", -0.1), "--sensitivity = -0.1 1/K"),
@@ -204,7 +212,7 @@ def test_ctrl_c_keeps_the_part_of_the_map_that_is_done(tmp_path, monkeypatch):
 
 def test_verdict_tells_of_melting():
     study = Study(Options(CAMERA, samples=0))
-    work_off(study, cases(length=(1.0,), speed=(3.0,), mass=(20.0,), ambient_degC=(-1.0,)), 1,
+    work_off(study, cases(Case(1.0, 3.0, mass=20.0, ambient_degC=-1.0), length=(1.0,)), 1,
              lambda done: None)
     assert study.rows[0].drift.steady_melts
     assert "In 1 of 1 cases the ice face comes to melt" in verdict(study)[-1]
@@ -213,5 +221,5 @@ def test_verdict_tells_of_melting():
 def test_verdict_says_when_it_cannot_say():
     study = Study(Options(CAMERA, samples=0))
     assert verdict(study) == ["Nothing was computed, so nothing can be said."]
-    work_off(study, cases(length=(2.0,), speed=(0.5,)), 1, lambda done: None)
+    work_off(study, cases(Case(2.0, 0.5), length=(2.0,)), 1, lambda done: None)
     assert "no verdict on C13" in verdict(study)[0]

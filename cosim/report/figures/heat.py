@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..heat_numbers import SINKS
+from ..heat_numbers import SINKS, held, other_heat
 from ..style import (
     BLUE,
     GREEN,
@@ -42,11 +42,15 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
     figure, axes = time_panels(dataset, rows=3 if sinks else 2)
     time = dataset["time"].values
     flow = readable(dataset["heat_flow"].values, "W")
-    heat = readable(dataset["heat"].values, "J")
+    beside = sum(other_heat(dataset).values())
+    heat = readable(dataset["heat"].values + beside, "J")
     for column in range(axes.shape[1]):
         line(axes[0, column], time, flow(dataset["heat_flow"].values), color=RED)
         _stack(axes[1, column], dataset, sinks, heat)
         line(axes[1, column], time, heat(dataset["heat"].values), color=INK)
+        if beside.any():
+            line(axes[1, column], time, heat(dataset["heat"].values + beside), color=INK,
+                 linestyle="--")
         if sinks:
             _shares(axes[2, column], dataset, sinks)
     axes[0, 0].set_ylabel(f"friction heat [{flow.unit}]")
@@ -59,6 +63,8 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
     figure.align_ylabels(axes[:, 0])
     title(figure, "Friction heat", dataset)
     handles = [Line2D([], [], color=INK, label="friction heat")]
+    if beside.any():
+        handles += [Line2D([], [], color=INK, linestyle="--", label="with railing's, rollers'")]
     handles += [Patch(facecolor=COLOURS[sink], alpha=0.75, label=LABELS[sink]) for sink in sinks]
     handles += [slip_patch()]
     figure.legend(handles=handles, loc="outside upper right", ncols=len(handles))
@@ -76,14 +82,14 @@ def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
 def _stack(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str], heat: Scaled) -> None:
     if sinks:
         axes.stackplot(
-            dataset["time"].values, *(heat(dataset[name].values) for name in sinks.values()),
+            dataset["time"].values, *(heat(held(dataset, name)) for name in sinks.values()),
             colors=[COLOURS[sink] for sink in sinks], alpha=0.75, linewidth=0.0,
         )
 
 
 def _shares(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str]) -> None:
-    received = dataset["heat_received"]
-    known = dataset.isel(time=(received > 0.0).values)
+    received = dataset["heat_received"].values + sum(other_heat(dataset).values())
+    known = received > 0.0
     for sink, name in sinks.items():
-        share = 100.0 * known[name] / known["heat_received"]
-        line(axes, known["time"].values, share.values, color=COLOURS[sink], linewidth=1.8)
+        share = 100.0 * held(dataset, name)[known] / received[known]
+        line(axes, dataset["time"].values[known], share, color=COLOURS[sink], linewidth=1.8)

@@ -3,42 +3,60 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from thermal import Belt, Contact, Ice, ThermalParameters
+from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
+from thermal.air import convection, laminar_span, moving_belt, radiation
+from thermal.block import standing_block
 from thermal.constants import GRAVITY
 from thermal.footprint import Footprint
-from thermal.ice import Ice as IceField
+from thermal.ice_body import IceBody
+from thermal.moisture import Frost, frost
 from thermal.single_pass import SinglePass
-from thermal.steady_sliding import SteadySliding, standing_ice
 
+from .protocol import Protocol, StudyError
 
-class StudyError(ValueError):
-    """A case that cannot be; one line: what, value, what is allowed."""
-
-
-#: Resolution of the belt: 0.2 % of the rise, a tenth of the time of the model's own.
-ELEMENTS, STRIPS, WAVES_PER_METRE, COARSENESS = 3, 8, 150, 2.0
+#: Resolution of the study: 0.2 % of the rise, a tenth of the time of the model's own.
+ELEMENTS, STRIPS, RADIAL, AXIAL, WAVES_PER_METRE, COARSENESS = 3, 8, 4, 8, 150, 2.0
 #: Fewest and most waves of the series along the loop.
-FEWEST_WAVES, MOST_WAVES = 40, 3000
+FEWEST_WAVES, MOST_WAVES = 40, 7500
 #: Length of belt that the study lets be heated in a pass, m.
 CONTACT_LENGTH = 0.08
+#: Thermal key -> field of a case that stands in its place.
+OWN_KEYS = {
+    "belt.length": "length", "belt.conductivity": "conductivity", "belt.thickness": "thickness",
+    "belt.air_heat_transfer": "h", "contact.conductance": "conductance",
+    "ambient.temperature_degC": "ambient_degC",
+}
 
 
 @dataclass(frozen=True)
 class Case:
-    """SI units; h on both faces of the belt, W/m2K; conductance of the contact, W/m2K."""
+    """SI units; conductance of the contact, W/m2K.
+
+    h: on both faces of the belt, W/m2K; None: that of a belt moving through still air, which
+    follows speed and length. rig: everything else that the thermal model knows; conductivity,
+    thickness, conductance: None where they are the rig's. ice_rise: of the ice above the air at the
+    start, K. static_over_kinetic friction and stiffness of one of four springs, N/m, make the
+    stick-slip motion; those of the study's rig.
+    """
 
     length: float
     speed: float
     mass: float = 1.371
-    h: float = 15.0
-    conductivity: float = 0.5
+    h: float | None = None
+    conductivity: float | None = None
     friction: float = 0.3
     ambient_degC: float = -8.0
-    conductance: float = 1e4
-    thickness: float = 1e-3
+    conductance: float | None = None
+    thickness: float | None = None
+    protocol: Protocol = Protocol()
+    rig: ThermalParameters = ThermalParameters()
+    ice_rise: float = 0.0
+    static_over_kinetic: float = 0.2815 / 0.2086
+    stiffness: float = 20.17
 
     def __post_init__(self) -> None:
         for name in ("speed", "mass", "friction"):
@@ -48,35 +66,107 @@ class Case:
 
     @property
     def force(self) -> float:
-        """Friction force of steady sliding, N."""
+        """Friction force of sliding, N; the mean over stick-slip, too, where mu_s only adds."""
         return self.friction * self.mass * GRAVITY
+
+    @property
+    def film(self) -> float:
+        """Heat transfer on each face of the running belt, W/m2K.
+
+        In the ramp, too: the still air of a slower belt would change the drift by less than 0.3 %.
+        """
+        return self.h if self.h is not None else self._still_air(self.speed)
+
+    @property
+    def pause_film(self) -> float:
+        """The same while the belt stands still: a draught stays, air dragged along does not."""
+        return self.h if self.h is not None else self._still_air(0.0)
+
+    def _still_air(self, speed: float) -> float:
+        return moving_belt(speed, self._span, self.ambient_degC, self.rig.belt.width)
+
+    @property
+    def _span(self) -> float:
+        """Of belt from roller to roller, m: half a loop, as far as the air stays laminar.
+
+        Farther on more heat is transferred than by laminar air, so the drift is not more than told.
+        """
+        # the last digits keep the Reynolds number from exceeding its bound by rounding
+        return min(0.5 * self.length, 0.999999 * laminar_span(self.speed, self.ambient_degC))
+
+    @property
+    def shortest(self) -> float:
+        """Shortest belt on which contact, railing and rollers have room, m."""
+        belt, contact = self.rig.belt, self.rig.contact
+        touching = _block(self.rig.ice, contact, belt.width)[0].length
+        one = belt.railing_length + (belt.roller_arc if belt.rollers else 0.0)
+        return 1.05 * max(2.0 * contact.radius, touching, one * max(1, belt.rollers))
+
+    @property
+    def frost(self) -> Frost:
+        """What frost on the belt can do at most."""
+        carried = convection(self.speed, self._span, self.ambient_degC, self.rig.belt.width)
+        return frost(carried, radiation(self.ambient_degC), self.ambient_degC)
 
     def with_length(self, length: float) -> Case:
         """The same on another belt."""
         return replace(self, length=length)
 
+    def changed(self, keys: Mapping[str, float]) -> Case:
+        """The same with other numbers of the thermal model, `block.key` -> value."""
+        own = {OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS}
+        rig = self.rig.model_dump()
+        rig["belt"]["length"] = self.length  # railing and rollers must find room on this belt
+        for key in keys.keys() - OWN_KEYS.keys():
+            block, _, entry = key.partition(".")
+            rig[block] = rig[block] | {entry: keys[key]}
+        return replace(self, rig=ThermalParameters.checked(rig), **own)
+
     def thermal(self, *, fine: bool = False) -> ThermalParameters:
-        """Parameters of the thermal model; fine: at the model's own resolution."""
-        belt = {
-            "length": self.length, "air_heat_transfer": self.h, "thickness": self.thickness,
-            "conductivity": self.conductivity,
-        }
-        contact: dict[str, float] = {"conductance": self.conductance}
+        """Parameters of the thermal model; fine: at the rig's own resolution."""
+        blocks = self.rig.model_dump()
+        belt, contact = blocks["belt"], blocks["contact"]
+        belt |= {"length": self.length, "air_heat_transfer": self.h, "still_air_speed": 0.0}
+        if belt["railing_load"] == 0.0:
+            belt["railing_load"] = self.mass * GRAVITY
+        for owner, name in ((belt, "conductivity"), (belt, "thickness"), (contact, "conductance")):
+            if getattr(self, name) is not None:
+                owner[name] = getattr(self, name)
+        blocks["ambient"]["temperature_degC"] = self.ambient_degC
         if not fine:
             belt["elements"], contact["strips"] = ELEMENTS, STRIPS
-        return ThermalParameters.checked(
-            {"ambient": {"temperature_degC": self.ambient_degC}, "belt": belt, "contact": contact})
+            blocks["ice"] |= {"radial_elements": RADIAL, "axial_elements": AXIAL}
+        if self.h is None:
+            # the length is checked first, for the air's number needs one that can be
+            ThermalParameters.checked(blocks | {"belt": belt | {"air_heat_transfer": 1.0}})
+            belt["air_heat_transfer"] = self.film
+        return ThermalParameters.checked(blocks)
 
     def sliding(self, sensitivity: float = 0.0) -> SteadySliding:
-        """The belt in steady sliding, cold at the start.
+        """Belt and ice before the first run.
 
         sensitivity: part of the friction lost for each kelvin of the interface's rise, 1/K.
         """
         parameters = self.thermal()
         waves = min(max(FEWEST_WAVES, round(WAVES_PER_METRE * self.length)), MOST_WAVES)
-        return SteadySliding(
-            parameters, self.speed, self.force, waves,
-            _ice(parameters.ice, parameters.contact.radius, parameters.belt.width), sensitivity)
+        block = _block(parameters.ice, parameters.contact, parameters.belt.width)
+        return SteadySliding(parameters, self.speed, self.force, waves, block, sensitivity,
+                             self.ice_rise)
+
+    def follow(self, sliding: SteadySliding) -> tuple[SlidingState, SlidingState]:
+        """Through all runs of the protocol; the state where the last one's ramp ends, and its end.
+        """
+        protocol = self.protocol
+        for run in range(protocol.runs):
+            if run > 0:
+                self.rest(sliding, protocol.pause)
+            started = sliding.ramp(protocol.ramp, COARSENESS)
+            ended = sliding.run(protocol.run, COARSENESS)
+        return started, ended
+
+    def rest(self, sliding: SteadySliding, duration: float) -> SlidingState:
+        """A pause of some duration, s."""
+        return sliding.pause(duration, self.pause_film, self.protocol.lifted)
 
     def as_the_study(self) -> SinglePass:
         """The study's check: all heat to the belt, one pass, kappa as a rate."""
@@ -85,20 +175,23 @@ class Case:
 
     def single_pass(self) -> SinglePass:
         """The same with its faults mended: the belt's mass per length, cooled by h on two faces."""
-        belt = self.thermal().belt
-        contact = Contact()
-        length = Footprint(contact.radius, belt.width, 1).length
+        parameters = self.thermal()
+        belt = parameters.belt
+        footprint = _block(parameters.ice, parameters.contact, belt.width)[0]
         capacity = belt.capacity_per_area
         return SinglePass(
-            friction_force=self.force, contact_length=length, speed=self.speed,
-            heated_mass=capacity / belt.heat_capacity * belt.width * length,
-            heat_capacity=belt.heat_capacity, cooling_rate=2.0 * self.h / capacity,
+            friction_force=self.force, contact_length=footprint.length, speed=self.speed,
+            heated_mass=capacity / belt.heat_capacity * footprint.lane * footprint.length,
+            heat_capacity=belt.heat_capacity, cooling_rate=2.0 * self.film / capacity,
             ambient_degC=self.ambient_degC)
 
 
-@lru_cache(maxsize=8)
-def _ice(ice: Ice, radius: float, width: float) -> IceField:
-    """One block of ice for all belts of its width: its modes take longer than a belt's."""
-    contact = Contact(radius=radius)
-    parameters = ThermalParameters(belt=Belt(width=width), ice=ice, contact=contact)
-    return standing_ice(parameters, Footprint(radius, width, contact.strips))
+def _block(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody]:
+    """One block for all belts of its width, in turn: its modes take longer than a belt's."""
+    return _standing(ice, contact.model_copy(update={"conductance": 1.0, "belt_side": 0.5}), width)
+
+
+@lru_cache(maxsize=128)
+def _standing(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody]:
+    long_enough = Belt(width=width, length=100.0)
+    return standing_block(ThermalParameters(belt=long_enough, ice=ice, contact=contact))

@@ -1,13 +1,11 @@
-"""What a case comes to: rises of belt and ice after a run and for ever, by four models."""
+"""What a case comes to: rises of belt and ice after the runs and for ever, by four models."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .case import COARSENESS, CONTACT_LENGTH, Case
+from .case import CONTACT_LENGTH, Case
 
-#: Times at constant speed at which the drift is told, s: the study's run, and with its run-up.
-RUN, LONG_RUN = 20.0, 30.0
 #: What the study's thermal camera tells apart, K.
 CAMERA = 0.07
 
@@ -16,20 +14,23 @@ CAMERA = 0.07
 class Drift:
     """Rises over the air, K, where the belt enters the contact unless said.
 
-    study: one pass, all heat to the belt, the study's rate; single_pass: mended; run, long_run,
-    steady: finite elements after 20 s, 30 s and for ever. interface_run: mean of the two faces.
-    belt_share: of the friction heat of 20 s. Where the ice melts for ever, `steady_melts`.
+    study: one pass, all heat to the belt, the study's rate; single_pass: mended; run, steady:
+    finite elements at the end of the last run and for ever. interface_run: mean of the two faces
+    then, interface_drift: what of it came at constant speed; both again on a belt that never comes
+    round (endless). belt_share: of the friction heat so far. Where the ice melts for ever,
+    `steady_melts`.
     """
 
     study: float
     single_pass: float
     run: float
-    long_run: float
     steady: float
     ice_run: float
-    ice_long_run: float
     ice_steady: float
     interface_run: float
+    interface_drift: float
+    interface_run_endless: float
+    interface_drift_endless: float
     flash_run: float
     belt_share: float
     belt_share_steady: float
@@ -44,27 +45,57 @@ class Drift:
 def drift(case: Case) -> Drift:
     """All of it. NoSteadyState for h = 0, ParameterError for a belt that cannot be."""
     sliding = case.sliding()
-    run = sliding.until(RUN, COARSENESS)
-    long_run = sliding.until(LONG_RUN, COARSENESS)
+    before, run = case.follow(sliding)
     steady = sliding.settle()
+    endless_before, endless = _follow(endless_belt(case))
     ambient = case.ambient_degC
     return Drift(
         study=case.as_the_study().temperature_degC(case.length) - ambient,
         single_pass=case.single_pass().temperature_degC(case.length) - ambient,
-        run=run.entry, long_run=long_run.entry, steady=steady.entry,
-        ice_run=run.ice_face, ice_long_run=long_run.ice_face, ice_steady=steady.ice_face,
-        interface_run=run.mean_interface, flash_run=run.flash_interface,
-        belt_share=run.belt_share_so_far, belt_share_steady=steady.belt_share,
-        steady_melts=steady.melting > 0.0)
+        run=0.0 if never_comes_round(case) else run.entry, steady=steady.entry,
+        ice_run=run.ice_face, ice_steady=steady.ice_face,
+        interface_run=run.mean_interface,
+        interface_drift=run.mean_interface - before.mean_interface,
+        interface_run_endless=endless.mean_interface,
+        interface_drift_endless=endless.mean_interface - endless_before.mean_interface,
+        flash_run=run.flash_interface, belt_share=run.belt_share_so_far,
+        belt_share_steady=steady.belt_share, steady_melts=steady.melting > 0.0)
+
+
+def _follow(case: Case):
+    return case.follow(case.sliding())
 
 
 def run_drift(case: Case) -> float:
-    """Rise where the belt enters the contact after 20 s, K; 0 when nothing of it has been there."""
-    if case.speed * RUN < case.length - 2.0 * CONTACT_LENGTH:
-        return 0.0
-    return case.sliding().until(RUN, COARSENESS).entry
+    """Rise where the belt enters the contact at the end of the last run, K."""
+    return 0.0 if never_comes_round(case) else _follow(case)[1].entry
+
+
+def interface_drift(case: Case) -> float:
+    """Rise of the interface at constant speed in the last run, K."""
+    before, after = _follow(case)
+    return after.mean_interface - before.mean_interface
 
 
 def steady_drift(case: Case) -> float:
-    """The same for ever."""
+    """Rise where the belt enters the contact for ever, K."""
     return case.sliding().settle().entry
+
+
+def never_comes_round(case: Case) -> bool:
+    """Does the contact never meet again what was heated, in all runs? The belt enters cold then."""
+    belt = case.rig.belt
+    elsewhere = (belt.rollers > 0 and belt.roller_rise != 0.0) or (
+        belt.railing_friction > 0.0 and belt.railing_length > CONTACT_LENGTH)
+    return case.length > _way(case) and not elsewhere
+
+
+def endless_belt(case: Case) -> Case:
+    """The same on a belt that never comes round."""
+    return case.with_length(1.01 * _way(case))
+
+
+def _way(case: Case) -> float:
+    """Length that a belt must have never to come round, m."""
+    heated = 2.0 * CONTACT_LENGTH + case.rig.belt.railing_length
+    return case.protocol.runs * case.protocol.moving * case.speed + heated

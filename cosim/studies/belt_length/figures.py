@@ -1,4 +1,4 @@
-"""Figures of the study: drift over length, temperature along the loop, map."""
+"""Figures of the study: drift over length, what the doubt is made of, map."""
 
 from __future__ import annotations
 
@@ -9,87 +9,110 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from cosim.studies.drawing import GREY, INK, SERIES, panels, picture
+from cosim.studies.drawing import BLUE, GREY, INK, RED, SERIES, panels, picture
 
-from .case import COARSENESS, Case
-from .drift import RUN, run_drift, steady_drift
+from .case import Case
+from .drift import never_comes_round, steady_drift
 from .length_speed_map import DriftMap
-from .study import Study
+from .study import Row, Study
 
-#: Points along a curve and along the loop.
-_CURVE, _LOOP = 40, 400
+#: Points along a curve.
+_CURVE = 40
+#: From one speed's bar to the next, a factor.
+_ASIDE = 1.025
 #: Lowest rise that is drawn on a logarithmic axis, K.
 _FLOOR = 1e-3
 
 
-def _title(case: Case, films: set[float]) -> str:
-    """What all curves share; the films (W/m2K) may differ where they follow from the speed."""
+def _title(cases: list[Case]) -> str:
+    """What all curves share; heat transfer by still air differs from speed to speed."""
+    first = cases[0]
+    films = {case.film for case in cases}
     film = " to ".join(f"{h:.3g}" for h in sorted({min(films), max(films)}))
-    said = (f"friction {case.force:.2f} N, h {film} W/(m² K), belt {case.conductivity:g}"
-            f" W/(m K), air {case.ambient_degC:g} °C")
+    where = f" (still air, {first.length:g} m)" if first.h is None else ""
+    belt = first.thermal().belt.stack[0]
+    said = (f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt.conductivity:g}"
+            f" W/(m K), air {first.ambient_degC:g} °C\n{first.protocol.in_words()}")
     return said.replace("-", "−")
 
 
-@picture("drift_over_length", "Rise of the belt where it enters the contact, over its length: "
-         "after 20 s, for ever, and the study's single pass. Bars: 5 to 95 % over the ranges of h, "
-         "conductivity and contact conductance.")
+@picture("drift_over_length", "Above: rise of the belt where it enters the contact, over its "
+         "length: at the end of the runs, for ever, and the study's single pass. A curve falls to "
+         "nothing where a belt is so long that nothing comes round. Bars: 5 to 95 % over what is "
+         "not known of the rig. Below: what the interface warms by at constant speed.")
 def draw_drift(study: Study) -> Figure:
-    """One panel for the first choice of everything but length and speed."""
-    first = study.rows[0].case
+    """Two panels for the first choice of everything but length and speed."""
     speeds = sorted({row.case.speed for row in study.rows})
     lengths = sorted({row.case.length for row in study.rows})
-    curve = np.geomspace(max(0.2, 0.5 * min(lengths)), 2.0 * max(lengths), _CURVE)
-    figure, axes = panels(1, 1, height=4.8, width=7.5)
-    ax = axes[0, 0]
-    for i, speed in enumerate(speeds):
-        colour = SERIES[i % len(SERIES)]
-        case = _first(study, speed)
-        belts = [case.with_length(float(length)) for length in curve]
-        ax.plot(curve, _shown([run_drift(one) for one in belts]), color=colour)
-        ax.plot(curve, _shown([steady_drift(one) for one in belts]), "--", color=colour)
-        ax.plot(curve, _shown([one.as_the_study().temperature_degC(one.length) - one.ambient_degC
-                               for one in belts]), ":", color=colour)
-        _bars(ax, study, case, colour)
-    ax.axhline(study.options.limit, color=INK, linewidth=1.0)
-    ax.text(1.01, study.options.limit, f"limit\n{study.options.limit:g} K", va="center",
-            transform=ax.get_yaxis_transform())
-    ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="rise [K]",
-           title=_title(first, {_first(study, speed).h for speed in speeds}))
-    ax.set_ylim(bottom=_FLOOR)
-    _plain_ticks(ax.xaxis, (0.2, 0.5, 1, 2, 5, 10, 20), curve[0], curve[-1])
-    _plain_ticks(ax.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
-    figure.legend(handles=_key(speeds), ncols=4, loc="outside upper center")
+    firsts = [_first(study, speed) for speed in speeds]
+    low = max(0.5 * min(lengths), 1.2 * max(case.shortest for case in firsts))
+    curve = np.geomspace(low, 4.0 * max(lengths), _CURVE)
+    figure, axes = panels(2, 1, height=3.9, width=7.5, sharex=True)
+    for i, case in enumerate(firsts):
+        _curves(axes[:, 0], case, curve, SERIES[i % len(SERIES)])
+        aside = _ASIDE ** (i - 0.5 * (len(firsts) - 1))
+        _bars(axes[0, 0], study, case, SERIES[i % len(SERIES)], aside)
+    for ax in axes[:, 0]:
+        ax.axhline(study.options.limit, color=INK, linewidth=1.0)
+        ax.text(1.01, study.options.limit, f"limit\n{study.options.limit:g} K", va="center",
+                transform=ax.get_yaxis_transform())
+        ax.set(xscale="log", yscale="log")
+    axes[0, 0].set(ylabel="belt's rise at entry [K]",
+                   title=_title(firsts))
+    axes[1, 0].set(xlabel="length of the belt [m]",
+                   ylabel="interface's rise\nat constant speed [K]")
+    axes[0, 0].set_ylim(bottom=_FLOOR)
+    _plain_ticks(axes[1, 0].xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), curve[0], curve[-1])
+    axes[1, 0].set_xlim(curve[0], curve[-1])
+    _plain_ticks(axes[0, 0].yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
+    _plain_ticks(axes[1, 0].yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *axes[1, 0].get_ylim())
+    figure.legend(handles=_key(speeds, study), ncols=4, loc="outside upper center")
     return figure
 
 
-def _first(study: Study, speed: float, length: float | None = None) -> Case:
-    """The first case with a speed (and a length)."""
-    return next(row.case for row in study.rows
-                if row.case.speed == speed and length in (None, row.case.length))
+def _curves(axes, case: Case, curve, colour: str) -> None:
+    """Entry and interface of one speed over the lengths."""
+    belts = [case.with_length(float(length)) for length in curve]
+    followed = [one.follow(one.sliding()) for one in belts]
+    entry = [0.0 if never_comes_round(one) else after.entry
+             for one, (_, after) in zip(belts, followed, strict=True)]
+    axes[0].plot(curve, _falling(entry), color=colour)
+    axes[0].plot(curve, _falling([steady_drift(one) for one in belts]), "--", color=colour)
+    axes[0].plot(curve, [one.as_the_study().temperature_degC(one.length) - one.ambient_degC
+                         for one in belts], ":", color=colour)
+    axes[1].plot(curve, [after.mean_interface - before.mean_interface
+                         for before, after in followed], color=colour)
 
 
-def _key(speeds: list[float]) -> list[Artist]:
+def _first(study: Study, speed: float) -> Case:
+    """The first case with a speed."""
+    return next(row.case for row in study.rows if row.case.speed == speed)
+
+
+def _key(speeds: list[float], study: Study) -> list[Artist]:
     """Colours say the speed, strokes the model."""
     handles: list[Artist] = [
         Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
         for i, speed in enumerate(speeds)]
-    kinds = {"-": f"after {RUN:g} s", "--": "for ever", ":": "study, one pass"}
+    kinds = {"-": "after the runs", "--": "for ever", ":": "study, one pass"}
     handles += [Line2D([], [], color=INK, linestyle=style, label=label)
                 for style, label in kinds.items()]
-    return [*handles, Patch(color=GREY, alpha=0.35, label=f"5–95 %, {RUN:g} s")]
+    if any(row.uncertainty for row in study.rows):
+        handles.append(Patch(color=GREY, alpha=0.35, label="5–95 %, after the runs"))
+    return handles
 
 
-def _shown(rises: list[float]) -> list[float]:
-    """What is below the floor of the axis is left out, not drawn on it."""
-    return [rise if rise >= _FLOOR else np.nan for rise in rises]
+def _falling(rises: list[float]) -> list[float]:
+    """Far below the axis where there is none, so that a curve leaves it instead of ending."""
+    return [max(rise, 1e-3 * _FLOOR) for rise in rises]
 
 
-def _bars(ax, study: Study, case: Case, colour: str) -> None:
-    rows = [row for row in study.rows if row.uncertainty is not None
-            and row.case == case.with_length(row.case.length)]
-    for row in rows:
-        if row.uncertainty.low > _FLOOR:
-            ax.plot([row.case.length] * 2, [row.uncertainty.low, row.uncertainty.high],
+def _bars(ax, study: Study, case: Case, colour: str, aside: float) -> None:
+    """At the length, or a little aside of it where several speeds have one."""
+    for row in study.rows:
+        if row.uncertainty is not None and row.case == case.with_length(row.case.length):
+            ax.plot([aside * row.case.length] * 2,
+                    [max(row.uncertainty.low, _FLOOR), row.uncertainty.high],
                     color=colour, linewidth=5.0, alpha=0.35, solid_capstyle="butt")
 
 
@@ -99,34 +122,44 @@ def _plain_ticks(axis, places, low: float, high: float) -> None:
     axis.set_ticks([], minor=True)
 
 
-@picture("along_the_loop", "Temperature of the belt's face along the loop, seen from the ice, "
-         "after 20 s and for ever.")
-def draw_loop(study: Study) -> Figure:
-    """One panel a length (four at most), speeds in colour."""
-    speeds = sorted({row.case.speed for row in study.rows})
-    lengths = sorted({row.case.length for row in study.rows})[:4]
-    figure, axes = panels(len(lengths), 1, height=2.1, width=7.5)
-    for ax, length in zip(axes[:, 0], lengths, strict=True):
-        x = np.linspace(-0.1 * length, 0.9 * length, _LOOP)
-        for i, speed in enumerate(speeds):
-            sliding = _first(study, speed, length).sliding()
-            sliding.until(RUN, COARSENESS)
-            colour = SERIES[i % len(SERIES)]
-            ax.plot(x, sliding.face(x), color=colour, label=f"{speed:g} m/s, {RUN:g} s")
-            sliding.settle()
-            ax.plot(x, sliding.face(x), "--", color=colour, label="for ever")
-        half = 0.5 * sliding.footprint.length
-        ax.axvspan(-half, half, color=GREY, alpha=0.25, linewidth=0.0)
-        ax.set(ylabel="rise [K]", title=f"belt of {length:g} m; shaded: under the ice")
-        ax.set_xlim(x[0], x[-1])
-        ax.set_ylim(bottom=0.0)
-    axes[-1, 0].set_xlabel("place behind the middle of the contact, along the motion [m]")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncols=len(speeds), loc="outside upper center")
+@picture("doubt", "What the doubt is made of, in the case that drifts most. Left: the drift with "
+         "one unknown at either end of its range, all else as the case is but for what stands in "
+         "brackets. Right: total Sobol indices, with their 95 % intervals.")
+def draw_doubt(row: Row) -> Figure:
+    """Bars of single changes beside the indices, one line an unknown."""
+    doubt = row.uncertainty
+    figure, axes = panels(1, 2, height=4.6, width=10.0, sharey=True)
+    left, right = axes[0]
+    single = doubt.single_changes[::-1]
+    places = np.arange(len(single))
+    ends = np.array([(one.drift_low, one.drift_high) for one in single])
+    left.hlines(places, *ends.T, color=GREY, linewidth=5.0, alpha=0.5)
+    left.plot(ends[:, 0], places, "o", color=BLUE, markersize=6.0, label="low end")
+    left.plot(ends[:, 1], places, "o", color=RED, markersize=6.0, label="high end")
+    left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
+    left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
+    left.set(xlabel="belt's rise at entry [K]",
+             title=f"{row.case.length:g} m at {row.case.speed:g} m/s, single changes")
+    figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
+    indices = {one.key: one for one in doubt.influences}
+    totals = [indices[one.key].total for one in single]
+    errors = [indices[one.key].total_half_width for one in single]
+    right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
+    right.set(xlabel="share of the variance [1]", title="total Sobol index")
+    right.set_xlim(left=0.0)
     return figure
 
 
-@picture("map", "Rise of the belt where it enters the contact after 20 s, over length and speed.")
+def _span_of(one) -> str:
+    unit = {"x": " times", "1": ""}.get(one.unit, f" {one.unit}")
+    others = {"railing_friction": "friction on it {:g}",
+              "roller_conductance": "conductance to them {:g} W/m2K"}
+    seen_in = "".join(f" ({others[key].format(value)})" for key, value in one.with_others.items())
+    return f"{one.low:g} to {one.high:g}{unit}{seen_in}".replace("W/m2K", "W/(m² K)")
+
+
+@picture("map", "Rise of the belt where it enters the contact at the end of the runs, over length "
+         "and speed.")
 def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     """Colours in the logarithm, a line at the limit."""
     figure, axes = panels(1, 1, height=4.6, width=7.0)
@@ -138,12 +171,15 @@ def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     if np.any(shown > limit) and np.any(shown < limit):
         ax.contour(drift.lengths, drift.speeds, shown.T, levels=[limit], colors="white",
                    linewidths=2.0)
-    ax.plot(drift.lengths, drift.lengths / RUN, color="white", linestyle="--", linewidth=1.0)
+    moving = case.protocol.runs * case.protocol.moving
+    ax.plot(drift.lengths, drift.lengths / moving, color="white", linestyle="--", linewidth=1.0)
     ax.set_ylim(drift.speeds[0], drift.speeds[-1])
+    film = "of still air" if case.h is None else f"{case.h:g} W/(m² K)"
     ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="speed [m/s]",
-           title=f"{_title(case, {case.h})}\nwhite: {limit:g} K; dashed: one loop in {RUN:g} s")
+           title=f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}\n"
+                 f"white: {limit:g} K; dashed: one loop in all")
     _plain_ticks(ax.xaxis, (0.3, 0.5, 1, 2, 5, 10), drift.lengths[0], drift.lengths[-1] * 1.001)
     _plain_ticks(ax.yaxis, (0.05, 0.1, 0.2, 0.5, 1), drift.speeds[0] * 0.999, drift.speeds[-1])
     ax.grid(False)
-    figure.colorbar(colours, ax=ax, label=f"rise after {RUN:g} s [K]", extend="min")
+    figure.colorbar(colours, ax=ax, label="belt's rise at entry [K]", extend="min")
     return figure

@@ -3,8 +3,8 @@
 Kinetic friction that falls linearly with the interface temperature, to nothing at the melting
 point, as measured on rock; or with a sensitivity that is given. Less friction makes less heat, so
 belt and ice are followed once more with the friction that their temperature leaves. Quasi-steady:
-a run of the mechanics with the friction of 20 s beside one with that of the start. The temperature
-varies over a stick-slip cycle by far less than over the run; coupled runs agree.
+a run of the mechanics with the friction at the end beside one with that of the start. The
+temperature varies over a stick-slip cycle by far less than over the run; coupled runs agree.
 """
 
 from __future__ import annotations
@@ -16,20 +16,15 @@ from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simu
 
 from thermal.constants import MELTING_POINT_DEGC
 
-from .case import COARSENESS, Case
-from .drift import RUN
+from .case import Case
 
-#: Static over kinetic friction, as measured on the rig (0.2815 and 0.2086).
-STATIC_OVER_KINETIC = 0.2815 / 0.2086
-#: One of the rig's four springs, N/m.
-STIFFNESS = 20.17
 #: Length of the mechanical runs, s.
 _DURATION = 40.0
 
 
 @dataclass(frozen=True)
 class FrictionEffect:
-    """What a drift of 20 s does, and what that does to the drift.
+    """What the drift of the runs does, and what that does to the drift.
 
     mu_change: of mu_k, relative; drift, interface: rises with the friction that is left, K.
     frequency: of stick-slip at the start, Hz, and its relative change; None where the block does
@@ -49,31 +44,34 @@ def linear_sensitivity(ambient_degC: float) -> float:
 
 
 @lru_cache(maxsize=4096)
-def stick_slip_frequency(speed: float, mass: float, mu_s: float, mu_k: float) -> float | None:
+def stick_slip_frequency(speed: float, mass: float, stiffness: float, mu_s: float,
+                         mu_k: float) -> float | None:
     """Break-aways per second along x on a belt, Hz; None where there are none."""
-    run = simulate(mechanics(speed, mass, mu_s, mu_k), duration=_DURATION, output_interval=1.0)
+    run = simulate(mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION,
+                   output_interval=1.0)
     starts = run.slip_starts
     if len(starts) < 3:
         return None
     return float((len(starts) - 1) / (starts[-1] - starts[0]))
 
 
-def mechanics(speed: float, mass: float, mu_s: float, mu_k: float) -> Parameters:
+def mechanics(speed: float, mass: float, stiffness: float, mu_s: float,
+              mu_k: float) -> Parameters:
     """The rig along x; the block moves with the belt at the start."""
     return Parameters(
-        rig=Rig(mass=mass, degrees_of_freedom=("x",)), springs=Springs(stiffness=STIFFNESS),
+        rig=Rig(mass=mass, degrees_of_freedom=("x",)), springs=Springs(stiffness=stiffness),
         friction=Friction(mu_s=mu_s, mu_k=mu_k), surface=Surface(speed=speed),
         initial=Initial(vx=speed))
 
 
 def friction_effect(case: Case, sensitivity: float | None = None) -> FrictionEffect:
-    """Of the interface's rise over a run; sensitivity: 1/K, linear to melting when left out."""
+    """Of the interface's rise over the runs; sensitivity: 1/K, linear to melting when left out."""
     lost = sensitivity if sensitivity is not None else linear_sensitivity(case.ambient_degC)
-    warm_belt = case.sliding(lost).until(RUN, COARSENESS)
+    _, warm_belt = case.follow(case.sliding(lost))
     mu_change = -min(1.0, lost * warm_belt.mean_interface)
-    mu_s = STATIC_OVER_KINETIC * case.friction
-    cold = stick_slip_frequency(case.speed, case.mass, mu_s, case.friction)
-    warm = stick_slip_frequency(
-        case.speed, case.mass, mu_s, round(case.friction * (1.0 + mu_change), 12))
+    mu_s = case.static_over_kinetic * case.friction
+    rig = case.speed, case.mass, case.stiffness, mu_s
+    cold = stick_slip_frequency(*rig, case.friction)
+    warm = stick_slip_frequency(*rig, round(case.friction * (1.0 + mu_change), 12))
     change = warm / cold - 1.0 if cold and warm else None
     return FrictionEffect(mu_change, warm_belt.entry, warm_belt.mean_interface, cold, change)

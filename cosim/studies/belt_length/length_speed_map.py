@@ -1,4 +1,4 @@
-"""Drift after 20 s over lengths and speeds."""
+"""Drift at the end of the runs over lengths and speeds."""
 
 from __future__ import annotations
 

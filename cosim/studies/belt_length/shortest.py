@@ -7,16 +7,17 @@ from collections.abc import Callable
 
 from scipy.optimize import brentq
 
-from .case import CONTACT_LENGTH, Case
+from .case import Case
 
-#: Shortest and longest belt that is looked at, m.
-SHORTEST, LONGEST = 1.05 * CONTACT_LENGTH, 50.0
+#: Longest belt that is looked at, m.
+LONGEST = 50.0
 #: How well the length is found, relative; the drift is known to less.
 _TOLERANCE = 5e-3
 
 
-def shortest_belt(case: Case, limit: float, drift: Callable[[Case], float]) -> float | None:
-    """Length, m; SHORTEST when that does already, None when LONGEST does not.
+def shortest_belt(case: Case, limit: float, drift: Callable[[Case], float],
+                  longest: float = LONGEST) -> float | None:
+    """Length, m; the shortest that has room when that does already, None when `longest` does not.
 
     drift: of a case, K; it falls with the length. limit: K, > 0.
     """
@@ -24,9 +25,9 @@ def shortest_belt(case: Case, limit: float, drift: Callable[[Case], float]) -> f
     def excess(log_length: float) -> float:
         return math.log(max(drift(case.with_length(math.exp(log_length))), 1e-9) / limit)
 
-    low, high = math.log(SHORTEST), math.log(LONGEST)
+    low, high = math.log(case.shortest), math.log(max(longest, case.shortest))
     if excess(low) <= 0.0:
-        return SHORTEST
+        return case.shortest
     if excess(high) > 0.0:
         return None
     return math.exp(brentq(excess, low, high, xtol=_TOLERANCE))

@@ -10,23 +10,35 @@ from itertools import product
 import pandas as pd
 from joblib import Parallel, delayed
 
-from thermal.air import moving_belt
+from cosim.scenario import Scenario
 
 from .case import Case
-from .drift import Drift, drift, run_drift, steady_drift
+from .changes import Change, changes
+from .drift import Drift, drift, endless_belt, interface_drift, run_drift, steady_drift
 from .friction_effect import FrictionEffect, friction_effect
-from .shortest import shortest_belt
+from .protocol import Protocol, StudyError
+from .shortest import LONGEST, shortest_belt
 from .uncertainty import Uncertainty, uncertainty
+from .wait import Wait, wait
 
 Progress = Callable[[int], None]
+#: In place of a number for h: that of a belt moving through still air.
+AIR = "air"
+#: Field of a case -> column of the table.
+COLUMNS = {
+    "length": "length [m]", "speed": "speed [m/s]", "mass": "mass [kg]",
+    "conductivity": "conductivity [W/mK]", "friction": "friction", "ambient_degC": "ambient [degC]",
+    "conductance": "conductance [W/m2K]", "thickness": "thickness [m]",
+}
 
 
 @dataclass(frozen=True)
 class Row:
     """A case and what it comes to.
 
-    shortest_run, shortest_steady: belt on which the drift stays below the limit after 20 s and
-    for ever, m; None where no belt does.
+    shortest_run, shortest_steady: belt on which the drift stays below the limit at the end of the
+    runs and for ever, m; shortest_interface: belt on which the interface's rise at constant speed
+    does; None where no belt does. uncertainty: None where it was not asked for, or the ice melts.
     """
 
     case: Case
@@ -34,45 +46,71 @@ class Row:
     effect: FrictionEffect
     shortest_run: float | None
     shortest_steady: float | None
+    shortest_interface: float | None
+    wait: Wait
+    changes: tuple[Change, ...]
     uncertainty: Uncertainty | None
 
     def flat(self) -> dict[str, object]:
         """One row of the table: columns named by what they hold, with units."""
         d, e, u = self.drift, self.effect, self.uncertainty
         return {
-            **{COLUMNS[one.name]: getattr(self.case, one.name) for one in fields(Case)},
+            **{column: getattr(self.case, name) for name, column in COLUMNS.items()},
+            "h [W/m2K]": self.case.film,
             "study [K]": d.study, "single pass mended [K]": d.single_pass,
-            "drift 20 s [K]": d.run, "drift 30 s [K]": d.long_run, "drift steady [K]": d.steady,
-            "drift 20 s low [K]": u and u.low, "drift 20 s high [K]": u and u.high,
-            "ice 20 s [K]": d.ice_run, "ice 30 s [K]": d.ice_long_run,
-            "ice steady [K]": d.ice_steady,
-            "interface 20 s [K]": d.interface_run, "flash 20 s [K]": d.flash_run,
-            "belt share 20 s": d.belt_share, "belt share steady": d.belt_share_steady,
+            "drift [K]": d.run, "drift low [K]": u and u.low, "drift high [K]": u and u.high,
+            "drift steady [K]": d.steady,
+            "interface drift [K]": d.interface_drift, "interface [K]": d.interface_run,
+            "interface drift, endless belt [K]": d.interface_drift_endless,
+            "ice [K]": d.ice_run, "ice steady [K]": d.ice_steady, "flash [K]": d.flash_run,
+            "belt share": d.belt_share, "belt share steady": d.belt_share_steady,
             "seen by camera": d.seen_by_camera, "steady melts": d.steady_melts,
-            "mu change 20 s": e.mu_change, "drift 20 s, weaker friction [K]": e.drift,
-            "frequency [Hz]": e.frequency,
-            "frequency change 20 s": e.frequency_change,
-            "shortest belt 20 s [m]": self.shortest_run,
+            "mu change": e.mu_change, "drift, weaker friction [K]": e.drift,
+            "frequency [Hz]": e.frequency, "frequency change": e.frequency_change,
+            "shortest belt [m]": self.shortest_run,
             "shortest belt steady [m]": self.shortest_steady,
+            "shortest belt interface [m]": self.shortest_interface,
+            "wait [s]": self.wait.begin, "wait drift [s]": self.wait.drift,
         }
 
+    def questions(self, limit: float) -> dict[str, dict[str, object]]:
+        """The two questions about a belt, with their answers."""
+        d = self.drift
+        return {
+            "comes_round_cold": {
+                "answer": d.run <= limit, "rise": d.run, "shortest_belt": self.shortest_run},
+            "interface_steady": {
+                "answer": d.interface_drift <= limit, "rise_at_constant_speed": d.interface_drift,
+                "rise": d.interface_run, "endless_belt": d.interface_drift_endless,
+                "shortest_belt": self.shortest_interface},
+        }
 
-#: Field of a case -> column of the table.
-COLUMNS = {
-    "length": "length [m]", "speed": "speed [m/s]", "mass": "mass [kg]", "h": "h [W/m2K]",
-    "conductivity": "conductivity [W/mK]", "friction": "friction", "ambient_degC": "ambient [degC]",
-    "conductance": "conductance [W/m2K]", "thickness": "thickness [m]",
-}
+    def as_dict(self, limit: float) -> dict[str, object]:
+        """Everything, for JSON."""
+        case = {one.name: getattr(self.case, one.name) for one in fields(Case)
+                if one.name not in ("rig", "protocol")}
+        h = {"h": self.case.film, "h_of_still_air": self.case.h is None,
+             "frost": self.case.frost._asdict()}
+        rest = {name: value and asdict(value) for name, value in (
+            ("drift", self.drift), ("effect", self.effect), ("wait", self.wait),
+            ("uncertainty", self.uncertainty))}
+        return {
+            "case": case | h, "questions": self.questions(limit), **rest,
+            "shortest_run": self.shortest_run, "shortest_steady": self.shortest_steady,
+            "shortest_interface": self.shortest_interface,
+            "changes": [asdict(one) for one in self.changes],
+            "seen_by_camera": self.drift.seen_by_camera,
+        }
 
 
 @dataclass(frozen=True)
 class Options:
-    """limit K; sensitivity of friction 1/K (None: linear to melting); samples: of the Sobol
-    sequence, a power of two, 0 for none."""
+    """limit K; sensitivity of friction 1/K (None: linear to melting); samples: runs of the model
+    for the uncertainty, 0 for none."""
 
     limit: float
     sensitivity: float | None = None
-    samples: int = 32
+    samples: int = 128
 
 
 @dataclass
@@ -87,49 +125,85 @@ class Study:
         """One row a case."""
         return pd.DataFrame([row.flat() for row in self.rows])
 
+    def changes(self) -> pd.DataFrame:
+        """One row a case and change: what would help."""
+        return self._each(lambda row: [asdict(one) for one in row.changes])
+
+    def doubt(self) -> pd.DataFrame:
+        """One row a case and unknown: single changes beside Sobol indices."""
+        return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
+
+    def _each(self, of: Callable[[Row], list[dict]]) -> pd.DataFrame:
+        return pd.DataFrame([
+            {"length [m]": row.case.length, "speed [m/s]": row.case.speed,
+             "ambient [degC]": row.case.ambient_degC} | one
+            for row in self.rows for one in of(row)])
+
+    @property
+    def worst(self) -> Row:
+        """The case that drifts most."""
+        return max(self.rows, key=lambda row: row.drift.run)
+
     def as_dict(self) -> dict[str, object]:
         """Everything, for JSON."""
-        return {
-            "complete": self.complete, "limit": self.options.limit,
-            "cases": [asdict(row) | {"seen_by_camera": row.drift.seen_by_camera}
-                      for row in self.rows],
-        }
+        first = {} if not self.rows else {
+            "protocol": asdict(self.rows[0].case.protocol),
+            "rig": self.rows[0].case.rig.model_dump()}
+        return {"complete": self.complete, "limit": self.options.limit, **first,
+                "cases": [row.as_dict(self.options.limit) for row in self.rows]}
 
 
-#: In place of a number for h: that of a belt moving through still air.
-AIR = "air"
-
-
-def cases(**choices: Iterable[float | str]) -> list[Case]:
+def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
     """Every combination; the lengths of one belt drive lie side by side.
 
-    h may be AIR: each case then has that of its speed and of half its loop, and keeps it where
-    other lengths are tried.
+    h may be AIR: each case then has that of its speed and of half its loop.
     """
     names = [name for name in choices if name != "length"] + ["length"]
-    return [_case(dict(zip(names, values, strict=True)))
-            for values in product(*(choices[name] for name in names))]
+    return [
+        replace(base, **{name: None if value == AIR else value
+                         for name, value in zip(names, values, strict=True)})
+        for values in product(*(choices[name] for name in names))]
 
 
-def _case(choice: dict[str, float | str]) -> Case:
-    if choice.get("h") != AIR:
-        return Case(**choice)
-    case = Case(**(choice | {"h": 1.0}))
-    case.thermal()
-    return replace(case, h=moving_belt(case.speed, 0.5 * case.length, case.ambient_degC))
+def scenario_case(scenario: Scenario) -> Case:
+    """The belt, ice, contact, block and protocol of a scenario; StudyError for one without a belt.
+
+    Its kinetic friction is taken as it is at the start: friction laws are the coupled run's.
+    """
+    surface, run, rig = scenario.surface, scenario.run, scenario.rig
+    if rig.surface == "slab":
+        raise StudyError('rig.surface = "slab": has no belt; allowed is "belt"')
+    constant = run.duration - surface.run_up_time
+    if not constant > 0.0:
+        raise StudyError(
+            f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
+            f" surface.run_up_time = {surface.run_up_time:g} s")
+    thermal, belt = scenario.thermal, scenario.belt
+    given = "air_heat_transfer" in belt.model_fields_set or belt.still_air_speed > 0.0
+    friction = scenario.friction
+    return Case(
+        length=belt.length, speed=abs(surface.speed), mass=rig.mass,
+        h=belt.film if given else None, friction=friction.mu_k,
+        ambient_degC=scenario.ambient.temperature_degC,
+        protocol=Protocol(surface.run_up_time, constant),
+        rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
+        static_over_kinetic=friction.mu_s / friction.mu_k if friction.mu_k > 0.0 else 1.0,
+        stiffness=scenario.springs.stiffness)
 
 
 def _row(case: Case, options: Options) -> Row:
     return Row(
         case, drift(case), friction_effect(case, options.sensitivity),
-        *_shortest(case.with_length(1.0), options.limit),
-        uncertainty(case, options.samples) if options.samples else None)
+        *_shortest(case.with_length(1.0), options.limit), wait(case, options.limit),
+        tuple(changes(case)), uncertainty(case, options.samples) if options.samples else None)
 
 
 @lru_cache(maxsize=64)
-def _shortest(case: Case, limit: float) -> tuple[float | None, float | None]:
-    """For a run and for ever; the same for cases that differ in their length alone."""
-    return shortest_belt(case, limit, run_drift), shortest_belt(case, limit, steady_drift)
+def _shortest(case: Case, limit: float) -> tuple[float | None, float | None, float | None]:
+    """For runs, for ever, for the interface; the same for cases that differ in length alone."""
+    endless = endless_belt(case).length
+    return (shortest_belt(case, limit, run_drift), shortest_belt(case, limit, steady_drift),
+            shortest_belt(case, limit, interface_drift, min(LONGEST, endless)))
 
 
 def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:

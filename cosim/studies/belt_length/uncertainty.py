@@ -1,31 +1,35 @@
-"""How sure the drift is, and which of the unknown numbers matters: Sobol indices (SALib).
+"""How sure the drift is, and what the doubt is made of: Sobol indices (SALib), single changes.
 
-Variance-based sensitivity after Saltelli 2010; Sobol's sequence, first-order and total indices
-with bootstrapped 95 % intervals.
+Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order and total indices with
+bootstrapped 95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
+each of the three answers that the drift is made of (`unknowns`); how much of the variance it
+misses is measured on runs of the model that it has not seen.
 """
 
 from __future__ import annotations
 
-import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from SALib.analyze import sobol as analyse
 from SALib.sample import sobol as sample
+from scipy.stats import qmc
 
 from .case import Case
-from .drift import run_drift
+from .surrogate import fitted
+from .unknowns import SHAPING, UNKNOWNS, Melts, Unknown, answers, combined, needs, with_one
 
-#: key of a case -> lowest, highest, drawn evenly in the logarithm; the first three of the rig's
-#: description, the conductance from poor to next to perfect contact.
-RANGES: dict[str, tuple[float, float, bool]] = {
-    "h": (5.0, 25.0, False),
-    "conductivity": (0.25, 2.0, False),
-    "conductance": (1e3, 1e5, True),
-}
+Array = NDArray[np.float64]
+
 #: Interval that is told, quantiles.
 INTERVAL = (0.05, 0.95)
+#: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
+SEQUENCE = 2**13
+#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
+FEWEST_SAMPLES = 32
+_TESTED = 0.25
 
 
 @dataclass(frozen=True)
@@ -40,43 +44,124 @@ class Influence:
 
 
 @dataclass(frozen=True)
+class SingleChange:
+    """The drift, K, with one unknown at either end of its range, the rest as the case is.
+
+    with_others: what else is not as the case is, key -> value: one of nothing is seen in something.
+    """
+
+    key: str
+    says: str
+    unit: str
+    low: float
+    high: float
+    drift_low: float
+    drift_high: float
+    with_others: dict[str, float]
+
+
+@dataclass(frozen=True)
 class Uncertainty:
-    """Drift after 20 s, K: 5 %, 50 % and 95 % quantiles; influences, the largest first."""
+    """Drift at the end of the runs, K: 5 %, 50 % and 95 % quantiles; influences and single
+    changes, the largest first.
+
+    evaluations: runs of the model; unexplained: share of the variance that the polynomial misses
+    on the runs that it has not seen.
+    """
 
     low: float
     median: float
     high: float
     influences: tuple[Influence, ...]
+    single_changes: tuple[SingleChange, ...]
     evaluations: int
+    unexplained: float
+
+    @property
+    def widest_interval(self) -> float:
+        """Largest half-width of the indices' 95 % intervals."""
+        return max(max(one.first_order_half_width, one.total_half_width)
+                   for one in self.influences)
+
+    def table(self) -> list[dict[str, object]]:
+        """Single change and indices of each unknown, side by side."""
+        indices = {one.key: asdict(one) for one in self.influences}
+        return [asdict(one) | indices[one.key] for one in self.single_changes]
 
 
-def uncertainty(case: Case, samples: int) -> Uncertainty:
-    """Over RANGES in place of the case's own numbers; samples: a power of two."""
-    problem = {
-        "num_vars": len(RANGES), "names": list(RANGES),
-        "bounds": [[math.log(low), math.log(high)] if logarithmic else [low, high]
-                   for low, high, logarithmic in RANGES.values()],
-    }
-    points = sample.sample(problem, samples, calc_second_order=False, seed=1)
-    for column, (_, _, logarithmic) in enumerate(RANGES.values()):
-        if logarithmic:
-            points[:, column] = np.exp(points[:, column])
-    drifts = np.array([
-        run_drift(replace(case, **dict(zip(RANGES, map(float, point), strict=True))))
-        for point in points])
+def uncertainty(case: Case, samples: int) -> Uncertainty | None:
+    """Over UNKNOWNS in place of the case's own numbers; None where the ice comes to melt.
+
+    samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES.
+    """
+    tested = round(_TESTED * samples)
+    draws = qmc.Sobol(len(SHAPING), rng=1)
+    points = _levelled(np.concatenate((draws.random(samples), draws.random(tested))))
+    values = _values(SHAPING, points)
+    try:
+        parts = np.array([
+            answers(case, {key: float(column[i]) for key, column in values.items()})
+            for i in range(len(points))])
+        single_changes = _single_changes(case)
+    except Melts:
+        return None
+    surrogates = [fitted(points[:samples], column) for column in parts[:samples].T]
+
+    def drift(shares: Array) -> Array:
+        """At points of the unit cube of all unknowns."""
+        shaping = _levelled(shares[:, [not one.linear for one in UNKNOWNS]])
+        return combined(np.stack([one(shaping) for one in surrogates], axis=1),
+                        _values(UNKNOWNS, shares))
+
+    problem = {"num_vars": len(UNKNOWNS), "names": [one.key for one in UNKNOWNS],
+               "bounds": [[0.0, 1.0]] * len(UNKNOWNS)}
+    drifts = drift(sample.sample(problem, SEQUENCE, calc_second_order=False, seed=1))
     low, median, high = np.quantile(drifts, [INTERVAL[0], 0.5, INTERVAL[1]])
-    return Uncertainty(float(low), float(median), float(high), _influences(problem, drifts),
-                       len(drifts))
+    return Uncertainty(
+        float(low), float(median), float(high), _influences(problem, drifts), single_changes,
+        samples + tested + 2 * len(UNKNOWNS),
+        _unexplained(points[samples:], parts[samples:], drift))
 
 
-def _influences(problem: dict, drifts: np.ndarray) -> tuple[Influence, ...]:
+def _values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
+    return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
+
+
+def _levelled(shares: Array) -> Array:
+    """Shares of SHAPING, those of an unknown with levels in the middle of its level."""
+    return np.stack([one.levelled(shares[:, i]) for i, one in enumerate(SHAPING)], axis=1)
+
+
+def _unexplained(points: Array, parts: Array, drift) -> float:
+    """Share of the drift's variance over unseen runs; the linear unknowns are drawn for each."""
+    drawn = np.random.default_rng(1).random((len(points), len(UNKNOWNS)))
+    drawn[:, [not one.linear for one in UNKNOWNS]] = points
+    true = combined(parts, _values(UNKNOWNS, drawn))
+    return float(np.mean((drift(drawn) - true) ** 2) / np.var(true))
+
+
+def _single_changes(case: Case) -> tuple[SingleChange, ...]:
+    found = []
+    for one in UNKNOWNS:
+        ends = []
+        for end in (one.low, one.high):
+            values = with_one(case, one.key, end)
+            parts = answers(case, values)[None, :]
+            ends.append(float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0]))
+        found.append(SingleChange(one.key, one.says, one.unit, one.low, one.high, *ends,
+                                  with_others=needs(case, one.key)))
+    return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
+
+
+def _influences(problem: dict, drifts: Array) -> tuple[Influence, ...]:
     """Nothing has an influence on a drift that is always the same."""
+    keys = problem["names"]
     if np.ptp(drifts) == 0.0:
-        return tuple(Influence(key, 0.0, 0.0, 0.0, 0.0) for key in RANGES)
+        return tuple(Influence(key, 0.0, 0.0, 0.0, 0.0) for key in keys)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FutureWarning)
         found = analyse.analyze(problem, drifts, calc_second_order=False, seed=1)
     influences = [
         Influence(key, *(float(found[name][i]) for name in ("S1", "S1_conf", "ST", "ST_conf")))
-        for i, key in enumerate(RANGES)]
+        for i, key in enumerate(keys)]
     return tuple(sorted(influences, key=lambda one: -one.total))

@@ -1,9 +1,9 @@
-"""Claim C13, "1 m of belt is enough", judged in plain words from the rows of a study."""
+"""Claim C13, "1 m of belt is enough", and the two questions, in plain words from a study's rows."""
 
 from __future__ import annotations
 
-from .drift import CAMERA, RUN
-from .shortest import LONGEST, SHORTEST
+from .drift import CAMERA
+from .shortest import LONGEST
 from .study import Row, Study
 
 CLAIMED_LENGTH = 1.0
@@ -14,8 +14,13 @@ def verdict(study: Study) -> list[str]:
     if not study.rows:
         return ["Nothing was computed, so nothing can be said."]
     rows = [row for row in study.rows if row.case.length == CLAIMED_LENGTH]
-    return [*_claim(rows), *_shortest(study), *_study_number(study), *_influence(study),
-            *_melting(study)]
+    return [*_claim(rows), *_shortest(study), *_interface(study), *_wait(study), *_helps(study),
+            *_study_number(study), *_influence(study), *_melting(study)]
+
+
+def _by_speed(rows: list[Row]) -> list[tuple[float, list[Row]]]:
+    speeds = sorted({row.case.speed for row in rows})
+    return [(speed, [row for row in rows if row.case.speed == speed]) for speed in speeds]
 
 
 def _claim(rows: list[Row]) -> list[str]:
@@ -23,16 +28,16 @@ def _claim(rows: list[Row]) -> list[str]:
     if not rows:
         return [f"A belt of {CLAIMED_LENGTH:g} m was not among the lengths: no verdict on C13."]
     said, words = [], {}
-    for speed in sorted({row.case.speed for row in rows}):
-        drifts = [row.drift.run for row in rows if row.case.speed == speed]
+    for speed, some in _by_speed(rows):
+        drifts = [row.drift.run for row in some]
         low, high = min(drifts), max(drifts)
         word = words[speed] = (
             "suffices" if high <= CAMERA else "does not suffice" if low > CAMERA
             else "suffices in some of the cases")
         said.append(
-            f"At {speed:g} m/s {CLAIMED_LENGTH:g} m of belt {word}: after {RUN:g} s it meets the"
-            f" ice {_span(low, high)} K warmer than the air{_doubt(rows, speed)}; the camera sees"
-            f" {CAMERA:g} K.")
+            f"At {speed:g} m/s {CLAIMED_LENGTH:g} m of belt {word}: after"
+            f" {some[0].case.protocol.in_words()} it meets the ice {_span(low, high)} K warmer than"
+            f" the air{_doubt(some)}; the camera sees {CAMERA:g} K.")
     return [_summary(words), *said]
 
 
@@ -49,37 +54,82 @@ def _summary(words: dict[float, str]) -> str:
             f" {', '.join(f'{speed:g}' for speed in words if speed not in holds)} m/s.")
 
 
-def _doubt(rows: list[Row], speed: float) -> str:
-    """The interval of a speed's drifts, when it was computed."""
-    known = [row.uncertainty for row in rows if row.case.speed == speed and row.uncertainty]
+def _doubt(rows: list[Row]) -> str:
+    """The interval of the drifts of some rows, when it was computed."""
+    known = [row.uncertainty for row in rows if row.uncertainty]
     if not known:
         return ""
     low, high = min(one.low for one in known), max(one.high for one in known)
-    return (f" ({_span(low, high)} K over what is not known of air, belt and contact"
+    return (f" ({_span(low, high)} K over what is not known of the rig"
             f"{', so nobody can promise it' if low < CAMERA < high else ''})")
 
 
 def _shortest(study: Study) -> list[str]:
-    """The shortest belts, by speed."""
+    """Does the belt come round cold? The shortest belts, by speed."""
     limit, said = study.options.limit, []
-    for speed in sorted({row.case.speed for row in study.rows}):
-        rows = [row for row in study.rows if row.case.speed == speed]
+    for speed, rows in _by_speed(study.rows):
         run, steady = (
-            _lengths([getattr(row, name) for row in rows])
-            for name in ("shortest_run", "shortest_steady"))
-        said.append(f"At {speed:g} m/s a drift below {limit:g} K takes {run} for {RUN:g} s, and"
-                    f" {steady} for a belt that runs for ever.")
+            _lengths(rows, name) for name in ("shortest_run", "shortest_steady"))
+        said.append(f"At {speed:g} m/s a belt that comes round less than {limit:g} K warm takes"
+                    f" {run} for the runs, and {steady} for ever.")
     return said
 
 
-def _lengths(lengths: list[float | None]) -> str:
-    known = [length for length in lengths if length is not None]
+def _lengths(rows: list[Row], name: str, longest: str = f"more than {LONGEST:g} m") -> str:
+    found = [(getattr(row, name), row.case.shortest) for row in rows]
+    known = [length for length, _ in found if length is not None]
     if not known:
-        return f"more than {LONGEST:g} m"
-    if max(known) <= SHORTEST:
+        return longest
+    if all(length is not None and length <= shortest for length, shortest in found):
         return "any belt"
     span = f"{_span(min(known), max(known))} m"
-    return span if len(known) == len(lengths) else f"{span}, in some cases more than {LONGEST:g} m,"
+    return span if len(known) == len(found) else f"{span}, in some cases {longest},"
+
+
+def _interface(study: Study) -> list[str]:
+    """Is the interface steady? The ice warms itself, whatever the belt."""
+    limit, said = study.options.limit, []
+    for speed, rows in _by_speed(study.rows):
+        drifts = [row.drift.interface_drift for row in rows]
+        wholes = [row.drift.interface_run for row in rows]
+        endless = [row.drift.interface_drift_endless for row in rows]
+        steady = "" if max(drifts) <= limit else (
+            f"; on a belt that never comes round it would be {_span(min(endless), max(endless))} K,"
+            f" and below {limit:g} K it is on {_lengths(rows, 'shortest_interface', 'no belt')}")
+        said.append(
+            f"At {speed:g} m/s the interface warms by {_span(min(drifts), max(drifts))} K at"
+            f" constant speed ({_span(min(wholes), max(wholes))} K from the start) on the belts"
+            f" asked for{steady}.")
+    return said
+
+
+def _wait(study: Study) -> list[str]:
+    """How long to wait before the next run, by speed."""
+    said, reasons = [], set()
+    for speed, rows in _by_speed(study.rows):
+        known = [row.wait.begin for row in rows if row.wait.begin is not None]
+        reasons |= {row.wait.reason for row in rows if row.wait.begin is None}
+        if known:
+            said.append(f"{_span(min(known), max(known))} s at {speed:g} m/s")
+    if not said:
+        return [f"No pause makes a later run as cold as the first: {'; '.join(sorted(reasons))}."]
+    iced = "lifted" if study.rows[0].case.protocol.lifted else "resting"
+    return [f"Belt and ice are within {study.options.limit:g} K of the air again, the belt at a"
+            f" standstill and the ice {iced}, after {', '.join(said)}."]
+
+
+def _helps(study: Study) -> list[str]:
+    """What helps most, in the case that drifts most: by one change alone."""
+    row = study.worst
+    start, rest = row.changes[0], row.changes[1:]
+
+    def best(name: str) -> str:
+        ranked = sorted(rest, key=lambda one: abs(getattr(one, name)))[:3]
+        return ", ".join(f"{one.what} {getattr(one, name):.2g} K" for one in ranked)
+
+    return [f"On {row.case.length:g} m at {row.case.speed:g} m/s, of single changes, the entering"
+            f" belt's {start.run:.2g} K fall most by: {best('run')}; the interface's"
+            f" {start.interface_drift:.2g} K at constant speed by: {best('interface_drift')}."]
 
 
 def _study_number(study: Study) -> list[str]:
@@ -97,12 +147,12 @@ def _influence(study: Study) -> list[str]:
     if not known:
         return []
     row = max(known, key=lambda one: one.drift.run)
-    first = row.uncertainty.influences[0]
-    words = {"h": "heat transfer to the air", "conductivity": "conductivity of the belt",
-             "conductance": "conductance of the contact"}
-    return [f"Of what is not known the {words[first.key]} matters most ({first.total:.0%} of the"
-            f" variance of the drift on {row.case.length:g} m at {row.case.speed:g} m/s, which lies"
-            f" between {row.uncertainty.low:.2g} and {row.uncertainty.high:.2g} K)."]
+    doubt = row.uncertainty
+    words = {one.key: one.says for one in doubt.single_changes}
+    shares = ", ".join(f"{words[one.key]} {one.total:.0%}" for one in doubt.influences[:4])
+    return [f"The doubt on {row.case.length:g} m at {row.case.speed:g} m/s, {doubt.low:.2g} to"
+            f" {doubt.high:.2g} K, is made of (shares of the variance, with what each does together"
+            f" with others): {shares}."]
 
 
 def _melting(study: Study) -> list[str]:
@@ -114,5 +164,6 @@ def _melting(study: Study) -> list[str]:
 
 
 def _span(low: float, high: float) -> str:
-    one, other = f"{low:.2g}", f"{high:.2g}"
+    one, other = (f"{round(value, -1 if value >= 100.0 else 0):g}" if value >= 10.0
+                  else f"{value:.2g}" for value in (low, high))
     return one if one == other else f"{one} to {other}"

@@ -1,0 +1,73 @@
+"""What would help: what one change makes of a case, each alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from .case import Case
+from .drift import endless_belt, never_comes_round
+
+#: What the changes take: K, W/m2K, 1, and a roller's good contact, W/m2K, over 0.1 m of belt.
+COLDER_AIR, COLDER_SAMPLE, WARMER_SAMPLE, GOOD_ROLLER, ROLLER_ARC = 8.0, 1.0, 0.3, 1000.0, 0.1
+#: PTFE on cloth; half of the heat enters the belt.
+RAILING_FRICTION = 0.1
+
+
+@dataclass(frozen=True)
+class Change:
+    """Rises with one change, K: of the belt at entry, of the interface in the run at constant speed
+    and over the air at its end."""
+
+    what: str
+    run: float
+    interface_drift: float
+    interface_run: float
+
+
+def changes(case: Case) -> list[Change]:
+    """As the case is, then each change alone; what has no room on the rig is left out."""
+    found = []
+    for what, changed in _changed(case):
+        before, after = changed.follow(changed.sliding())
+        entry = 0.0 if never_comes_round(changed) else after.entry
+        found.append(Change(what, entry, after.mean_interface - before.mean_interface,
+                            after.mean_interface))
+    return found
+
+
+def _changed(case: Case) -> Iterator[tuple[str, Case]]:
+    protocol, contact, belt = case.protocol, case.rig.contact, case.rig.belt
+    yield "as it is", case
+    yield "belt twice as long", case.with_length(2.0 * case.length)
+    yield "belt that never comes round", endless_belt(case)
+    yield f"air {COLDER_AIR:g} K colder", replace(
+        case, ambient_degC=case.ambient_degC - COLDER_AIR)
+    yield "run half as long", replace(case, protocol=replace(protocol, run=0.5 * protocol.run))
+    if protocol.ramp > 0.0:
+        yield "no ramp", replace(case, protocol=replace(protocol, ramp=0.0))
+    yield "half the mass", replace(case, mass=0.5 * case.mass)
+    if not case.rig.ice.mesh:
+        yield "sample twice as high", case.changed({"ice.height": 2.0 * case.rig.ice.height})
+        if 3.0 * contact.radius < case.length:
+            yield "sample of 1.5 times the diameter, same mass", case.changed(
+                {"contact.radius": 1.5 * contact.radius,
+                 "contact.length": 1.5 * contact.length})
+    yield f"sample {COLDER_SAMPLE:g} K colder than the air at the start", replace(
+        case, ice_rise=-COLDER_SAMPLE)
+    yield f"sample {WARMER_SAMPLE:g} K warmer than the air at the start", replace(
+        case, ice_rise=WARMER_SAMPLE)
+    yield "twice the heat transfer to the air", replace(case, h=2.0 * case.film)
+    yield "belt frosted all over", replace(case, h=case.film + case.frost.added)
+    if belt.rollers == 0 and belt.railing_length + 2.0 * ROLLER_ARC < 0.5 * case.length:
+        yield f"two rollers that touch {ROLLER_ARC:g} m with {GOOD_ROLLER:g} W/m2K", case.changed(
+            {"belt.rollers": 2, "belt.roller_arc": ROLLER_ARC,
+             "belt.roller_conductance": GOOD_ROLLER})
+        yield "two rollers at 100 W/m2K, 1 K warmer than the air", case.changed(
+            {"belt.rollers": 2, "belt.roller_arc": ROLLER_ARC, "belt.roller_conductance": 100.0,
+             "belt.roller_rise": 1.0})
+    if belt.railing_friction == 0.0:
+        yield f"friction {RAILING_FRICTION:g} on the railing, half of its heat to the belt", (
+            case.changed({"belt.railing_friction": RAILING_FRICTION, "belt.railing_share": 0.5,
+                          "belt.railing_length": belt.railing_length or 2.0 * contact.radius,
+                          "belt.railing_conductance": belt.railing_conductance or case.film}))

@@ -1,0 +1,144 @@
+"""Friction heat of the belt on its railing, warm rollers, and where the contact's heat arises."""
+
+import numpy as np
+import pytest
+
+from thermal import Belt, BeltIceModel, Contact, Ice, ParameterError, ThermalParameters
+from thermal.steady_sliding import SteadySliding
+
+LOAD, FRICTION, SHARE = 13.45, 0.1, 0.5  # N, 1, 1
+RAILING = {"railing_length": 0.08, "railing_friction": FRICTION, "railing_load": LOAD,
+           "railing_share": SHARE, "railing_conductance": 15.0}
+ROLLERS = {"rollers": 2, "roller_arc": 0.1, "roller_conductance": 1000.0}
+#: Next to nothing crosses the contact.
+APART = Contact(conductance=1e-9)
+
+
+def ramped(speed, **belt):
+    """A run of 20 s at constant speed on 1 m, W/m2K 15."""
+    sliding = SteadySliding(ThermalParameters(belt=Belt(cell_length=4e-3, **belt)), speed, 4.03)
+    return sliding.until(20.0)
+
+
+def test_an_insulated_belt_keeps_all_of_its_share():
+    """Mean rise = share mu N way / (c rho A L), the way that of the belt and not of the contact."""
+    insulated = RAILING | {"railing_conductance": 0.0}
+    belt = Belt(length=0.5, width=0.06, cell_length=4e-3, air_heat_transfer=0.0, **insulated)
+    model = BeltIceModel(ThermalParameters(belt=belt, contact=APART))
+    for _ in range(50):
+        model.step(0.1, 0.0, 0.03, 0.05)
+    expected = SHARE * FRICTION * LOAD * 50 * 0.05
+    outputs = model.outputs()
+    assert outputs["railing_heat"] == pytest.approx(expected, rel=1e-12)
+    assert outputs["belt_heat"] == pytest.approx(expected, rel=1e-9)
+    capacity = 700.0 * 840.0 * 1e-3 * 0.06 * 0.5
+    assert model.belt.field().mean() == pytest.approx(expected / capacity, rel=0.05)
+    assert outputs["heat_received"] == 0.0
+    assert abs(outputs["heat_residual"]) < 1e-10 * expected
+
+
+def test_a_block_that_sticks_lets_the_railing_rub():
+    model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=4e-3, **RAILING)))
+    model.step(0.5, 0.0, 0.0, -0.1)
+    assert model.outputs()["railing_heat"] == pytest.approx(SHARE * FRICTION * LOAD * 0.1)
+    model.step(0.5, 0.0, 0.0)
+    assert model.outputs()["railing_heat"] == pytest.approx(SHARE * FRICTION * LOAD * 0.1)
+
+
+def test_ledger_closes_with_railing_heat_and_warm_rollers():
+    rng = np.random.default_rng(4)
+    model = BeltIceModel(ThermalParameters(belt=Belt(
+        length=0.5, cell_length=4e-3, roller_rise=0.7,
+        **(ROLLERS | {"roller_arc": 0.04}), **RAILING)))
+    for _ in range(300):
+        model.step(rng.choice([1e-3, 0.02, 0.3]), rng.exponential(0.05),
+                   *rng.normal(0.0, 0.05, 2))
+    outputs = model.outputs()
+    put_in = outputs["heat_received"] + outputs["railing_heat"]
+    assert outputs["railing_heat"] > 0.05 * put_in
+    assert outputs["support_heat"] != 0.0
+    assert abs(outputs["heat_residual"]) < 1e-10 * put_in
+
+
+def test_off_is_as_if_there_were_no_such_keys():
+    """Bit for bit: a railing without friction, rollers as cold as the air."""
+    plain, off = (
+        BeltIceModel(ThermalParameters(belt=Belt(
+            cell_length=4e-3, railing_length=0.08, **ROLLERS, **more)))
+        for more in ({}, {"railing_load": LOAD, "railing_share": 0.9, "roller_rise": 0.0}))
+    for model in (plain, off):
+        for _ in range(20):
+            model.step(0.05, 0.02, 0.02)
+    assert np.array_equal(plain.state(), off.state())
+
+
+def test_warm_rollers_warm_a_belt_that_conducts_well():
+    """h_r A_r (T_r - T) = h A_open T for a belt of one temperature, no friction anywhere."""
+    h, warm = 15.0, 2.0
+    belt = Belt(cell_length=4e-3, conductivity=2e3, air_heat_transfer=h, roller_rise=warm,
+                rollers=2, roller_arc=0.1, roller_conductance=50.0)
+    sliding = SteadySliding(ThermalParameters(belt=belt, contact=APART), 5.0, 0.0)
+    state = sliding.settle()
+    lane = sliding.footprint.lane
+    touched = 2 * 0.1 * lane
+    free = 2.0 * lane * 1.0 - touched - sliding.footprint.area
+    expected = warm * 50.0 * touched / (50.0 * touched + h * free)
+    assert state.belt_mean == pytest.approx(expected, rel=5e-3)
+
+
+@pytest.mark.parametrize("speed", [0.15, 0.82])
+def test_long_steps_and_small_steps_agree_on_railing_and_rollers(speed):
+    belt = Belt(cell_length=2e-3, roller_rise=0.3,
+                **(ROLLERS | {"roller_conductance": 100.0}), **RAILING)
+    model = BeltIceModel(ThermalParameters(belt=belt))
+    for _ in range(1000):
+        model.step(0.02, 4.03 * speed * 0.02, speed * 0.02)
+    outputs = model.outputs()
+    state = SteadySliding(ThermalParameters(belt=belt), speed, 4.03).until(20.0)
+    assert (state.entry, state.ice_face) == pytest.approx(
+        (outputs["belt_entry_temperature"] + 8.0, outputs["ice_face_temperature"] + 8.0), rel=5e-3)
+
+
+@pytest.mark.parametrize(("speed", "added", "taken"),
+                         [(0.15, 0.24, 0.81), (0.5, 0.21, 0.69), (0.82, 0.20, 0.66)])
+def test_what_railing_and_rollers_do_to_the_drift_of_a_run(speed, added, taken):
+    """Half of the heat of mu 0.1 adds 20 to 25 %; two rollers at 1000 W/m2K take 66 to 81 %.
+
+    The railing takes as much heat as the air would in its place.
+    """
+    plain = ramped(speed).entry
+    assert ramped(speed, **RAILING).entry / plain - 1.0 == pytest.approx(added, abs=0.02)
+    assert 1.0 - ramped(speed, **ROLLERS).entry / plain == pytest.approx(taken, abs=0.02)
+
+
+@pytest.mark.parametrize("side", [0.0, 0.3, 1.0])
+def test_faces_apart_keep_what_arises_on_them(side):
+    contact = Contact(conductance=1e-9, belt_side=side)
+    model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=4e-3), contact=contact))
+    for _ in range(10):
+        model.step(0.1, 0.05, 0.02)
+    assert model.outputs()["belt_share"] == pytest.approx(side, abs=1e-6)
+
+
+def test_where_the_heat_arises_hardly_matters_in_a_good_contact():
+    shares = []
+    for side in (0.0, 1.0):
+        model = BeltIceModel(ThermalParameters(
+            belt=Belt(cell_length=4e-3), contact=Contact(conductance=1e6, belt_side=side)))
+        for _ in range(50):
+            model.step(0.1, 0.3, 0.05)
+        shares.append(model.outputs()["belt_share"])
+    assert 0.0 < shares[1] - shares[0] < 0.01
+
+
+def test_friction_on_no_railing_is_refused():
+    with pytest.raises(ParameterError, match=r"railing_friction = 0\.1 and belt\.railing_length"):
+        ThermalParameters.checked({"belt": {"railing_friction": 0.1}})
+
+
+def test_a_sample_of_one_temperature_holds_its_heat():
+    model = BeltIceModel(ThermalParameters(ice=Ice(height=0.05)))
+    model.ice.fill(-2.0)
+    volume = np.pi * 0.04**2 * 0.05
+    assert model.ice.heat() == pytest.approx(-2.0 * 917.0 * 2050.0 * volume, rel=1e-9)
+    assert model.ice.face() == pytest.approx(-2.0, rel=1e-9)
