@@ -23,7 +23,6 @@ from stickslip.parameters import Block, quantity
 
 from cosim.scenario_faults import ScenarioError, describe_faults, nearest
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
-from thermal.constants import GRAVITY
 
 SUFFIX = ".toml"
 #: More output times or macro steps than this are a slip of the unit, and would fill the memory.

@@ -1,8 +1,9 @@
 """A host with nothing but ctypes, and with numpy out of reach: what an FMU sees in a foreign tool.
 
-    python bare_host.py EXTRACTED_FMU LIBRARY GUID STEP COUNT
+    python bare_host.py EXTRACTED_FMU LIBRARY GUID REFERENCE STEP COUNT
 
-Runs COUNT communication steps with the belt at 0.15 m/s and prints x and the modules imported.
+Runs COUNT communication steps with the belt at 0.15 m/s and prints the variable of that value
+reference, the statuses, and whether numpy was imported.
 """
 
 import sys
@@ -48,7 +49,7 @@ def say(environment, instance, status, category, message):
     print(f"status {status}: {message.decode()}", file=sys.stderr)
 
 
-def main(folder, library, guid, step, count):
+def main(folder, library, guid, reference, step, count):
     sys.meta_path.insert(0, NoNumpy())
     fmi = CDLL(library)
     fmi.fmi2Instantiate.restype = c_void_p
@@ -61,7 +62,7 @@ def main(folder, library, guid, step, count):
     fmi.fmi2DoStep.argtypes = [c_void_p, c_double, c_double, c_int]
     fmi.fmi2SetReal.argtypes = [c_void_p, POINTER(c_uint), c_size_t, POINTER(c_double)]
     fmi.fmi2GetReal.argtypes = fmi.fmi2SetReal.argtypes
-    speed, x, value = c_uint(0), c_uint(5), c_double(0.15)
+    speed, x, value = c_uint(0), c_uint(reference), c_double(0.15)
     statuses = [
         fmi.fmi2SetupExperiment(slave, 0, 0.0, 0.0, 0, 0.0),
         fmi.fmi2EnterInitializationMode(slave),
@@ -76,4 +77,4 @@ def main(folder, library, guid, step, count):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:4], float(sys.argv[4]), int(sys.argv[5]))
+    main(*sys.argv[1:4], int(sys.argv[4]), float(sys.argv[5]), int(sys.argv[6]))

@@ -394,7 +394,8 @@ def test_a_host_without_numpy_runs_it(fmu, tmp_path, block):
     slave = block.slave
     library = folder / Path(slave.dll._name).relative_to(tmp_path / "first")
     host = Path(__file__).with_name("bare_host.py")
-    arguments = [str(folder), str(library), description.guid, "0.01", "100"]
+    (x,) = (v.valueReference for v in description.modelVariables if v.name == "x")
+    arguments = [str(folder), str(library), description.guid, str(x), "0.01", "100"]
     done = subprocess.run(
         [sys.executable, "-I", str(host), *arguments], capture_output=True, text=True, check=True
     )
