@@ -209,7 +209,8 @@ def _draw(rises: dict[float, tuple[float | None, ...]]):
     names = ("one pass, as printed", "mended check", "finite elements")
     for i, (model, name) in enumerate(zip(LABELS, names, strict=True)):
         known = {length: one[i] for length, one in rises.items() if one[i] is not None}
-        ax.plot(list(known), list(known.values()), "o-", color=COLOURS[model], label=name)
+        style = "o-" if len(known) == len(rises) else "o"  # no line over lengths not computed
+        ax.plot(list(known), list(known.values()), style, color=COLOURS[model], label=name)
     study_line(ax, SENSITIVITY, "camera's sensitivity")
     ax.set_xlabel("length of the belt, m")
     ax.set_ylabel("rise, K")
