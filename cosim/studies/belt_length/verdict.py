@@ -115,7 +115,8 @@ def _wait(study: Study) -> list[str]:
         return [f"No pause makes a later run as cold as the first: {'; '.join(sorted(reasons))}."]
     iced = "lifted" if study.rows[0].case.protocol.lifted else "resting"
     return [f"Belt and ice are within {study.options.limit:g} K of the air again, the belt at a"
-            f" standstill and the ice {iced}, after {', '.join(said)}."]
+            f" standstill and the ice {iced}, after {', '.join(said)}"
+            f"{'; in other cases never: ' + '; '.join(sorted(reasons)) if reasons else ''}."]
 
 
 def _helps(study: Study) -> list[str]:
