@@ -179,7 +179,8 @@ def scenario_case(scenario: Scenario) -> Case:
             f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
             f" surface.run_up_time = {surface.run_up_time:g} s")
     thermal, belt = scenario.thermal, scenario.belt
-    given = "air_heat_transfer" in belt.model_fields_set or belt.still_air_speed > 0.0
+    # in still air it is that of each case's own speed
+    given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
     friction = scenario.friction
     return Case(
         length=belt.length, speed=abs(surface.speed), mass=rig.mass,

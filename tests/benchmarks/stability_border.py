@@ -1,0 +1,59 @@
+"""The border of stability over pretension, against runs on either side of it.
+
+    python tests/benchmarks/stability_border.py [RIGS] [SEED]
+
+Draws rigs at random, looks for the least pretension at which each keeps to its line, and simulates
+the rig, turned by 1e-7 rad at its start, with 5 % and 0.1 mm less and more. Rigs that need none, and
+those that are unstable again so near above the border, are drawn anew. Prints those on the wrong
+side, and how many are on the right one.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from stickslip.steady_motion import pretension_borders, stability, with_pretension
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+from test_stability import DURATION, drawn_rig, grows  # noqa: E402
+
+RELATIVE, ABSOLUTE = 0.05, 1e-4
+
+
+def sides(parameters):
+    """(least, margin) m, and whether runs below and above it grow; None where none is to be had."""
+    borders = pretension_borders(parameters, DURATION)
+    if not borders.least:
+        return None
+    margin = RELATIVE * borders.least + ABSOLUTE
+    if borders.least <= margin or any(low < borders.least + 2.0 * margin
+                                      for low, _ in borders.further):
+        return None
+    below, above = (with_pretension(parameters, borders.least + side * margin) for side in (-1, 1))
+    # a run that has swerved in its run-up says nothing of the line at constant speed
+    if stability(above, DURATION).amplification > 1e3:
+        return None
+    return borders.least, margin, grows(below), grows(above)
+
+
+def main(rigs=50, seed=1):
+    draw, asked, right, drawn = np.random.default_rng(seed), 0, 0, 0
+    while asked < rigs:
+        parameters = drawn_rig(draw, drawn)
+        drawn += 1
+        found = sides(parameters)
+        if found is None:
+            continue
+        asked += 1
+        least, margin, below, above = found
+        if below and not above:
+            right += 1
+        else:
+            print(f"{1e3 * least:.2f} mm +- {1e3 * margin:.2f}: grows below {below}, above {above}; "
+                  f"{parameters!r}")
+    print(f"{right} of {asked} rigs on the right side, margin {100 * RELATIVE:g} % and "
+          f"{1e3 * ABSOLUTE:g} mm; {drawn} drawn")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
