@@ -9,9 +9,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stickslip.steady_motion.regimes import CREEPING, OWN, STARTS
+from stickslip.steady_motion.regimes import CREEPING, DISTURBED, OWN, RAMP, REST, RIDING, STARTS
 from stickslip.steady_motion.stability import GUIDED, NEUTRAL, UNSTABLE
 
+#: Beside the line by more than this, m and degrees, a motion is told to be.
+BENT_LENGTH, BENT_ANGLE_DEG = 2e-3, 2.0
+SHORT = {DISTURBED: "disturbed", REST: "from rest", RIDING: "riding on the surface",
+         RAMP: "from a run-up"}
+EXPLAINED_NOUN = {
+    "stick-slip": "stick and slip",
+    "sliding": "slide",
+    "sticking": "stick",
+    CREEPING: "creep",
+}
 #: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
 MUCH = 100.0
 EXPLAINED = {
@@ -28,14 +38,15 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
     if found["verdict"] == GUIDED:
         return "The rig allows motion along x alone: there is nothing to be unstable."
     what = "The motion along the line" if found["motion"] == "along the line" else "This motion"
+    bent = _bent(numbers)
     if found["verdict"] != UNSTABLE:
         fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
         return (f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
                 f"{fares}, by the factor {found['growth']:.3g} in a cycle. "
-                f"{run_up_sentence(numbers)}".rstrip() + _further(found))
+                f"{run_up_sentence(numbers)}".rstrip() + _further(found) + bent)
     return (
         f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
-        f"{found['time_to_grow']:.3g} s, and no rig is without one.{_remedy(found)}"
+        f"{found['time_to_grow']:.3g} s, and no rig is without one.{_remedy(found)}{bent}"
     )
 
 
@@ -69,6 +80,18 @@ def run_up_sentence(numbers: Mapping[str, Any]) -> str:
             "times: a rig that is not as drawn may have swerved by then, and stay there.")
 
 
+def _bent(numbers: Mapping[str, Any]) -> str:
+    """Where a rig that is not as drawn keeps aside of the line, how far."""
+    regime = numbers["regimes"].get(DISTURBED, numbers["regimes"][OWN])
+    if regime["max_y"] < BENT_LENGTH and regime["max_rotation_deg"] < BENT_ANGLE_DEG:
+        return ""
+    return (
+        " Started 0.1 mm aside and turned by 1 mrad, the block comes to "
+        f"{EXPLAINED_NOUN[regime['name']]} up to {1e3 * regime['max_y']:.2g} mm beside its line and "
+        f"turned by up to {regime['max_rotation_deg']:.2g}°."
+    )
+
+
 def _further(found: Mapping[str, Any]) -> str:
     """Where else it would not be stable."""
     windows = found["unstable_pretensions"] or []
@@ -86,6 +109,10 @@ def regime_sentence(numbers: Mapping[str, Any]) -> str:
     own = found[OWN]["name"]
     line = f"This run {EXPLAINED[own]}."
     if not others:
-        return f"{line} So does the rig from rest, riding on the surface, and from a run-up."
+        return f"{line} So does the rig {_listed([SHORT[start] for start in found if start != OWN])}."
     told = "; ".join(f"{STARTS[start]} it {EXPLAINED[found[start]['name']]}" for start in others)
     return f"{line} Another regime exists beside it: {told}."
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))

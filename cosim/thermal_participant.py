@@ -20,6 +20,7 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     melt_rate="kg/s",
     melted_mass="kg",
     refrozen_mass="kg",
+    wiped_ice_mass="kg",
     film_thickness="m",
     heat_received="J",
     railing_heat="J",

@@ -50,15 +50,15 @@ class BeltWater:
         share = loads[0] / loads[0].sum()
         np.add.at(self.water, (first + np.arange(share.size)) % self.water.size, mass * share)
 
-    def wipe(self, edge: float, movement: float, share: float) -> float:
-        """Mass (kg) of water that a wiper takes off the nodes it passes, and as much of the ice.
+    def wipe(self, edge: float, movement: float, share: float) -> tuple[float, float]:
+        """Masses (kg) of water and of ice that a wiper takes off the nodes it passes.
 
         It stands where the edge (m) does and moves along; share: what it takes of either.
         """
         low, high = sorted((edge, edge + movement))
         nodes = np.arange(math.ceil(low / self._cell), math.ceil(high / self._cell))
         nodes = np.unique(nodes % self.water.size)
-        taken = share * float(self.water[nodes].sum())
+        taken = share * float(self.water[nodes].sum()), share * float(self.frozen[nodes].sum())
         self.water[nodes] *= 1.0 - share
         self.frozen[nodes] *= 1.0 - share
         return taken

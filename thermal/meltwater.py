@@ -21,7 +21,8 @@ Array = NDArray[np.float64]
 
 
 class Meltwater:
-    """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`; `wiped` off, kg.
+    """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`; taken off that by a
+    wiper, `wiped` water and `wiped_ice`, kg.
 
     melting: the melting point, K above the air.
     """
@@ -37,7 +38,7 @@ class Meltwater:
         load = contact.load or GRAVITY * ice.space.whole_capacity / of_ice.heat_capacity
         self.film = MeltFilm(footprint.area, footprint.length, load / footprint.area)
         self.on_belt = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
-        self.melted = self.wiped = 0.0
+        self.melted = self.wiped = self.wiped_ice = 0.0
 
     def exchange(self, duration: float, displacement: float,
                  solve: Callable[[IceFace], Fluxes]) -> Receding:
@@ -71,7 +72,9 @@ class Meltwater:
         if self._wiper == 0.0 or displacement == 0.0:
             return
         entry_edge = centre - 0.5 * np.copysign(self._footprint.length, displacement)
-        self.wiped += self.on_belt.wipe(entry_edge, -displacement, self._wiper)
+        water, ice = self.on_belt.wipe(entry_edge, -displacement, self._wiper)
+        self.wiped += water
+        self.wiped_ice += ice
 
     @property
     def water(self) -> float:
@@ -91,11 +94,12 @@ class Meltwater:
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy."""
         return np.concatenate((
-            [self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped],
+            [self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped,
+             self.wiped_ice],
             self.on_belt.water, self.on_belt.frozen))
 
     def restore(self, state: Array) -> None:
         """Take a state that `state` returned."""
-        self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped = (
-            float(x) for x in state[:5])
-        self.on_belt.water[:], self.on_belt.frozen[:] = state[5:].reshape(2, -1)
+        (self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped,
+         self.wiped_ice) = (float(x) for x in state[:6])
+        self.on_belt.water[:], self.on_belt.frozen[:] = state[6:].reshape(2, -1)

@@ -119,7 +119,8 @@ class BeltIceModel:
         The interface temperature is the mean of the two faces, each averaged over the contact's
         area. Entry and exit: belt face an eighth of the contact's length before and behind the
         contact, seen in the direction of the last movement. Melted: what the block has lost;
-        refrozen: what of it lies on the belt as ice.
+        refrozen: what of it lies on the belt as ice; wiped ice: what of it froze there and was
+        taken off by a wiper.
         """
         face = self.belt.face()
         first, loads = self.footprint.loads(self.contact_position, 0.0, self.belt.cell)
@@ -137,6 +138,7 @@ class BeltIceModel:
             "melt_rate": self._melt_rate,
             "melted_mass": self.meltwater.melted,
             "refrozen_mass": float(self.meltwater.on_belt.frozen.sum()),
+            "wiped_ice_mass": self.meltwater.wiped_ice,
             "film_thickness": self.meltwater.film.thickness,
             "heat_received": ledger.received,
             "railing_heat": ledger.from_railing,

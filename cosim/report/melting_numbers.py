@@ -96,17 +96,16 @@ def _fed(dataset: xr.Dataset) -> Array:
 def melting(dataset: xr.Dataset) -> dict[str, Quantity]:
     """What melted since when, and the balance of the film over the last second."""
     begin, end = melting_begins(dataset), float(dataset["time"][-1])
-    since = dataset.sel(time=slice(begin, None))
     melted = float(dataset["melted_mass"][-1])
-    heat, spent = (float(since[name][-1] - since[name][0]) for name in ("heat", "meltwater_heat"))
     before = dataset.sel(time=slice(begin - WINDOW, begin))
     return {
         "onset": Quantity(begin, "s"),
         "melted_mass": Quantity(melted, "kg"),
         "refrozen_mass": Quantity(float(dataset["refrozen_mass"][-1]), "kg"),
+        "wiped_ice_mass": Quantity(float(dataset["wiped_ice_mass"][-1]), "kg"),
         "mean_melt_rate": Quantity(ratio(melted, end - begin), "kg/s"),
         "max_melt_rate": Quantity(float(dataset["melt_rate"].max()), "kg/s"),
-        "melting_share": Quantity(ratio(spent, heat), "1"),
+        "melting_share": Quantity(_share(dataset.sel(time=slice(begin, None))), "1"),
         "friction_before": Quantity(mean_of(friction_coefficient(before)), "1"),
         **_balance(dataset.sel(time=slice(end - WINDOW, None))),
     }
@@ -115,6 +114,7 @@ def melting(dataset: xr.Dataset) -> dict[str, Quantity]:
 def _balance(late: xr.Dataset) -> dict[str, Quantity]:
     film = film_of(late)
     return {
+        "melting_share_end": Quantity(_share(late), "1"),
         "friction_end": Quantity(mean_of(friction_coefficient(late)), "1"),
         "film_thickness": Quantity(mean_of(film.thickness), "m"),
         "film_fed_by_melting": Quantity(mean_of(film.fed), "m"),
@@ -124,6 +124,12 @@ def _balance(late: xr.Dataset) -> dict[str, Quantity]:
         "flooded_share": Quantity(mean_of(film.flooded), "1"),
         "water_shear": Quantity(mean_of(film.water), "Pa"),
     }
+
+
+def _share(rows: xr.Dataset) -> float | None:
+    """Of the friction heat of some rows, what melting took less what freezing gave back."""
+    heat, spent = (float(rows[name][-1] - rows[name][0]) for name in ("heat", "meltwater_heat"))
+    return ratio(spent, heat)
 
 
 def mean_of(values: Array) -> float | None:

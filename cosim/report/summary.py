@@ -56,7 +56,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
             numbers["melting"] = melting(dataset)
     numbers["after_run_up"] = after_run_up(dataset)
     numbers["whole_run"] = whole_run(dataset)
-    numbers |= assessment_numbers(dataset) or {}
+    numbers |= assessment_numbers(dataset)
     return numbers
 
 

@@ -16,6 +16,7 @@ THERMAL = {
     "melt_rate": ("kg/s", "melting, mean over the last macro step"),
     "melted_mass": ("kg", "ice that the block has lost since the start"),
     "refrozen_mass": ("kg", "ice on the belt, frozen from melt water"),
+    "wiped_ice_mass": ("kg", "ice frozen on the belt and taken off by the wiper since the start"),
     "film_thickness": ("m", "water between block and belt, mean over the contact"),
     "heat_received": ("J", "friction heat that the thermal model took up since the start"),
     "railing_heat": ("J", "heat of the belt's rubbing on its railing that entered the belt"),

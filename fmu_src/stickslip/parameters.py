@@ -91,6 +91,14 @@ class Springs(Block):
         max_length=CURVE_LIMIT,
     )
 
+    @property
+    def mean_stiffness(self) -> float:
+        """N/m: `stiffness`, or the mean slope of the force-length curve that replaces it."""
+        extension, force = self.force_curve_extension, self.force_curve_force
+        if not extension:
+            return self.stiffness
+        return (force[-1] - force[0]) / (extension[-1] - extension[0])
+
     @model_validator(mode="after")
     def _check(self) -> Self:
         extension, force = self.force_curve_extension, self.force_curve_force
@@ -268,5 +276,8 @@ class Parameters(EffectBlocks):
 
     @property
     def natural_frequency(self) -> float:
-        """Frequency of the free vibration along x, sqrt(4 k / m) / (2 pi), Hz."""
-        return math.sqrt(4.0 * self.springs.stiffness / self.rig.mass) / (2.0 * math.pi)
+        """Frequency of the free vibration along x, sqrt(4 k / m) / (2 pi), Hz.
+
+        k is that of one spring, of a force-length curve its mean slope.
+        """
+        return math.sqrt(4.0 * self.springs.mean_stiffness / self.rig.mass) / (2.0 * math.pi)

@@ -3,9 +3,9 @@
     python tests/benchmarks/stability_border.py [RIGS] [SEED]
 
 Draws rigs at random, looks for the least pretension at which each keeps to its line, and simulates
-the rig, turned by 1e-7 rad at its start, with 5 % and 0.1 mm less and more. Rigs that need none, and
-those that are unstable again so near above the border, are drawn anew. Prints those on the wrong
-side, and how many are on the right one.
+the rig, turned by 1e-7 rad at its start, with 5 % and 0.1 mm less and more. Rigs that need none, or
+are unstable again so near above the border, or swerve in their run-up already, are drawn anew.
+Prints those on the wrong side, and how many are on the right one.
 """
 
 import sys
@@ -49,8 +49,8 @@ def main(rigs=50, seed=1):
         if below and not above:
             right += 1
         else:
-            print(f"{1e3 * least:.2f} mm +- {1e3 * margin:.2f}: grows below {below}, above {above}; "
-                  f"{parameters!r}")
+            print(f"{1e3 * least:.2f} mm +- {1e3 * margin:.2f}: grows below {below}, "
+                  f"above {above}; {parameters!r}")
     print(f"{right} of {asked} rigs on the right side, margin {100 * RELATIVE:g} % and "
           f"{1e3 * ABSOLUTE:g} mm; {drawn} drawn")
 

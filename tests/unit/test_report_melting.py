@@ -31,6 +31,7 @@ def melted(thickness=THICKNESS, **changes) -> xr.Dataset:
         "friction_force_x": np.zeros(time.size), "heat": 100.0 * time,
         "friction_force_y": -LOAD * np.where(wet, WET, DRY),
         "melted_mass": RATE * grown, "refrozen_mass": 0.25 * RATE * grown, "melt_rate": RATE * wet,
+        "wiped_ice_mass": 0.1 * RATE * grown,
         "film_thickness": thickness * wet, "meltwater_heat": 60.0 * grown,
     }
     return xr.Dataset({name: ("time", values) for name, values in columns.items()},
@@ -46,6 +47,8 @@ def test_what_melted_and_when():
     assert found["onset"] == pytest.approx(ONSET, abs=0.011)
     assert found["melted_mass"] == pytest.approx(RATE * (END - ONSET))
     assert found["refrozen_mass"] == pytest.approx(0.25 * RATE * (END - ONSET))
+    assert found["wiped_ice_mass"] == pytest.approx(0.1 * RATE * (END - ONSET))
+    assert found["melting_share_end"] == pytest.approx(0.6)
     assert found["mean_melt_rate"] == pytest.approx(RATE, rel=3e-3)
     assert found["max_melt_rate"] == RATE
     assert found["melting_share"] == pytest.approx(0.6, rel=3e-3)

@@ -13,7 +13,8 @@ OUTPUTS = {
     "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
     "ice_face_temperature", "belt_share", "melt_rate", "melted_mass", "heat_received",
     "belt_heat", "ice_heat", "air_heat", "latent_heat", "support_heat",
-    "refrozen_mass", "film_thickness", "meltwater_heat", "railing_heat", "heat_residual"}
+    "refrozen_mass", "wiped_ice_mass", "film_thickness", "meltwater_heat", "railing_heat",
+    "heat_residual"}
 
 
 def test_starts_at_the_temperature_of_the_air():

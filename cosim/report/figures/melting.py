@@ -28,7 +28,7 @@ from ..style import (
 
 @styled
 def draw_melting(dataset: xr.Dataset) -> Figure:
-    """Stresses in the contact, thickness of the film, melted and refrozen mass."""
+    """Stresses in the contact, thickness of the film, melted and frozen mass."""
     figure, axes = time_panels(dataset, rows=3, height=2.3, share_y=False)
     film, time = film_of(dataset), dataset["time"].values
     parts = floods(mechanics_of(dataset))
@@ -44,6 +44,9 @@ def draw_melting(dataset: xr.Dataset) -> Figure:
         line(bottom, time, mass(1e3 * dataset["melted_mass"].values), color=PURPLE, label="melted")
         line(bottom, time, mass(1e3 * dataset["refrozen_mass"].values), color=SKY,
              label="of it, ice on the belt")
+        if dataset["wiped_ice_mass"].max() > 0.0:
+            line(bottom, time, mass(1e3 * dataset["wiped_ice_mass"].values), color=GREY,
+                 label="of it, ice wiped off")
     axes[0, 0].set_ylabel(f"stress [{stress.unit}]")
     axes[1, 0].set_ylabel(f"water [{thickness.unit}]")
     axes[2, 0].set_ylabel(f"mass [{mass.unit}]")

@@ -6,9 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.steady_motion import RunEnded, Stability, regimes, stability
-from stickslip.steady_motion.pretension import PretensionBorders, pretension_borders
-from stickslip.steady_motion.regimes import Regime
+from stickslip.steady_motion import Assessment, assess
 
 from cosim.scenario import Scenario
 
@@ -22,48 +20,49 @@ class NotAMotion(ValueError):
 
 @dataclass(frozen=True)
 class Case:
-    """A scenario's mechanics, how long its runs are (s), and what they come to.
+    """A scenario's mechanics and the assessment of its own run.
 
     temperature: of the interface, degC.
     """
 
     name: str
     parameters: Parameters
-    duration: float
     temperature: float
-    stability: Stability
-    borders: PretensionBorders
-    regimes: dict[str, Regime]
+    assessment: Assessment
 
 
 def case_of(scenario: Scenario) -> Case:
     """The scenario, looked at for itself. NotAMotion where there is nothing to look at."""
     parameters, temperature = scenario.mechanics, scenario.ambient.temperature_degC
-    if parameters.surface.speed == 0.0:
-        raise NotAMotion(f"{scenario.name}: surface.speed = 0: needed is a surface that moves")
-    if parameters.springs.stiffness == 0.0:
-        raise NotAMotion(f"{scenario.name}: springs.stiffness = 0: needed are springs")
-    duration = run_length(parameters)
-    try:
-        return Case(
-            scenario.name, parameters, duration, temperature,
-            stability(parameters, duration, temperature),
-            _borders(parameters, duration, temperature),
-            regimes(parameters, duration, temperature),
+    if fault := _fault(parameters):
+        raise NotAMotion(f"{scenario.name}: {fault}")
+    found = assess(parameters, scenario.run.duration, temperature, look=lambda: None)
+    if found is None:
+        raise NotAMotion(
+            f"{scenario.name}: run.duration = {scenario.run.duration:g} s: the motion ends early, "
+            "or is over before five swings at constant speed; allowed is a longer run that can be "
+            "followed"
         )
-    except RunEnded as ended:
-        raise NotAMotion(f"{scenario.name}: {ended}") from None
+    return Case(scenario.name, parameters, temperature, found)
+
+
+def _fault(parameters: Parameters) -> str:
+    """What keeps a rig from having steady motions that could be told apart, or nothing."""
+    law = parameters.rate_and_state
+    if parameters.surface.speed == 0.0:
+        return "surface.speed = 0: needed is a surface that moves"
+    if parameters.natural_frequency == 0.0:
+        return "springs.stiffness = 0: needed are springs"
+    if parameters.friction.mu_k == 0.0:
+        return "friction.mu_k = 0: needed is friction in slip, for a map over mu_s/mu_k"
+    if law.direct != 0.0 or law.evolution != 0.0:
+        return "rate_and_state: its runs take too long to be repeated; leave it out"
+    return ""
 
 
 def run_length(parameters: Parameters) -> float:
     """Run-up and what follows it, s."""
     return parameters.surface.run_up_time + max(SECONDS, PERIODS / parameters.natural_frequency)
-
-
-def _borders(parameters: Parameters, duration: float, temperature: float) -> PretensionBorders:
-    if parameters.rig.degrees_of_freedom == ("x",):
-        return PretensionBorders(())
-    return pretension_borders(parameters, duration, temperature)
 
 
 def at_speed(parameters: Parameters, speed: float) -> Parameters:

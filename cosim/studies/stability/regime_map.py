@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -100,7 +101,13 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
         and parameters.rig.surface == "belt"
         and not parameters.springs.force_curve_extension
         and parameters.friction.stick_creep == 0.0
+        and parameters.structural_damping.coefficient < _critical_damping(parameters)
     )
+
+
+def _critical_damping(parameters: Parameters) -> float:
+    """Above it, N s/m, the block does not vibrate."""
+    return 4.0 * math.pi * parameters.natural_frequency * parameters.rig.mass
 
 
 def belt_start(parameters: Parameters) -> BeltStart:
@@ -108,7 +115,8 @@ def belt_start(parameters: Parameters) -> BeltStart:
     rig, friction, load = parameters.rig, parameters.friction, parameters.rig.mass * GRAVITY
     return BeltStart(
         CoulombOscillator(rig.mass, 4.0 * parameters.springs.stiffness,
-                          abs(parameters.surface.speed), friction.mu_s * load,
+                          abs(parameters.surface.speed),
+                          max(friction.mu_s, friction.mu_k) * load,
                           friction.mu_k * load),
         parameters.structural_damping.coefficient,
         other_starts(parameters)[RAMP].surface.run_up_time,

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from stickslip.steady_motion.regimes import STARTS, coexisting
+from stickslip.steady_motion.regimes import STARTS
 
 from .case import Case
 from .pretension_map import PretensionMap
@@ -19,24 +18,10 @@ def as_json(
     case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
 ) -> dict[str, Any]:
     """Case and maps with plain numbers, SI; what was not computed is None."""
-    rig = case.parameters.rig
     return {
         "name": case.name,
-        "stability": {
-            "verdict": case.stability.verdict,
-            "motion": "along the line" if case.stability.straight else "its own",
-            "growth": case.stability.growth,
-            "cycle": case.stability.period,
-            "time_to_grow": case.stability.time_to_grow,
-            "amplification": case.stability.amplification
-            if math.isfinite(case.stability.amplification) else None,
-            "pretension": rig.spring_length - rig.spring_natural_length,
-            "least_pretension": case.borders.least,
-            "unstable_pretensions": case.borders.windows,
-        },
+        **case.assessment.as_dict(),
         "starts": STARTS,
-        "regimes": {start: asdict(regime) for start, regime in case.regimes.items()},
-        "other_regimes": list(coexisting(case.regimes)),
         "pretension_map": None if stretched is None else {
             "pretensions": stretched.pretensions.tolist(),
             "speeds": stretched.speeds.tolist(),

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from ..parameters import Parameters
 from .live import RunEnded
@@ -12,10 +13,11 @@ from .pretension import COARSE, PretensionBorders, pretension_borders
 from .regimes import Regime, coexisting, regimes
 from .stability import Stability, stability
 
-#: Longest part at constant speed that is looked at: s, and in natural periods.
-LONGEST, PERIODS = 60.0, 40.0
+#: Part at constant speed that is looked at: the longest, s and in natural periods, of which the
+#: longer holds, and the shortest, in natural periods.
+LONGEST, PERIODS, FEWEST = 60.0, 40.0, 5.0
 #: Time after which borders that are not found yet are not looked for any longer, s.
-PATIENCE = 20.0
+PATIENCE = 10.0
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,25 @@ class Assessment:
         """Regimes from other starts that differ from the run's own."""
         return coexisting(self.regimes)
 
+    def as_dict(self) -> dict[str, Any]:
+        """Plain numbers, SI: ``stability``, ``regimes`` and ``other_regimes``; None: not known."""
+        found, borders = self.stability, self.borders
+        return {
+            "stability": {
+                "verdict": found.verdict,
+                "motion": "along the line" if found.straight else "its own",
+                "growth": found.growth,
+                "cycle": found.period,
+                "time_to_grow": found.time_to_grow,
+                "amplification": found.amplification if found.straight else None,
+                "pretension": self.pretension,
+                "least_pretension": None if borders is None else borders.least,
+                "unstable_pretensions": None if borders is None else borders.windows,
+            },
+            "regimes": {start: asdict(regime) for start, regime in self.regimes.items()},
+            "other_regimes": list(self.coexisting),
+        }
+
 
 def assess(
     parameters: Parameters,
@@ -53,19 +74,23 @@ def assess(
     temperature: of the interface, degC; left out, the reference of temperature_dependence.
     look: called between runs, and raises TimeoutError when there is no time for more; left out, it
     does so after `PATIENCE`. None where the contact follows rate_and_state, whose runs take too
-    long to be repeated, where the motion ends early, and where there is no time.
+    long to be repeated, where the run is over before five swings or ends early, where nothing
+    moves the block, and where there is no time.
     """
     law = parameters.rate_and_state
     ramp = parameters.surface.run_up_time
-    duration = min(duration, ramp + max(LONGEST, PERIODS / max(parameters.natural_frequency, 0.1)))
-    if law.direct != 0.0 or law.evolution != 0.0 or duration <= ramp:
+    frequency = parameters.natural_frequency
+    if law.direct != 0.0 or law.evolution != 0.0 or parameters.surface.speed == 0.0:
         return None
+    if frequency == 0.0 or duration - ramp < FEWEST / frequency:
+        return None
+    duration = min(duration, ramp + max(LONGEST, PERIODS / frequency))
     look = look or deadline(PATIENCE)
     try:
         look()
         return Assessment(
-            stability(parameters, duration, temperature),
-            regimes(parameters, duration, temperature),
+            stability(parameters, duration, temperature, look),
+            regimes(parameters, duration, temperature, look),
             parameters.rig.spring_length - parameters.rig.spring_natural_length,
             _borders(parameters, duration, temperature, look),
         )
@@ -85,7 +110,7 @@ def deadline(patience: float) -> Callable[[], None]:
 
 
 def _borders(parameters, duration, temperature, look) -> PretensionBorders | None:
-    if parameters.rig.degrees_of_freedom == ("x",) or parameters.springs.stiffness == 0.0:
+    if parameters.rig.degrees_of_freedom == ("x",):
         return PretensionBorders(())
     try:
         return pretension_borders(parameters, duration, temperature, step=COARSE, look=look)

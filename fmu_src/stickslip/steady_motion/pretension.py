@@ -10,13 +10,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import bisect
+from scipy.optimize import brentq
 
 from ..parameters import Parameters
-from .stability import CLOSE_TO_ONE, stability
+from .stability import stability
 
 #: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
 FINE, COARSE, MOST = 0.005, 0.01, 0.30
+#: Of a multiplier of 1, that of a motion beside which nothing grows or dies out.
+ROUNDING = 1e-5
 #: To which the borders are found, m.
 RESOLUTION = 1e-5
 
@@ -55,20 +57,19 @@ def pretension_borders(
     """Where a run of ``duration`` (s) is unstable, everything but the pretension as given.
 
     temperature: of the interface, degC; left out, the reference of temperature_dependence. step: of
-    the search, part of the installed length. look: called before each pretension; may raise.
+    the search, part of the installed length. look: called now and then; may raise.
     Raises `live.RunEnded` where a motion cannot be followed.
     """
 
     def excess(pretension: float) -> float:
-        look()
         changed = with_pretension(parameters, pretension)
-        return stability(changed, duration, temperature).growth - 1.0 - CLOSE_TO_ONE
+        return stability(changed, duration, temperature, look).growth - 1.0 - ROUNDING
 
     steps = parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)
     unstable = [excess(step) > 0.0 for step in steps]
     borders = [0.0] if unstable[0] else []
     for i in np.flatnonzero(np.diff(unstable)):
-        borders.append(float(bisect(excess, steps[i], steps[i + 1], xtol=RESOLUTION)))
+        borders.append(float(brentq(excess, steps[i], steps[i + 1], xtol=RESOLUTION)))
     ends = [*borders[1::2], None] if unstable[-1] else borders[1::2]
     return PretensionBorders(tuple(zip(borders[::2], ends, strict=True)))
 

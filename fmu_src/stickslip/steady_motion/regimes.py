@@ -4,11 +4,13 @@ Dry friction lets several steady motions exist side by side, and the start decid
 block that rides on the surface breaks away, slips and is caught again, while the same block started
 from rest may swing about the place where its springs balance kinetic friction, for ever slower than
 the surface. So the model is started in three ways: from rest on a surface that has its full speed,
-riding on it, and on a surface that runs up to its speed.
+riding on it, and on a surface that runs up to its speed; and as its scenario has it, but pushed
+aside and turned a little, as every rig is.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,14 +21,17 @@ from ..trajectory import Trajectory, slip_share
 from .live import RunEnded
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
-OWN, REST, RIDING, RAMP = "own", "rest", "riding", "ramp"
+OWN, DISTURBED, REST, RIDING, RAMP = "own", "disturbed", "rest", "riding", "ramp"
 #: How each start is told.
 STARTS = {
     OWN: "as the scenario starts",
+    DISTURBED: "as the scenario starts, but 0.1 mm aside and turned by 1 mrad",
     REST: "from rest on a surface at full speed",
     RIDING: "riding on a surface at full speed",
     RAMP: "on a surface that runs up to its speed",
 }
+#: Of the disturbed start, m and rad.
+ASIDE, TURNED = 1e-4, 1e-3
 #: Run-up of the third start where the scenario has none, s.
 RAMP_TIME = 10.0
 #: Shortest run at constant speed that a regime is read from, s, and in natural periods.
@@ -62,23 +67,26 @@ class Regime:
 
 
 def regimes(
-    parameters: Parameters, duration: float = 30.0, temperature: float | None = None
+    parameters: Parameters,
+    duration: float = 30.0,
+    temperature: float | None = None,
+    look: Callable[[], None] = lambda: None,
 ) -> dict[str, Regime]:
-    """The regime of the scenario's own run and of the three starts, by the names of `STARTS`.
+    """The regime of the scenario's own run and of the other starts, by the names of `STARTS`.
 
     duration: of the own run, s; each of the others is at constant speed as long, and at least 20 s.
-    temperature: of the interface, degC; left out, the reference of temperature_dependence. Raises
-    `live.RunEnded` where the own motion cannot be followed; another start of which that is so is
-    left out.
+    temperature: of the interface, degC; left out, the reference of temperature_dependence. look:
+    called now and then; may raise. Raises `live.RunEnded` where the own motion cannot be followed;
+    another start of which that is so is left out.
     """
-    found = {OWN: regime_of(parameters, duration, temperature)}
+    found = {OWN: regime_of(parameters, duration, temperature, look)}
     steady = duration - parameters.surface.run_up_time
     natural = PERIODS / max(parameters.natural_frequency, 0.1)
     steady = max(steady, SHORTEST, natural)
     for name, started in other_starts(parameters).items():
         try:
-            length = steady + started.surface.run_up_time
-            found[name] = regime_of(started, length, temperature)
+            length = duration if name == DISTURBED else steady + started.surface.run_up_time
+            found[name] = regime_of(started, length, temperature, look)
         except RunEnded:
             continue
     return found
@@ -90,7 +98,7 @@ def coexisting(found: dict[str, Regime]) -> dict[str, Regime]:
 
 
 def other_starts(parameters: Parameters) -> dict[str, Parameters]:
-    """The same rig, from rest, riding, and on a surface that runs up to its speed."""
+    """The same rig disturbed, from rest, riding, and on a surface that runs up to its speed."""
     surface, initial = parameters.surface, parameters.initial
     at_speed = surface.model_copy(update={"run_up_time": 0.0})
     running_up = surface.model_copy(update={"run_up_time": surface.run_up_time or RAMP_TIME})
@@ -99,7 +107,12 @@ def other_starts(parameters: Parameters) -> dict[str, Parameters]:
         curvature = 1.0 / parameters.rig.slab_radius
     still = {"x": 0.0, "vx": 0.0, "vy": 0.0, "omega": 0.0}
     carried = still | {"vx": surface.speed, "omega": surface.speed * curvature}
+    aside = {"y": initial.y + ASIDE, "phi": initial.phi + TURNED}
+    guided = {"y", "phi"} - set(parameters.rig.degrees_of_freedom)
+    aside = {name: place for name, place in aside.items() if name not in guided}
     return {
+        DISTURBED: parameters.model_copy(
+            update={"initial": initial.model_copy(update=aside)}),
         REST: parameters.model_copy(
             update={"surface": at_speed, "initial": initial.model_copy(update=still)}),
         RIDING: parameters.model_copy(
@@ -110,13 +123,19 @@ def other_starts(parameters: Parameters) -> dict[str, Parameters]:
 
 
 def regime_of(
-    parameters: Parameters, duration: float, temperature: float | None = None
+    parameters: Parameters,
+    duration: float,
+    temperature: float | None = None,
+    look: Callable[[], None] = lambda: None,
 ) -> Regime:
-    """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early."""
+    """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early.
+
+    look: called now and then; may raise.
+    """
     period = 1.0 / max(parameters.natural_frequency, 0.1)
     run = simulate(
         parameters, duration, min(0.05 * period, 0.01 * duration),
-        interface_temperature=temperature,
+        interface_temperature=temperature, progress=lambda reached: look(),
     )
     if not run.complete:
         raise RunEnded(run.reason)

@@ -13,6 +13,7 @@ in a natural period.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -81,12 +82,16 @@ class Stability:
 
 
 def stability(
-    parameters: Parameters, duration: float = 30.0, temperature: float | None = None
+    parameters: Parameters,
+    duration: float = 30.0,
+    temperature: float | None = None,
+    look: Callable[[], None] = lambda: None,
 ) -> Stability:
     """Multipliers of the last cycles of a run of ``duration`` (s).
 
-    temperature: of the interface, degC; left out, the reference of temperature_dependence. Raises
-    `live.RunEnded` where the motion cannot be followed that far.
+    temperature: of the interface, degC; left out, the reference of temperature_dependence. look:
+    called now and then; may raise. Raises `live.RunEnded` where the motion cannot be followed that
+    far.
     """
     straight = _has_line(parameters)
     on_line = parameters
@@ -95,7 +100,8 @@ def stability(
         on_line = _guided(parameters)
     beside = [i for name in ("y", "phi") if name in parameters.rig.degrees_of_freedom
               for i in BESIDE[name]]
-    run = simulate(on_line, duration, _sampling(parameters), interface_temperature=temperature)
+    run = simulate(on_line, duration, _sampling(parameters), interface_temperature=temperature,
+                   progress=lambda reached: look())
     if not run.complete:
         raise RunEnded(run.reason)
     moments, sticking = _sections(run)
@@ -109,12 +115,13 @@ def stability(
     product, cycles = np.eye(len(beside)), len(moments) - 1
     live = LiveRun(on_line, temperature)
     for begin, end in pairwise(moments):
+        look()
         free = live.advance(begin).of(parameters)
         product = _transfer(free, end, beside, scale, sticking) @ product
     moduli = np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles)
     amplified = np.nan
     if straight:
-        amplified = _amplification(parameters, run.time, temperature)
+        amplified = _amplification(parameters, run.time, temperature, look)
     return Stability(np.sort(moduli)[::-1], period, amplified, straight)
 
 
@@ -211,7 +218,7 @@ def _transfer(
 
 
 def _amplification(
-    parameters: Parameters, time: np.ndarray, temperature: float | None
+    parameters: Parameters, time: np.ndarray, temperature: float | None, look: Callable[[], None]
 ) -> float:
     """Largest distance from the line over that at the start, of a block displaced, and turned."""
     arm, largest = parameters.rig.contact_radius, 0.0
@@ -221,7 +228,8 @@ def _amplification(
         start = {name: START / (arm if name == "phi" else 1.0)}
         moved = parameters.model_copy(
             update={"initial": parameters.initial.model_copy(update=start)})
-        run = simulate(moved, time[-1], time[1], interface_temperature=temperature)
+        run = simulate(moved, time[-1], time[1], interface_temperature=temperature,
+                       progress=lambda reached: look())
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)
     return largest
