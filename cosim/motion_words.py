@@ -42,7 +42,7 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
     if found["verdict"] != UNSTABLE:
         fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
         return (f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
-                f"{fares}, by the factor {found['growth']:.3g} in a cycle. "
+                f"{fares}, by the factor {found['growth']:.3g} in {found['cycle']:.3g} s. "
                 f"{run_up_sentence(numbers)}".rstrip() + _further(found) + bent)
     return (
         f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
@@ -87,8 +87,8 @@ def _bent(numbers: Mapping[str, Any]) -> str:
         return ""
     return (
         " Started 0.1 mm aside and turned by 1 mrad, the block comes to "
-        f"{EXPLAINED_NOUN[regime['name']]} up to {1e3 * regime['max_y']:.2g} mm beside its line and "
-        f"turned by up to {regime['max_rotation_deg']:.2g}°."
+        f"{EXPLAINED_NOUN[regime['name']]} up to {1e3 * regime['max_y']:.2g} mm beside its line "
+        f"and turned by up to {regime['max_rotation_deg']:.2g}°."
     )
 
 
@@ -109,7 +109,8 @@ def regime_sentence(numbers: Mapping[str, Any]) -> str:
     own = found[OWN]["name"]
     line = f"This run {EXPLAINED[own]}."
     if not others:
-        return f"{line} So does the rig {_listed([SHORT[start] for start in found if start != OWN])}."
+        starts = [SHORT[start] for start in found if start != OWN]
+        return f"{line} So does the rig {_listed(starts)}."
     told = "; ".join(f"{STARTS[start]} it {EXPLAINED[found[start]['name']]}" for start in others)
     return f"{line} Another regime exists beside it: {told}."
 

@@ -7,7 +7,7 @@ import sys
 import xarray as xr
 from stickslip import Parameters, simulate
 from stickslip.compiled import is_cached
-from stickslip.steady_motion import assess
+from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import PATIENCE, deadline
 
 from cosim.cli.patience import Patience
@@ -26,14 +26,15 @@ def compile_model() -> None:
 def attach(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:
     """Let a complete run's dataset carry the assessment of its motion.
 
-    Friction that feels the interface has it at the temperature of the run's end. A Ctrl-C that came
-    in the meantime ends the work: what was computed goes to disk without it.
+    Friction that feels the interface has it as the run left it, temperature and water. A Ctrl-C
+    that came in the meantime ends the work: what was computed goes to disk without it.
     """
     if dataset.attrs["status"] != "complete":
         return
-    temperature = scenario.ambient.temperature_degC
+    interface = Interface(scenario.ambient.temperature_degC)
     if "interface_temperature" in dataset:
-        temperature = float(dataset["interface_temperature"].values[-1])
+        interface = Interface(float(dataset["interface_temperature"].values[-1]),
+                              float(dataset["film_thickness"].values[-1]))
     in_time = deadline(PATIENCE)
 
     def look() -> None:
@@ -42,4 +43,4 @@ def attach(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:
         in_time()
 
     attach_assessment(
-        dataset, assess(scenario.mechanics, scenario.run.duration, temperature, look=look))
+        dataset, assess(scenario.mechanics, scenario.run.duration, interface, look=look))

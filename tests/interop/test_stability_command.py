@@ -21,7 +21,7 @@ def test_it_writes_maps_a_page_and_numbers(tmp_path):
     numbers = json.loads(done.stdout)
     assert numbers == json.loads((tmp_path / "out" / "stability.json").read_text())
     assert numbers["stability"]["verdict"] == "unstable"
-    assert numbers["stability"]["least_pretension"] == pytest.approx(8.29e-3, abs=5e-5)
+    assert numbers["stability"]["least_pretension"] == pytest.approx(8.32e-3, abs=2e-5)
     growth = numbers["pretension_map"]["growth"]
     assert growth[0][0] > 1.0 > growth[2][0]  # none, and a fifth of the length
     found = numbers["regime_map"]
@@ -36,7 +36,7 @@ def test_a_run_on_an_unstable_path_says_so(tmp_path):
     done = stickslip(tmp_path, "simulate", "study", "-o", "out")
     assert done.returncode == 0
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("  unstable")]
-    assert "tenfold in 3.78 s" in line and "stable from 8.29 mm" in line
+    assert "tenfold in 3.78 s" in line and "stable from 8.32 mm" in line
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["stability"]["verdict"] == "unstable"
     assert summary["units"]["stability.least_pretension"] == "m"
@@ -51,7 +51,33 @@ def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
     assert "slides without ever sticking" in line and "riding on a surface" in line
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["other_regimes"] == ["riding"]
+    assert set(summary["regimes"]) == {"own", "disturbed", "rest", "riding", "ramp"}
     assert summary["regimes"]["riding"]["name"] == "stick-slip"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[structural_damping]\ncoefficient = 100.0\n",  # above the critical damping
+        "[friction]\nmu_s = 0.2\nmu_k = 0.3\n",
+        "[springs]\nstiffness = 0.0\nforce_curve_extension = [-0.2, 0.0, 0.2]\n"
+        "force_curve_force = [-4.0, 0.0, 4.0]\n",
+        '[rig]\ndegrees_of_freedom = ["x"]\n',
+        "[surface]\nspeed = -0.1\n",
+    ],
+)
+def test_odd_rigs_are_mapped_too(tmp_path, text):
+    (tmp_path / "odd.toml").write_text(text)
+    done = stickslip(tmp_path, "stability", "odd.toml", "--grid", "2", "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "") or "exceeds friction.mu_s" in done.stderr
+    assert json.loads((tmp_path / "out" / "stability.json").read_text())["regimes"]["own"]["name"]
+
+
+def test_a_run_too_short_to_tell_says_nothing_of_its_motion(tmp_path):
+    (tmp_path / "short.toml").write_text("[run]\nduration = 0.5\n")
+    done = stickslip(tmp_path, "simulate", "short.toml", "-o", "out")
+    assert done.returncode == 0 and "regimes" not in done.stdout and "unstable" not in done.stdout
+    assert "stability" not in json.loads((tmp_path / "out" / "summary.json").read_text())
 
 
 @pytest.mark.parametrize(
@@ -60,6 +86,9 @@ def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
         (["stability", "--grid", "1"], "--grid = 1: must be at least 2, or 0 for none"),
         (["stability", "still.toml"], "still: surface.speed = 0: needed is a surface that moves"),
         (["stability", "free.toml"], "free: springs.stiffness = 0: needed are springs"),
+        (["stability", "smooth.toml"], "smooth: friction.mu_k = 0: needed is friction in slip"),
+        (["stability", "ageing.toml"], "ageing: rate_and_state: its runs take too long"),
+        (["stability", "short.toml"], "short: run.duration = 0.1 s: the motion ends early, or is"),
         (["stability", "nowhere.toml"], "nowhere.toml: no such file"),
         (["simulate", "creep.toml"], "creep.toml: friction.stick_creep: 0.2 m/s is not below"),
     ],
@@ -68,6 +97,9 @@ def test_bad_input_is_one_line(tmp_path, arguments, line):
     (tmp_path / "still.toml").write_text("[surface]\nspeed = 0.0\n")
     (tmp_path / "free.toml").write_text("[springs]\nstiffness = 0.0\n")
     (tmp_path / "creep.toml").write_text("[friction]\nstick_creep = 0.2\n")
+    (tmp_path / "smooth.toml").write_text("[friction]\nmu_k = 0.0\n")
+    (tmp_path / "ageing.toml").write_text("[rate_and_state]\ndirect = 0.01\nevolution = 0.02\n")
+    (tmp_path / "short.toml").write_text("[run]\nduration = 0.1\n")
     done = stickslip(tmp_path, *arguments)
     assert done.returncode == 2
     assert line in done.stderr and len(done.stderr.splitlines()) == 1

@@ -66,7 +66,7 @@ def test_the_study_has_the_same_rig_without_pretension_and_is_said_to_be_unstabl
     assert (STUDY.springs, STUDY.friction) == (REFERENCE.springs, REFERENCE.friction)
     found = assess(STUDY)
     assert found.stability.verdict == "unstable"
-    assert found.borders.least == pytest.approx(8.3e-3, abs=0.1e-3)
+    assert found.borders.least == pytest.approx(8.32e-3, abs=0.02e-3)
     # its own motion stays on the line only because it starts there exactly
     assert np.abs(simulate(STUDY, 30.0)["phi"]).max() < 1e-7
     assert np.degrees(np.abs(simulate(turned(STUDY, 1e-3), 30.0)["phi"]).max()) > 15.0

@@ -9,6 +9,7 @@ from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion.regimes import (
     CREEPING,
+    DISTURBED,
     OWN,
     RAMP,
     REST,
@@ -78,7 +79,7 @@ def test_at_a_fifth_of_a_metre_a_second_two_regimes_exist():
     found = regimes(rig(0.2))
     assert list(found) == list(STARTS)
     assert {start: regime.name for start, regime in found.items()} == {
-        OWN: SLIDING, REST: SLIDING, RIDING: STICK_SLIP, RAMP: SLIDING}
+        OWN: SLIDING, DISTURBED: SLIDING, REST: SLIDING, RIDING: STICK_SLIP, RAMP: SLIDING}
     assert list(coexisting(found)) == [RIDING]
     assert found[RIDING].frequency > 1.0 and found[OWN].frequency == 0.0
     # a free vibration about F_k/K from rest has that amplitude

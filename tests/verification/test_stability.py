@@ -137,7 +137,8 @@ def test_fifty_rigs_fare_as_their_multipliers_say():
 def test_the_least_pretension_is_the_border_of_the_runs():
     parameters = rig()
     borders = pretension_borders(parameters)
-    assert borders.least == pytest.approx(8.29e-3, abs=0.05e-3) and not borders.further
+    # 8.321 mm by an independent model: a table of the disc's friction, DOP853, events of its own
+    assert borders.least == pytest.approx(8.321e-3, abs=0.01e-3) and not borders.further
     margin = 0.05 * borders.least
     assert grows(with_pretension(parameters, borders.least - margin))
     assert not grows(with_pretension(parameters, borders.least + margin))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.steady_motion import Assessment, assess
+from stickslip.steady_motion import Assessment, Interface, assess
 
 from cosim.scenario import Scenario
 
@@ -22,28 +22,28 @@ class NotAMotion(ValueError):
 class Case:
     """A scenario's mechanics and the assessment of its own run.
 
-    temperature: of the interface, degC.
+    interface: what friction feels there, of belt and ice as cold as the air.
     """
 
     name: str
     parameters: Parameters
-    temperature: float
+    interface: Interface
     assessment: Assessment
 
 
 def case_of(scenario: Scenario) -> Case:
     """The scenario, looked at for itself. NotAMotion where there is nothing to look at."""
-    parameters, temperature = scenario.mechanics, scenario.ambient.temperature_degC
+    parameters, interface = scenario.mechanics, Interface(scenario.ambient.temperature_degC)
     if fault := _fault(parameters):
         raise NotAMotion(f"{scenario.name}: {fault}")
-    found = assess(parameters, scenario.run.duration, temperature, look=lambda: None)
+    found = assess(parameters, scenario.run.duration, interface, look=lambda: None)
     if found is None:
         raise NotAMotion(
             f"{scenario.name}: run.duration = {scenario.run.duration:g} s: the motion ends early, "
             "or is over before five swings at constant speed; allowed is a longer run that can be "
             "followed"
         )
-    return Case(scenario.name, parameters, temperature, found)
+    return Case(scenario.name, parameters, interface, found)
 
 
 def _fault(parameters: Parameters) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.steady_motion import RunEnded, stability, with_pretension
+from stickslip.steady_motion import Interface, RunEnded, stability, with_pretension
 from stickslip.steady_motion.regimes import regime_of
 
 from .case import Case, at_speed, run_length
@@ -37,18 +37,18 @@ def pretension_map(
         moving = at_speed(case.parameters, speed)
         for i, pretension in enumerate(pretensions):
             parameters = with_pretension(moving, pretension)
-            growth[i, j], sticks[i, j] = _cell(parameters, case.temperature)
+            growth[i, j], sticks[i, j] = _cell(parameters, case.interface)
             done(1)
     return PretensionMap(np.asarray(pretensions), np.asarray(speeds), growth, sticks)
 
 
-def _cell(parameters: Parameters, temperature: float) -> tuple[float, float]:
+def _cell(parameters: Parameters, interface: Interface) -> tuple[float, float]:
     """Growth, and 1 where the block sticks on its line, else 0; NaN where it cannot be followed."""
     rig = parameters.rig.model_copy(update={"degrees_of_freedom": ("x",)})
     guided = parameters.model_copy(update={"rig": rig})
     duration = run_length(parameters)
     try:
-        growth = stability(parameters, duration, temperature).growth
-        return growth, float(regime_of(guided, duration, temperature).slip_share < 1.0)
+        growth = stability(parameters, duration, interface).growth
+        return growth, float(regime_of(guided, duration, interface).slip_share < 1.0)
     except RunEnded:
         return np.nan, np.nan

@@ -12,7 +12,7 @@ from stickslip.effects import EffectBlocks
 from stickslip.packing import GRAVITY
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
-from stickslip.steady_motion import RunEnded
+from stickslip.steady_motion import Interface, RunEnded
 from stickslip.steady_motion.regimes import (
     RAMP,
     REST,
@@ -62,7 +62,7 @@ def regime_map(
     for i, ratio in enumerate(ratios):
         for j, speed in enumerate(speeds):
             parameters = _with_ratio(at_speed(case.parameters, speed), ratio)
-            simulated[:, i, j] = _simulated(parameters, case.temperature)
+            simulated[:, i, j] = _simulated(parameters, case.interface)
             if known:
                 closed[:, i, j] = predicted(parameters)
             done(1)
@@ -77,13 +77,13 @@ def _with_ratio(parameters: Parameters, ratio: float) -> Parameters:
     return parameters.model_copy(update={"friction": changed})
 
 
-def _simulated(parameters: Parameters, temperature: float) -> list[str]:
+def _simulated(parameters: Parameters, interface: Interface) -> list[str]:
     starts = other_starts(parameters)
     names = []
     for start in STARTS:
         started = starts[start]
         try:
-            names.append(regime_of(started, run_length(started), temperature).name)
+            names.append(regime_of(started, run_length(started), interface).name)
         except RunEnded:
             names.append("")
     return names

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..parameters import Parameters
-from .live import RunEnded
+from .live import DRY, Interface, RunEnded
 from .pretension import COARSE, PretensionBorders, pretension_borders
 from .regimes import Regime, coexisting, regimes
 from .stability import Stability, stability
@@ -65,13 +65,13 @@ class Assessment:
 def assess(
     parameters: Parameters,
     duration: float = 30.0,
-    temperature: float | None = None,
+    interface: Interface = DRY,
     *,
     look: Callable[[], None] | None = None,
 ) -> Assessment | None:
     """Assess a run of ``duration`` (s), of which at most a minute, or 40 swings, at constant speed.
 
-    temperature: of the interface, degC; left out, the reference of temperature_dependence.
+    interface: its temperature and the water in it.
     look: called between runs, and raises TimeoutError when there is no time for more; left out, it
     does so after `PATIENCE`. None where the contact follows rate_and_state, whose runs take too
     long to be repeated, where the run is over before five swings or ends early, where nothing
@@ -89,10 +89,10 @@ def assess(
     try:
         look()
         return Assessment(
-            stability(parameters, duration, temperature, look),
-            regimes(parameters, duration, temperature, look),
+            stability(parameters, duration, interface, look),
+            regimes(parameters, duration, interface, look),
             parameters.rig.spring_length - parameters.rig.spring_natural_length,
-            _borders(parameters, duration, temperature, look),
+            _borders(parameters, duration, interface, look),
         )
     except (RunEnded, TimeoutError):
         return None
@@ -109,10 +109,10 @@ def deadline(patience: float) -> Callable[[], None]:
     return look
 
 
-def _borders(parameters, duration, temperature, look) -> PretensionBorders | None:
+def _borders(parameters, duration, interface, look) -> PretensionBorders | None:
     if parameters.rig.degrees_of_freedom == ("x",):
         return PretensionBorders(())
     try:
-        return pretension_borders(parameters, duration, temperature, step=COARSE, look=look)
+        return pretension_borders(parameters, duration, interface, step=COARSE, look=look)
     except (RunEnded, TimeoutError):
         return None

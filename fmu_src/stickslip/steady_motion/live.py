@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..kernel.layout import (
     SHOWN,
     STICK,
     TIME,
+    U_FILM,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -33,6 +35,24 @@ from ..parameters import Parameters
 STATE = 6
 
 
+@dataclass(frozen=True)
+class Interface:
+    """What friction may feel, constant over a run: temperature (degC; None: the reference of
+    temperature_dependence), and mean thickness of the water, m."""
+
+    temperature: float | None = None
+    film_thickness: float = 0.0
+
+    @property
+    def inputs(self) -> dict[str, float | None]:
+        """As `simulate` takes it."""
+        return {"interface_temperature": self.temperature, "film_thickness": self.film_thickness}
+
+
+#: At the reference temperature, without water.
+DRY = Interface()
+
+
 class RunEnded(ValueError):
     """The motion cannot be followed any further; the message says when and why."""
 
@@ -41,15 +61,16 @@ class LiveRun:
     """The compiled kernel at one moment of a run.
 
     Everything that the run remembers is in it, so that a copy goes on exactly as the original
-    would. temperature: of the interface, degC; left out, the reference of temperature_dependence.
+    would. interface: its temperature and the water in it.
     """
 
-    def __init__(self, parameters: Parameters, temperature: float | None = None) -> None:
-        if temperature is None:
-            temperature = parameters.temperature_dependence.reference_degC
+    def __init__(self, parameters: Parameters, interface: Interface = DRY) -> None:
         self._kernel = compiled_kernel()
         self._p, self._u = np.array(parameters.pack()), np.zeros(U_SIZE)
-        self._u[U_SPEED], self._u[U_TEMPERATURE] = parameters.surface.speed, temperature
+        self._u[U_SPEED], self._u[U_FILM] = parameters.surface.speed, interface.film_thickness
+        self._u[U_TEMPERATURE] = interface.temperature
+        if interface.temperature is None:
+            self._u[U_TEMPERATURE] = parameters.temperature_dependence.reference_degC
         self._z, self._w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
         self._e = np.zeros(E_FIRST + E_WIDTH)
         self._e[E_CAPACITY] = 1.0

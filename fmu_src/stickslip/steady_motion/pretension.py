@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..parameters import Parameters
+from .live import DRY, Interface
 from .stability import stability
 
 #: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
@@ -49,21 +50,21 @@ class PretensionBorders:
 def pretension_borders(
     parameters: Parameters,
     duration: float = 30.0,
-    temperature: float | None = None,
+    interface: Interface = DRY,
     *,
     step: float = FINE,
     look: Callable[[], None] = lambda: None,
 ) -> PretensionBorders:
     """Where a run of ``duration`` (s) is unstable, everything but the pretension as given.
 
-    temperature: of the interface, degC; left out, the reference of temperature_dependence. step: of
+    interface: its temperature and the water in it. step: of
     the search, part of the installed length. look: called now and then; may raise.
     Raises `live.RunEnded` where a motion cannot be followed.
     """
 
     def excess(pretension: float) -> float:
         changed = with_pretension(parameters, pretension)
-        return stability(changed, duration, temperature, look).growth - 1.0 - ROUNDING
+        return stability(changed, duration, interface, look).growth - 1.0 - ROUNDING
 
     steps = parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)
     unstable = [excess(step) > 0.0 for step in steps]

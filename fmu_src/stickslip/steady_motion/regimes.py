@@ -18,7 +18,7 @@ import numpy as np
 from ..parameters import Parameters
 from ..simulate import simulate
 from ..trajectory import Trajectory, slip_share
-from .live import RunEnded
+from .live import DRY, Interface, RunEnded
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
 OWN, DISTURBED, REST, RIDING, RAMP = "own", "disturbed", "rest", "riding", "ramp"
@@ -50,7 +50,7 @@ class Regime:
     ----------
     name : stick-slip, sliding (does not stick), sticking (does not slip) or creeping (its contact
         is sheared at nearly the surface's speed and never breaks away)
-    frequency : break-aways per second, Hz
+    frequency : of the break-aways, from the first to the last; Hz
     slip_share : part of the time in slip
     mean_x, half_range_x : m
     max_y : largest distance from the line, m
@@ -69,24 +69,24 @@ class Regime:
 def regimes(
     parameters: Parameters,
     duration: float = 30.0,
-    temperature: float | None = None,
+    interface: Interface = DRY,
     look: Callable[[], None] = lambda: None,
 ) -> dict[str, Regime]:
     """The regime of the scenario's own run and of the other starts, by the names of `STARTS`.
 
     duration: of the own run, s; each of the others is at constant speed as long, and at least 20 s.
-    temperature: of the interface, degC; left out, the reference of temperature_dependence. look:
+    interface: its temperature and the water in it. look:
     called now and then; may raise. Raises `live.RunEnded` where the own motion cannot be followed;
     another start of which that is so is left out.
     """
-    found = {OWN: regime_of(parameters, duration, temperature, look)}
+    found = {OWN: regime_of(parameters, duration, interface, look)}
     steady = duration - parameters.surface.run_up_time
     natural = PERIODS / max(parameters.natural_frequency, 0.1)
     steady = max(steady, SHORTEST, natural)
     for name, started in other_starts(parameters).items():
         try:
             length = duration if name == DISTURBED else steady + started.surface.run_up_time
-            found[name] = regime_of(started, length, temperature, look)
+            found[name] = regime_of(started, length, interface, look)
         except RunEnded:
             continue
     return found
@@ -125,7 +125,7 @@ def other_starts(parameters: Parameters) -> dict[str, Parameters]:
 def regime_of(
     parameters: Parameters,
     duration: float,
-    temperature: float | None = None,
+    interface: Interface = DRY,
     look: Callable[[], None] = lambda: None,
 ) -> Regime:
     """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early.
@@ -135,7 +135,7 @@ def regime_of(
     period = 1.0 / max(parameters.natural_frequency, 0.1)
     run = simulate(
         parameters, duration, min(0.05 * period, 0.01 * duration),
-        interface_temperature=temperature, progress=lambda reached: look(),
+        **interface.inputs, progress=lambda reached: look(),
     )
     if not run.complete:
         raise RunEnded(run.reason)
@@ -152,13 +152,18 @@ def read_regime(run: Trajectory, begin: float) -> Regime:
     x = run["x"][late]
     return Regime(
         name=_name(run, late, share),
-        frequency=float(np.sum((starts >= time[0]) & (starts <= time[-1]))) / np.ptp(time),
+        frequency=_frequency(starts[(starts >= time[0]) & (starts <= time[-1])]),
         slip_share=share,
         mean_x=float(np.trapezoid(x, time) / np.ptp(time)),
         half_range_x=0.5 * float(np.ptp(x)),
         max_y=float(np.abs(run["y"][late]).max()),
         max_rotation_deg=float(np.degrees(np.abs(run["phi"][late]).max())),
     )
+
+
+def _frequency(starts: np.ndarray) -> float:
+    """One over the mean period, Hz; 0 of fewer than two."""
+    return float((starts.size - 1) / (starts[-1] - starts[0])) if starts.size > 1 else 0.0
 
 
 def _name(run: Trajectory, late: np.ndarray, share: float) -> str:

@@ -22,7 +22,7 @@ import numpy as np
 from ..parameters import Parameters
 from ..simulate import simulate
 from ..trajectory import Trajectory
-from .live import LiveRun, RunEnded
+from .live import DRY, Interface, LiveRun, RunEnded
 
 STABLE, NEUTRAL, UNSTABLE, GUIDED = "stable", "neutral", "unstable", "guided"
 #: Multipliers this close to 1 are told as 1: what grows by e in a thousand cycles is in no run.
@@ -84,12 +84,12 @@ class Stability:
 def stability(
     parameters: Parameters,
     duration: float = 30.0,
-    temperature: float | None = None,
+    interface: Interface = DRY,
     look: Callable[[], None] = lambda: None,
 ) -> Stability:
     """Multipliers of the last cycles of a run of ``duration`` (s).
 
-    temperature: of the interface, degC; left out, the reference of temperature_dependence. look:
+    interface: its temperature and the water in it. look:
     called now and then; may raise. Raises `live.RunEnded` where the motion cannot be followed that
     far.
     """
@@ -100,7 +100,7 @@ def stability(
         on_line = _guided(parameters)
     beside = [i for name in ("y", "phi") if name in parameters.rig.degrees_of_freedom
               for i in BESIDE[name]]
-    run = simulate(on_line, duration, _sampling(parameters), interface_temperature=temperature,
+    run = simulate(on_line, duration, _sampling(parameters), **interface.inputs,
                    progress=lambda reached: look())
     if not run.complete:
         raise RunEnded(run.reason)
@@ -113,7 +113,7 @@ def stability(
         return Stability(np.empty(0), period, 0.0, straight)
     scale = _scale(parameters)[beside]
     product, cycles = np.eye(len(beside)), len(moments) - 1
-    live = LiveRun(on_line, temperature)
+    live = LiveRun(on_line, interface)
     for begin, end in pairwise(moments):
         look()
         free = live.advance(begin).of(parameters)
@@ -121,7 +121,7 @@ def stability(
     moduli = np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles)
     amplified = np.nan
     if straight:
-        amplified = _amplification(parameters, run.time, temperature, look)
+        amplified = _amplification(parameters, run.time, interface, look)
     return Stability(np.sort(moduli)[::-1], period, amplified, straight)
 
 
@@ -218,7 +218,7 @@ def _transfer(
 
 
 def _amplification(
-    parameters: Parameters, time: np.ndarray, temperature: float | None, look: Callable[[], None]
+    parameters: Parameters, time: np.ndarray, interface: Interface, look: Callable[[], None]
 ) -> float:
     """Largest distance from the line over that at the start, of a block displaced, and turned."""
     arm, largest = parameters.rig.contact_radius, 0.0
@@ -228,7 +228,7 @@ def _amplification(
         start = {name: START / (arm if name == "phi" else 1.0)}
         moved = parameters.model_copy(
             update={"initial": parameters.initial.model_copy(update=start)})
-        run = simulate(moved, time[-1], time[1], interface_temperature=temperature,
+        run = simulate(moved, time[-1], time[1], **interface.inputs,
                        progress=lambda reached: look())
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)
