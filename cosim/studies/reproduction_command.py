@@ -66,6 +66,8 @@ def execute(arguments: Namespace) -> int:
     wall_time = time.perf_counter() - began
     for claim in claims:
         print(f"{claim.id:<4} {claim.verdict:<30} {claim.title}")
+        if claim.scope:
+            print(f"     scope: {claim.scope}")
         print(f"     {claim.reason}")
         print(f"     {_firmness(claim)}")
     if found:

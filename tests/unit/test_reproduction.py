@@ -3,6 +3,7 @@
 import json
 import math
 from argparse import ArgumentParser
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,15 @@ from cosim.cli import main
 from cosim.studies import reproduction_command
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
 from cosim.studies.reproduction.cases import DATASET_1, exact_figures, scheme_figures
-from cosim.studies.reproduction.claim import FAR, OPEN, PUT_IN, Margin, Turn, responsible
+from cosim.studies.reproduction.claim import (
+    FAR,
+    OPEN,
+    PUT_IN,
+    Margin,
+    Turn,
+    responsible,
+    responsible_pairs,
+)
 from cosim.studies.reproduction.claims.belt_length import repeated
 from cosim.studies.reproduction.claims.friction_level import OBSERVATIONS, Variant
 from cosim.studies.reproduction.motion import Motion, figures
@@ -97,6 +106,52 @@ def test_a_claim_is_as_good_as_its_worst_part():
     undecided = Check("open", True, True, False, turns=(Turn("a change", "x", True, OPEN),))
     assert claim_of(faulty, undecided).verdict == "undecided"
     assert claim_of(good, bad).reason.startswith("bad (as printed: no")
+
+
+def test_a_part_names_the_faults_behind_it():
+    alone = Check("so", True, False, None, faults=("F2",))
+    assert alone.verdict_with_faults == "holds only with fault F2"
+    pairs = responsible_pairs(lambda faults: faults.F1 or faults.F2)
+    assert pairs == (("F1", "F2"),)
+    both = Check("so", True, False, None, together=pairs)
+    assert "ended by mending F1 and F2" in both.verdict_with_faults
+    unknown = Check("so", True, False, None)
+    assert unknown.verdict_with_faults == "holds only with fault of the scheme (several together)"
+    assert Check("so", True, True, True).verdict_with_faults == "holds"
+
+
+def test_a_scope_is_told_beside_the_verdict():
+    claim = replace(claim_of(Check("good", True, True, True)), scope="up to 0.44 m/s")
+    assert claim.verdict == "holds"
+    told = json.loads(as_json([claim]))
+    assert told["claims"][0]["scope"] == told["referee"][0]["scope"] == "up to 0.44 m/s"
+    assert page([claim], {}).count("up to 0.44 m/s") == 2
+
+
+def test_a_rotation_that_is_the_farthest_is_the_one_drawn():
+    """C7's figure and row are of the same run."""
+    from cosim.studies.reproduction.claims.rotation import _farthest, _largest
+
+    shown = np.degrees(np.abs(_farthest(DATASET_1, PRINTED).phi).max())
+    assert shown == _largest(DATASET_1, PRINTED).max_rotation
+    assert shown > 150.0
+
+
+def test_a_spread_of_one_percent_less_is_flat():
+    from cosim.studies.reproduction.claims.kinetic_coefficient import _shrinks
+
+    assert _shrinks([0.0209, 0.0211, 0.0196])  # from end to end, whatever is between
+    assert not _shrinks([0.0200, 0.01985]) and not _shrinks([0.0199, 0.0201])
+
+
+def test_jumps_hang_on_the_assumed_slope():
+    """C14: each named run jumps at some slope near the assumed one, so neither yes nor no."""
+    from cosim.studies.reproduction.claims.jumps_to_stick import NAMED, _jumps, _other_laws
+
+    for case in NAMED:
+        assert _jumps(case, PRINTED) == 0
+        turned = {turn.sound for turn in _other_laws(case)}
+        assert turned == {True, False}
 
 
 def test_responsible_faults_are_found_one_by_one():

@@ -11,6 +11,7 @@ from .claims.spring_angles import ROTATES
 from .readings import (
     AS_PRINTED,
     BALANCED,
+    ENOUGH,
     MARKS,
     ROUNDED,
     Outcome,
@@ -19,8 +20,6 @@ from .readings import (
     reading_figures,
 )
 
-#: A reading stands with most of the marks; the scheme as printed stands in any case.
-ENOUGH = 3
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
 
@@ -91,7 +90,8 @@ class Datasets:
         return (
             f"{'A' if self.found else 'No'} reading of the scheme gives both of the study's "
             f"datasets. As printed it gives the rotation of dataset #1 (up to {first:.0f}° in "
-            "three runs against the study's 150°) and nothing of dataset #2: "
+            "the 20 s after ten cycles of three runs, against the study's 150°) and nothing of "
+            "dataset #2: "
             f"{count:.1f} oscillations in 20 s against 30 or 31, a mean of x of {mean:+.3f} m "
             f"against +0.004 m, {second:.0f}° against 15°. The scatter is not the reason. The "
             "printed scheme is unstable: whatever first turns the block grows until the springs' "

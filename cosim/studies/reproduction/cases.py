@@ -42,6 +42,7 @@ GUIDED_ASSUMED = (
 )
 # rad: an ideal start would hide whether straight sliding is stable
 TURNED = math.radians(1.0)
+EXACT_START = " (exact: a block that only keeps its start shows the 1° of that)"
 GUIDED = {"degrees_of_freedom": ("x",)}
 SCATTER = 0.02
 SCATTER_ASSUMED = (

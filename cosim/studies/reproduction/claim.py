@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import combinations
 
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
@@ -17,6 +18,8 @@ UNDECIDED = "undecided"
 ONLY_WITH_FAULT = "holds only with fault"
 DOES_NOT_HOLD = "does not hold"
 CANNOT_BE_CHECKED = "cannot be checked"
+# where no fault by itself makes the part
+SEVERAL = "of the scheme (several together)"
 # from good to bad: a claim is as good as its worst part that can be checked
 # (an undecided part may yet be one that does not hold)
 ORDER = (HOLDS, FOLLOWS, ONLY_WITH_FAULT, UNDECIDED, DOES_NOT_HOLD)
@@ -85,7 +88,8 @@ class Turn:
 class Check:
     """One part of a claim, asked of each model; None: the model cannot tell.
 
-    faults: those of which each, mended alone in the printed scheme, makes the part fail there.
+    faults: those of which each, mended alone in the printed scheme, makes the part fail there;
+    together: where none does, the pairs that do.
     """
 
     says: str
@@ -95,6 +99,7 @@ class Check:
     faults: tuple[str, ...] = ()
     margin: Margin | None = None
     turns: tuple[Turn, ...] = ()
+    together: tuple[tuple[str, str], ...] = ()
 
     @property
     def sound(self) -> bool | None:
@@ -121,6 +126,15 @@ class Check:
             return HOLDS
         return ONLY_WITH_FAULT if self.printed else DOES_NOT_HOLD
 
+    @property
+    def verdict_with_faults(self) -> str:
+        """The word, and behind `holds only with fault` the faults, or pairs that act together."""
+        if self.verdict != ONLY_WITH_FAULT:
+            return self.verdict
+        pairs = "; ".join(" and ".join(pair) for pair in self.together)
+        named = f"of several together (ended by mending {pairs})" if pairs else SEVERAL
+        return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or named}"
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -128,7 +142,8 @@ class Claim:
 
     place: where the study makes it; rests: what the verdict rests on; first: what must be known to
     read the numbers; remarks: what was found on the way; assumed: what the study does not print and
-    was assumed; leading: place of the row that stands for the claim.
+    was assumed; leading: place of the row that stands for the claim; scope: how far the verdict
+    reaches, where that is less far than the title.
     """
 
     id: str
@@ -142,6 +157,7 @@ class Claim:
     place: str = ""
     rests: str = ""
     first: str = ""
+    scope: str = ""
 
     @property
     def word(self) -> str:
@@ -165,7 +181,7 @@ class Claim:
         """The word, and behind `holds only with fault` the faults."""
         if self.word != ONLY_WITH_FAULT:
             return self.word
-        return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or 'of the scheme (several together)'}"
+        return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or SEVERAL}"
 
     @property
     def deciding(self) -> tuple[Check, ...]:
@@ -209,6 +225,13 @@ def _reason(check: Check) -> str:
         if answer is not None
     ]
     return f"{check.says} ({', '.join(answers) or 'no figure to compare with'})"
+
+
+def responsible_pairs(holds: Callable[[Faults], bool]) -> tuple[tuple[str, str], ...]:
+    """Pairs of faults that, mended together, make ``holds`` fail; for where no single one does."""
+    return tuple(
+        pair for pair in combinations(DESCRIPTIONS, 2) if not holds(PRINTED.without(*pair))
+    )
 
 
 def responsible(holds: Callable[[Faults], bool]) -> tuple[str, ...]:

@@ -48,7 +48,9 @@ class Mark:
 MEAN_2 = STUDY["mean_x_dataset_2"]
 TURN_1, TURN_2 = STUDY["rotation_dataset_1"], STUDY["rotation_dataset_2"]
 SETS_IN = STUDY["rotation_sets_in"]
+SETS_IN_AFTER = 10.0  # s: before it there is barely any rotation, after it the block turns
 FACTOR = 1.5
+ENOUGH = 3  # a reading stands with most of the five marks
 SEEN = 5.0  # deg: a rotation that shows in a plot of some hundred
 #: A run turns by half as much again as another of the same kind; a window may cut an oscillation.
 MARKS = (
@@ -59,8 +61,8 @@ MARKS = (
          TURN_2.value * FACTOR, TURN_2.place),
     Mark("largest rotation, #1", "deg", 1, "max_rotation", TURN_1.value, TURN_1.value / FACTOR,
          TURN_1.value * FACTOR, TURN_1.place),
-    Mark("rotation sets in, #1", "s", 1, "onset", SETS_IN.value, SETS_IN.value / FACTOR,
-         SETS_IN.value * FACTOR, SETS_IN.place),
+    Mark("rotation sets in, #1", "s", 1, "onset", SETS_IN.value, SETS_IN_AFTER / FACTOR,
+         SETS_IN_AFTER * FACTOR, SETS_IN.place),
 )
 
 
@@ -83,12 +85,16 @@ class Reading:
     quarter: tuple[float, float] | None = None
     turned: float = ROUNDING
 
-    def case(self, dataset: int, stiffness: float = DATASET_1.stiffness) -> Case:
-        """The dataset as this reading has it, on springs of ``stiffness`` N/m."""
+    def case(
+        self, dataset: int, stiffness: float = DATASET_1.stiffness, mu_k: float | None = None
+    ) -> Case:
+        """The dataset as this reading has it, on springs of ``stiffness`` N/m; mu_k: another."""
         case = {1: DATASET_1, 2: DATASET_2}[dataset]
         case = case.changed(weakening=self.weakening, stiffness=stiffness)
         if self.quarter and dataset == 2:
             case = case.changed(mu_s=self.quarter[0], mu_k=self.quarter[1])
+        if mu_k is not None:
+            case = case.changed(mu_k=mu_k)
         return case if self.speed is None else case.changed(speed=self.speed)
 
     @property

@@ -101,7 +101,8 @@ def judge_length() -> Claim:
     return Claim(
         "C13", "1 m of belt is enough",
         (
-            *(Row(f"rise where the belt meets the ice, {length:.0f} m", "K", None, *rises[length],
+            *(Row(f"rise where the belt meets the ice, {length:.0f} m, no run-up, "
+                  f"h {HEAT_TRANSFER:.0f} W/m²K", "K", None, *rises[length],
                   derived=round(TABLE[length] - ambient, 4), how="table 3.5, less −8 degC")
               for length in TABLE),
             Row("sensitivity of the camera, data sheet", "mK", STUDY["camera_mK"]),
@@ -124,6 +125,11 @@ def judge_length() -> Claim:
             f"With all passes and nothing else mended the check gives {passes:.3f} K, for its "
             f"{PRINTED.cooling_rate:g} 1/s is {PRINTED.cooling_rate / cooling_rate():.1f} times "
             f"the rate of {HEAT_TRANSFER:.0f} W/m²K.",
+            f"These rises are of the study's check: {RUN:.0f} s at {SPEED} m/s at once. A run as "
+            f"the study plans it has {RAMP:.0f} s of run-up first: "
+            f"{finite_elements(1.0, ramp=RAMP)[0]:.2f} K on 1 m. `stickslip belt-length --length "
+            "1 --speed 0.82 --h 15` gives the same; without `--h` it takes the air that a belt "
+            "of that speed stirs, and says how far its figure may be off.",
             "The study names no limit. The camera's data sheet says 0.07 K; when it was tried it "
             "told 1 °C, and not the 0.01 °C that were wanted (§6.1): so a rise between the two is "
             "neither surely seen nor surely not.",

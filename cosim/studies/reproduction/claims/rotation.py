@@ -10,6 +10,7 @@ from cosim.studies.drawing import panels, picture
 from ..cases import (
     DATASET_1,
     DATASET_2,
+    EXACT_START,
     RIG_ASSUMED,
     SCATTER_ASSUMED,
     Case,
@@ -21,7 +22,7 @@ from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS, LABELS, study_line
 from ..motion import Motion, MotionFigures, figures
 from ..printed import STUDY
-from ..readings import MARKS, READINGS, outcomes, reading_figures
+from ..readings import AS_PRINTED, MARKS, READINGS, outcomes, reading_figures
 
 SEEDS = tuple(range(8))
 FAR_TURN = STUDY["rotation_dataset_1"].value
@@ -30,10 +31,14 @@ MEASURED = STUDY["rotation_measured"].value
 FACTOR = 1.5
 
 
-def _largest(case: Case, faults: Faults) -> MotionFigures:
+def _farthest(case: Case, faults: Faults) -> Motion:
     """The run of several seeds that turns farthest."""
-    runs = [figures(scheme_motion(case, faults, seed)) for seed in SEEDS]
-    return max(runs, key=lambda one: one.max_rotation)
+    runs = [scheme_motion(case, faults, seed) for seed in SEEDS]
+    return max(runs, key=lambda one: float(np.abs(one.phi).max()))
+
+
+def _largest(case: Case, faults: Faults) -> MotionFigures:
+    return figures(_farthest(case, faults))
 
 
 def _turns_still(faults: Faults) -> bool:
@@ -52,7 +57,8 @@ def judge() -> Claim:
         exact = figures(exact_motion(exact_parameters(case)))
         found[name] = (_largest(case, PRINTED), _largest(case, MENDED), exact)
         angle, rate = (STUDY[f"{what}_dataset_{name[1:]}"] for what in ("rotation", "swing"))
-        rows.append(Row(f"largest rotation, dataset {name}", "deg", angle,
+        rows.append(Row(f"largest rotation, dataset {name}, of {len(SEEDS)} runs{EXACT_START}",
+                        "deg", angle,
                         *(one.max_rotation for one in found[name])))
         rows.append(Row(f"angle by duration of the fastest swing, dataset {name}", "deg/s", rate,
                         *(one.swing_rate for one in found[name])))
@@ -67,11 +73,11 @@ def judge() -> Claim:
         (
             Check(f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°", *far,
                   faults=responsible(_turns_still),
-                  margin=Margin("largest rotation #1, exact", found["#1"][2].max_rotation,
-                                FAR_TURN / FACTOR, "°")),
+                  margin=Margin("largest rotation #1, exact, its start",
+                                found["#1"][2].max_rotation, FAR_TURN / FACTOR, "°")),
             Check(f"dataset #2 stays within {FACTOR * MEASURED:.0f}°", *near,
-                  margin=Margin("largest rotation #2, exact", found["#2"][2].max_rotation,
-                                FACTOR * MEASURED, "°")),
+                  margin=Margin("largest rotation #2, exact, its start",
+                                found["#2"][2].max_rotation, FACTOR * MEASURED, "°")),
             Check("one and the same model does both", *both,
                   margin=Margin("marks of the two datasets met by the best reading",
                                 max(sum(one.met) for one in outcomes()), len(MARKS)),
@@ -82,6 +88,9 @@ def judge() -> Claim:
             f"{found['#2'][0].max_rotation:.0f}°: not within the {MEASURED:.0f}° that the study "
             "takes for measured. In the mended scheme and in the exact model it stays within, for "
             "there nothing turns: neither does dataset #1.",
+            f"{found['#1'][0].max_rotation:.0f}° is the farthest of {len(SEEDS)} whole runs. The "
+            "table of readings has three runs, and of each the 20 s after ten cycles: "
+            f"{reading_figures(AS_PRINTED, 1).max_rotation:.0f}°.",
             "The study's angular speeds are the angle of a swing by its duration; so are ours.",
         ),
         place="§4.6.4, fig. 4.21, eq. 4.26",
@@ -120,24 +129,25 @@ def _readings() -> list[Turn]:
     return turns
 
 
-@picture("C7_rotation", "φ(t) of datasets #1 and #2 as printed, mended and in the exact model. "
-         "Study: figure 4.21.")
+@picture("C7_rotation", "φ(t) of datasets #1 and #2 as printed and mended (of eight runs each the "
+         "one that turns farthest) and in the exact model. Study: figure 4.21.")
 def _draw():
     figure, axes = panels(1, 2, height=2.7)
     for ax, name, case in ((axes[0, 0], "#1", DATASET_1), (axes[0, 1], "#2", DATASET_2)):
         runs: dict[str, Motion] = {
-            "printed": scheme_motion(case, PRINTED), "mended": scheme_motion(case, MENDED),
+            "printed": _farthest(case, PRINTED), "mended": _farthest(case, MENDED),
             "exact": exact_motion(exact_parameters(case)),
         }
         for model, run in runs.items():
             style = {"color": COLOURS[model], "label": LABELS[model], "lw": 1.0}
             ax.plot(run.time, np.degrees(run.phi), **style)
         for sign in (1, -1):
-            largest = STUDY[f"rotation_dataset_{name[1:]}"].value
-            study_line(ax, sign * largest, "study's largest" if sign == 1 else "_")
-        ax.set_title(f"dataset {name}")
+            study = STUDY[f"rotation_dataset_{name[1:]}"].value
+            study_line(ax, sign * study, "study's largest" if sign == 1 else "_")
+        largest = np.degrees(np.abs(runs["printed"].phi).max())
+        ax.set_title(f"dataset {name}: as printed up to {largest:.0f}°")
         ax.set_xlabel("time, s")
         ax.set_ylabel("φ, °")
-        ax.set_xlim(0.0, 30.0)
+        ax.set_xlim(0.0, runs["printed"].time[-1])
     figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=4, loc="outside upper center")
     return figure

@@ -59,6 +59,7 @@ def judge() -> Claim:
         ),
         assumed=(LAW_ASSUMED, GUIDED_ASSUMED),
         pictures=(_draw(times),),
+        scope=_scope(times["exact"]),
         place="§5.2, fig. 5.6",
         rests=f"the speeds at which the exact model sticks: {np.isfinite(times['exact']).sum()} of "
               f"{len(SPEEDS)}",
@@ -90,6 +91,17 @@ def _no_stick(times: np.ndarray) -> str:
         f"Exact model: no stick at {', '.join(f'{v:.2f}' for v in without)} m/s. Where the speeds "
         "meet, the springs pull harder than µ_s m g, and the block slides through; the study "
         "treats its four runs from 0.79 to 0.82 m/s as outliers."
+    )
+
+
+def _scope(times: np.ndarray) -> str:
+    """The speeds at which there is a slip to time."""
+    sticks = np.isfinite(times)
+    if sticks.all():
+        return ""
+    return (
+        f"where the block sticks at all: in the exact model at {sticks.sum()} of {len(SPEEDS)} "
+        f"speeds, up to {np.array(SPEEDS)[sticks].max():.2f} m/s; above that there is no slip time"
     )
 
 
