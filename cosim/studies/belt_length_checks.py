@@ -1,4 +1,4 @@
-"""Bad input of `stickslip belt-length`, in the words of whoever gave it: option, or file and key."""
+"""Bad input of `stickslip belt-length`, named by option, or by file and key."""
 
 from __future__ import annotations
 

@@ -148,7 +148,8 @@ def draw_doubt(row: Row) -> Figure:
     totals = [indices[one.key].total for one in single]
     errors = [indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set(xlabel="part of the drift's variance [1]", title="How much of the doubt it has a hand in\n"
+    right.set(xlabel="part of the drift's variance [1]",
+              title="How much of the doubt it has a hand in\n"
               "(total Sobol index, with 95 % interval)")
     right.set_xlim(left=0.0)
     return figure

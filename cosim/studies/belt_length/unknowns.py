@@ -107,8 +107,7 @@ class Melts(Exception):
 
 
 def answers(case: Case, values: dict[str, float]) -> Array:
-    """A, B and C of both rises of a case with values of SHAPING, K: (2, 3). Melts where the ice does.
-    """
+    """A, B, C of both rises of a case with values of SHAPING, K: (2, 3). Melts where ice does."""
     sliding = _shaped(case, values).sliding()
     force, found = sliding.force, np.empty((2, 3))
     for column in (CONTACT, RAILING, ROLLERS):

@@ -14,7 +14,8 @@ def verdict(study: Study) -> list[str]:
     if not study.rows:
         return ["Nothing was computed, so nothing can be said."]
     rows = [row for row in study.rows if row.case.length == ONE_METRE]
-    return [*_one_metre(study, rows), *_limit(study), *_shortest(study), *_doubted(study), *_interface(study), *_wait(study), *_helps(study),
+    return [*_one_metre(study, rows), *_limit(study), *_shortest(study), *_doubted(study),
+            *_interface(study), *_wait(study), *_helps(study),
             *_study_number(study), *_influence(study), *_melting(study)]
 
 
