@@ -22,7 +22,6 @@ from cosim.scenario_faults import ScenarioError
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
-    FEWEST_SAMPLES,
     Case,
     DriftMap,
     Options,
@@ -35,6 +34,7 @@ from cosim.studies.belt_length import (
     verdict,
     work_off,
 )
+from cosim.studies.belt_length_checks import check_case, check_options
 from cosim.studies.drawing import OutputRefused, Picture, writable
 from thermal import MeshError, ParameterError
 from thermal.air import NotLaminar
@@ -47,6 +47,14 @@ RESULT, TABLE = "belt_length.json", "belt_length.csv"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
+
+#: The printed columns in words.
+LEGEND = (
+    "study: its single pass; drift: rise of the belt over the air where it enters the contact, at"
+    " the end of the runs; low, high: 5 and 95 % of the doubt; steady: for ever; interface drift:"
+    " what the interface warms by at constant speed; endless belt: on one that never comes round;"
+    " ice: rise of its face; belt share: of the friction heat; wait: until belt and ice are within"
+    " the limit again; mu change: of the kinetic friction by the interface's rise, relative.")
 
 #: Choice -> field of a case, the study's values (None: the default case's), unit, what it is.
 CHOICES: dict[str, tuple[str, tuple[float, ...] | None, str, str]] = {
@@ -80,10 +88,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     _add_protocol(parser)
     parser.add_argument(
         "--limit", metavar="K", type=float, default=CAMERA,
-        help=f"drift that is allowed, K (default: {CAMERA:g}, what the camera sees)")
+        help=f"rise that is allowed, K (default: {CAMERA:g}, by the camera's data sheet; a choice)")
     parser.add_argument(
         "--sensitivity", metavar="S", type=float,
-        help="part of the friction lost per kelvin, 1/K (default: linear to the melting point)")
+        help="part of the friction lost per kelvin, 0 to 1 1/K (default: linear to melting)")
     parser.add_argument(
         "--samples", metavar="N", type=int, default=128,
         help="runs of the model for the uncertainty, a power of two, 0 for none (default: 128)")
@@ -161,38 +169,28 @@ def execute(arguments: Namespace) -> int:
 
 def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     """Cases and options, all of them checked before anything is computed."""
-    _check_options(arguments)
+    check_options(arguments)
     given = arguments.scenario is not None
-    base = scenario_case(read_scenario(arguments.scenario)) if given else STUDY
+    base = _from_file(arguments.scenario) if given else STUDY
     base = replace(base, protocol=_protocol(base, arguments))
     choices = {}
     for name, (field, values, _, _) in CHOICES.items():
         asked = getattr(arguments, name)
         own = (getattr(base, field),) if given or values is None else values
         choices[field] = own if asked is None else asked
-    if 0.0 in choices["h"]:
-        raise NoSteadyState(
-            "--h = 0: a belt that gives no heat to the air warms for ever, and the study asks for"
-            " its steady state; allowed is above 0 W/m2K")
     wanted = cases(base, **choices)
     for case in wanted:
-        case.thermal()
+        check_case(case, arguments)
     return wanted, Options(arguments.limit, arguments.sensitivity, arguments.samples)
 
 
-def _check_options(arguments: Namespace) -> None:
-    if not (math.isfinite(arguments.limit) and arguments.limit > 0.0):
-        raise StudyError(f"--limit = {arguments.limit:g} K: must be above 0")
-    if arguments.sensitivity is not None and not 0.0 <= arguments.sensitivity < math.inf:
-        raise StudyError(f"--sensitivity = {arguments.sensitivity:g} 1/K: must not be negative")
-    samples = arguments.samples
-    if samples and (samples < FEWEST_SAMPLES or samples & (samples - 1)):
-        raise StudyError(f"--samples = {samples}: must be a power of two from {FEWEST_SAMPLES},"
-                         " or 0")
-    if arguments.map < 0 or arguments.map == 1:
-        raise StudyError(f"--map = {arguments.map}: must be at least 2, or 0 for none")
-    if arguments.jobs < 1:
-        raise StudyError(f"--jobs = {arguments.jobs}: must be at least 1")
+def _from_file(source: str) -> Case:
+    """The case of a scenario; faults begin with the file."""
+    scenario = read_scenario(source)
+    try:
+        return scenario_case(scenario)
+    except StudyError as error:
+        raise StudyError(f"{source}: {error}") from None
 
 
 def _protocol(base: Case, arguments: Namespace):
@@ -242,14 +240,39 @@ def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:
         shown = study.table()[[
             "length [m]", "speed [m/s]", "h [W/m2K]", "study [K]", "drift [K]", "drift low [K]",
             "drift high [K]", "drift steady [K]", "interface drift [K]",
+            "interface drift low [K]", "interface drift high [K]",
             "interface drift, endless belt [K]", "ice [K]", "belt share", "wait [s]", "mu change",
         ]]
         print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}"))
+        print(LEGEND)
+        _print_shortest(study)
     for sentence in verdict(study):
         print(sentence)
     if study.rows:
         _print_changes(study)
     print(f"{len(study.rows)} cases in {wall_time:.1f} s; {folder / TABLE}, {folder / RESULT}")
+
+
+def _print_shortest(study: Study) -> None:
+    """The shortest belts as the rig is said, and at the levels of its doubt."""
+    doubted = study.shortest_in_doubt()
+    print("Shortest belt [m]: as the rig is said; in half and in 95 % of the rigs of the doubt;"
+          " for ever")
+    print(f"{'speed [m/s]':>12} {'question':<20} {'as said':>8} {'median':>8} {'95 %':>8}"
+          f" {'for ever':>8}")
+    rows = {row.case.with_length(1.0): row for row in study.rows}
+    for case, row in rows.items():
+        for name, rise, said, steady in (
+                ("comes round cold", "run", row.shortest_run, row.shortest_steady),
+                ("interface steady", "interface", row.shortest_interface, None)):
+            levels = [doubted[case][rise][level].says or "-" for level in ("median", "high")]
+            ever = "-" if rise == "interface" else _length(steady)
+            print(f"{case.speed:12g} {name:<20} {_length(said):>8} {levels[0]:>8} {levels[1]:>8}"
+                  f" {ever:>8}")
+
+
+def _length(value: float | None) -> str:
+    return "none" if value is None else f"{value:.2g}"
 
 
 def _print_changes(study: Study) -> None:

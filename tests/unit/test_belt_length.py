@@ -126,7 +126,10 @@ def test_files_and_words(tmp_path, capsys):
     assert call("--length", 1, 2, "--speed", 0.15, 0.82, "--h", 15, "--ramp", 0, "-o", tmp_path,
                 *FAST) == 0
     said = capsys.readouterr().out
-    assert 'C13, "1 m of belt is enough": holds at 0.15 m/s, not at 0.82 m/s.' in said
+    assert ("For a belt that meets the ice less than 0.07 K above the air, 1 m: suffices at 0.15"
+            " m/s; does not suffice at 0.82 m/s." in said)
+    assert "which --limit changes" in said and "C13" not in said
+    assert "mu change: of the kinetic friction" in said, "the columns are explained"
     assert "At 0.82 m/s 1 m of belt does not suffice" in said
     assert "At 0.15 m/s 1 m of belt suffices" in said
     assert "the interface warms by" in said and "within 0.07 K of the air again" in said
@@ -155,26 +158,32 @@ def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(("arguments", "says"), [
-    (("--length", 0.05), "belt.length = 0.05 m is shorter than the contact"),
-    (("--thickness", 0.0), "belt.thickness = 0.0"),
-    (("--ambient", 1.0), "ambient.temperature_degC = 1.0"),
+    (("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+    (("--thickness", 0.0), "--thickness = 0 m: must be a number above 0 and at most 0.1"),
+    (("--ambient", 1.0), "--ambient = 1 degC: must be a number at least -100 and below 0"),
     (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
-    (("--h", -1.0), "belt.air_heat_transfer = -1.0"),
+    (("--h", -1.0), "--h = -1 W/m2K: must be a number at least 0"),
     (("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
     (("--run", 0.0), "--run = 0 s: must be above 0"),
     (("--pause", float("inf")), "--pause = inf s: must be at least 0"),
     (("--runs", 0), "--runs = 0: must be 1 to 100"),
     (("slab",), 'rig.surface = "slab": has no belt; allowed is "belt"'),
     (("no_such_case",), "no_such_case: no such file"),
-    (("--h", "air", "--length", 0.05), "belt.length = 0.05 m is shorter than the contact"),
-    (("--speed", 0.0), "speed = 0: must be above 0"),
-    (("--mass", float("nan")), "mass = nan: must be above 0"),
+    (("--h", "air", "--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+    (("--speed", 0.0), "--speed = 0 m/s: must be a number above 0"),
+    (("--mass", float("nan")), "--mass = nan kg: must be a number above 0"),
     (("--limit", 0.0), "--limit = 0 K: must be above 0"),
     (("--samples", 48), "--samples = 48: must be a power of two from 32, or 0"),
     (("--samples", 16), "--samples = 16: must be a power of two from 32, or 0"),
     (("--map", 1), "--map = 1: must be at least 2"),
+    (("--h", float("nan")), "--h = nan W/m2K: must be a number"),
+    (("--speed", 1e6), "--speed = 1e+06 m/s: must be a number above 0 and at most 100"),
+    (("--run", 1e12), "--run = 1e+12 s, --runs = 1 at --speed = 0.15 m/s"),
+    (("--ramp", 1e9), "the belt would go 7.5e+07 m, allowed is at most 95 m"),
+    (("--sensitivity", float("nan")), "--sensitivity = nan 1/K: must be a number at least 0"),
+    (("--sensitivity", 1e9), "--sensitivity = 1e+09 1/K: must be a number at least 0 and at most"),
     (("--jobs", 0), "--jobs = 0: must be at least 1"),
-    (("--sensitivity", -0.1), "--sensitivity = -0.1 1/K"),
+    (("--sensitivity", -0.1), "--sensitivity = -0.1 1/K: must be a number at least 0"),
 ])
 def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
     with pytest.raises(belt_length_command.REFUSED) as refused:
@@ -182,6 +191,32 @@ def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("table", "options", "says"), [
+    ("[friction]\nmu_k = 0.0", (), "case.toml: friction.mu_k = 0: must be above 0"),
+    ("[surface]\nspeed = 0.0", (), "case.toml: surface.speed = 0 m/s: must not be 0"),
+    ("[belt]\nair_heat_transfer = 0.0", (), "case.toml: belt.air_heat_transfer = 0: a belt that"),
+    ("[run]\nduration = 1000.0", (), "case.toml: --ramp = "),
+    ("", ("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+])
+def test_a_fault_of_a_scenario_names_file_and_key(tmp_path, table, options, says):
+    file = tmp_path / "case.toml"
+    file.write_text(table)
+    with pytest.raises(belt_length_command.REFUSED) as refused:
+        call(file, *options, "-o", tmp_path / "out")
+    assert says in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_the_rig_in_json_is_the_one_that_was_used():
+    study = Study(Options(CAMERA, samples=0))
+    work_off(study, cases(Case(1.0, 0.5), length=(1.0, 2.0)), 1, lambda done: None)
+    said = study.as_dict()
+    assert said["rig"]["belt"]["air_heat_transfer"] is None, "another in each case"
+    assert [one["case"]["h"] for one in said["cases"]] == [row.case.film for row in study.rows]
+    assert said["rig"]["belt"]["conductivity"] == said["cases"][0]["case"]["conductivity"] == 0.5
+    study.rows.pop()
+    assert study.as_dict()["rig"]["belt"]["air_heat_transfer"] == Case(1.0, 0.5).film
 
 
 def test_ctrl_c_keeps_the_cases_that_are_done(tmp_path, monkeypatch, capsys):
@@ -222,4 +257,4 @@ def test_verdict_says_when_it_cannot_say():
     study = Study(Options(CAMERA, samples=0))
     assert verdict(study) == ["Nothing was computed, so nothing can be said."]
     work_off(study, cases(Case(2.0, 0.5), length=(2.0,)), 1, lambda done: None)
-    assert "no verdict on C13" in verdict(study)[0]
+    assert "1 m was not among the lengths asked for" in verdict(study)[0]

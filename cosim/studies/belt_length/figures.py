@@ -124,13 +124,16 @@ def _plain_ticks(axis, places, low: float, high: float) -> None:
 
 @picture("doubt", "What the doubt is made of, in the case that drifts most. Left: the drift with "
          "one unknown at either end of its range, all else as the case is but for what stands in "
-         "brackets. Right: total Sobol indices, with their 95 % intervals.")
+         "brackets. Right: the total Sobol index of each unknown, the part of the drift's variance "
+         "that it has a hand in, alone or together with others, so that the parts add up to more "
+         "than 1; strokes: 95 % intervals. The largest index is on top.")
 def draw_doubt(row: Row) -> Figure:
     """Bars of single changes beside the indices, one line an unknown."""
     doubt = row.uncertainty
     figure, axes = panels(1, 2, height=4.6, width=10.0, sharey=True)
     left, right = axes[0]
-    single = doubt.single_changes[::-1]
+    indices = {one.key: one for one in doubt.influences}
+    single = sorted(doubt.single_changes, key=lambda one: indices[one.key].total)
     places = np.arange(len(single))
     ends = np.array([(one.drift_low, one.drift_high) for one in single])
     left.hlines(places, *ends.T, color=GREY, linewidth=5.0, alpha=0.5)
@@ -139,13 +142,15 @@ def draw_doubt(row: Row) -> Figure:
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
     left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
     left.set(xlabel="belt's rise at entry [K]",
-             title=f"{row.case.length:g} m at {row.case.speed:g} m/s, single changes")
+             title=f"{row.case.length:g} m at {row.case.speed:g} m/s, what each unknown does\n"
+                   "alone, from the low to the high end of its range")
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
-    indices = {one.key: one for one in doubt.influences}
     totals = [indices[one.key].total for one in single]
     errors = [indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set(xlabel="share of the variance [1]", title="total Sobol index")
+    right.set(xlabel="part of the drift's variance [1]",
+              title="How much of the doubt it has a hand in\n"
+              "(total Sobol index, with 95 % interval)")
     right.set_xlim(left=0.0)
     return figure
 

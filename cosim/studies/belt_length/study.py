@@ -18,6 +18,7 @@ from .drift import Drift, drift, endless_belt, interface_drift, run_drift, stead
 from .friction_effect import FrictionEffect, friction_effect
 from .protocol import Protocol, StudyError
 from .shortest import LONGEST, shortest_belt
+from .shortest_in_doubt import Length, shortest_in_doubt
 from .uncertainty import Uncertainty, uncertainty
 from .wait import Wait, wait
 
@@ -51,16 +52,27 @@ class Row:
     changes: tuple[Change, ...]
     uncertainty: Uncertainty | None
 
+    @property
+    def used(self) -> dict[str, float]:
+        """The numbers of the case, those of the rig where the case has none of its own."""
+        thermal, layered = self.case.thermal(), bool(self.case.rig.belt.layers)
+        own = {"conductivity": None if layered else thermal.belt.conductivity,
+               "thickness": None if layered else thermal.belt.thickness,
+               "conductance": thermal.contact.conductance}
+        return {name: own.get(name, getattr(self.case, name)) for name in COLUMNS}
+
     def flat(self) -> dict[str, object]:
         """One row of the table: columns named by what they hold, with units."""
         d, e, u = self.drift, self.effect, self.uncertainty
         return {
-            **{column: getattr(self.case, name) for name, column in COLUMNS.items()},
+            **{column: self.used[name] for name, column in COLUMNS.items()},
             "h [W/m2K]": self.case.film,
             "study [K]": d.study, "single pass mended [K]": d.single_pass,
             "drift [K]": d.run, "drift low [K]": u and u.low, "drift high [K]": u and u.high,
             "drift steady [K]": d.steady,
-            "interface drift [K]": d.interface_drift, "interface [K]": d.interface_run,
+            "interface drift [K]": d.interface_drift,
+            "interface drift low [K]": u and u.interface_low,
+            "interface drift high [K]": u and u.interface_high, "interface [K]": d.interface_run,
             "interface drift, endless belt [K]": d.interface_drift_endless,
             "ice [K]": d.ice_run, "ice steady [K]": d.ice_steady, "flash [K]": d.flash_run,
             "belt share": d.belt_share, "belt share steady": d.belt_share_steady,
@@ -75,12 +87,15 @@ class Row:
 
     def questions(self, limit: float) -> dict[str, dict[str, object]]:
         """The two questions about a belt, with their answers."""
-        d = self.drift
+        d, u = self.drift, self.uncertainty
         return {
             "comes_round_cold": {
-                "answer": d.run <= limit, "rise": d.run, "shortest_belt": self.shortest_run},
+                "answer": d.run <= limit, "rise": d.run,
+                "rise_in_doubt": u and [u.low, u.median, u.high],
+                "shortest_belt": self.shortest_run},
             "interface_steady": {
                 "answer": d.interface_drift <= limit, "rise_at_constant_speed": d.interface_drift,
+                "rise_in_doubt": u and [u.interface_low, u.interface_median, u.interface_high],
                 "rise": d.interface_run, "endless_belt": d.interface_drift_endless,
                 "shortest_belt": self.shortest_interface},
         }
@@ -95,7 +110,7 @@ class Row:
             ("drift", self.drift), ("effect", self.effect), ("wait", self.wait),
             ("uncertainty", self.uncertainty))}
         return {
-            "case": case | h, "questions": self.questions(limit), **rest,
+            "case": case | self.used | h, "questions": self.questions(limit), **rest,
             "shortest_run": self.shortest_run, "shortest_steady": self.shortest_steady,
             "shortest_interface": self.shortest_interface,
             "changes": [asdict(one) for one in self.changes],
@@ -123,7 +138,23 @@ class Study:
 
     def table(self) -> pd.DataFrame:
         """One row a case."""
-        return pd.DataFrame([row.flat() for row in self.rows])
+        doubted = self.shortest_in_doubt()
+        return pd.DataFrame([row.flat() | {
+            f"{name}, {level} [m]": found[rise][key].length
+            for rise, name in (("run", "shortest belt"), ("interface", "shortest belt interface"))
+            for key, level in (("median", "median"), ("high", "95 %"))}
+            for row in self.rows for found in (doubted[row.case.with_length(1.0)],)])
+
+    def shortest_in_doubt(self) -> dict[Case, dict[str, dict[str, Length]]]:
+        """By rise and level, for each choice of everything but the length, which is 1 m there."""
+        alike: dict[Case, dict[float, Row]] = {}
+        for row in self.rows:
+            alike.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
+        return {
+            case: shortest_in_doubt(
+                sorted(rows), [rows[length].uncertainty for length in sorted(rows)],
+                self.options.limit)
+            for case, rows in alike.items()}
 
     def changes(self) -> pd.DataFrame:
         """One row a case and change: what would help."""
@@ -148,9 +179,22 @@ class Study:
         """Everything, for JSON."""
         first = {} if not self.rows else {
             "protocol": asdict(self.rows[0].case.protocol),
-            "rig": self.rows[0].case.rig.model_dump()}
+            "rig": _shared([row.case.thermal().model_dump() for row in self.rows])}
+        doubted = self.shortest_in_doubt()
         return {"complete": self.complete, "limit": self.options.limit, **first,
-                "cases": [row.as_dict(self.options.limit) for row in self.rows]}
+                "cases": [
+                    row.as_dict(self.options.limit) | {"shortest_in_doubt": {
+                        rise: {level: asdict(one) for level, one in levels.items()}
+                        for rise, levels in doubted[row.case.with_length(1.0)].items()}}
+                    for row in self.rows]}
+
+
+def _shared(rigs: list[dict]) -> dict[str, object]:
+    """What was used in all cases; None where that differs, and each case has its own."""
+    return {
+        key: _shared([rig[key] for rig in rigs]) if isinstance(value, dict)
+        else value if all(rig[key] == value for rig in rigs) else None
+        for key, value in rigs[0].items()}
 
 
 def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
@@ -170,10 +214,14 @@ def scenario_case(scenario: Scenario) -> Case:
 
     Its kinetic friction is taken as it is at the start: friction laws are the coupled run's.
     """
-    surface, run, rig = scenario.surface, scenario.run, scenario.rig
+    surface, run, rig, friction = scenario.surface, scenario.run, scenario.rig, scenario.friction
     if rig.surface == "slab":
         raise StudyError('rig.surface = "slab": has no belt; allowed is "belt"')
     constant = run.duration - surface.run_up_time
+    if not friction.mu_k > 0.0:
+        raise StudyError(f"friction.mu_k = {friction.mu_k:g}: must be above 0, or there is no heat")
+    if surface.speed == 0.0:
+        raise StudyError("surface.speed = 0 m/s: must not be 0, or nothing slides")
     if not constant > 0.0:
         raise StudyError(
             f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
@@ -181,14 +229,13 @@ def scenario_case(scenario: Scenario) -> Case:
     thermal, belt = scenario.thermal, scenario.belt
     # in still air it is that of each case's own speed
     given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
-    friction = scenario.friction
     return Case(
         length=belt.length, speed=abs(surface.speed), mass=rig.mass,
         h=belt.film if given else None, friction=friction.mu_k,
         ambient_degC=scenario.ambient.temperature_degC,
         protocol=Protocol(surface.run_up_time, constant),
         rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
-        static_over_kinetic=friction.mu_s / friction.mu_k if friction.mu_k > 0.0 else 1.0,
+        static_over_kinetic=friction.mu_s / friction.mu_k,
         stiffness=scenario.springs.stiffness)
 
 

@@ -2,13 +2,14 @@
 
 Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order and total indices with
 bootstrapped 95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
-each of the three answers that the drift is made of (`unknowns`); how much of the variance it
+each of the three answers that a rise is made of (`unknowns`); how much of the variance it
 misses is measured on runs of the model that it has not seen.
 """
 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -19,7 +20,18 @@ from scipy.stats import qmc
 
 from .case import Case
 from .surrogate import fitted
-from .unknowns import SHAPING, UNKNOWNS, Melts, Unknown, answers, combined, needs, with_one
+from .unknowns import (
+    ENTRY,
+    INTERFACE,
+    SHAPING,
+    UNKNOWNS,
+    Melts,
+    Unknown,
+    answers,
+    combined,
+    needs,
+    with_one,
+)
 
 Array = NDArray[np.float64]
 
@@ -48,6 +60,7 @@ class SingleChange:
     """The drift, K, with one unknown at either end of its range, the rest as the case is.
 
     with_others: what else is not as the case is, key -> value: one of nothing is seen in something.
+    basis: where the range comes from.
     """
 
     key: str
@@ -58,6 +71,7 @@ class SingleChange:
     drift_low: float
     drift_high: float
     with_others: dict[str, float]
+    basis: str
 
 
 @dataclass(frozen=True)
@@ -65,8 +79,9 @@ class Uncertainty:
     """Drift at the end of the runs, K: 5 %, 50 % and 95 % quantiles; influences and single
     changes, the largest first.
 
-    evaluations: runs of the model; unexplained: share of the variance that the polynomial misses
-    on the runs that it has not seen.
+    interface_...: the same quantiles of the interface's rise at constant speed. evaluations: runs
+    of the model; ...unexplained: share of the variance that the polynomials miss on the runs that
+    they have not seen.
     """
 
     low: float
@@ -76,6 +91,10 @@ class Uncertainty:
     single_changes: tuple[SingleChange, ...]
     evaluations: int
     unexplained: float
+    interface_low: float
+    interface_median: float
+    interface_high: float
+    interface_unexplained: float
 
     @property
     def widest_interval(self) -> float:
@@ -105,22 +124,40 @@ def uncertainty(case: Case, samples: int) -> Uncertainty | None:
         single_changes = _single_changes(case)
     except Melts:
         return None
-    surrogates = [fitted(points[:samples], column) for column in parts[:samples].T]
+    entry, interface = (
+        _in_place(points[:samples], parts[:samples, rise]) for rise in (ENTRY, INTERFACE))
 
-    def drift(shares: Array) -> Array:
-        """At points of the unit cube of all unknowns."""
+    problem = {"num_vars": len(UNKNOWNS), "names": [one.key for one in UNKNOWNS],
+               "bounds": [[0.0, 1.0]] * len(UNKNOWNS)}
+    drawn = sample.sample(problem, SEQUENCE, calc_second_order=False, seed=1)
+    drifts = entry(drawn)
+    low, median, high = _quantiles(drifts)
+    # one point in each block of the sequence has all unknowns drawn anew
+    interface_low, interface_median, interface_high = _quantiles(
+        interface(drawn[::len(UNKNOWNS) + 2]))
+    return Uncertainty(
+        low, median, high, _influences(problem, drifts), single_changes,
+        samples + tested + 2 * len(UNKNOWNS),
+        _unexplained(points[samples:], parts[samples:, ENTRY], entry),
+        interface_low, interface_median, interface_high,
+        _unexplained(points[samples:], parts[samples:, INTERFACE], interface))
+
+
+def _in_place(points: Array, parts: Array) -> Callable[[Array], Array]:
+    """A rise, K, at points of the unit cube of all unknowns, from its A, B and C at some points."""
+    surrogates = [fitted(points, column) for column in parts.T]
+
+    def rise(shares: Array) -> Array:
         shaping = _levelled(shares[:, [not one.linear for one in UNKNOWNS]])
         return combined(np.stack([one(shaping) for one in surrogates], axis=1),
                         _values(UNKNOWNS, shares))
 
-    problem = {"num_vars": len(UNKNOWNS), "names": [one.key for one in UNKNOWNS],
-               "bounds": [[0.0, 1.0]] * len(UNKNOWNS)}
-    drifts = drift(sample.sample(problem, SEQUENCE, calc_second_order=False, seed=1))
-    low, median, high = np.quantile(drifts, [INTERVAL[0], 0.5, INTERVAL[1]])
-    return Uncertainty(
-        float(low), float(median), float(high), _influences(problem, drifts), single_changes,
-        samples + tested + 2 * len(UNKNOWNS),
-        _unexplained(points[samples:], parts[samples:], drift))
+    return rise
+
+
+def _quantiles(rises: Array) -> tuple[float, float, float]:
+    low, median, high = np.quantile(rises, [INTERVAL[0], 0.5, INTERVAL[1]])
+    return float(low), float(median), float(high)
 
 
 def _values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
@@ -132,12 +169,12 @@ def _levelled(shares: Array) -> Array:
     return np.stack([one.levelled(shares[:, i]) for i, one in enumerate(SHAPING)], axis=1)
 
 
-def _unexplained(points: Array, parts: Array, drift) -> float:
-    """Share of the drift's variance over unseen runs; the linear unknowns are drawn for each."""
+def _unexplained(points: Array, parts: Array, rise: Callable[[Array], Array]) -> float:
+    """Share of a rise's variance over unseen runs; the linear unknowns are drawn for each."""
     drawn = np.random.default_rng(1).random((len(points), len(UNKNOWNS)))
     drawn[:, [not one.linear for one in UNKNOWNS]] = points
     true = combined(parts, _values(UNKNOWNS, drawn))
-    return float(np.mean((drift(drawn) - true) ** 2) / np.var(true))
+    return float(np.mean((rise(drawn) - true) ** 2) / np.var(true))
 
 
 def _single_changes(case: Case) -> tuple[SingleChange, ...]:
@@ -146,10 +183,10 @@ def _single_changes(case: Case) -> tuple[SingleChange, ...]:
         ends = []
         for end in (one.low, one.high):
             values = with_one(case, one.key, end)
-            parts = answers(case, values)[None, :]
+            parts = answers(case, values)[ENTRY][None, :]
             ends.append(float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0]))
         found.append(SingleChange(one.key, one.says, one.unit, one.low, one.high, *ends,
-                                  with_others=needs(case, one.key)))
+                                  with_others=needs(case, one.key), basis=one.basis))
     return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
 
 
