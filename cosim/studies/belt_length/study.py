@@ -17,8 +17,7 @@ from .changes import Change, changes
 from .drift import Drift, drift, endless_belt, interface_drift, run_drift, steady_drift
 from .friction_effect import FrictionEffect, friction_effect
 from .protocol import Protocol, StudyError
-from .shortest import LONGEST, shortest_belt
-from .shortest_in_doubt import Length, shortest_in_doubt
+from .shortest import LONGEST, Length, shortest_belt, shortest_in_doubt
 from .uncertainty import Uncertainty, uncertainty
 from .wait import Wait, wait
 
