@@ -122,7 +122,7 @@ def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
 
 @pytest.mark.parametrize(("words", "says"), [
     (["--ramp", "-1"], "error: --ramp = -1 s: must be at least 0"),
-    (["slab"], 'error: rig.surface = "slab": has no belt; allowed is "belt"')])
+    (["slab"], 'error: slab: rig.surface = "slab": has no belt; allowed is "belt"')])
 def test_bad_protocols_are_one_line_and_status_2(tmp_path, words, says):
     done = subprocess.run(
         [sys.executable, "-m", "cosim", "belt-length", *words, "-o", str(tmp_path / "out")],
