@@ -403,3 +403,16 @@ def test_a_host_without_numpy_runs_it(fmu, tmp_path, block):
     block.march(0, 100, 0.01)
     assert done.stdout.strip() == f"{block.get('x')!r} {{0}} False"
     assert done.stderr == ""
+
+
+def test_a_surface_that_the_creep_keeps_up_with_is_warned_of_once(fmu):
+    """With logging on; the run goes on, and sticks for ever."""
+    said = []
+    found = fmpy.simulate_fmu(
+        str(fmu), stop_time=0.5, output_interval=0.05, output=["mode"], debug_logging=True,
+        start_values={"surface_speed": 0.15, "friction.stick_creep": 0.2},
+        logger=lambda component, name, status, category, message: said.append((status, message)),
+    )
+    (status, message), = said
+    assert status == 1 and b"surface_speed = 0.15 m/s is not above friction.stick_creep" in message
+    assert not found["mode"].any()
