@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.steady_motion import Interface, RunEnded, stability, with_pretension
+from stickslip.steady_motion import Interface, RunEnded, with_pretension
 from stickslip.steady_motion.regimes import regime_of
+from stickslip.steady_motion.stability import growth_in_a_cycle, guided
 
 from .case import Case, at_speed, run_length
 
@@ -44,11 +45,9 @@ def pretension_map(
 
 def _cell(parameters: Parameters, interface: Interface) -> tuple[float, float]:
     """Growth, and 1 where the block sticks on its line, else 0; NaN where it cannot be followed."""
-    rig = parameters.rig.model_copy(update={"degrees_of_freedom": ("x",)})
-    guided = parameters.model_copy(update={"rig": rig})
     duration = run_length(parameters)
     try:
-        growth = stability(parameters, duration, interface).growth
-        return growth, float(regime_of(guided, duration, interface).slip_share < 1.0)
+        growth = growth_in_a_cycle(parameters, duration, interface)
+        return growth, float(regime_of(guided(parameters), duration, interface).slip_share < 1.0)
     except RunEnded:
         return np.nan, np.nan

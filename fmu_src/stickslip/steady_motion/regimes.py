@@ -75,9 +75,9 @@ def regimes(
     """The regime of the scenario's own run and of the other starts, by the names of `STARTS`.
 
     duration: of the own run, s; each of the others is at constant speed as long, and at least 20 s.
-    interface: its temperature and the water in it. look:
-    called now and then; may raise. Raises `live.RunEnded` where the own motion cannot be followed;
-    another start of which that is so is left out.
+    interface: its temperature and the water in it. look: called now and then; may raise. Raises
+    `live.RunEnded` where the own motion cannot be followed; another start of which that is so is
+    left out.
     """
     found = {OWN: regime_of(parameters, duration, interface, look)}
     steady = duration - parameters.surface.run_up_time
