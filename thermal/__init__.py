@@ -17,7 +17,21 @@ from .steady import NoSteadyState, settle
 from .steady_sliding import SlidingState, SteadySliding
 
 __all__ = [
-    "Ambient", "Belt", "BeltIceModel", "Contact", "FieldSeries", "Ice", "Layer", "MeshError",
-    "NoSteadyState", "ParameterError", "RigView", "SinglePass", "SlidingState",
-    "SteadySliding", "ThermalParameters", "rig_view", "settle",
+    "Ambient",
+    "Belt",
+    "BeltIceModel",
+    "Contact",
+    "FieldSeries",
+    "Ice",
+    "Layer",
+    "MeshError",
+    "NoSteadyState",
+    "ParameterError",
+    "RigView",
+    "SinglePass",
+    "SlidingState",
+    "SteadySliding",
+    "ThermalParameters",
+    "rig_view",
+    "settle",
 ]

@@ -52,8 +52,9 @@ class Ablation:
     `speed`: of the face in the last step, m/s, where the next iteration starts; `melt_heat` J/kg.
     """
 
-    def __init__(self, ice: IceBody, parameters: IceParameters, area: float,
-                 melting: float) -> None:
+    def __init__(
+        self, ice: IceBody, parameters: IceParameters, area: float, melting: float
+    ) -> None:
         self._ice, self._area, self._melting = ice, area, melting
         self.melt_heat = melt_heat(parameters, melting)
         self._volume_heat = parameters.density * self.melt_heat
@@ -63,8 +64,9 @@ class Ablation:
         """Internal steps that keep each recession short, should all the heat (J) melt ice."""
         return max(1, int(np.ceil(heat / (self._area * self._volume_heat * LONGEST_RECESSION))))
 
-    def exchange(self, duration: float, available: float,
-                 solve: Callable[[IceFace], Fluxes]) -> Receding:
+    def exchange(
+        self, duration: float, available: float, solve: Callable[[IceFace], Fluxes]
+    ) -> Receding:
         """Fluxes of a step of some duration (s).
 
         available: water that may freeze to the face, kg; solve: fluxes for an ice face.
@@ -77,8 +79,11 @@ class Ablation:
                 sinking = ice.sinking(duration, recession, load, sinking)
             mean, end = ice.free_face(duration, sinking, recession)
             mean_response, end_response = ice.face_response(duration, recession)
-            fluxes = solve(IceFace(mean, end, mean_response * area, end_response * area,
-                                   self._melting, refreezing))
+            fluxes = solve(
+                IceFace(
+                    mean, end, mean_response * area, end_response * area, self._melting, refreezing
+                )
+            )
             before, recession = recession, fluxes.melting * duration / self._volume_heat
             load = fluxes.ice * area
             if abs(recession - before) <= _ABSOLUTE + _RELATIVE * abs(recession):
@@ -86,4 +91,5 @@ class Ablation:
                 return Receding(fluxes, sinking if recession != 0.0 else None, recession)
         raise ArithmeticError(
             f"melting {before:g} m of ice in {duration:g} s: the iteration for the melt rate did"
-            f" not settle in {_MOST_ITERATIONS} passes; take a shorter step")
+            f" not settle in {_MOST_ITERATIONS} passes; take a shorter step"
+        )

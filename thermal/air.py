@@ -45,8 +45,13 @@ def _air(temperature: float) -> tuple[float, float]:
     return 1.33e-5 * ratio**1.76, 0.0241 * ratio**0.82
 
 
-def moving_belt(speed: float, span: float, temperature_degC: float = -8.0, width: float = 0.075,
-                rise: float = 1.0) -> float:
+def moving_belt(
+    speed: float,
+    span: float,
+    temperature_degC: float = -8.0,
+    width: float = 0.075,
+    rise: float = 1.0,
+) -> float:
     """Mean heat transfer coefficient of a belt's faces, convection and radiation, W/m2K.
 
     speed m/s, either way; span m of belt from one roller to the next, about half a loop; air
@@ -56,20 +61,27 @@ def moving_belt(speed: float, span: float, temperature_degC: float = -8.0, width
     return convection(speed, span, temperature_degC, width, rise) + radiation(temperature_degC)
 
 
-def convection(speed: float, span: float, temperature_degC: float = -8.0, width: float = 0.075,
-               rise: float = 1.0) -> float:
+def convection(
+    speed: float,
+    span: float,
+    temperature_degC: float = -8.0,
+    width: float = 0.075,
+    rise: float = 1.0,
+) -> float:
     """The convective part of `moving_belt`, W/m2K."""
     if not (span > 0.0 and width > 0.0 and rise >= 0.0 and temperature_degC > -ZERO_DEGC):
         raise ValueError(
             f"span = {span:g} m, width = {width:g} m, rise = {rise:g} K at {temperature_degC:g}"
-            " degC: span and width must be positive, the rise not negative")
+            " degC: span and width must be positive, the rise not negative"
+        )
     temperature = temperature_degC + ZERO_DEGC
     viscosity, conductivity = _air(temperature)
     reynolds = abs(speed) * span / viscosity
     if not reynolds <= LAMINAR:
         raise NotLaminar(
             f"speed = {speed:g} m/s over a span of {span:g} m: Re = {reynolds:.2g}, but the"
-            f" correlation for a moving belt is laminar, up to {LAMINAR:g}; give a number")
+            f" correlation for a moving belt is laminar, up to {LAMINAR:g}; give a number"
+        )
     forced = 2.0 * SAKIADIS_AIR * math.sqrt(reynolds) * conductivity / span
     size = span * width / (2.0 * (span + width))
     rayleigh = 0.7 * GRAVITY / temperature * rise * size**3 / viscosity**2

@@ -35,8 +35,9 @@ def cut_at_base(points: Array, cells: Cells, base: Nodes) -> tuple[Array, Cells]
     below = lower.sum(axis=1)
     # the corners on the base first
     ordered = np.take_along_axis(cells, np.argsort(~lower, axis=1, kind="stable"), axis=1)
-    edges = np.concatenate([
-        ordered[below == n][:, [i, j]] for n in (1, 2, 3) for i in range(n) for j in range(n, 4)])
+    edges = np.concatenate(
+        [ordered[below == n][:, [i, j]] for n in (1, 2, 3) for i in range(n) for j in range(n, 4)]
+    )
     keys = np.unique(edges[:, 0] * len(points) + edges[:, 1])
     start, end = points[keys // len(points)], points[keys % len(points)]
 
@@ -49,8 +50,10 @@ def cut_at_base(points: Array, cells: Cells, base: Nodes) -> tuple[Array, Cells]
     middles = [cut(a, top) for top in tops]
     pieces += [np.stack((a, *middles), axis=1), _prisms(middles, tops)]
     a, b, c, d = ordered[below == 2].T
-    pieces += [_prisms((a, cut(a, c), cut(a, d)), (b, cut(b, c), cut(b, d))),
-               _prisms((c, cut(a, c), cut(b, c)), (d, cut(a, d), cut(b, d)))]
+    pieces += [
+        _prisms((a, cut(a, c), cut(a, d)), (b, cut(b, c), cut(b, d))),
+        _prisms((c, cut(a, c), cut(b, c)), (d, cut(a, d), cut(b, d))),
+    ]
     *bottoms, top = ordered[below == 3].T
     middles = [cut(bottom, top) for bottom in bottoms]
     pieces += [_prisms(bottoms, middles), np.stack((*middles, top), axis=1)]
@@ -67,11 +70,19 @@ def _prisms(one, other) -> Cells:
     prisms = np.stack((*one, *other), axis=1)
     lowest = prisms.argmin(axis=1)
     turns = (np.arange(3)[:, None] + np.arange(3)) % 3
-    orders = np.concatenate([np.concatenate((turns, turns + 3), axis=1),
-                             np.concatenate((turns + 3, turns), axis=1)])
+    orders = np.concatenate(
+        [np.concatenate((turns, turns + 3), axis=1), np.concatenate((turns + 3, turns), axis=1)]
+    )
     p = np.take_along_axis(prisms, orders[lowest], axis=1)
     rising = np.minimum(p[:, 1], p[:, 5]) < np.minimum(p[:, 2], p[:, 4])
     first, second = p[rising], p[~rising]
-    return np.concatenate((
-        first[:, [0, 1, 2, 5]], first[:, [0, 1, 5, 4]], first[:, [0, 4, 5, 3]],
-        second[:, [0, 1, 2, 4]], second[:, [0, 4, 2, 5]], second[:, [0, 4, 5, 3]]))
+    return np.concatenate(
+        (
+            first[:, [0, 1, 2, 5]],
+            first[:, [0, 1, 5, 4]],
+            first[:, [0, 4, 5, 3]],
+            second[:, [0, 1, 2, 4]],
+            second[:, [0, 4, 2, 5]],
+            second[:, [0, 4, 5, 3]],
+        )
+    )

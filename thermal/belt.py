@@ -63,11 +63,11 @@ class Response(NamedTuple):
     """What a step of given duration does; `modes` x `wave numbers` unless said."""
 
     decay: Array
-    free_mean: Array          # (2, modes, numbers) weights of the amplitudes in the faces' means
-    forced: Array             # (2, modes, numbers) amplitude at the end for load 1 on a face
-    kernels: Array            # (2, 2, cells) step-mean of a face at a node for 1 W at node 0
-    loss_free: Array          # (modes,) J lost to the air per amplitude of wave number 0
-    loss_forced: Array        # (2,) J lost to the air per load of wave number 0 on a face
+    free_mean: Array  # (2, modes, numbers) weights of the amplitudes in the faces' means
+    forced: Array  # (2, modes, numbers) amplitude at the end for load 1 on a face
+    kernels: Array  # (2, 2, cells) step-mean of a face at a node for 1 W at node 0
+    loss_free: Array  # (modes,) J lost to the air per amplitude of wave number 0
+    loss_forced: Array  # (2,) J lost to the air per load of wave number 0 on a face
 
 
 class Belt:
@@ -85,7 +85,8 @@ class Belt:
         self.depth = modes.depth
         self._shapes, self._faces = modes.shapes, modes.faces
         self.rates = modes.rates[:, None] + modes.along[:, None] * (
-            periodic_stiffness(self.cells, self.cell) / self.cell)
+            periodic_stiffness(self.cells, self.cell) / self.cell
+        )
         self._heat = modes.heat * self.cell
         self._air = modes.air * self.cell
         self.amplitudes: Spectrum = np.zeros(self.rates.shape, dtype=np.complex128)
@@ -102,8 +103,8 @@ class Belt:
             forced=entering * duration * mean,
             kernels=irfft(pairs, self.cells, axis=-1),
             loss_free=self._air * duration * mean[:, 0],
-            loss_forced=np.sum(self._air * entering[..., 0] * response[:, 0], axis=1)
-            * duration**2)
+            loss_forced=np.sum(self._air * entering[..., 0] * response[:, 0], axis=1) * duration**2,
+        )
 
     def periodic_response(self, duration: float, shift: int) -> Response:
         """Of a step before and after which the field is the same, `shift` nodes further back.
@@ -116,19 +117,23 @@ class Belt:
         kept = once.forced / (np.expm1(turn) - np.expm1(-self.rates * duration))
         pairs = np.einsum("amk,bmk->abk", once.free_mean, kept)
         return once._replace(
-            decay=np.zeros_like(once.decay), free_mean=np.zeros_like(once.free_mean), forced=kept,
-            kernels=once.kernels + irfft(pairs, self.cells, axis=-1))
+            decay=np.zeros_like(once.decay),
+            free_mean=np.zeros_like(once.free_mean),
+            forced=kept,
+            kernels=once.kernels + irfft(pairs, self.cells, axis=-1),
+        )
 
     def nodal(self, first: int, loads: Array) -> Array:
         """Loads (nodes,) on consecutive nodes from `first` on, wrapped onto the loop: (cells,)."""
         nodal = np.zeros(self.cells)
         for start in range(0, loads.size, self.cells):
-            piece = loads[start:start + self.cells]
+            piece = loads[start : start + self.cells]
             nodal[(first + start + np.arange(piece.size)) % self.cells] += piece
         return nodal
 
-    def face_means(self, duration: float, windows: Sequence[Window],
-                   response: Response | None = None) -> tuple[Array, Array]:
+    def face_means(
+        self, duration: float, windows: Sequence[Window], response: Response | None = None
+    ) -> tuple[Array, Array]:
         """Step-means of the faces under the windows, summed over the nodes with their loads.
 
         Returns the means (rows,) without load, K m2, and their response (rows, rows), to fluxes
@@ -140,13 +145,19 @@ class Belt:
             weighted = np.einsum("mk,mk->k", response.free_mean[face], self.amplitudes)
             free[face] = irfft(weighted, self.cells)
         nodes = [window.first + np.arange(window.loads.shape[1]) for window in windows]
-        means = [window.loads @ free[window.face][node % self.cells]
-                 for window, node in zip(windows, nodes, strict=True)]
+        means = [
+            window.loads @ free[window.face][node % self.cells]
+            for window, node in zip(windows, nodes, strict=True)
+        ]
         blocks = [
-            [a.loads @ response.kernels[a.face, b.face][
-                (i[:, None] - j[None, :]) % self.cells] @ b.loads.T
-             for b, j in zip(windows, nodes, strict=True)]
-            for a, i in zip(windows, nodes, strict=True)]
+            [
+                a.loads
+                @ response.kernels[a.face, b.face][(i[:, None] - j[None, :]) % self.cells]
+                @ b.loads.T
+                for b, j in zip(windows, nodes, strict=True)
+            ]
+            for a, i in zip(windows, nodes, strict=True)
+        ]
         return np.concatenate(means), np.block(blocks)
 
     def load(self, windows: Sequence[Window], fluxes: Array) -> dict[int, Spectrum]:
@@ -155,7 +166,7 @@ class Belt:
         row = 0
         for window in windows:
             rows = len(window.loads)
-            loads = self.nodal(window.first, fluxes[row:row + rows] @ window.loads)
+            loads = self.nodal(window.first, fluxes[row : row + rows] @ window.loads)
             nodal[window.face] = nodal.get(window.face, 0.0) + loads
             row += rows
         return {face: rfft(loads) for face, loads in nodal.items()}
@@ -166,8 +177,10 @@ class Belt:
         after = response.decay * self.amplitudes
         for face, load in loads.items():
             after += response.forced[face] * load
-        return (irfft(np.einsum("m,mk->k", self._faces[CONTACT], after), self.cells),
-                float(self._faces[CONTACT] @ response.forced[CONTACT, :, 0]))
+        return (
+            irfft(np.einsum("m,mk->k", self._faces[CONTACT], after), self.cells),
+            float(self._faces[CONTACT] @ response.forced[CONTACT, :, 0]),
+        )
 
     def advance(self, duration: float, loads: dict[int, Spectrum]) -> float:
         """Advance by duration (s) under loads of the faces; heat to the air, J."""

@@ -34,9 +34,9 @@ class Response(NamedTuple):
     """What a step of given duration and speed does; (modes, numbers) unless said."""
 
     decay: Spectrum
-    mean: Spectrum            # step-mean of the decay
-    forced: Spectrum          # amplitude at the end for load 1 on the mode
-    rows: Array               # (rows, rows) step-mean of the rows for 1 W/m2 on the rows, K
+    mean: Spectrum  # step-mean of the decay
+    forced: Spectrum  # amplitude at the end for load 1 on the mode
+    rows: Array  # (rows, rows) step-mean of the rows for 1 W/m2 on the rows, K
 
 
 class BeltSeries:
@@ -47,8 +47,9 @@ class BeltSeries:
     the answer is linear in both.
     """
 
-    def __init__(self, belt: BeltParameters, footprint: Footprint,
-                 waves: int | None = None) -> None:
+    def __init__(
+        self, belt: BeltParameters, footprint: Footprint, waves: int | None = None
+    ) -> None:
         self._belt, self._lane, self.strips = belt, footprint.lane, footprint.strips
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
         self._wave = 2.0 * np.pi / belt.length * number
@@ -72,13 +73,14 @@ class BeltSeries:
         self._drags = each_strip(self._supports, lambda support: support.drag)
         self._rows = self._areas[:, None] * (
             np.sinc(np.outer(lengths, self._wave) / (2.0 * np.pi))
-            * np.exp(-1j * np.outer(middles, self._wave)))
+            * np.exp(-1j * np.outer(middles, self._wave))
+        )
 
     def _diagonalise(self, film: float) -> None:
         """Modes for a film (W/m2K) on both faces."""
         self.film = film
         self._modes = modes = thickness_of(self._belt, self._lane, film)
-        self._faces = modes.faces[:len(self._on)]
+        self._faces = modes.faces[: len(self._on)]
         self._rates = modes.rates[:, None] + modes.along[:, None] * self._wave**2
         self.response = lru_cache(maxsize=_KEPT)(self._respond)
 
@@ -99,23 +101,31 @@ class BeltSeries:
                 # Re(conj(r) g s) summed, by a real product: half the work of a complex one.
                 right = self._rows[on_b] * ((face_a * face_b) @ held)
                 rows[np.ix_(on_a, on_b)] = (
-                    self._rows[on_a].view(np.float64) @ right.view(np.float64).T)
+                    self._rows[on_a].view(np.float64) @ right.view(np.float64).T
+                )
         return Response(decay(x), mean, mean * (duration / length), rows / self._areas[:, None])
 
     def see(self, duration: float, speed: float) -> Eliminated:
         """The belt as the contact finds it in a step (s) at a speed (m/s)."""
         response = self.response(duration, speed)
-        given = (self.warmth * self._conductances * self._rises
-                 + self.rubbing * self._drags * abs(speed))
-        return eliminate(self._means(response.mean * self.amplitudes), response.rows,
-                         self._conductances - self.film, given)
+        given = self.warmth * self._conductances * self._rises + self.rubbing * self._drags * abs(
+            speed
+        )
+        return eliminate(
+            self._means(response.mean * self.amplitudes),
+            response.rows,
+            self._conductances - self.film,
+            given,
+        )
 
     def advance(self, duration: float, speed: float, fluxes: Array) -> None:
         """Advance by a step that was seen, under the fluxes of all rows, W/m2."""
         response = self.response(duration, speed)
         self.amplitudes *= response.decay
-        load = sum(np.outer(face, fluxes[on] @ self._rows[on])
-                   for on, face in zip(self._on, self._faces, strict=True))
+        load = sum(
+            np.outer(face, fluxes[on] @ self._rows[on])
+            for on, face in zip(self._on, self._faces, strict=True)
+        )
         self.amplitudes += response.forced * load
 
     def _means(self, amplitudes: Spectrum) -> Array:
@@ -128,7 +138,7 @@ class BeltSeries:
 
     def strip_means(self) -> Array:
         """Face under the strips of the contact, from entry to exit, K: (strips,)."""
-        return self._means(self.amplitudes)[:self.strips]
+        return self._means(self.amplitudes)[: self.strips]
 
     def face(self, x: Array) -> Array:
         """Contact face at places (n,) m behind the contact's middle, K."""

@@ -19,8 +19,9 @@ def standing_block(parameters: ThermalParameters) -> tuple[Footprint, IceBody]:
     contact, belt = parameters.contact, parameters.belt
     if not parameters.ice.mesh:
         footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
-        return footprint, Ice(parameters.ice, contact.radius, footprint.arc_share,
-                              touching=footprint.touching)
+        return footprint, Ice(
+            parameters.ice, contact.radius, footprint.arc_share, touching=footprint.touching
+        )
     try:
         sample = Sample(parameters.ice, parameters.ice.mesh, belt.width)
     except MeshError as error:
@@ -29,5 +30,6 @@ def standing_block(parameters: ThermalParameters) -> tuple[Footprint, IceBody]:
     if belt.length <= length:
         raise ParameterError(
             f"belt.length = {belt.length:g} m is shorter than the contact of"
-            f" {parameters.ice.mesh}, which is {length:g} m long")
+            f" {parameters.ice.mesh}, which is {length:g} m long"
+        )
     return Footprint(0.5 * sample.breadth, belt.width, contact.strips, length), sample

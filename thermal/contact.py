@@ -71,24 +71,40 @@ class Fluxes:
     melting: float
 
 
-def _belt_fluxes(belt: BeltFace, resistance: float, free_face_h: float,
-                 ice_temperature: float, ice_response: float, own: float) -> tuple:
+def _belt_fluxes(
+    belt: BeltFace,
+    resistance: float,
+    free_face_h: float,
+    ice_temperature: float,
+    ice_response: float,
+    own: float,
+) -> tuple:
     """Solve the strips for an ice face at ice_temperature - ice_response * mean(q).
 
     own: friction heat that arises on the belt's face, W/m2.
     """
     through = np.eye(belt.free.size) - free_face_h * belt.response
-    matrix = (resistance * through + belt.response
-              + ice_response * through.mean(axis=0))
+    matrix = resistance * through + belt.response + ice_response * through.mean(axis=0)
     kept = free_face_h * belt.free
-    right = (ice_temperature - belt.free + own * resistance
-             + resistance * kept + ice_response * kept.mean())
+    right = (
+        ice_temperature
+        - belt.free
+        + own * resistance
+        + resistance * kept
+        + ice_response * kept.mean()
+    )
     into_belt = np.linalg.solve(matrix, right)
     return into_belt, through @ into_belt - kept
 
 
-def exchange(belt: BeltFace, ice: IceFace, conductance: float, free_face_h: float,
-             friction: float, belt_side: float = 0.5) -> Fluxes:
+def exchange(
+    belt: BeltFace,
+    ice: IceFace,
+    conductance: float,
+    free_face_h: float,
+    friction: float,
+    belt_side: float = 0.5,
+) -> Fluxes:
     """Fluxes of one step.
 
     conductance: of the contact, free_face_h: of the belt's film that the ice covers, W/m2K;
@@ -97,14 +113,19 @@ def exchange(belt: BeltFace, ice: IceFace, conductance: float, free_face_h: floa
     resistance, own = 1.0 / conductance, belt_side * friction
     given = friction + ice.refreezing
     into_belt, from_contact = _belt_fluxes(
-        belt, resistance, free_face_h,
-        ice.free_mean + ice.response_mean * given, ice.response_mean, own)
+        belt,
+        resistance,
+        free_face_h,
+        ice.free_mean + ice.response_mean * given,
+        ice.response_mean,
+        own,
+    )
     into_ice = given - float(from_contact.mean())
     if ice.free_end + ice.response_end * into_ice <= ice.melting:
         return Fluxes(into_belt, from_contact, into_ice, -ice.refreezing)
     into_ice = (ice.melting - ice.free_end) / ice.response_end
     into_belt, from_contact = _belt_fluxes(
-        belt, resistance, free_face_h,
-        ice.free_mean + ice.response_mean * into_ice, 0.0, own)
+        belt, resistance, free_face_h, ice.free_mean + ice.response_mean * into_ice, 0.0, own
+    )
     melting = friction - float(from_contact.mean()) - into_ice
     return Fluxes(into_belt, from_contact, into_ice, melting)

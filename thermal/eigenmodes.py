@@ -52,8 +52,9 @@ class Eigenmodes:
     air: Array
 
 
-def _weighted_gradients(basis: CellBasis, films: Films, medium: Medium, measure: Callable,
-                        shape: Array) -> Array:
+def _weighted_gradients(
+    basis: CellBasis, films: Films, medium: Medium, measure: Callable, shape: Array
+) -> Array:
     """Vector g of a shape at the quadrature points with phi^T K psi = g(phi) . g(psi)."""
     weight = medium.conductivity * measure(basis.global_coordinates()) * basis.dx
     parts = [np.sqrt(weight) * basis.interpolate(shape).grad]
@@ -85,8 +86,12 @@ def eigenmodes(basis: CellBasis, films: Films, medium: Medium, measure: Callable
     """
     capacity = BilinearForm(lambda u, v, w: medium.capacity * measure(w.x) * u * v).assemble(basis)
     conduction = BilinearForm(
-        lambda u, v, w: medium.conductivity * measure(w.x) * sum(
-            u.grad[i] * v.grad[i] for i in range(basis.mesh.dim()))).assemble(basis)
+        lambda u, v, w: (
+            medium.conductivity
+            * measure(w.x)
+            * sum(u.grad[i] * v.grad[i] for i in range(basis.mesh.dim()))
+        )
+    ).assemble(basis)
     film_form = BilinearForm(lambda u, v, w: measure(w.x) * u * v)
     film_load = LinearForm(lambda v, w: measure(w.x) * v)
     stiffness = conduction.toarray()
@@ -95,7 +100,6 @@ def eigenmodes(basis: CellBasis, films: Films, medium: Medium, measure: Callable
         stiffness += h * film_form.assemble(film).toarray()
         air += h * film_load.assemble(film)
     shapes = eigh(stiffness, capacity.toarray())[1]
-    rates = _sharpen(shapes, capacity,
-                     partial(_weighted_gradients, basis, films, medium, measure))
+    rates = _sharpen(shapes, capacity, partial(_weighted_gradients, basis, films, medium, measure))
     heat = capacity.T @ np.ones(basis.N)
     return Eigenmodes(rates, shapes, heat=heat @ shapes, air=air @ shapes)

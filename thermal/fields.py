@@ -45,8 +45,9 @@ class FieldSeries:
         self._below = grid_points(seen_belt(model)[0], -belt.depth)
         below = quadrilaterals(belt.cells + 1, belt.depth.size)
         self._cells = [("quad", below), (ice.cell_type, ice.cells + len(self._below))]
-        self._part = [np.full(len(cells), part, dtype=np.int32)
-                      for part, (_, cells) in enumerate(self._cells)]
+        self._part = [
+            np.full(len(cells), part, dtype=np.int32) for part, (_, cells) in enumerate(self._cells)
+        ]
 
     @property
     def path(self) -> Path:
@@ -69,9 +70,12 @@ class FieldSeries:
             raise ValueError(f"time = {time:g} s of a field must be after the last one ({last})")
         path = self.folder / f"{self.name}_{len(self._written):05d}.vtu"
         points = np.concatenate((self._below, self._model.ice.points))
-        mesh = meshio.Mesh(points, self._cells,
-                           point_data={"temperature": self._temperature()},
-                           cell_data={"part": self._part})
+        mesh = meshio.Mesh(
+            points,
+            self._cells,
+            point_data={"temperature": self._temperature()},
+            cell_data={"part": self._part},
+        )
         partial = path.with_suffix(".partial")
         mesh.write(partial, file_format="vtu")
         os.replace(partial, path)
@@ -80,12 +84,14 @@ class FieldSeries:
         return path
 
     def _write_collection(self) -> None:
-        root = ElementTree.Element("VTKFile", type="Collection", version="0.1",
-                                   byte_order="LittleEndian")
+        root = ElementTree.Element(
+            "VTKFile", type="Collection", version="0.1", byte_order="LittleEndian"
+        )
         collection = ElementTree.SubElement(root, "Collection")
         for time, file in self._written:
-            ElementTree.SubElement(collection, "DataSet", timestep=repr(time), group="",
-                                   part="0", file=file)
+            ElementTree.SubElement(
+                collection, "DataSet", timestep=repr(time), group="", part="0", file=file
+            )
         partial = self.path.with_suffix(".partial")
         ElementTree.ElementTree(root).write(partial, encoding="utf-8", xml_declaration=True)
         os.replace(partial, self.path)

@@ -76,8 +76,9 @@ class Footprint:
         return strip_loads(self.edges, self.lane, centre, movement, cell)
 
 
-def strip_loads(edges: Array, lane: float, centre: float, movement: float,
-                cell: float) -> tuple[int, Array]:
+def strip_loads(
+    edges: Array, lane: float, centre: float, movement: float, cell: float
+) -> tuple[int, Array]:
     """Loads of neighbouring strips, as `Footprint.loads`; edges: (strips + 1,) m from centre."""
     first = int(np.floor((centre + min(movement, 0.0) + edges[0]) / cell))
     last = int(np.ceil((centre + max(movement, 0.0) + edges[-1]) / cell))

@@ -52,14 +52,20 @@ def _radii(radius: float, elements: int, touching: float | None) -> Array:
     return np.union1d(r[far], touching)
 
 
-def assembled(parameters: IceParameters, r: Array, z: Array,
-              arc_share: Callable[[Array], Array] = np.ones_like) -> Body:
+def assembled(
+    parameters: IceParameters,
+    r: Array,
+    z: Array,
+    arc_share: Callable[[Array], Array] = np.ones_like,
+) -> Body:
     """P2 elements between the radii r and the heights z (m)."""
-    mesh = MeshQuad.init_tensor(r, z).with_boundaries({
-        "bottom": lambda x: x[1] < 0.5 * z[1],
-        "side": lambda x: x[0] > 0.5 * (r[-2] + r[-1]),
-        "top": lambda x: x[1] > 0.5 * (z[-2] + z[-1]),
-    })
+    mesh = MeshQuad.init_tensor(r, z).with_boundaries(
+        {
+            "bottom": lambda x: x[1] < 0.5 * z[1],
+            "side": lambda x: x[0] > 0.5 * (r[-2] + r[-1]),
+            "top": lambda x: x[1] > 0.5 * (z[-2] + z[-1]),
+        }
+    )
     return Body(
         basis=CellBasis(mesh, ElementQuad2()),
         medium=Medium(parameters.density, parameters.heat_capacity, parameters.conductivity),
@@ -67,7 +73,10 @@ def assembled(parameters: IceParameters, r: Array, z: Array,
         side=FacetBasis(mesh, ElementQuad2(), facets="side"),
         top=FacetBasis(mesh, ElementQuad2(), facets="top"),
         bottom=FacetBasis(mesh, ElementQuad2(), facets="bottom", intorder=12),
-        share=lambda x: arc_share(x[0]), measure=_around, height=float(z[-1]))
+        share=lambda x: arc_share(x[0]),
+        measure=_around,
+        height=float(z[-1]),
+    )
 
 
 class Ice(IceBody):
@@ -79,9 +88,13 @@ class Ice(IceBody):
     a rim standing is resolved up to its depth over the height.
     """
 
-    def __init__(self, parameters: IceParameters, radius: float,
-                 arc_share: Callable[[Array], Array] = np.ones_like,
-                 touching: float | None = None) -> None:
+    def __init__(
+        self,
+        parameters: IceParameters,
+        radius: float,
+        arc_share: Callable[[Array], Array] = np.ones_like,
+        touching: float | None = None,
+    ) -> None:
         r = _radii(radius, parameters.radial_elements, touching)
         z = graded(parameters.height, parameters.axial_elements, _AXIAL_STRETCH)
         body = assembled(parameters, r, z, arc_share)
@@ -91,7 +104,8 @@ class Ice(IceBody):
         self.r, self._z = _with_midpoints(r), _with_midpoints(z)
         self._grid = np.empty((self.r.size, self._z.size), dtype=np.intp)
         self._grid[_nearest(self.r, basis.doflocs[0]), _nearest(self._z, basis.doflocs[1])] = (
-            np.arange(basis.N))
+            np.arange(basis.N)
+        )
         self.cells = quadrilaterals(2 * self.r.size - 1, self._z.size)
 
     #: What `cells` are, in meshio's words.
@@ -109,8 +123,11 @@ class Ice(IceBody):
     def section(self) -> tuple[Array, Array, Array]:
         """Section through the axis: x (n,) m, z (heights,) m, temperature rise (n, heights) K."""
         field = self.field()
-        return (np.concatenate((-self.r[:0:-1], self.r)), self.z,
-                np.concatenate((field[:0:-1], field)))
+        return (
+            np.concatenate((-self.r[:0:-1], self.r)),
+            self.z,
+            np.concatenate((field[:0:-1], field)),
+        )
 
     @property
     def points(self) -> Array:

@@ -39,15 +39,15 @@ class Response(NamedTuple):
     """What a step of given duration does, per mode unless said."""
 
     decay: Array
-    mean: Array               # mean of the decay
-    forced: Array             # amplitude at the end for load 1 W on the contact
-    held: Array               # amplitude at the end for load 1 on the mode
-    held_mean: Array          # mean amplitude for load 1 on the mode
-    face_mean: float          # step-mean of the face for 1 W, K/W
-    face_end: float           # end of the face for 1 W, K/W
-    loss_free: Array          # J lost to the air per amplitude
-    loss_held: Array          # J lost to the air for load 1 on the mode
-    loss_forced: float        # J lost to the air for load 1 W on the contact
+    mean: Array  # mean of the decay
+    forced: Array  # amplitude at the end for load 1 W on the contact
+    held: Array  # amplitude at the end for load 1 on the mode
+    held_mean: Array  # mean amplitude for load 1 on the mode
+    face_mean: float  # step-mean of the face for 1 W, K/W
+    face_end: float  # end of the face for 1 W, K/W
+    loss_free: Array  # J lost to the air per amplitude
+    loss_held: Array  # J lost to the air for load 1 on the mode
+    loss_forced: float  # J lost to the air for load 1 W on the contact
 
 
 def _modes(space: IceSpace, shrink: float) -> tuple[Array, Array]:
@@ -100,11 +100,17 @@ class IceBody:
         held, held_mean = duration * mean, duration * response
         forced = self._face * held
         return Response(
-            decay=decay(x), mean=mean, forced=forced, held=held, held_mean=held_mean,
+            decay=decay(x),
+            mean=mean,
+            forced=forced,
+            held=held,
+            held_mean=held_mean,
             face_mean=float(np.sum(self._face**2 * held_mean)),
             face_end=float(self._face @ forced),
-            loss_free=self._air * held, loss_held=self._air * duration * held_mean,
-            loss_forced=float(np.sum(self._air * self._face * held_mean) * duration))
+            loss_free=self._air * held,
+            loss_held=self._air * duration * held_mean,
+            loss_forced=float(np.sum(self._air * self._face * held_mean) * duration),
+        )
 
     def face_response(self, duration: float, recession: float = 0.0) -> tuple[float, float]:
         """Contact face for 1 W on the contact, K/W: mean over the step and at its end.
@@ -115,8 +121,9 @@ class IceBody:
         middle, end = self._shrinks(recession)
         return response.face_mean / middle, response.face_end / end
 
-    def free_face(self, duration: float, sinking: Array | None = None,
-                  recession: float = 0.0) -> tuple[float, float]:
+    def free_face(
+        self, duration: float, sinking: Array | None = None, recession: float = 0.0
+    ) -> tuple[float, float]:
         """Mean contact face without flux, K: mean over the step and at its end.
 
         sinking: load on the modes from `sinking`; recession: of the face in the step, m.
@@ -134,8 +141,9 @@ class IceBody:
         part = recession / self.space.height
         return self.shrink - 0.5 * part, self.shrink - part
 
-    def sinking(self, duration: float, recession: float, load: float,
-                before: Array | None = None) -> Array:
+    def sinking(
+        self, duration: float, recession: float, load: float, before: Array | None = None
+    ) -> Array:
         """Load on the modes (n,) from ice that sinks towards a face that recedes (m) in a step.
 
         load: W on the contact; before: an estimate of what is returned.
@@ -150,8 +158,9 @@ class IceBody:
         end = self.amplitudes * response.decay + response.forced * load
         return end if sinking is None else end + response.held * sinking
 
-    def advance(self, duration: float, load: float, sinking: Array | None = None,
-                recession: float = 0.0) -> float:
+    def advance(
+        self, duration: float, load: float, sinking: Array | None = None, recession: float = 0.0
+    ) -> float:
         """Advance by duration (s) under a load (W) on the contact; heat to the air, J.
 
         sinking: load on the modes; recession: of the face in the step, m. IceMelted when less than
@@ -171,7 +180,8 @@ class IceBody:
         if self.shrink < _LEAST_HEIGHT:
             raise IceMelted(
                 f"the ice has melted: of its {self.space.height:g} m less than"
-                f" {_LEAST_HEIGHT * self.space.height:g} m are left")
+                f" {_LEAST_HEIGHT * self.space.height:g} m are left"
+            )
         bears = _TOLERANCE * (self.space.height - self._fitted_depth)
         gone = self.melted_depth - self._fitted_depth
         if abs(gone) > bears:

@@ -46,8 +46,11 @@ def read_sample(file: str | Path) -> tuple[Array, Cells]:
     """
     file = Path(file)
     points, cells = _volume(file, _read(file))
-    fault = (_fault_of_size(points) or _fault_of_elements(points, cells)
-             or _fault_of_surface(points, cells))
+    fault = (
+        _fault_of_size(points)
+        or _fault_of_elements(points, cells)
+        or _fault_of_surface(points, cells)
+    )
     if fault:
         raise MeshError(f"{file}: {fault}")
     return points, cells
@@ -64,8 +67,10 @@ def _read(file: Path) -> meshio.Mesh:
     except (SystemExit, Exception) as error:  # readers of forty formats, each with its own errors
         told = said.getvalue() if isinstance(error, SystemExit) else str(error)
         why = " ".join(told.split())[:120] or type(error).__name__
-        raise MeshError(f"{file}: cannot be read as a mesh ({why}), allowed is a file that meshio"
-                        " reads, such as .msh, .vtk or .vtu") from error
+        raise MeshError(
+            f"{file}: cannot be read as a mesh ({why}), allowed is a file that meshio"
+            " reads, such as .msh, .vtk or .vtu"
+        ) from error
 
 
 def _volume(file: Path, mesh: meshio.Mesh) -> tuple[Array, Cells]:
@@ -92,8 +97,10 @@ def _fault_of_size(points: Array) -> str | None:
     size = " x ".join(f"{x:g}" for x in extent)
     if extent.max() > LARGEST:
         unit = "mm" if extent.max() > 10.0 * LARGEST else "cm"
-        return (f"the sample is {size} m, allowed is up to {LARGEST:g} m: is the file in {unit}?"
-                f" Coordinates are in metres")
+        return (
+            f"the sample is {size} m, allowed is up to {LARGEST:g} m: is the file in {unit}?"
+            f" Coordinates are in metres"
+        )
     if extent.min() < SMALLEST:
         return f"the sample is {size} m, allowed is at least {SMALLEST:g} m each way"
     if abs(low[2]) > FLAT * extent[2]:
@@ -105,9 +112,12 @@ def _fault_of_elements(points: Array, cells: Cells) -> str | None:
     corners = points[cells]
     edges = corners[:, 1:] - corners[:, :1]
     volume = np.abs(np.linalg.det(edges)) / 6.0
-    longest = np.linalg.norm(np.concatenate(
-        (edges, np.diff(corners[:, 1:], axis=1), corners[:, 1:2] - corners[:, 3:]), axis=1),
-        axis=2).max(axis=1)
+    longest = np.linalg.norm(
+        np.concatenate(
+            (edges, np.diff(corners[:, 1:], axis=1), corners[:, 1:2] - corners[:, 3:]), axis=1
+        ),
+        axis=2,
+    ).max(axis=1)
     flat = int(np.count_nonzero(volume <= THINNEST * longest**3))
     if flat:
         return f"{flat} of its {len(cells)} tetrahedra have no volume"
@@ -115,8 +125,7 @@ def _fault_of_elements(points: Array, cells: Cells) -> str | None:
 
 
 def facets_of(cells: Cells) -> tuple[Cells, Cells, Cells]:
-    """Facets (facets, 3), sorted nodes; which one each side is (cells * 4,); its cell (cells * 4,).
-    """
+    """Facets (facets, 3), sorted nodes; for each side (cells * 4,) its facet, and its cell."""
     sides = np.sort(np.concatenate([cells[:, list(facet)] for facet in _FACETS]), axis=1)
     facets, number = np.unique(sides, axis=0, return_inverse=True)
     return facets, number.ravel(), np.tile(np.arange(len(cells)), 4)
@@ -127,12 +136,14 @@ def _fault_of_surface(points: Array, cells: Cells) -> str | None:
     count = np.bincount(number)
     if count.max() > 2:
         return f"{np.count_nonzero(count > 2)} facets belong to more than two tetrahedra"
-    return (_fault_of_neighbours(points, cells, facets, number, owner, count)
-            or _fault_of_boundary(points, facets[count == 1]))
+    return _fault_of_neighbours(points, cells, facets, number, owner, count) or _fault_of_boundary(
+        points, facets[count == 1]
+    )
 
 
-def _fault_of_neighbours(points: Array, cells: Cells, facets: Cells, number: Cells,
-                         owner: Cells, count: Cells) -> str | None:
+def _fault_of_neighbours(
+    points: Array, cells: Cells, facets: Cells, number: Cells, owner: Cells, count: Cells
+) -> str | None:
     """Tetrahedra hang together, and lie on opposite sides of the facet between them."""
     order = np.argsort(number, kind="stable")
     starts = np.concatenate(([0], np.cumsum(count)[:-1]))[count == 2]
@@ -140,8 +151,10 @@ def _fault_of_neighbours(points: Array, cells: Cells, facets: Cells, number: Cel
     graph = coo_matrix((np.ones(one.size), (owner[one], owner[two])), shape=(len(cells),) * 2)
     pieces = connected_components(graph, directed=False)[0]
     if pieces > 1:
-        return (f"it falls into {pieces} pieces that share no facet, allowed is one: merge nodes at"
-                " the same place, keep one body")
+        return (
+            f"it falls into {pieces} pieces that share no facet, allowed is one: merge nodes at"
+            " the same place, keep one body"
+        )
     a, b, c = (points[facets[count == 2]][:, i] for i in range(3))
     normal = np.cross(b - a, c - a)
     # the corner of a tetrahedron that is not on the side of that number
@@ -153,14 +166,18 @@ def _fault_of_neighbours(points: Array, cells: Cells, facets: Cells, number: Cel
 
 def _fault_of_boundary(points: Array, surface: Cells) -> str | None:
     """The surface is closed and in one piece, and a part of it is the base."""
-    edges = np.sort(np.concatenate([surface[:, [0, 1]], surface[:, [1, 2]], surface[:, [0, 2]]]),
-                    axis=1)
+    edges = np.sort(
+        np.concatenate([surface[:, [0, 1]], surface[:, [1, 2]], surface[:, [0, 2]]]), axis=1
+    )
     _, number, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
     if np.any(count != 2):
-        return (f"its surface is not closed: {np.count_nonzero(count != 2)} edges do not lie"
-                " between two facets")
-    belongs = coo_matrix((np.ones(number.size),
-                          (np.tile(np.arange(len(surface)), 3), number.ravel())))
+        return (
+            f"its surface is not closed: {np.count_nonzero(count != 2)} edges do not lie"
+            " between two facets"
+        )
+    belongs = coo_matrix(
+        (np.ones(number.size), (np.tile(np.arange(len(surface)), 3), number.ravel()))
+    )
     shells = connected_components(belongs @ belongs.T, directed=False)[0]
     if shells > 1:
         return f"it has {shells - 1} hollows inside, allowed is solid ice"

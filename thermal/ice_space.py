@@ -65,7 +65,8 @@ class IceSpace:
     def factor(self, shrink: float) -> Array:
         """Factor (up to 4 n, n) of everything that takes heat away, at J = shrink."""
         return np.concatenate(
-            (self.across, self.upwards / shrink, self.side, self.top / np.sqrt(shrink)))
+            (self.across, self.upwards / shrink, self.side, self.top / np.sqrt(shrink))
+        )
 
     def air(self, shrink: float) -> Array:
         """Heat (n,) to the air at J = shrink, W/K."""
@@ -93,20 +94,26 @@ class Body:
 
     def contact(self) -> tuple[Array, float]:
         """Load of 1 W/m2 on the contact (N,), and the contact's area in m2."""
-        load = LinearForm(
-            lambda v, w: self.measure(w.x) * self.share(w.x) * v).assemble(self.bottom)
+        load = LinearForm(lambda v, w: self.measure(w.x) * self.share(w.x) * v).assemble(
+            self.bottom
+        )
         return load, float(load.sum())
 
     def capacity(self) -> spmatrix:
         """Capacity matrix, J/K."""
         return BilinearForm(
-            lambda u, v, w: self.medium.capacity * self.measure(w.x) * u * v).assemble(self.basis)
+            lambda u, v, w: self.medium.capacity * self.measure(w.x) * u * v
+        ).assemble(self.basis)
 
     def conduction(self) -> spmatrix:
         """Conduction and films at J = 1, W/K."""
         inside = BilinearForm(
-            lambda u, v, w: self.medium.conductivity * self.measure(w.x) * sum(
-                u.grad[i] * v.grad[i] for i in range(self.basis.mesh.dim()))).assemble(self.basis)
+            lambda u, v, w: (
+                self.medium.conductivity
+                * self.measure(w.x)
+                * sum(u.grad[i] * v.grad[i] for i in range(self.basis.mesh.dim()))
+            )
+        ).assemble(self.basis)
         film = BilinearForm(lambda u, v, w: self.h * self.measure(w.x) * u * v)
         return inside + sum(film.assemble(part) for part in (self.side, self.top) if part)
 
@@ -114,8 +121,15 @@ class Body:
         """The form of V/J in the module's equation, W/K for V = 1 m/s."""
         up = self.basis.mesh.dim() - 1
         return BilinearForm(
-            lambda u, v, w: -self.medium.capacity * self.measure(w.x) * self.share(w.x)
-            * (1.0 - w.x[up] / self.height) * u * v.grad[up]).assemble(self.basis)
+            lambda u, v, w: (
+                -self.medium.capacity
+                * self.measure(w.x)
+                * self.share(w.x)
+                * (1.0 - w.x[up] / self.height)
+                * u
+                * v.grad[up]
+            )
+        ).assemble(self.basis)
 
     def film(self, part: FacetBasis | None) -> Array:
         """Heat (N,) to the air through a part of the surface, W/K."""
@@ -127,19 +141,26 @@ class Body:
         """The Galerkin space of the columns of trial (N, n)."""
         capacity = self.capacity()
         load, area = self.contact()
-        weight = self.medium.conductivity * self.measure(
-            self.basis.global_coordinates()) * self.basis.dx
+        weight = (
+            self.medium.conductivity * self.measure(self.basis.global_coordinates()) * self.basis.dx
+        )
         up, n = self.basis.mesh.dim() - 1, trial.shape[1]
         return IceSpace(
-            trial=trial, capacity=trial.T @ (capacity @ trial),
+            trial=trial,
+            capacity=trial.T @ (capacity @ trial),
             across=_factor(_gradients(self.basis, weight, range(up), trial), n),
             upwards=_factor(_gradients(self.basis, weight, (up,), trial), n),
             side=_factor(self._traces(self.side, trial), n),
             top=_factor(self._traces(self.top, trial), n),
-            sinking=trial.T @ (self.sinking() @ trial), contact=trial.T @ (load / area),
+            sinking=trial.T @ (self.sinking() @ trial),
+            contact=trial.T @ (load / area),
             heat=trial.T @ np.asarray(capacity.sum(axis=0)).ravel(),
-            side_air=trial.T @ self.film(self.side), top_air=trial.T @ self.film(self.top),
-            height=self.height, area=area, whole_capacity=float(capacity.sum()))
+            side_air=trial.T @ self.film(self.side),
+            top_air=trial.T @ self.film(self.top),
+            height=self.height,
+            area=area,
+            whole_capacity=float(capacity.sum()),
+        )
 
     def _traces(self, film: FacetBasis | None, trial: Array) -> Iterator[Array]:
         """Rows g of the film with g . g its power, W."""
@@ -148,9 +169,13 @@ class Body:
         root = np.sqrt(self.h * self.measure(film.global_coordinates()) * film.dx)
         for part in _chunks(film.dx.shape[0]):
             values = sum(
-                np.einsum("eq,en->eqn", np.broadcast_to(np.asarray(phi[0]), root.shape)[part],
-                          trial[dofs[part]])
-                for phi, dofs in zip(film.basis, film.element_dofs, strict=True))
+                np.einsum(
+                    "eq,en->eqn",
+                    np.broadcast_to(np.asarray(phi[0]), root.shape)[part],
+                    trial[dofs[part]],
+                )
+                for phi, dofs in zip(film.basis, film.element_dofs, strict=True)
+            )
             yield (root[part, :, None] * values).reshape(-1, trial.shape[1])
 
 
@@ -165,7 +190,8 @@ def _gradients(basis: CellBasis, weight: Array, components, trial: Array) -> Ite
         for i in components:
             values = sum(
                 np.einsum("eq,en->eqn", phi[0].grad[i][part], trial[dofs[part]])
-                for phi, dofs in zip(basis.basis, basis.element_dofs, strict=True))
+                for phi, dofs in zip(basis.basis, basis.element_dofs, strict=True)
+            )
             yield (root[part, :, None] * values).reshape(-1, trial.shape[1])
 
 

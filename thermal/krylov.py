@@ -38,12 +38,19 @@ def response_space(capacity: csr_matrix, conduction: csr_matrix, load: Array) ->
     for shift in SHIFTS:
         system = (shift * capacity + conduction).tocsr()
         guess = space @ np.linalg.solve(space.T @ (system @ space), space.T @ load)
-        found, failed = cg(system, load, x0=guess, rtol=_TOLERANCE, maxiter=_MOST_ITERATIONS,
-                           M=diags(1.0 / system.diagonal()))
+        found, failed = cg(
+            system,
+            load,
+            x0=guess,
+            rtol=_TOLERANCE,
+            maxiter=_MOST_ITERATIONS,
+            M=diags(1.0 / system.diagonal()),
+        )
         if failed:
             raise ArithmeticError(
                 f"its answer to heat at {shift:g} 1/s did not converge in {_MOST_ITERATIONS}"
-                " iterations: are some of its elements very flat?")
+                " iterations: are some of its elements very flat?"
+            )
         space = _extended(space, found, capacity)
     return space
 

@@ -31,8 +31,11 @@ class HeatLedger:
     @property
     def residual(self) -> float:
         """Received less everything found: 0 up to rounding."""
-        return self.received + self.from_railing - (
-            self.belt + self.ice + self.to_air + self.to_supports + self.meltwater)
+        return (
+            self.received
+            + self.from_railing
+            - (self.belt + self.ice + self.to_air + self.to_supports + self.meltwater)
+        )
 
     @property
     def belt_share(self) -> float:

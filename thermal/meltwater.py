@@ -27,8 +27,14 @@ class Meltwater:
     melting: the melting point, K above the air.
     """
 
-    def __init__(self, parameters: ThermalParameters, footprint: Footprint, ice: IceBody,
-                 belt: Belt, melting: float) -> None:
+    def __init__(
+        self,
+        parameters: ThermalParameters,
+        footprint: Footprint,
+        ice: IceBody,
+        belt: Belt,
+        melting: float,
+    ) -> None:
         of_ice, contact = parameters.ice, parameters.contact
         self._footprint = footprint
         self._latent = of_ice.latent_heat
@@ -40,8 +46,9 @@ class Meltwater:
         self.on_belt = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
         self.melted = self.wiped = self.wiped_ice = 0.0
 
-    def exchange(self, duration: float, displacement: float,
-                 solve: Callable[[IceFace], Fluxes]) -> Receding:
+    def exchange(
+        self, duration: float, displacement: float, solve: Callable[[IceFace], Fluxes]
+    ) -> Receding:
         """Fluxes of a step in which the belt moves (m), from those for an ice face."""
         return self.ablation.exchange(duration, self.film.available(displacement), solve)
 
@@ -93,13 +100,29 @@ class Meltwater:
 
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy."""
-        return np.concatenate((
-            [self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped,
-             self.wiped_ice],
-            self.on_belt.water, self.on_belt.frozen))
+        return np.concatenate(
+            (
+                [
+                    self.ablation.speed,
+                    self.film.mass,
+                    self.film.squeezed,
+                    self.melted,
+                    self.wiped,
+                    self.wiped_ice,
+                ],
+                self.on_belt.water,
+                self.on_belt.frozen,
+            )
+        )
 
     def restore(self, state: Array) -> None:
         """Take a state that `state` returned."""
-        (self.ablation.speed, self.film.mass, self.film.squeezed, self.melted, self.wiped,
-         self.wiped_ice) = (float(x) for x in state[:6])
+        (
+            self.ablation.speed,
+            self.film.mass,
+            self.film.squeezed,
+            self.melted,
+            self.wiped,
+            self.wiped_ice,
+        ) = (float(x) for x in state[:6])
         self.on_belt.water[:], self.on_belt.frozen[:] = state[6:].reshape(2, -1)

@@ -43,12 +43,14 @@ class BeltIceModel:
         self.belt = self.track.belt
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
-        self.meltwater = Meltwater(parameters, self.footprint, self.ice, self.belt,
-                                   MELTING_POINT_DEGC - self._ambient)
+        self.meltwater = Meltwater(
+            parameters, self.footprint, self.ice, self.belt, MELTING_POINT_DEGC - self._ambient
+        )
         self.longest_movement = _MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
-        self._probe = 0.5 * min((1.0 + 2.0 * _PROBE) * self.footprint.length,
-                                parameters.belt.length)
+        self._probe = 0.5 * min(
+            (1.0 + 2.0 * _PROBE) * self.footprint.length, parameters.belt.length
+        )
         self._travel = 0.0
         self._direction = 1.0
         self._melt_rate = 0.0
@@ -59,8 +61,9 @@ class BeltIceModel:
         length = self.parameters.belt.length
         return (0.5 * length - self._travel) % length
 
-    def step(self, duration: float, heat: float, displacement: float,
-             travel: float | None = None) -> None:
+    def step(
+        self, duration: float, heat: float, displacement: float, travel: float | None = None
+    ) -> None:
         """Advance by duration (s, > 0).
 
         heat: friction heat produced in the step, J, >= 0. displacement: way of the belt
@@ -71,8 +74,10 @@ class BeltIceModel:
         """
         travel = displacement if travel is None else travel
         _check_step(duration, heat, displacement, travel, self.parameters.belt.length)
-        parts = max(math.ceil(abs(displacement) / self.longest_movement),
-                    self.meltwater.ablation.parts(heat))
+        parts = max(
+            math.ceil(abs(displacement) / self.longest_movement),
+            self.meltwater.ablation.parts(heat),
+        )
         melted = self.meltwater.melted
         for _ in range(parts):
             self._advance(duration / parts, heat / parts, displacement / parts, travel / parts)
@@ -82,36 +87,40 @@ class BeltIceModel:
         self.ledger.meltwater = self.meltwater.heat
         self._melt_rate = (self.meltwater.melted - melted) / duration
 
-    def _advance(self, duration: float, heat: float, displacement: float,
-                 travel: float) -> None:
+    def _advance(self, duration: float, heat: float, displacement: float, travel: float) -> None:
         """One internal step: what it finds, the fluxes, both fields, the ledger."""
         centre, area = self.contact_position, self.footprint.area
         seen = self.track.see(duration, centre, -displacement, travel)
 
         def solve(ice_face: IceFace) -> Fluxes:
             return exchange(
-                seen.contact.face, ice_face, self.parameters.contact.conductance,
-                self.parameters.belt.film, heat / (duration * area),
-                self.parameters.contact.belt_side)
+                seen.contact.face,
+                ice_face,
+                self.parameters.contact.conductance,
+                self.parameters.belt.film,
+                heat / (duration * area),
+                self.parameters.contact.belt_side,
+            )
 
         fluxes, sinking, recession = self.meltwater.exchange(duration, displacement, solve)
-        given = self.track.advance(
-            duration, seen, fluxes.belt, self.meltwater.freezing(duration))
+        given = self.track.advance(duration, seen, fluxes.belt, self.meltwater.freezing(duration))
         to_air = self.ice.advance(duration, fluxes.ice * area, sinking, recession)
         self.meltwater.advance(duration, displacement, centre, fluxes.melting)
         self._book(duration, heat, fluxes, given, to_air)
         self.ledger.from_railing += seen.rubbed
         self._travel = math.fmod(self._travel + displacement, self.parameters.belt.length)
 
-    def _book(self, duration: float, heat: float, fluxes: Fluxes, given: Given,
-              ice_to_air: float) -> None:
+    def _book(
+        self, duration: float, heat: float, fluxes: Fluxes, given: Given, ice_to_air: float
+    ) -> None:
         """Add one internal step to the ledger."""
         ledger, footprint = self.ledger, self.footprint
         ledger.received += heat
         ledger.to_air += given.to_air + ice_to_air
         ledger.to_supports += given.to_supports
         ledger.from_contact_to_belt += (
-            float(fluxes.from_contact.sum()) * footprint.strip_area * duration)
+            float(fluxes.from_contact.sum()) * footprint.strip_area * duration
+        )
 
     def outputs(self) -> dict[str, float]:
         """Values at the end of the last step: degC, 1, kg/s (mean over the step), kg, m, J.
@@ -172,20 +181,33 @@ class BeltIceModel:
 
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy; its length depends on the mesh."""
-        return np.concatenate((
-            [self._travel, self._direction, self._melt_rate], self.ledger.array(),
-            self.ice.state(), self.meltwater.state(),
-            self.belt.amplitudes.view(np.float64).ravel()))
+        return np.concatenate(
+            (
+                [self._travel, self._direction, self._melt_rate],
+                self.ledger.array(),
+                self.ice.state(),
+                self.meltwater.state(),
+                self.belt.amplitudes.view(np.float64).ravel(),
+            )
+        )
 
     def restore(self, array: Array) -> None:
         """Take a state that `state` returned; the continuation is the same bit for bit."""
         array = np.asarray(array, dtype=np.float64)
-        sizes = np.cumsum([3, self.ledger.array().size, self.ice.state().size,
-                           self.meltwater.state().size, 2 * self.belt.amplitudes.size])
+        sizes = np.cumsum(
+            [
+                3,
+                self.ledger.array().size,
+                self.ice.state().size,
+                self.meltwater.state().size,
+                2 * self.belt.amplitudes.size,
+            ]
+        )
         if array.shape != (sizes[-1],):
             raise ValueError(
                 f"thermal state has shape {array.shape}, expected ({sizes[-1]},): it was saved with"
-                " another mesh")
+                " another mesh"
+            )
         own, ledger, ice, meltwater, belt = np.split(array, sizes[:-1])
         self._travel, self._direction, self._melt_rate = (float(x) for x in own)
         self.ledger.restore(ledger)
@@ -194,10 +216,15 @@ class BeltIceModel:
         self.belt.amplitudes.view(np.float64)[:] = belt.reshape(self.belt.amplitudes.shape[0], -1)
 
 
-def _check_step(duration: float, heat: float, displacement: float, travel: float,
-                length: float) -> None:
-    for name, value, unit in (("duration", duration, "s"), ("heat", heat, "J"),
-                              ("displacement", displacement, "m"), ("travel", travel, "m")):
+def _check_step(
+    duration: float, heat: float, displacement: float, travel: float, length: float
+) -> None:
+    for name, value, unit in (
+        ("duration", duration, "s"),
+        ("heat", heat, "J"),
+        ("displacement", displacement, "m"),
+        ("travel", travel, "m"),
+    ):
         if not math.isfinite(value):
             raise ValueError(f"{name} = {value} {unit} is not a finite number")
     if duration <= 0.0:
@@ -205,5 +232,7 @@ def _check_step(duration: float, heat: float, displacement: float, travel: float
     if heat < 0.0:
         raise ValueError(f"heat = {heat:g} J must not be negative: friction produces heat")
     if abs(displacement) > _MOST_LOOPS * length:
-        raise ValueError(f"displacement = {displacement:g} m is more than {_MOST_LOOPS} loops of"
-                         f" the {length:g} m belt in one step: take shorter steps")
+        raise ValueError(
+            f"displacement = {displacement:g} m is more than {_MOST_LOOPS} loops of"
+            f" the {length:g} m belt in one step: take shorter steps"
+        )

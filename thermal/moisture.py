@@ -53,5 +53,6 @@ def frost(convection: float, radiation: float, temperature_degC: float) -> Frost
     pressure = saturation_over_ice(temperature_degC)
     moved = _SUBLIMATION * _MOLES / (_AIR * _PRESSURE * _LEWIS ** (2.0 / 3.0))
     added = convection * moved * _SUBLIMATION * pressure / (_VAPOUR * t**2)
-    return Frost(added, convection * moved * pressure / (convection + radiation + added),
-                 1e-4 * _RIME)
+    return Frost(
+        added, convection * moved * pressure / (convection + radiation + added), 1e-4 * _RIME
+    )

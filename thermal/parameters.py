@@ -18,8 +18,9 @@ MOST_CELLS = 200_000
 
 def quantity(default: float, unit: str, description: str, **bounds: Any) -> Any:
     """A number with its unit (`1` for none) in the JSON schema and in its description."""
-    return Field(default, description=f"{description} [{unit}]", json_schema_extra={"unit": unit},
-                 **bounds)
+    return Field(
+        default, description=f"{description} [{unit}]", json_schema_extra={"unit": unit}, **bounds
+    )
 
 
 class ParameterError(ValueError):
@@ -36,8 +37,12 @@ class Ambient(Block):
     """The air of the cold room: also the temperature that belt and ice start from."""
 
     temperature_degC: float = quantity(
-        -8.0, "degC", "air temperature; the first of the test rig's two, -8 and -16",
-        ge=-100.0, lt=MELTING_POINT_DEGC)
+        -8.0,
+        "degC",
+        "air temperature; the first of the test rig's two, -8 and -16",
+        ge=-100.0,
+        lt=MELTING_POINT_DEGC,
+    )
 
 
 class Layer(Block):
@@ -70,41 +75,76 @@ class Belt(Block):
     heat_capacity: float = quantity(840.0, "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)
     conductivity: float = quantity(0.5, "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
     air_heat_transfer: float = quantity(
-        15.0, "W/(m2.K)", "heat transfer to the air, on each free face", ge=0.0, le=1e4)
+        15.0, "W/(m2.K)", "heat transfer to the air, on each free face", ge=0.0, le=1e4
+    )
     still_air_speed: float = quantity(
-        0.0, "m/s", "speed of the belt through still air, from which its heat transfer then follows"
-        " in place of air_heat_transfer; 0: that number holds", ge=0.0, le=1e3)
+        0.0,
+        "m/s",
+        "speed of the belt through still air, from which its heat transfer then follows"
+        " in place of air_heat_transfer; 0: that number holds",
+        ge=0.0,
+        le=1e3,
+    )
     layers: tuple[Layer, ...] = Field(
-        (), max_length=10,
+        (),
+        max_length=10,
         description="layers from the contact face to the back, in place of thickness, density,"
-                    " heat_capacity and conductivity")
+        " heat_capacity and conductivity",
+    )
     railing_length: float = quantity(
-        0.0, "m", "length of the railing along the belt, its middle below the contact's; 0: none",
-        ge=0.0, le=100.0)
+        0.0,
+        "m",
+        "length of the railing along the belt, its middle below the contact's; 0: none",
+        ge=0.0,
+        le=100.0,
+    )
     railing_conductance: float = quantity(
-        0.0, "W/(m2.K)", "from the back of the belt to the railing", ge=0.0, le=1e12)
+        0.0, "W/(m2.K)", "from the back of the belt to the railing", ge=0.0, le=1e12
+    )
     railing_friction: float = quantity(
-        0.0, "1", "coefficient of friction of the belt on its railing; 0: none; PTFE 0.04 to 0.2",
-        ge=0.0, le=10.0)
+        0.0,
+        "1",
+        "coefficient of friction of the belt on its railing; 0: none; PTFE 0.04 to 0.2",
+        ge=0.0,
+        le=10.0,
+    )
     railing_load: float = quantity(
-        0.0, "N", "load of the belt on its railing; 0: the block's weight in a scenario, none where"
-        " there is no block", ge=0.0, le=1e6)
+        0.0,
+        "N",
+        "load of the belt on its railing; 0: the block's weight in a scenario, none where"
+        " there is no block",
+        ge=0.0,
+        le=1e6,
+    )
     railing_share: float = quantity(
-        0.5, "1", "share of the railing's friction heat that enters the belt", ge=0.0, le=1.0)
+        0.5, "1", "share of the railing's friction heat that enters the belt", ge=0.0, le=1.0
+    )
     rollers: int = Field(
-        0, ge=0, le=20, description="rollers, evenly spread from half a spacing after the contact")
+        0, ge=0, le=20, description="rollers, evenly spread from half a spacing after the contact"
+    )
     roller_arc: float = quantity(
-        0.1, "m", "length of belt that touches a roller; half the circumference of a 64 mm one",
-        gt=0.0, le=100.0)
+        0.1,
+        "m",
+        "length of belt that touches a roller; half the circumference of a 64 mm one",
+        gt=0.0,
+        le=100.0,
+    )
     roller_conductance: float = quantity(
-        100.0, "W/(m2.K)", "from the back of the belt to a roller", ge=0.0, le=1e12)
+        100.0, "W/(m2.K)", "from the back of the belt to a roller", ge=0.0, le=1e12
+    )
     roller_rise: float = quantity(
-        0.0, "K", "rollers above the air, warmed by their drive and by flexing the belt", ge=-100.0,
-        le=100.0)
+        0.0,
+        "K",
+        "rollers above the air, warmed by their drive and by flexing the belt",
+        ge=-100.0,
+        le=100.0,
+    )
     elements: int = Field(
-        6, ge=1, le=40, description="P2 elements through the thickness, finest at the contact")
+        6, ge=1, le=40, description="P2 elements through the thickness, finest at the contact"
+    )
     cell_length: float = quantity(
-        1e-3, "m", "length of a cell along the belt; rounded to fit the loop", gt=0.0, le=1.0)
+        1e-3, "m", "length of a cell along the belt; rounded to fit the loop", gt=0.0, le=1.0
+    )
 
     @property
     def cells(self) -> int:
@@ -125,9 +165,14 @@ class Belt(Block):
     @property
     def stack(self) -> tuple[Layer, ...]:
         """The layers, one of the belt's own properties when none are given."""
-        return self.layers or (Layer(
-            thickness=self.thickness, density=self.density, heat_capacity=self.heat_capacity,
-            conductivity=self.conductivity),)
+        return self.layers or (
+            Layer(
+                thickness=self.thickness,
+                density=self.density,
+                heat_capacity=self.heat_capacity,
+                conductivity=self.conductivity,
+            ),
+        )
 
     @property
     def capacity_per_area(self) -> float:
@@ -146,21 +191,26 @@ class Ice(Block):
     """
 
     mesh: str = Field(
-        "", max_length=1000,
+        "",
+        max_length=1000,
         description="file with the sample's shape as tetrahedra in metres, standing on z = 0 with"
-                    " the belt along x (.msh, .vtk, .vtu, ...); in place of height, elements and"
-                    " the contact's radius and length")
+        " the belt along x (.msh, .vtk, .vtu, ...); in place of height, elements and"
+        " the contact's radius and length",
+    )
     height: float = quantity(0.10, "m", "height", gt=0.0, le=10.0)
     density: float = quantity(917.0, "kg/m3", "density", gt=0.0, le=3e4)
     heat_capacity: float = quantity(2050.0, "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)
     conductivity: float = quantity(2.2, "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
     latent_heat: float = quantity(334e3, "J/kg", "latent heat of melting", gt=0.0, le=1e7)
     air_heat_transfer: float = quantity(
-        10.0, "W/(m2.K)", "heat transfer to the air, on side and top", ge=0.0, le=1e4)
+        10.0, "W/(m2.K)", "heat transfer to the air, on side and top", ge=0.0, le=1e4
+    )
     radial_elements: int = Field(
-        6, ge=1, le=40, description="P2 elements along the radius, finest at the side")
+        6, ge=1, le=40, description="P2 elements along the radius, finest at the side"
+    )
     axial_elements: int = Field(
-        10, ge=1, le=40, description="P2 elements along the height, finest at the contact")
+        10, ge=1, le=40, description="P2 elements along the height, finest at the contact"
+    )
 
     @classmethod
     def at(cls, temperature_degC: float, **others: Any) -> Self:
@@ -173,8 +223,11 @@ class Ice(Block):
         (2.119, 2069)
         """
         kelvin = temperature_degC + ZERO_DEGC
-        return cls(conductivity=9.828 * math.exp(-0.0057 * kelvin),
-                   heat_capacity=152.5 + 7.122 * kelvin, **others)
+        return cls(
+            conductivity=9.828 * math.exp(-0.0057 * kelvin),
+            heat_capacity=152.5 + 7.122 * kelvin,
+            **others,
+        )
 
 
 class Contact(Block):
@@ -185,25 +238,46 @@ class Contact(Block):
 
     radius: float = quantity(0.04, "m", "radius of the ice cylinder", gt=0.0, le=10.0)
     length: float = quantity(
-        0.0, "m", "length of a rectangular contact along the motion, as wide as the belt or the"
+        0.0,
+        "m",
+        "length of a rectangular contact along the motion, as wide as the belt or the"
         " cylinder, the narrower; 0: the contact is the part of the cylinder's face on the belt",
-        ge=0.0, le=20.0)
+        ge=0.0,
+        le=20.0,
+    )
     conductance: float = quantity(
-        1e4, "W/(m2.K)", "contact conductance between the two faces", gt=0.0, le=1e12)
+        1e4, "W/(m2.K)", "contact conductance between the two faces", gt=0.0, le=1e12
+    )
     wiper: float = quantity(
-        0.0, "1", "part of the water and of the ice on the belt that a wiper in front of the"
-        " contact takes off", ge=0.0, le=1.0)
+        0.0,
+        "1",
+        "part of the water and of the ice on the belt that a wiper in front of the"
+        " contact takes off",
+        ge=0.0,
+        le=1.0,
+    )
     load: float = quantity(
-        0.0, "N", "weight on the contact, which squeezes melt water out; 0: that of the ice",
-        ge=0.0, le=1e9)
+        0.0,
+        "N",
+        "weight on the contact, which squeezes melt water out; 0: that of the ice",
+        ge=0.0,
+        le=1e9,
+    )
     belt_side: float = quantity(
-        0.5, "1", "share of the friction heat that arises on the belt's face, the rest on the"
-        " ice's; what each keeps follows from the conductance and from how both conduct", ge=0.0,
-        le=1.0)
+        0.5,
+        "1",
+        "share of the friction heat that arises on the belt's face, the rest on the"
+        " ice's; what each keeps follows from the conductance and from how both conduct",
+        ge=0.0,
+        le=1.0,
+    )
     strips: int = Field(
-        16, ge=1, le=64,
+        16,
+        ge=1,
+        le=64,
         description="strips across the belt in each of which the flux is uniform; 1 makes the"
-                    " flux uniform over the contact")
+        " flux uniform over the contact",
+    )
 
 
 class ThermalParameters(Block):
@@ -220,11 +294,13 @@ class ThermalParameters(Block):
         if self.belt.length <= diameter:
             raise ValueError(
                 f"belt.length = {self.belt.length:g} m is shorter than the contact: it must"
-                f" exceed 2 contact.radius = {diameter:g} m")
+                f" exceed 2 contact.radius = {diameter:g} m"
+            )
         if self.belt.length / self.belt.cell_length > MOST_CELLS:
             raise ValueError(
                 f"belt.cell_length = {self.belt.cell_length:g} m cuts the belt into more than"
-                f" {MOST_CELLS} cells")
+                f" {MOST_CELLS} cells"
+            )
         return self
 
     @model_validator(mode="after")
@@ -233,13 +309,15 @@ class ThermalParameters(Block):
         if self.ice.mesh and contact.length:
             raise ValueError(
                 f"contact.length = {contact.length:g} m and ice.mesh are both given: the mesh's"
-                " base is the contact, leave contact.length out")
+                " base is the contact, leave contact.length out"
+            )
         area = contact.length * min(self.belt.width, 2.0 * contact.radius)
         face = math.pi * contact.radius**2
         if area > face * (1.0 + 1e-9):
             raise ValueError(
                 f"contact.length = {contact.length:g} m makes a contact of {area:g} m2, more than"
-                f" the ice's face of {face:g} m2: take a larger contact.radius")
+                f" the ice's face of {face:g} m2: take a larger contact.radius"
+            )
         return self
 
     @model_validator(mode="after")
@@ -253,12 +331,16 @@ class ThermalParameters(Block):
     @model_validator(mode="after")
     def _layers_or_one(self) -> Self:
         belt = self.belt
-        given = [key for key in Layer.model_fields
-                 if getattr(belt, key) != Belt.model_fields[key].default]
+        given = [
+            key
+            for key in Layer.model_fields
+            if getattr(belt, key) != Belt.model_fields[key].default
+        ]
         if belt.layers and given:
             raise ValueError(
                 f"belt.{given[0]} = {getattr(belt, given[0]):g} and belt.layers are both given:"
-                " the layers say it all, leave one of the two out")
+                " the layers say it all, leave one of the two out"
+            )
         return self
 
     @model_validator(mode="after")
@@ -270,7 +352,8 @@ class ThermalParameters(Block):
             raise ValueError(
                 f"belt.length = {belt.length:g} m is too short for a railing of"
                 f" {belt.railing_length:g} m and {belt.rollers} rollers that touch"
-                f" {belt.roller_arc:g} m each")
+                f" {belt.roller_arc:g} m each"
+            )
         return self
 
     @model_validator(mode="after")
@@ -279,7 +362,8 @@ class ThermalParameters(Block):
         if belt.railing_friction > 0.0 and belt.railing_length == 0.0:
             raise ValueError(
                 f"belt.railing_friction = {belt.railing_friction:g} and belt.railing_length = 0:"
-                " there is no railing to rub on; allowed is a length above 0")
+                " there is no railing to rub on; allowed is a length above 0"
+            )
         return self
 
     @classmethod

@@ -39,10 +39,13 @@ class IceProperties(NamedTuple):
 def ice_properties(temperature_degC: float) -> IceProperties:
     """Properties of ice at a temperature, -180 ... 0 degC."""
     if not _COLDEST_DEGC <= temperature_degC <= MELTING_POINT_DEGC:
-        raise ValueError(f"temperature = {temperature_degC:g} degC: the fits for ice hold from"
-                         f" {_COLDEST_DEGC:g} to {MELTING_POINT_DEGC:g} degC")
+        raise ValueError(
+            f"temperature = {temperature_degC:g} degC: the fits for ice hold from"
+            f" {_COLDEST_DEGC:g} to {MELTING_POINT_DEGC:g} degC"
+        )
     t = temperature_degC
     return IceProperties(
         density=917.0 * (1.0 - 1.17e-4 * t),
         heat_capacity=185.0 + 6.89 * (t + ZERO_DEGC),
-        conductivity=1.16 * (1.91 - 8.66e-3 * t + 2.97e-5 * t**2))
+        conductivity=1.16 * (1.91 - 8.66e-3 * t + 2.97e-5 * t**2),
+    )

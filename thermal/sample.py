@@ -66,13 +66,16 @@ class Sample(IceBody):
     def __init__(self, parameters: IceParameters, file: str | Path, belt_width: float) -> None:
         points, cells = layered(*read_sample(file))
         if len(cells) > MOST_CELLS:
-            raise MeshError(f"{file}: has {len(cells)} tetrahedra with the layers at its base,"
-                            f" allowed are up to {MOST_CELLS}: make it coarser")
+            raise MeshError(
+                f"{file}: has {len(cells)} tetrahedra with the layers at its base,"
+                f" allowed are up to {MOST_CELLS}: make it coarser"
+            )
         body = assembled(parameters, points, cells, 0.5 * belt_width)
         load, area = body.contact()
         if not area > 0.0:
-            raise MeshError(f"{file}: its base does not lie on the belt,"
-                            f" |y| <= {0.5 * belt_width:g} m")
+            raise MeshError(
+                f"{file}: its base does not lie on the belt, |y| <= {0.5 * belt_width:g} m"
+            )
         try:
             trial = response_space(body.capacity().tocsr(), body.conduction().tocsr(), load)
         except ArithmeticError as error:
@@ -116,12 +119,14 @@ class Sample(IceBody):
         return self.nodal()[self.basis.nodal_dofs[0]]
 
 
-def assembled(parameters: IceParameters, points: Array, cells: NDArray[np.int64],
-               half: float) -> Body:
+def assembled(
+    parameters: IceParameters, points: Array, cells: NDArray[np.int64], half: float
+) -> Body:
     """P2 elements of a mesh on a belt that covers |y| <= half (m)."""
     height = float(points[:, 2].max())
     mesh = MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(cells.T)).with_boundaries(
-        {"base": lambda x: x[2] <= FLAT * height})
+        {"base": lambda x: x[2] <= FLAT * height}
+    )
     free = np.setdiff1d(mesh.boundary_facets(), mesh.boundaries["base"])
     normals = FacetBasis(mesh, ElementTetP2(), facets=free, intorder=1).normals
     flat = np.abs(normals[2, :, 0]) > _UPWARDS
@@ -132,7 +137,11 @@ def assembled(parameters: IceParameters, points: Array, cells: NDArray[np.int64]
     return Body(
         basis=CellBasis(mesh, ElementTetP2(), intorder=_QUADRATURE),
         medium=Medium(parameters.density, parameters.heat_capacity, parameters.conductivity),
-        h=parameters.air_heat_transfer, side=films(free[~flat]), top=films(free[flat]),
+        h=parameters.air_heat_transfer,
+        side=films(free[~flat]),
+        top=films(free[flat]),
         bottom=FacetBasis(mesh, ElementTetP2(), facets="base", intorder=6),
         share=lambda x: np.where(np.abs(x[1]) <= half, 1.0, 0.0),
-        measure=lambda x: 1.0 + 0.0 * x[0], height=height)
+        measure=lambda x: 1.0 + 0.0 * x[0],
+        height=height,
+    )

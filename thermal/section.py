@@ -30,8 +30,10 @@ def section(basis: CellBasis, x: Array, z: Array) -> csr_matrix:
     found = np.flatnonzero(of_point >= 0)
     dofs = basis.element_dofs[:, of_point[found]]
     weights = [basis.elem.lbasis(local[:, found], i)[0] for i in range(len(dofs))]
-    return csr_matrix((np.concatenate(weights), (np.tile(found, len(dofs)), dofs.ravel())),
-                      shape=(len(grid), basis.N))
+    return csr_matrix(
+        (np.concatenate(weights), (np.tile(found, len(dofs)), dofs.ravel())),
+        shape=(len(grid), basis.N),
+    )
 
 
 def _inside(grid: Array, corners: Array) -> tuple[NDArray[np.intp], Array]:
@@ -40,6 +42,5 @@ def _inside(grid: Array, corners: Array) -> tuple[NDArray[np.intp], Array]:
     slack = _ROUNDING * (high - low)
     near = np.flatnonzero(np.all((grid >= low - slack) & (grid <= high + slack), axis=1))
     inner = np.linalg.solve((corners[1:] - corners[0]).T, (grid[near] - corners[0]).T)
-    inside = (inner.min(axis=0, initial=1.0) >= -_ROUNDING) & (
-        inner.sum(axis=0) <= 1.0 + _ROUNDING)
+    inside = (inner.min(axis=0, initial=1.0) >= -_ROUNDING) & (inner.sum(axis=0) <= 1.0 + _ROUNDING)
     return near[inside], inner[:, inside]

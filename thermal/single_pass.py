@@ -38,20 +38,23 @@ class SinglePass:
         for name in ("friction_force", "cooling_rate", "ambient_degC", *positive):
             value = getattr(self, name)
             if not math.isfinite(value) or (name in positive and value <= 0.0):
-                raise ValueError(f"{name} = {value:g}: must be finite"
-                                 f"{' and positive' if name in positive else ''}")
+                raise ValueError(
+                    f"{name} = {value:g}: must be finite"
+                    f"{' and positive' if name in positive else ''}"
+                )
 
     @property
     def rise(self) -> float:
         """Temperature rise of the belt in the pass, K."""
-        return (self.friction_force * self.contact_length
-                / (self.heated_mass * self.heat_capacity))
+        return self.friction_force * self.contact_length / (self.heated_mass * self.heat_capacity)
 
     def temperature_degC(self, belt_length: float) -> float:
         """Temperature of the stretch when it meets the ice again, degC; belt_length in m."""
         if not belt_length >= self.contact_length:
-            raise ValueError(f"belt_length = {belt_length:g} m: must be at least the contact's"
-                             f" {self.contact_length:g} m")
+            raise ValueError(
+                f"belt_length = {belt_length:g} m: must be at least the contact's"
+                f" {self.contact_length:g} m"
+            )
         time = (belt_length - self.contact_length) / self.speed
         return self.ambient_degC + self.rise * math.exp(-self.cooling_rate * time)
 

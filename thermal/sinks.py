@@ -59,12 +59,21 @@ def supports(belt: BeltParameters, strip: float, lane: float) -> list[Support]:
     found = []
     if belt.railing_length > 0.0:
         heat = belt.railing_share * belt.railing_friction * belt.railing_load
-        found.append(Support(0.0, cut(belt.railing_length), belt.railing_conductance,
-                             drag=heat / (belt.railing_length * lane)))
+        found.append(
+            Support(
+                0.0,
+                cut(belt.railing_length),
+                belt.railing_conductance,
+                drag=heat / (belt.railing_length * lane),
+            )
+        )
     spacing = belt.length / max(1, belt.rollers)
-    found += [Support((n + 0.5) * spacing, cut(belt.roller_arc), belt.roller_conductance,
-                      belt.roller_rise)
-              for n in range(belt.rollers)]
+    found += [
+        Support(
+            (n + 0.5) * spacing, cut(belt.roller_arc), belt.roller_conductance, belt.roller_rise
+        )
+        for n in range(belt.rollers)
+    ]
     return found
 
 
@@ -98,4 +107,6 @@ def eliminate(free: Array, response: Array, excess: Array, given: Array) -> Elim
     across = response[:contact, contact:]
     return Eliminated(
         BeltFace(free[:contact] - across @ own, response[:contact, :contact] - across @ answer),
-        own, answer)
+        own,
+        answer,
+    )

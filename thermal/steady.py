@@ -34,7 +34,8 @@ def check_gives_heat(slowest_rate: float, to_supports: bool) -> None:
     if slowest_rate < _KEEPS_HEAT and not to_supports:
         raise NoSteadyState(
             "belt.air_heat_transfer = 0: a belt that gives its heat to nothing warms for ever and"
-            " has no steady state; allowed is above 0, or a railing or rollers that take heat")
+            " has no steady state; allowed is above 0, or a railing or rollers that take heat"
+        )
 
 
 def settle(model: BeltIceModel, duration: float, heat: float, displacement: float) -> None:
@@ -47,22 +48,27 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
     if abs(shift - round(shift)) > _ROUNDING or abs(displacement) > model.longest_movement:
         raise ValueError(
             f"displacement = {displacement:g} m: the steady state needs whole cells of"
-            f" {model.belt.cell:g} m in a step, at most {model.longest_movement:g} m")
+            f" {model.belt.cell:g} m in a step, at most {model.longest_movement:g} m"
+        )
     check_gives_heat(float(model.belt.rates[0, 0]), model.track.takes_heat)
     parameters, area = model.parameters, model.footprint.area
     response = model.belt.periodic_response(duration, round(shift))
-    seen = model.track.see(
-        duration, model.contact_position, -displacement, displacement, response)
+    seen = model.track.see(duration, model.contact_position, -displacement, displacement, response)
     ice = model.ice.response(FOREVER)
     melting = MELTING_POINT_DEGC - parameters.ambient.temperature_degC
     fluxes = exchange(
-        seen.contact.face, IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),
-        parameters.contact.conductance, parameters.belt.film,
-        heat / (duration * area), parameters.contact.belt_side)
+        seen.contact.face,
+        IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),
+        parameters.contact.conductance,
+        parameters.belt.film,
+        heat / (duration * area),
+        parameters.contact.belt_side,
+    )
     if fluxes.melting > 0.0:
         raise NoSteadyState(
             f"heat = {heat:g} J in {duration:g} s: the ice face reaches the melting point and melts"
-            " for ever; there is a steady state only for less friction heat")
+            " for ever; there is a steady state only for less friction heat"
+        )
     loads = model.belt.load(seen.windows, seen.contact.fluxes(fluxes.belt))
     model.belt.amplitudes[:] = sum(response.forced[face] * load for face, load in loads.items())
     model.ice.amplitudes[:] = ice.forced * (fluxes.ice * area)

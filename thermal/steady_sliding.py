@@ -85,9 +85,16 @@ class SteadySliding:
     cannot be.
     """
 
-    def __init__(self, parameters: ThermalParameters, speed: float, force: float,
-                 waves: int | None = None, block: tuple[Footprint, IceBody] | None = None,
-                 sensitivity: float = 0.0, ice_rise: float = 0.0) -> None:
+    def __init__(
+        self,
+        parameters: ThermalParameters,
+        speed: float,
+        force: float,
+        waves: int | None = None,
+        block: tuple[Footprint, IceBody] | None = None,
+        sensitivity: float = 0.0,
+        ice_rise: float = 0.0,
+    ) -> None:
         if not (math.isfinite(speed) and speed > 0.0):
             raise ValueError(f"speed = {speed:g} m/s must be above 0: the belt slides steadily")
         if not (math.isfinite(force) and force >= 0.0):
@@ -110,8 +117,13 @@ class SteadySliding:
     def _ice_face(self, duration: float) -> IceFace:
         mean, end = self.ice.free_face(duration)
         response, area = self.ice.response(duration), self.footprint.area
-        return IceFace(mean, end, response.face_mean * area, response.face_end * area,
-                       MELTING_POINT_DEGC - self.parameters.ambient.temperature_degC)
+        return IceFace(
+            mean,
+            end,
+            response.face_mean * area,
+            response.face_end * area,
+            MELTING_POINT_DEGC - self.parameters.ambient.temperature_degC,
+        )
 
     def step(self, duration: float, speed: float | None = None, lifted: bool = False) -> None:
         """Advance by duration (s, > 0) with constant fluxes.
@@ -125,7 +137,8 @@ class SteadySliding:
         contact = self.belt.see(duration, speed)
         friction = 0.0 if lifted else self._friction(speed)
         self._fluxes = fluxes = (
-            self._apart(duration) if lifted else self._together(contact.face, duration, friction))
+            self._apart(duration) if lifted else self._together(contact.face, duration, friction)
+        )
         self.belt.advance(duration, speed, contact.fluxes(fluxes.belt))
         self.ice.advance(duration, fluxes.ice * self.footprint.area)
         self._into_belt += float(fluxes.from_contact.mean()) * duration
@@ -135,8 +148,14 @@ class SteadySliding:
 
     def _together(self, belt, duration: float, friction: float) -> Fluxes:
         contact = self.parameters.contact
-        return exchange(belt, self._ice_face(duration), contact.conductance, self.belt.film,
-                        friction, contact.belt_side)
+        return exchange(
+            belt,
+            self._ice_face(duration),
+            contact.conductance,
+            self.belt.film,
+            friction,
+            contact.belt_side,
+        )
 
     def _apart(self, duration: float) -> Fluxes:
         """Nothing into the belt; the ice's base cools with the mean temperature of the step."""
@@ -163,8 +182,9 @@ class SteadySliding:
         0.4 % of their rise.
         """
         if duration > 0.0:
-            usual = coarseness * max(min(self._of_a_loop(), duration / _FEWEST_STEPS),
-                                     duration / _MOST_STEPS)
+            usual = coarseness * max(
+                min(self._of_a_loop(), duration / _FEWEST_STEPS), duration / _MOST_STEPS
+            )
             usual = duration / math.ceil(duration / usual)
             start = (1.0,) if self._sliding else _START
             parts = [*start, *[1.0] * (round(duration / usual) - 1)]
@@ -187,8 +207,9 @@ class SteadySliding:
             self._sliding = True
         return self.state()
 
-    def pause(self, duration: float, film: float | None = None,
-              lifted: bool = False) -> SlidingState:
+    def pause(
+        self, duration: float, film: float | None = None, lifted: bool = False
+    ) -> SlidingState:
         """The belt stands still for a time (s); the state at its end.
 
         film: heat transfer to the air meanwhile, W/m2K, for a belt that stands drags no air along;
@@ -228,16 +249,26 @@ class SteadySliding:
             so_far = self._into_belt / self._produced
             melting = self._fluxes.melting
         return SlidingState(
-            time=self._time, entry=float(entry), exit=float(exit_),
+            time=self._time,
+            entry=float(entry),
+            exit=float(exit_),
             mean_interface=self._interface(),
-            flash_interface=0.5 * (float(strips.max()) + ice), ice_face=ice,
+            flash_interface=0.5 * (float(strips.max()) + ice),
+            ice_face=ice,
             belt_mean=self.belt.mean_rise(),
-            belt_share=share, belt_share_so_far=so_far, melting=melting)
+            belt_share=share,
+            belt_share_so_far=so_far,
+            melting=melting,
+        )
 
     def snapshot(self) -> Snapshot:
         """The present temperatures, as a copy."""
-        return Snapshot((self._time, self._into_belt, self._produced, self._left), self.belt.film,
-                        self.belt.amplitudes.copy(), self.ice.state())
+        return Snapshot(
+            (self._time, self._into_belt, self._produced, self._left),
+            self.belt.film,
+            self.belt.amplitudes.copy(),
+            self.ice.state(),
+        )
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a snapshot of standing still, for the friction starts anew."""

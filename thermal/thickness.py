@@ -61,9 +61,12 @@ class Thickness:
         boundaries, of_element = element_boundaries(layers, elements)
         basis = CellBasis(MeshLine(boundaries), ElementLineP2())
         # One row per element, to be broadcast over its quadrature points.
-        medium = Medium(*(
-            np.array([getattr(layers[i], name) for i in of_element])[:, None]
-            for name in ("density", "heat_capacity", "conductivity")))
+        medium = Medium(
+            *(
+                np.array([getattr(layers[i], name) for i in of_element])[:, None]
+                for name in ("density", "heat_capacity", "conductivity")
+            )
+        )
         films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()), h)]
         modes = eigenmodes(basis, films, medium, lambda x: lane + 0.0 * x[0])
         order = np.argsort(basis.doflocs[0])

@@ -49,8 +49,7 @@ class Track:
     def __init__(self, parameters: BeltParameters, footprint: Footprint) -> None:
         self.belt = Belt(parameters, footprint.lane)
         self._footprint = footprint
-        self._supports = supports(
-            parameters, footprint.length / footprint.strips, footprint.lane)
+        self._supports = supports(parameters, footprint.length / footprint.strips, footprint.lane)
         self._air = parameters.film
         strips = [np.diff(support.edges) for support in self._supports]
         self._conductances = each_strip(self._supports, lambda support: support.conductance)
@@ -59,15 +58,22 @@ class Track:
         #: Areas of all places with a flux of their own, m2: the contact's strips come first.
         self._areas = np.concatenate(
             [np.full(footprint.strips, footprint.strip_area)]
-            + [lengths * footprint.lane for lengths in strips])
+            + [lengths * footprint.lane for lengths in strips]
+        )
 
     @property
     def takes_heat(self) -> bool:
         """Does a support take heat?"""
         return bool(np.any(self._conductances > 0.0))
 
-    def see(self, duration: float, centre: float, movement: float, travel: float,
-            belt: Response | None = None) -> Seen:
+    def see(
+        self,
+        duration: float,
+        centre: float,
+        movement: float,
+        travel: float,
+        belt: Response | None = None,
+    ) -> Seen:
         """What a step of some duration (s) finds, the contact moving from `centre` (m).
 
         travel: way of the belt over its supports, m, signed. belt: how it responds, when not as to
@@ -76,19 +82,33 @@ class Track:
         cell = self.belt.cell
         windows = [Window(CONTACT, *self._footprint.loads(centre, movement, cell))]
         windows += [
-            Window(BACK, *strip_loads(support.edges, self._footprint.lane,
-                                      centre + support.behind, movement, cell))
-            for support in self._supports]
+            Window(
+                BACK,
+                *strip_loads(
+                    support.edges, self._footprint.lane, centre + support.behind, movement, cell
+                ),
+            )
+            for support in self._supports
+        ]
         means, response = self.belt.face_means(duration, windows, belt)
         free, response = means / self._areas, response / self._areas[:, None]
         rubbing = self._drags * (abs(travel) / duration)
-        contact = eliminate(free, response, self._conductances - self._air,
-                            self._conductances * self._rises + rubbing)
-        rubbed = duration * float(rubbing @ self._areas[self._footprint.strips:])
+        contact = eliminate(
+            free,
+            response,
+            self._conductances - self._air,
+            self._conductances * self._rises + rubbing,
+        )
+        rubbed = duration * float(rubbing @ self._areas[self._footprint.strips :])
         return Seen(windows, free, response, contact, rubbed)
 
-    def advance(self, duration: float, seen: Seen, contact: Array,
-                freezing: Callable[[Array, float], Array] | None = None) -> Given:
+    def advance(
+        self,
+        duration: float,
+        seen: Seen,
+        contact: Array,
+        freezing: Callable[[Array, float], Array] | None = None,
+    ) -> Given:
         """Advance by a step that was `seen`, with the fluxes of the contact's strips, W/m2.
 
         freezing: power into the contact face (cells,) W per node, from what that face would be
@@ -104,5 +124,5 @@ class Track:
         own = self._footprint.strips
         return Given(
             everywhere - self._air * float(times.sum()),
-            float(self._conductances @ (
-                times[own:] - duration * self._areas[own:] * self._rises)))
+            float(self._conductances @ (times[own:] - duration * self._areas[own:] * self._rises)),
+        )

@@ -49,13 +49,13 @@ STUDIES = {
 }
 
 STUDY_MODULES = {
-    "belt-length": "cosim.studies.belt_length_command",
-    "effects": "cosim.studies.effects_command",
-    "friction-map": "cosim.studies.friction_regimes_command",
-    "gap": "cosim.gap_command",
-    "reproduce": "cosim.studies.reproduction_command",
-    "stability": "cosim.studies.stability_command",
-    "sweep": "cosim.studies.sweep_command",
+    "belt-length": "cosim.cli.belt_length",
+    "effects": "cosim.cli.effects",
+    "friction-map": "cosim.cli.friction_map",
+    "gap": "cosim.cli.gap",
+    "reproduce": "cosim.cli.reproduce",
+    "stability": "cosim.cli.stability",
+    "sweep": "cosim.cli.sweep",
 }
 
 

@@ -18,8 +18,10 @@ from cosim.scenario import Scenario
 def compile_model() -> None:
     """Have the compiled mechanics ready; says so where that takes a while."""
     if sys.stderr.isatty() and not is_cached():
-        print("compiling the mechanical model for this machine; once, up to half a minute",
-              file=sys.stderr)
+        print(
+            "compiling the mechanical model for this machine; once, up to half a minute",
+            file=sys.stderr,
+        )
     simulate(Parameters(), 1e-3, 1e-3)
 
 
@@ -33,8 +35,10 @@ def attach(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:
         return
     interface = Interface(scenario.ambient.temperature_degC)
     if "interface_temperature" in dataset:
-        interface = Interface(float(dataset["interface_temperature"].values[-1]),
-                              float(dataset["film_thickness"].values[-1]))
+        interface = Interface(
+            float(dataset["interface_temperature"].values[-1]),
+            float(dataset["film_thickness"].values[-1]),
+        )
     in_time = deadline(PATIENCE)
 
     def look() -> None:
@@ -43,4 +47,5 @@ def attach(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:
         in_time()
 
     attach_assessment(
-        dataset, assess(scenario.mechanics, scenario.run.duration, interface, look=look))
+        dataset, assess(scenario.mechanics, scenario.run.duration, interface, look=look)
+    )

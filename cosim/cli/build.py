@@ -6,7 +6,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from cosim.cli.files import writable_folder
-from cosim.fmu_build import build_fmu
+from cosim.fmu.build import build_fmu
 
 
 def main(arguments: Namespace) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from cosim.cli.errors import refusing
 from cosim.folders import OutputRefused, writable
 from cosim.scenario import Scenario, read_scenario
-from cosim.scenario_faults import ScenarioError
+from cosim.scenario.faults import ScenarioError
 
 RESULTS = "results"
 RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html")

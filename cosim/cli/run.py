@@ -12,8 +12,8 @@ from cosim.cli.files import results_folder, scenario_to_run, writable_folder
 from cosim.cli.finish import finish
 from cosim.cli.patience import patient_interrupts
 from cosim.cli.progress import progress_over
-from cosim.coupled import CoupledRun, run_scenario
-from cosim.master import CouplingError, FmuError, ParticipantError
+from cosim.coupling import CouplingError, FmuError, ParticipantError
+from cosim.coupling.coupled_case import CoupledRun, run_scenario
 from cosim.report import run_dataset
 from cosim.scenario import Scenario
 from thermal import ParameterError
@@ -37,13 +37,19 @@ def main(arguments: Namespace) -> int:
                 patience.hold()
                 show(reached)
 
-            done = _coupled(scenario, fmu=arguments.fmu, fields=fields, progress=progress,
-                            views=arguments.animation)
+            done = _coupled(
+                scenario,
+                fmu=arguments.fmu,
+                fields=fields,
+                progress=progress,
+                views=arguments.animation,
+            )
         patience.hold()
         dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
         attach(dataset, scenario, patience)
-        return finish(dataset, folder, began, patience, _field_files(done, folder),
-                      views=done.snapshots.views)
+        return finish(
+            dataset, folder, began, patience, _field_files(done, folder), views=done.snapshots.views
+        )
 
 
 def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:

@@ -11,6 +11,11 @@ from .results import write_data, write_results
 from .summary import summary
 
 __all__ = [
-    "OutputError", "Views", "run_dataset", "summary", "trajectory_dataset", "write_data",
+    "OutputError",
+    "Views",
+    "run_dataset",
+    "summary",
+    "trajectory_dataset",
+    "write_data",
     "write_results",
 ]

@@ -40,12 +40,20 @@ def animation(views: Views, ambient: float, name: str) -> bytes:
     palette = _palette()
     with matplotlib.rc_context(RC):
         picture = _Picture(views, ambient, name)
-        frames = [picture.frame(time, view).quantize(palette=palette, dither=Image.Dither.NONE)
-                  for time, view in views]
+        frames = [
+            picture.frame(time, view).quantize(palette=palette, dither=Image.Dither.NONE)
+            for time, view in views
+        ]
     speed = np.clip(len(frames) / LASTS, SLOWEST, FASTEST)
     file = io.BytesIO()
-    frames[0].save(file, format="GIF", save_all=True, append_images=frames[1:],
-                   duration=round(1000.0 / speed), loop=0)
+    frames[0].save(
+        file,
+        format="GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=round(1000.0 / speed),
+        loop=0,
+    )
     return file.getvalue()
 
 
@@ -64,8 +72,10 @@ class _Picture:
 
     def __init__(self, views: Views, ambient: float, name: str) -> None:
         self._ambient, self._name = ambient, name
-        rises = np.array([
-            np.nanmax([np.nanmax(view.belt), np.nanmax(view.ice)]) for _, view in views]) - ambient
+        rises = (
+            np.array([np.nanmax([np.nanmax(view.belt), np.nanmax(view.ice)]) for _, view in views])
+            - ambient
+        )
         self._scaled = readable(rises, "K", SMALLEST_RISE)
         top = max(self._scaled(rises.max()), self._scaled.factor * SMALLEST_RISE)
         self._norm = Normalize(0.0, float(top))
@@ -77,14 +87,19 @@ class _Picture:
         self._belt = self._mesh(belt, first.offset, -first.depth, first.belt)
         self._label_ice(ice, _shown_height(views, ambient))
         self._label_belt(belt, first.contact)
-        figure.colorbar(
-            self._ice, ax=[ice, belt], label=f"rise over the air [{self._scaled.unit}]")
+        figure.colorbar(self._ice, ax=[ice, belt], label=f"rise over the air [{self._scaled.unit}]")
         self._title = figure.suptitle("", x=0.008, ha="left", color=INK)
 
     def _mesh(self, axes: Axes, x: Array, z: Array, field: Array):
         return axes.pcolormesh(
-            1e3 * x, 1e3 * z, self._rise(field), shading="gouraud" if np.isfinite(field).all()
-            else "nearest", cmap=COLOURS, norm=self._norm, rasterized=True)
+            1e3 * x,
+            1e3 * z,
+            self._rise(field),
+            shading="gouraud" if np.isfinite(field).all() else "nearest",
+            cmap=COLOURS,
+            norm=self._norm,
+            rasterized=True,
+        )
 
     def _rise(self, field: Array) -> Array:
         return np.ma.masked_invalid(self._scaled(field.T - self._ambient))
@@ -98,8 +113,14 @@ class _Picture:
 
     def _label_belt(self, axes: Axes, contact: float) -> None:
         half = 0.5e3 * contact
-        axes.plot([-half, half], [0.0, 0.0], color=SKY, linewidth=5.0, clip_on=False,
-                  solid_capstyle="butt")
+        axes.plot(
+            [-half, half],
+            [0.0, 0.0],
+            color=SKY,
+            linewidth=5.0,
+            clip_on=False,
+            solid_capstyle="butt",
+        )
         axes.set_title("belt, the whole loop; the ice stands on the blue line")
         axes.set_xlabel("behind the middle of the contact [mm]")
         axes.set_ylabel("depth [mm]")

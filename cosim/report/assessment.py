@@ -12,11 +12,19 @@ from .quantities import Quantity
 
 ATTRIBUTE = "assessment"
 STABILITY_UNITS = {
-    "growth": "1", "cycle": "s", "time_to_grow": "s", "amplification": "1", "pretension": "m",
+    "growth": "1",
+    "cycle": "s",
+    "time_to_grow": "s",
+    "amplification": "1",
+    "pretension": "m",
     "least_pretension": "m",
 }
 REGIME_UNITS = {
-    "frequency": "Hz", "slip_share": "1", "mean_x": "m", "half_range_x": "m", "max_y": "m",
+    "frequency": "Hz",
+    "slip_share": "1",
+    "mean_x": "m",
+    "half_range_x": "m",
+    "max_y": "m",
     "max_rotation_deg": "deg",
 }
 
@@ -34,11 +42,14 @@ def assessment_numbers(dataset: xr.Dataset) -> dict[str, Any]:
     found = json.loads(dataset.attrs[ATTRIBUTE])
     return found | {
         "stability": _with_units(found["stability"], STABILITY_UNITS),
-        "regimes": {start: _with_units(regime, REGIME_UNITS)
-                    for start, regime in found["regimes"].items()},
+        "regimes": {
+            start: _with_units(regime, REGIME_UNITS) for start, regime in found["regimes"].items()
+        },
     }
 
 
 def _with_units(numbers: dict[str, Any], units: dict[str, str]) -> dict[str, Any]:
-    return {key: Quantity(value, units[key]) if key in units else value
-            for key, value in numbers.items()}
+    return {
+        key: Quantity(value, units[key]) if key in units else value
+        for key, value in numbers.items()
+    }

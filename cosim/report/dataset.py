@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
 
-from cosim.master import CoupledResult
+from cosim.coupling import CoupledResult
 
 from .blocks import blocks_of
 from .variables import MECHANICAL, THERMAL, TIME, attributes
@@ -152,13 +152,19 @@ def _events(events: Array) -> xr.Dataset:
     return xr.Dataset(
         {
             "event_mode": (
-                "event_time", mode.astype(np.int8), attributes("mode") | {
-                    "long_name": "mode after the event: 0 stick, 1 slip"},
+                "event_time",
+                mode.astype(np.int8),
+                attributes("mode") | {"long_name": "mode after the event: 0 stick, 1 slip"},
             ),
             "event_x": ("event_time", x, attributes("x")),
         },
-        coords={"event_time": (
-            "event_time", time, {"units": "s", "long_name": "time of break-away or re-stick"})},
+        coords={
+            "event_time": (
+                "event_time",
+                time,
+                {"units": "s", "long_name": "time of break-away or re-stick"},
+            )
+        },
     )
 
 
@@ -168,20 +174,30 @@ def _snapshots(snapshots: BeltSnapshots) -> xr.Dataset:
     return xr.Dataset(
         {
             "belt_temperature": (
-                ("snapshot_time", "belt_position"), temperature,
+                ("snapshot_time", "belt_position"),
+                temperature,
                 {"units": "degC", "long_name": "temperature of the belt's contact face"},
             ),
             "contact_position": (
-                "snapshot_time", np.asarray(snapshots.contact, float),
-                {"units": "m", "long_name": "centre of the contact on the belt",
-                 "contact_length": float(snapshots.contact_length)},
+                "snapshot_time",
+                np.asarray(snapshots.contact, float),
+                {
+                    "units": "m",
+                    "long_name": "centre of the contact on the belt",
+                    "contact_length": float(snapshots.contact_length),
+                },
             ),
         },
         coords={
             "snapshot_time": (
-                "snapshot_time", time, {"units": "s", "long_name": "time of the belt profile"}),
+                "snapshot_time",
+                time,
+                {"units": "s", "long_name": "time of the belt profile"},
+            ),
             "belt_position": (
-                "belt_position", position,
-                {"units": "m", "long_name": "position along the belt, fixed to its material"}),
+                "belt_position",
+                position,
+                {"units": "m", "long_name": "position along the belt, fixed to its material"},
+            ),
         },
     )

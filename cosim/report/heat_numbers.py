@@ -9,11 +9,16 @@ from .blocks import value_of
 from .quantities import Quantity, ratio
 
 TEMPERATURES = (
-    "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
+    "interface_temperature",
+    "belt_entry_temperature",
+    "belt_exit_temperature",
     "ice_face_temperature",
 )
 SINKS = {
-    "belt": "belt_heat", "ice": "ice_heat", "air": "air_heat", "supports": "support_heat",
+    "belt": "belt_heat",
+    "ice": "ice_heat",
+    "air": "air_heat",
+    "supports": "support_heat",
     "melting": "meltwater_heat",
 }
 
@@ -22,8 +27,9 @@ def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
     """Heat received and found, J at the end of the run."""
     received = _last(dataset, "heat_received")
     residual = _largest(dataset, "heat_residual")
-    found = {sink: Quantity(_last(dataset, name), "J") for sink, name in SINKS.items()
-             if name in dataset}
+    found = {
+        sink: Quantity(_last(dataset, name), "J") for sink, name in SINKS.items() if name in dataset
+    }
     railing = other_heat(dataset)["railing"]
     rubbed = {"from_railing": Quantity(float(railing[-1]), "J")} if railing.any() else {}
     return {
@@ -44,8 +50,11 @@ def heat_shares(dataset: xr.Dataset) -> dict[str, Quantity]:
     to the air.
     """
     received = _last(dataset, "heat_received") + float(sum(other_heat(dataset).values())[-1])
-    shares = {sink: Quantity(ratio(float(held(dataset, name)[-1]), received), "1")
-              for sink, name in SINKS.items() if name in dataset}
+    shares = {
+        sink: Quantity(ratio(float(held(dataset, name)[-1]), received), "1")
+        for sink, name in SINKS.items()
+        if name in dataset
+    }
     if "belt_share" in dataset:
         shares["from_contact_to_belt"] = Quantity(_last(dataset, "belt_share"), "1")
     return shares

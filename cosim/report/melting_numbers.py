@@ -75,12 +75,21 @@ def film_of(dataset: xr.Dataset) -> Film:
     pressure = p[P_NORMAL_FORCE] / (np.pi * p[P_RADIUS] ** 2)
     thickness = np.where(
         (dataset["film_thickness"] > THINNEST) & (dataset["mode"] == SLIP),
-        dataset["film_thickness"], np.nan)
+        dataset["film_thickness"],
+        np.nan,
+    )
     friction = pressure * friction_coefficient(dataset)
     couette = pressure * p[P_COUETTE] * dataset["sliding_speed"].values / thickness
     flooded = p[P_FLOODED] * thickness / (thickness + p[P_ROUGHNESS])
-    return Film(thickness, friction, couette, flooded**2 * couette, flooded,
-                np.minimum(1.0, np.sqrt(friction / couette)), _fed(dataset))
+    return Film(
+        thickness,
+        friction,
+        couette,
+        flooded**2 * couette,
+        flooded,
+        np.minimum(1.0, np.sqrt(friction / couette)),
+        _fed(dataset),
+    )
 
 
 def _fed(dataset: xr.Dataset) -> Array:

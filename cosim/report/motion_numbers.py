@@ -38,7 +38,8 @@ def after_run_up(dataset: xr.Dataset) -> dict[str, Quantity]:
         "max_rotation_deg": Quantity(_largest(np.degrees(late["phi"].values)), "deg"),
         "mean_friction_force_x": Quantity(time_mean(late, "friction_force_x"), "N"),
         "mean_heat_flow": Quantity(
-            _growth(late, "heat") / window if reached and late.sizes["time"] else None, "W"),
+            _growth(late, "heat") / window if reached and late.sizes["time"] else None, "W"
+        ),
     }
 
 
@@ -47,7 +48,8 @@ def whole_run(dataset: xr.Dataset) -> dict[str, Quantity]:
     return {
         "break_aways": Quantity(int(break_aways(dataset).size), "1"),
         "slip_share": Quantity(
-            slip_share(dataset, float(dataset["time"][0]), float(dataset["time"][-1])), "1"),
+            slip_share(dataset, float(dataset["time"][0]), float(dataset["time"][-1])), "1"
+        ),
         **_extremes(dataset, "x", "m"),
         **_extremes(dataset, "y", "m"),
         "max_rotation_deg": Quantity(_largest(np.degrees(dataset["phi"].values)), "deg"),

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from cosim.inline import inline
-from cosim.motion_words import STARTS, regime_sentence, stability_sentence
+from cosim.report.inline import inline
+from cosim.report.motion_words import STARTS, regime_sentence, stability_sentence
 
 from .assessment import REGIME_UNITS
 from .blocks import stored_blocks
@@ -23,8 +23,11 @@ OWN_FILES = {
     "result.csv": "all time series as a table with a header, digits in full",
     "summary.json": "the numbers of this page, with their units",
 }
-TITLES = {"mechanics": "Energy of the block", "heat": "Heat in belt and ice",
-          "coupling": "Heat from mechanics to belt and ice"}
+TITLES = {
+    "mechanics": "Energy of the block",
+    "heat": "Heat in belt and ice",
+    "coupling": "Heat from mechanics to belt and ice",
+}
 CSS_DPI = 96
 CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
 
@@ -46,13 +49,16 @@ def page(
 ) -> str:
     """HTML of a run: numbers of `summary`, PNGs of its figures, further files to be listed."""
     environment = Environment(
-        loader=PackageLoader("cosim.report"), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True)
+        loader=PackageLoader("cosim.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     figures = [
-        (plate.caption, _width(picture), inline(picture))
-        for plate, picture in pictures.items()]
-    own = dict(OWN_FILES) | {
-        f"{plate.name}.png": "figure, as above" for plate in pictures}
+        (plate.caption, _width(picture), inline(picture)) for plate, picture in pictures.items()
+    ]
+    own = dict(OWN_FILES) | {f"{plate.name}.png": "figure, as above" for plate in pictures}
     return environment.get_template("report.html.j2").render(
         numbers=numbers,
         created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
@@ -74,12 +80,18 @@ def page(
 def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
     """The handful of numbers that stand at the top."""
     paths = (
-        "time_reached", "after_run_up.frequency", "after_run_up.slip_share",
-        "after_run_up.mean_x", "after_run_up.max_rotation_deg",
-        "temperatures.interface.end_rise", "ledger.mechanics.friction_heat", "wall_time",
+        "time_reached",
+        "after_run_up.frequency",
+        "after_run_up.slip_share",
+        "after_run_up.mean_x",
+        "after_run_up.max_rotation_deg",
+        "temperatures.interface.end_rise",
+        "ledger.mechanics.friction_heat",
+        "wall_time",
     )
     words = {
-        "time_reached": "simulated", "wall_time": "computing time",
+        "time_reached": "simulated",
+        "wall_time": "computing time",
         "after_run_up.slip_share": "of the time in slip",
         "temperatures.interface.end_rise": "rise at the contact, end",
     }
@@ -99,9 +111,12 @@ def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
 
 def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
     """Motion after the run-up and over the whole run, the shares of the heat, melting."""
-    titles = {"after_run_up": "After the run-up", "whole_run": "Whole run",
-              "heat_shares": "Where the heat is at the end",
-              "melting": "Melting, and the balance of the film in the last second"}
+    titles = {
+        "after_run_up": "After the run-up",
+        "whole_run": "Whole run",
+        "heat_shares": "Where the heat is at the end",
+        "melting": "Melting, and the balance of the film in the last second",
+    }
     for name, title in titles.items():
         if name in numbers:
             yield Table(title, _rows(numbers, name, numbers[name]))
@@ -117,8 +132,11 @@ def assessed(numbers: Mapping[str, Any]) -> list[str]:
 def regime_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """Start, regime, and what the motion is like, of the run's own start and of the others."""
     return [
-        (STARTS[start], regime["name"],
-         *(_told(numbers, f"regimes.{start}.{key}") for key in REGIME_UNITS))
+        (
+            STARTS[start],
+            regime["name"],
+            *(_told(numbers, f"regimes.{start}.{key}") for key in REGIME_UNITS),
+        )
         for start, regime in numbers.get("regimes", {}).items()
     ]
 
@@ -138,10 +156,13 @@ def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
 def parameter_tables(dataset: xr.Dataset) -> list[Table]:
     """Every parameter with value, unit and description, block by block."""
     return [
-        Table(block, [
-            (key, _valued(entry["value"], entry["unit"]), entry["description"])
-            for key, entry in entries.items()
-        ])
+        Table(
+            block,
+            [
+                (key, _valued(entry["value"], entry["unit"]), entry["description"])
+                for key, entry in entries.items()
+            ],
+        )
         for block, entries in stored_blocks(dataset).items()
     ]
 
@@ -163,8 +184,7 @@ def _rows(numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]) -> 
 
 
 def _told(numbers: Mapping[str, Any], path: str, share: bool = False) -> str:
-    return told(_at(numbers, path), numbers["units"].get(path, ""),
-                share or path.endswith("share"))
+    return told(_at(numbers, path), numbers["units"].get(path, ""), share or path.endswith("share"))
 
 
 def _at(numbers: Mapping[str, Any], path: str) -> Any:

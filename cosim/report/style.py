@@ -159,7 +159,11 @@ def time_panels(
     figure = Figure(figsize=(11.0, 0.9 + height * rows), layout="constrained")
     columns = 1 if zoom is None else 2
     axes = figure.subplots(
-        rows, columns, sharex="col", sharey="row" if share_y else False, squeeze=False,
+        rows,
+        columns,
+        sharex="col",
+        sharey="row" if share_y else False,
+        squeeze=False,
         width_ratios=[1.0] if zoom is None else [1.6, 1.0],
     )
     intervals = slip_intervals(dataset)
@@ -183,8 +187,14 @@ def _limits(dataset: xr.Dataset, axes: NDArray[np.object_], zoom: Zoom | None) -
         panel.set_xlabel("time [s]")
     if begin < run_up < end:
         axes[0, 0].annotate(
-            "run-up ends", (run_up, 1.0), xycoords=("data", "axes fraction"),
-            xytext=(0, 2), textcoords="offset points", ha="center", va="bottom", fontsize=9,
+            "run-up ends",
+            (run_up, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="center",
+            va="bottom",
+            fontsize=9,
         )
     if zoom is not None:
         for panel in axes[:, 1]:

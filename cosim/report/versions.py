@@ -7,8 +7,17 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 PACKAGES = (
-    "stickslip", "numpy", "numba", "scipy", "scikit-fem", "fmpy", "pythonfmu", "xarray",
-    "h5netcdf", "matplotlib", "pydantic",
+    "stickslip",
+    "numpy",
+    "numba",
+    "scipy",
+    "scikit-fem",
+    "fmpy",
+    "pythonfmu",
+    "xarray",
+    "h5netcdf",
+    "matplotlib",
+    "pydantic",
 )
 
 

@@ -68,9 +68,18 @@ NONE = "–"
 DIGITS = 5
 MINUS = str.maketrans("-", "−")
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-UNITS = {"degC": "°C", "deg": "°", "N.m": "N m", "kg.m2": "kg m²", "m/s2": "m/s²",
-         "kg/m3": "kg/m³", "J/(kg.K)": "J/(kg K)", "W/(m.K)": "W/(m K)",
-         "W/(m2.K)": "W/(m² K)", "1": ""}
+UNITS = {
+    "degC": "°C",
+    "deg": "°",
+    "N.m": "N m",
+    "kg.m2": "kg m²",
+    "m/s2": "m/s²",
+    "kg/m3": "kg/m³",
+    "J/(kg.K)": "J/(kg K)",
+    "W/(m.K)": "W/(m K)",
+    "W/(m2.K)": "W/(m² K)",
+    "1": "",
+}
 # units that are read more easily with a prefix than with a power of ten
 PREFIXED = {"m", "K", "W", "N", "s"}
 

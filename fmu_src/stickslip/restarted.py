@@ -59,8 +59,13 @@ class Restart:
 
 
 def simulate_restarted(
-    p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
-    restarts: Sequence[Restart], force: Force | None = None, aside: float = 0.0,
+    p: Sequence[float],
+    speed: float,
+    temperature: float,
+    times: np.ndarray,
+    restarts: Sequence[Restart],
+    force: Force | None = None,
+    aside: float = 0.0,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
@@ -76,8 +81,13 @@ def simulate_restarted(
 
 
 def track_restarted(
-    p: Sequence[float], speed: float, temperature: float, times: np.ndarray,
-    restarts: Sequence[Restart], force: Force | None = None, aside: float = 0.0,
+    p: Sequence[float],
+    speed: float,
+    temperature: float,
+    times: np.ndarray,
+    restarts: Sequence[Restart],
+    force: Force | None = None,
+    aside: float = 0.0,
 ) -> np.ndarray:
     """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
     track = compiled_kernel().track

@@ -24,7 +24,8 @@ def asked(campaign: Path, jobs: int) -> tuple[dict, float]:
         began = time.perf_counter()
         subprocess.run(
             [sys.executable, "-m", "cosim", "gap", campaign, "-o", folder, "--jobs", str(jobs)],
-            check=True, capture_output=True,
+            check=True,
+            capture_output=True,
         )
         took = time.perf_counter() - began
         return json.loads((Path(folder) / "gap.json").read_text(encoding="utf-8")), took

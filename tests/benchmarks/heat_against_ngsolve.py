@@ -48,8 +48,10 @@ def nodal_loads(cell, cells, centre, way):
 
 
 def our_belt(elements, cell):
-    return Belt(BeltParameters(length=LENGTH, cell_length=cell, elements=elements,
-                               air_heat_transfer=H), FOOTPRINT.lane)
+    return Belt(
+        BeltParameters(length=LENGTH, cell_length=cell, elements=elements, air_heat_transfer=H),
+        FOOTPRINT.lane,
+    )
 
 
 def run_ours(belt, count):
@@ -71,8 +73,12 @@ def peer_setting(depth, cells):
 
     rows = depth.size - 1
     mesh = MakeStructured2DMesh(
-        quads=True, nx=cells, ny=rows, periodic_x=True,
-        mapping=lambda x, y: (LENGTH * x, float(np.interp(y, np.arange(rows + 1) / rows, depth))))
+        quads=True,
+        nx=cells,
+        ny=rows,
+        periodic_x=True,
+        mapping=lambda x, y: (LENGTH * x, float(np.interp(y, np.arange(rows + 1) / rows, depth))),
+    )
     space = ngs.Periodic(ngs.H1(mesh, order=1))
     u, v = space.TnT()
     lane, parameters = FOOTPRINT.lane, BeltParameters()
@@ -139,8 +145,10 @@ def main():
     belt = our_belt(ELEMENTS, CELL)
     face, ours = run_ours(belt, count)
     mine = error(face, exact)
-    print(f"ours    {1e3 * DURATION / count:7.3f} ms a step  error {mine:.2e}  {ours:7.3f} s"
-          f"  {1e3 * ours / count:6.3f} ms each")
+    print(
+        f"ours    {1e3 * DURATION / count:7.3f} ms a step  error {mine:.2e}  {ours:7.3f} s"
+        f"  {1e3 * ours / count:6.3f} ms each"
+    )
     setting = peer_setting(belt.depth, belt.cells)
     best = None
     for scheme in ("cn", "bdf2"):
@@ -149,15 +157,19 @@ def main():
             steps = round(DURATION / (1e-3 * step))
             face, seconds = run_peer(setting, steps, scheme)
             theirs = error(face, exact)
-            print(f"{scheme:<7} {step:7.3f} ms a step  error {theirs:.2e}  {seconds:7.3f} s"
-                  f"  {1e3 * seconds / steps:6.3f} ms each")
+            print(
+                f"{scheme:<7} {step:7.3f} ms a step  error {theirs:.2e}  {seconds:7.3f} s"
+                f"  {1e3 * seconds / steps:6.3f} ms each"
+            )
             if best is None or (theirs, seconds) < best:
                 best = theirs, seconds
             if theirs <= mine or theirs > FALLS_NO_MORE * last:
                 break
             last = theirs
-    print(f"ratio at the peer's best error, {best[0]:.2e} to our {mine:.2e}:"
-          f" {best[1] / ours:.1f} (same time step: see the ms each)")
+    print(
+        f"ratio at the peer's best error, {best[0]:.2e} to our {mine:.2e}:"
+        f" {best[1] / ours:.1f} (same time step: see the ms each)"
+    )
     return best[1] / ours
 
 

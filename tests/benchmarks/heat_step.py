@@ -22,7 +22,8 @@ FORCE, MACRO_STEP, REPEATS = 4.03, 0.01, 400
 SMALL = ThermalParameters(
     belt=Belt(length=0.045, width=0.05, cell_length=1.5e-3, elements=2),
     ice=Ice(height=0.01, air_heat_transfer=60.0, radial_elements=2, axial_elements=2),
-    contact=Contact(radius=0.02, strips=4))
+    contact=Contact(radius=0.02, strips=4),
+)
 PASSES, SMALL_STEP = 10_000, (0.02, 0.01, 1.5e-3)
 
 
@@ -55,7 +56,8 @@ def many_passes():
     ambient = SMALL.ambient.temperature_degC
     differences = [
         abs((stepped.outputs()[name] - ambient) / (direct.outputs()[name] - ambient) - 1.0)
-        for name in names]
+        for name in names
+    ]
     return loops, at_once, max(differences)
 
 
@@ -67,8 +69,10 @@ def main():
             print(f"{length:g} m at {speed:4.2f} m/s  {cost[length]:6.3f} ms a macro step")
         print(f"four times the length costs {cost[4.0] / cost[1.0]:.2f} times as much")
     loops, at_once, difference = many_passes()
-    print(f"{PASSES} passes {loops:.1f} s, directly {at_once:.3f} s, rises differ by"
-          f" {difference:.1e}; ratio {loops / at_once:.0f}")
+    print(
+        f"{PASSES} passes {loops:.1f} s, directly {at_once:.3f} s, rises differ by"
+        f" {difference:.1e}; ratio {loops / at_once:.0f}"
+    )
 
 
 if __name__ == "__main__":

@@ -26,8 +26,9 @@ def sides(parameters):
     if not borders.least:
         return None
     margin = RELATIVE * borders.least + ABSOLUTE
-    if borders.least <= margin or any(low < borders.least + 2.0 * margin
-                                      for low, _ in borders.further):
+    if borders.least <= margin or any(
+        low < borders.least + 2.0 * margin for low, _ in borders.further
+    ):
         return None
     below, above = (with_pretension(parameters, borders.least + side * margin) for side in (-1, 1))
     # a run that has swerved in its run-up says nothing of the line at constant speed
@@ -49,10 +50,14 @@ def main(rigs=50, seed=1):
         if below and not above:
             right += 1
         else:
-            print(f"{1e3 * least:.2f} mm +- {1e3 * margin:.2f}: grows below {below}, "
-                  f"above {above}; {parameters!r}")
-    print(f"{right} of {asked} rigs on the right side, margin {100 * RELATIVE:g} % and "
-          f"{1e3 * ABSOLUTE:g} mm; {drawn} drawn")
+            print(
+                f"{1e3 * least:.2f} mm +- {1e3 * margin:.2f}: grows below {below}, "
+                f"above {above}; {parameters!r}"
+            )
+    print(
+        f"{right} of {asked} rigs on the right side, margin {100 * RELATIVE:g} % and "
+        f"{1e3 * ABSOLUTE:g} mm; {drawn} drawn"
+    )
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
 import pytest
 import pythonfmu  # noqa: F401
 
-from cosim.fmu_build import build_fmu
+from cosim.fmu.build import build_fmu
 
 
 @pytest.fixture(scope="session")

@@ -30,21 +30,27 @@ AMBIENT = -8.0
 
 def scenario(case, **tables):
     """The rig of a case along x, 15 W/m2K to the air."""
-    return Scenario.from_tables({
-        "name": "belt", "rig": {"mass": case.mass, "degrees_of_freedom": ["x"]},
-        "springs": {"stiffness": case.stiffness},
-        "friction": {"mu_s": case.static_over_kinetic * case.friction, "mu_k": case.friction},
-        "surface": {"speed": case.speed},
-        "belt": {"length": case.length, "air_heat_transfer": 15.0},
-        "run": {"duration": RUN}, "coupling": {"macro_step": MACRO_STEP},
-    } | tables)
+    return Scenario.from_tables(
+        {
+            "name": "belt",
+            "rig": {"mass": case.mass, "degrees_of_freedom": ["x"]},
+            "springs": {"stiffness": case.stiffness},
+            "friction": {"mu_s": case.static_over_kinetic * case.friction, "mu_k": case.friction},
+            "surface": {"speed": case.speed},
+            "belt": {"length": case.length, "air_heat_transfer": 15.0},
+            "run": {"duration": RUN},
+            "coupling": {"macro_step": MACRO_STEP},
+        }
+        | tables
+    )
 
 
 def coupled(case, fmu):
     """A run of 20 s with friction that feels the temperature."""
     feels = {"sensitivity": linear_sensitivity(case.ambient_degC)}
-    return run_scenario(scenario(
-        case, initial={"vx": case.speed}, temperature_dependence=feels), fmu=fmu).result
+    return run_scenario(
+        scenario(case, initial={"vx": case.speed}, temperature_dependence=feels), fmu=fmu
+    ).result
 
 
 def over_a_cycle(result, name, period):
@@ -62,31 +68,41 @@ def test_quasi_steady_estimate_is_what_a_coupled_run_shows(fmu, speed):
     # at 1 m and 0.15 m/s the 20 s end just as the trace of a loop arrives
     case = Case(1.2, speed, h=15.0, protocol=Protocol(ramp=0.0))
     estimate, result = friction_effect(case), coupled(case, fmu)
-    rises = [over_a_cycle(result, name, 1.0 / estimate.frequency)
-             for name in ("belt_entry", "interface")]
-    assert rises == pytest.approx(
-        [estimate.drift, estimate.interface], rel=AS_CLOSE_AS_A_CYCLE)
+    rises = [
+        over_a_cycle(result, name, 1.0 / estimate.frequency) for name in ("belt_entry", "interface")
+    ]
+    assert rises == pytest.approx([estimate.drift, estimate.interface], rel=AS_CLOSE_AS_A_CYCLE)
     starts = result.time[1:][np.diff(result["mechanics.slip_count"]) > 0]
     late = starts[starts > 0.7 * RUN]
     frequency = (late.size - 1) / (late[-1] - late[0])
     seen = frequency / estimate.frequency - 1.0
     assert seen == pytest.approx(
-        estimate.frequency_change, abs=2.0 * MACRO_STEP / (late[-1] - late[0]))
+        estimate.frequency_change, abs=2.0 * MACRO_STEP / (late[-1] - late[0])
+    )
 
 
 def ramped(case, belt):
     """A scenario of 10 s of ramp and 20 s at constant speed."""
     return scenario(
-        case, belt={"length": case.length, "air_heat_transfer": 15.0} | belt,
-        surface={"speed": case.speed, "run_up_time": 10.0}, run={"duration": 30.0})
+        case,
+        belt={"length": case.length, "air_heat_transfer": 15.0} | belt,
+        surface={"speed": case.speed, "run_up_time": 10.0},
+        run={"duration": 30.0},
+    )
 
 
 @pytest.mark.parametrize("speed", [0.15, 0.82])
 def test_the_drift_of_a_ramped_scenario_is_what_its_coupled_run_shows(fmu, speed):
     """Railing heat and rollers and all; the ramp begins with sticks, the run ends in a cycle."""
     case = Case(1.2, speed)
-    belt = {"railing_length": 0.08, "railing_friction": 0.1, "railing_conductance": 15.0,
-            "rollers": 2, "roller_conductance": 100.0, "roller_rise": 0.1}
+    belt = {
+        "railing_length": 0.08,
+        "railing_friction": 0.1,
+        "railing_conductance": 15.0,
+        "rollers": 2,
+        "roller_conductance": 100.0,
+        "roller_rise": 0.1,
+    }
     given = ramped(case, belt)
     result = run_scenario(given, fmu=fmu).result
     own = scenario_case(given)
@@ -103,9 +119,30 @@ def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
     file = tmp_path / "rig.toml"
     file.write_text(ramped(Case(1.0, 0.15), {}).to_toml(), encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "-m", "cosim", "belt-length", str(file), "--length", "1", "2", "--samples",
-         "0", "--map", "0", "--jobs", "1", "--json", "-o", str(tmp_path / "out")],
-        capture_output=True, text=True, check=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+        [
+            sys.executable,
+            "-m",
+            "cosim",
+            "belt-length",
+            str(file),
+            "--length",
+            "1",
+            "2",
+            "--samples",
+            "0",
+            "--map",
+            "0",
+            "--jobs",
+            "1",
+            "--json",
+            "-o",
+            str(tmp_path / "out"),
+        ],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+    )
     numbers = json.loads(done.stdout)
     assert numbers["protocol"]["ramp"] == 10.0 and numbers["protocol"]["run"] == 20.0
     short, long = (case["questions"] for case in numbers["cases"])
@@ -120,11 +157,17 @@ def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
     assert len(numbers["cases"][0]["changes"]) > 10
 
 
-@pytest.mark.parametrize(("words", "says"), [
-    (["--ramp", "-1"], "error: --ramp = -1 s: must be at least 0"),
-    (["slab"], 'error: slab: rig.surface = "slab": has no belt; allowed is "belt"')])
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--ramp", "-1"], "error: --ramp = -1 s: must be at least 0"),
+        (["slab"], 'error: slab: rig.surface = "slab": has no belt; allowed is "belt"'),
+    ],
+)
 def test_bad_protocols_are_one_line_and_status_2(tmp_path, words, says):
     done = subprocess.run(
         [sys.executable, "-m", "cosim", "belt-length", *words, "-o", str(tmp_path / "out")],
-        capture_output=True, text=True)
+        capture_output=True,
+        text=True,
+    )
     assert (done.returncode, done.stderr.strip()) == (2, says)

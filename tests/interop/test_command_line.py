@@ -207,8 +207,12 @@ class OnTerminal:
 
 @pytest.mark.parametrize(
     "command, duration, interval, wanted",
-    [("run", 3000.0, 0.01, signal.SIGINT), ("run", 3000.0, 0.01, signal.SIGTERM),
-     ("simulate", 1e5, 0.1, signal.SIGINT), ("simulate", 1e5, 0.1, signal.SIGTERM)],
+    [
+        ("run", 3000.0, 0.01, signal.SIGINT),
+        ("run", 3000.0, 0.01, signal.SIGTERM),
+        ("simulate", 1e5, 0.1, signal.SIGINT),
+        ("simulate", 1e5, 0.1, signal.SIGTERM),
+    ],
 )
 def test_a_signal_in_mid_run_keeps_what_was_computed(place, command, duration, interval, wanted):
     """Ctrl-C, and what a batch system or `timeout` sends."""

@@ -19,8 +19,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Error
 from fmpy.validation import validate_fmu
 
-from cosim import fmu_build
-from cosim.master.fmu_log import FmuLog
+from cosim.coupling.fmu_log import FmuLog
+from cosim.fmu import build as fmu_build
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED}
@@ -197,8 +197,7 @@ def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(block):
     def interrupt():
         """Once the host is in the slave: before, it would be the host's own."""
         while "do_step" not in {
-            frame.f_code.co_name
-            for frame, _ in traceback.walk_stack(sys._current_frames()[host])
+            frame.f_code.co_name for frame, _ in traceback.walk_stack(sys._current_frames()[host])
         }:
             time.sleep(0.01)
         os.kill(os.getpid(), signal.SIGINT)
@@ -409,10 +408,14 @@ def test_a_surface_that_the_creep_keeps_up_with_is_warned_of_once(fmu):
     """With logging on; the run goes on, and sticks for ever."""
     said = []
     found = fmpy.simulate_fmu(
-        str(fmu), stop_time=0.5, output_interval=0.05, output=["mode"], debug_logging=True,
+        str(fmu),
+        stop_time=0.5,
+        output_interval=0.05,
+        output=["mode"],
+        debug_logging=True,
         start_values={"surface_speed": 0.15, "friction.stick_creep": 0.2},
         logger=lambda component, name, status, category, message: said.append((status, message)),
     )
-    (status, message), = said
+    ((status, message),) = said
     assert status == 1 and b"surface_speed = 0.15 m/s is not above friction.stick_creep" in message
     assert not found["mode"].any()

@@ -9,7 +9,7 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from cosim.master import (
+from cosim.coupling import (
     CoupledSystem,
     FmuError,
     FmuParticipant,

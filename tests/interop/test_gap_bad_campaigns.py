@@ -56,8 +56,10 @@ BAD_COLUMNS = {
     "mm for m": (times("x", 1e3), ("column x", "are these millimetres?")),
     "ms for s": (times("t", 1e3), ("column t", "are these milliseconds?")),
     "time not increasing": (swapped, ("line 43", "t = 0.4 s", "falls back", "allowed")),
-    "3 samples": (lambda c: {k: v[:3] for k, v in c.items()},
-                  ("column x", "3 samples", "at least 20")),
+    "3 samples": (
+        lambda c: {k: v[:3] for k, v in c.items()},
+        ("column x", "3 samples", "at least 20"),
+    ),
     "all NaN": (times("x", np.nan), ("column x", "no samples", "at least 20")),
 }
 
@@ -75,8 +77,10 @@ def test_bad_columns_are_refused_in_one_line(case, tmp_path, capsys):
 
 BAD_TABLES = {
     "every run held out": ({"hold_out": True}, ("hold_out", "true in every run", "allowed is")),
-    "a file that is not there": ({"file": "gone.csv", "columns": None},
-                                 ("gone.csv", "no such file", "allowed is a CSV file")),
+    "a file that is not there": (
+        {"file": "gone.csv", "columns": None},
+        ("gone.csv", "no such file", "allowed is a CSV file"),
+    ),
     "unknown key": ({"speed": 0.06}, ("run 1: speed: no such key", "known: file, mass")),
     "a word for a number": ({"mass": "heavy"}, ("run 1: mass", '"heavy"')),
     "nothing to look at": ({"columns": None}, ("run 1", "allowed is")),
@@ -149,8 +153,9 @@ def test_duplicates_are_counted_once(tmp_path, capsys):
 
 def test_a_single_run_and_its_copy_get_a_verdict(tmp_path, capsys):
     same = run_of()
-    status, err, answer = said(tmp_path, capsys, [same, {**same, "hold_out": True}],
-                               noise=KNOWN_NOISE)
+    status, err, answer = said(
+        tmp_path, capsys, [same, {**same, "hold_out": True}], noise=KNOWN_NOISE
+    )
     check_reasoned(status, answer)
     assert "the same data" in err
 

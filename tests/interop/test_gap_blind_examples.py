@@ -26,8 +26,11 @@ SHORT = 401
 def stickslip(*arguments):
     environment = os.environ | dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     return subprocess.run(
-        [sys.executable, "-m", "cosim", *map(str, arguments)], capture_output=True, text=True,
-        timeout=1200, env=environment,
+        [sys.executable, "-m", "cosim", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=1200,
+        env=environment,
     )
 
 

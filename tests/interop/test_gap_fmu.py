@@ -43,8 +43,13 @@ def creeping(gap, tmp_path_factory):
     runs = []
     for number, speed in enumerate((0.015, 0.03, 0.01)):
         run = motion(speed=speed, duration=8.0, creep=CREEP)
-        runs.append({"surface_speed": speed, "hold_out": speed == 0.01,
-                     "columns": {"t": run.time, "x": noisy(run["x"], number)}})
+        runs.append(
+            {
+                "surface_speed": speed,
+                "hold_out": speed == 0.01,
+                "columns": {"t": run.time, "x": noisy(run["x"], number)},
+            }
+        )
     folder = tmp_path_factory.mktemp("creeping")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
     plain = fitted(campaign, PLAIN)

@@ -38,7 +38,8 @@ def run(folder, fmu, text, *arguments):
     (folder / "case.toml").write_text(text)
     command = [sys.executable, "-m", "cosim", "run", "case.toml", "--fmu", str(fmu), "-o", "out"]
     return subprocess.run(
-        [*command, *arguments], cwd=folder, capture_output=True, text=True, timeout=300)
+        [*command, *arguments], cwd=folder, capture_output=True, text=True, timeout=300
+    )
 
 
 @pytest.fixture
@@ -60,10 +61,13 @@ def test_a_sample_beside_the_scenario_and_an_animation(tmp_path, fmu, mesh):
     assert heat["relative_residual"] < 1e-10
 
 
-@pytest.mark.parametrize(("factor", "says"), [
-    (1000.0, "the sample is 60 x 60 x 80 m, allowed is up to 2 m: is the file in mm?"),
-    (0.0, "the sample is 0 x 0 x 0 m"),
-])
+@pytest.mark.parametrize(
+    ("factor", "says"),
+    [
+        (1000.0, "the sample is 60 x 60 x 80 m, allowed is up to 2 m: is the file in mm?"),
+        (0.0, "the sample is 0 x 0 x 0 m"),
+    ],
+)
 def test_a_bad_mesh_is_one_line(tmp_path, fmu, mesh, factor, says):
     meshio.Mesh(factor * mesh.p.T, [("tetra", mesh.t.T)]).write(tmp_path / "block.vtk")
     done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n')

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from stickslip import Parameters, simulate
 
-from cosim.master import CoupledSystem, FmuParticipant, GaussSeidel, run
+from cosim.coupling import CoupledSystem, FmuParticipant, GaussSeidel, run
 
 CASES = {
     "reference": {},
@@ -27,8 +27,14 @@ CASES = {
     "not as drawn": {
         "lateral_friction": {"ratio": 1.0},
         "rig": {"spring_natural_length": 0.17},
-        "imperfections": {"seed": 5, "mass": 0.01, "spring_stiffness": 0.02,
-                          "anchor_position": 1e-3, "start_position": 1e-3, "start_angle_deg": 1.0},
+        "imperfections": {
+            "seed": 5,
+            "mass": 0.01,
+            "spring_stiffness": 0.02,
+            "anchor_position": 1e-3,
+            "start_position": 1e-3,
+            "start_angle_deg": 1.0,
+        },
     },
     "stiff": {"springs": {"stiffness": 9999.0}, "surface": {"speed": 0.0}},
 }

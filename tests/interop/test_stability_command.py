@@ -6,13 +6,18 @@ import sys
 
 import pytest
 
-SLOW = '[surface]\nspeed = 0.2\nrun_up_time = 10.0\n[rig]\nspring_natural_length = 0.17\n'
+SLOW = "[surface]\nspeed = 0.2\nrun_up_time = 10.0\n[rig]\nspring_natural_length = 0.17\n"
 SLOW += "[lateral_friction]\nratio = 1.0\n"
 
 
 def stickslip(folder, *arguments):
-    return subprocess.run([sys.executable, "-m", "cosim", *map(str, arguments)], cwd=folder,
-                          capture_output=True, text=True, timeout=300)
+    return subprocess.run(
+        [sys.executable, "-m", "cosim", *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
 
 
 def test_it_writes_maps_a_page_and_numbers(tmp_path):
@@ -29,7 +34,11 @@ def test_it_writes_maps_a_page_and_numbers(tmp_path):
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert page.count("<img") == 2 and "unstable" in page
     assert {file.name for file in (tmp_path / "out").iterdir()} == {
-        "stability.json", "report.html", "pretension_map.png", "regime_map.png"}
+        "stability.json",
+        "report.html",
+        "pretension_map.png",
+        "regime_map.png",
+    }
 
 
 def test_a_run_on_an_unstable_path_says_so(tmp_path):

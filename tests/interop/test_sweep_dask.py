@@ -28,10 +28,24 @@ def cluster():
     """A scheduler and two workers without a nanny that would start them again."""
     with ExitStack() as stack:
         scheduler = stack.enter_context(
-            distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False,
-                                     protocol="tcp", host="127.0.0.1"))
-        command = [sys.executable, "-m", "distributed.cli.dask_worker", "--no-nanny",
-                   "--nthreads", "1", "--no-dashboard", scheduler.scheduler_address]
+            distributed.LocalCluster(
+                n_workers=0,
+                dashboard_address=None,
+                processes=False,
+                protocol="tcp",
+                host="127.0.0.1",
+            )
+        )
+        command = [
+            sys.executable,
+            "-m",
+            "distributed.cli.dask_worker",
+            "--no-nanny",
+            "--nthreads",
+            "1",
+            "--no-dashboard",
+            scheduler.scheduler_address,
+        ]
         workers = [
             stack.enter_context(subprocess.Popen(command, stderr=subprocess.DEVNULL))
             for _ in range(2)

@@ -32,20 +32,48 @@ def answer(folder):
     campaign = read_campaign(write(folder))
     plain = fitted(campaign, PLAIN)
     extended = fitted(campaign, (*PLAIN, ADDED))
-    intervals = {key: (0.98 * value, 1.02 * value) for key, value in extended.values.items()
-                 if not key.startswith("offset")}
+    intervals = {
+        key: (0.98 * value, 1.02 * value)
+        for key, value in extended.values.items()
+        if not key.startswith("offset")
+    }
     extended = replace(extended, intervals=intervals)
     key = ADDED.key
-    found = Ranked("velocity_weakening", "linear", extended.gap[1], extended.gap[0], 1234.56789,
-                   {key: extended.values[key]}, {key: intervals[key]})
-    other = Ranked("film_drag", "linear", 1.01 * plain.gap[1], plain.gap[0], -3.0,
-                   {"film_drag.coefficient": 0.0}, {"film_drag.coefficient": (0.0, np.inf)})
+    found = Ranked(
+        "velocity_weakening",
+        "linear",
+        extended.gap[1],
+        extended.gap[0],
+        1234.56789,
+        {key: extended.values[key]},
+        {key: intervals[key]},
+    )
+    other = Ranked(
+        "film_drag",
+        "linear",
+        1.01 * plain.gap[1],
+        plain.gap[0],
+        -3.0,
+        {"film_drag.coefficient": 0.0},
+        {"film_drag.coefficient": (0.0, np.inf)},
+    )
     atlas = residual_atlas([run.track for run in plain.runs])
     determined = {k: (v, 0.9 * v, 1.1 * v) for k, v in plain.values.items() if "friction" in k}
     return Gap(
-        campaign, "named", ("velocity_weakening",), (), find_where(atlas), (found, other),
-        plain.gap, extended.gap, plain, extended, {"p": 0.005, "draws": 199}, determined,
-        atlas=atlas, remarks=("a remark",),
+        campaign,
+        "named",
+        ("velocity_weakening",),
+        (),
+        find_where(atlas),
+        (found, other),
+        plain.gap,
+        extended.gap,
+        plain,
+        extended,
+        {"p": 0.005, "draws": 199},
+        determined,
+        atlas=atlas,
+        remarks=("a remark",),
     )
 
 
@@ -54,8 +82,13 @@ def write(folder):
     runs = []
     for number, speed in enumerate(SPEEDS):
         run = motion(speed=speed, duration=6.0, **TRUE)
-        runs.append({"surface_speed": speed, "hold_out": number == len(SPEEDS) - 1,
-                     "columns": {"t": run.time, "x": noisy(run["x"], number)}})
+        runs.append(
+            {
+                "surface_speed": speed,
+                "hold_out": number == len(SPEEDS) - 1,
+                "columns": {"t": run.time, "x": noisy(run["x"], number)},
+            }
+        )
     return write_campaign(folder, runs, name="cold room, week 3", noise={"x": NOISE})
 
 

@@ -13,8 +13,9 @@ RIG = {"spring_natural_length": 0.17}
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "data"
 
 
-def motion(speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, creep=0.0,
-           **blocks):
+def motion(
+    speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, creep=0.0, **blocks
+):
     """The exact motion of a block that sticks and slips; creep: in stick, m/s."""
     parameters = Parameters(
         rig={"mass": mass, **RIG},

@@ -54,8 +54,10 @@ def linear_flight(random, knobs, data, windows=3):
     """With derivatives that are drawn, and data: (rows,), or a noise of one at so many rows."""
     data = random.standard_normal(data) if isinstance(data, int) else data
     ends = np.linspace(0, data.size, windows + 1).astype(int)
-    cuts = tuple(Window(int(first), int(last), np.zeros(6), FREE, np.nan)
-                 for first, last in zip(ends[:-1], ends[1:], strict=True))
+    cuts = tuple(
+        Window(int(first), int(last), np.zeros(6), FREE, np.nan)
+        for first, last in zip(ends[:-1], ends[1:], strict=True)
+    )
     by_key = {knob.key: random.standard_normal(data.size) for knob in knobs}
     by_state = FELT * random.standard_normal((data.size, len(FREE)))
     return LinearFlight(by_key, by_state, data, cuts)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from cosim.studies import belt_length_command
+from cosim.cli import belt_length as belt_length_command
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
@@ -52,8 +52,11 @@ def test_the_studys_own_number_is_its_formula():
 def test_mended_single_pass_is_force_over_capacity_less_newton_cooling():
     case = Case(2.0, 0.5, h=10.0)
     length = case.single_pass().contact_length
-    expected = case.force / (840.0 * 0.0525) * np.exp(
-        -2.0 * 10.0 * 0.075 / (0.0525 * 840.0) * (2.0 - length) / 0.5)
+    expected = (
+        case.force
+        / (840.0 * 0.0525)
+        * np.exp(-2.0 * 10.0 * 0.075 / (0.0525 * 840.0) * (2.0 - length) / 0.5)
+    )
     assert drift(case).single_pass == pytest.approx(expected, rel=1e-9)
 
 
@@ -104,7 +107,8 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
     assert np.all(np.diff(found.drift, axis=0) <= 1e-6)
     assert np.all(np.diff(found.drift, axis=1) >= -1e-6)
     assert found.drift[0, 1] == pytest.approx(
-        run_drift(Case(LENGTHS[0], float(found.speeds[1]))), rel=1e-12)
+        run_drift(Case(LENGTHS[0], float(found.speeds[1]))), rel=1e-12
+    )
 
 
 def test_ambient_does_not_change_rises_but_friction():
@@ -123,11 +127,15 @@ def test_still_air_takes_its_number_from_speed_and_length():
 
 
 def test_files_and_words(tmp_path, capsys):
-    assert call("--length", 1, 2, "--speed", 0.15, 0.82, "--h", 15, "--ramp", 0, "-o", tmp_path,
-                *FAST) == 0
+    assert (
+        call("--length", 1, 2, "--speed", 0.15, 0.82, "--h", 15, "--ramp", 0, "-o", tmp_path, *FAST)
+        == 0
+    )
     said = capsys.readouterr().out
-    assert ("For a belt that meets the ice less than 0.07 K above the air, 1 m: suffices at 0.15"
-            " m/s; does not suffice at 0.82 m/s." in said)
+    assert (
+        "For a belt that meets the ice less than 0.07 K above the air, 1 m: suffices at 0.15"
+        " m/s; does not suffice at 0.82 m/s." in said
+    )
     assert "which --limit changes" in said and "C13" not in said
     assert "mu change: of the kinetic friction" in said, "the columns are explained"
     assert "At 0.82 m/s 1 m of belt does not suffice" in said
@@ -139,52 +147,76 @@ def test_files_and_words(tmp_path, capsys):
     assert numbers["verdict"]
     table = pd.read_csv(tmp_path / "belt_length.csv")
     assert list(table["length [m]"]) == [1.0, 2.0, 1.0, 2.0]
-    assert table["drift [K]"][2] == pytest.approx(
-        numbers["cases"][2]["drift"]["run"], rel=1e-12)
+    assert table["drift [K]"][2] == pytest.approx(numbers["cases"][2]["drift"]["run"], rel=1e-12)
     assert len(pd.read_csv(tmp_path / "changes.csv")) == sum(
-        len(case["changes"]) for case in numbers["cases"])
+        len(case["changes"]) for case in numbers["cases"]
+    )
     assert {path.name for path in tmp_path.glob("*.png")} == {"drift_over_length.png"}
 
 
 def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
-    assert call("--length", 1, "--speed", 0.15, "--json", "-o", tmp_path,
-                "--samples", 32, "--map", 3, "--jobs", 1) == 0
+    assert (
+        call(
+            "--length",
+            1,
+            "--speed",
+            0.15,
+            "--json",
+            "-o",
+            tmp_path,
+            "--samples",
+            32,
+            "--map",
+            3,
+            "--jobs",
+            1,
+        )
+        == 0
+    )
     printed = json.loads(capsys.readouterr().out)
     assert printed["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 13
     assert (tmp_path / "map.png").exists() and (tmp_path / "doubt.png").exists()
     assert len(pd.read_csv(tmp_path / "doubt.csv")) == 13
     assert np.shape(json.loads((tmp_path / "belt_length.json").read_text())["map"]["drift"]) == (
-        3, 3)
+        3,
+        3,
+    )
 
 
-@pytest.mark.parametrize(("arguments", "says"), [
-    (("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
-    (("--thickness", 0.0), "--thickness = 0 m: must be a number above 0 and at most 0.1"),
-    (("--ambient", 1.0), "--ambient = 1 degC: must be a number at least -100 and below 0"),
-    (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
-    (("--h", -1.0), "--h = -1 W/m2K: must be a number at least 0"),
-    (("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
-    (("--run", 0.0), "--run = 0 s: must be above 0"),
-    (("--pause", float("inf")), "--pause = inf s: must be at least 0"),
-    (("--runs", 0), "--runs = 0: must be 1 to 100"),
-    (("slab",), 'rig.surface = "slab": has no belt; allowed is "belt"'),
-    (("no_such_case",), "no_such_case: no such file"),
-    (("--h", "air", "--length", 0.05), "--length = 0.05 m is shorter than the contact"),
-    (("--speed", 0.0), "--speed = 0 m/s: must be a number above 0"),
-    (("--mass", float("nan")), "--mass = nan kg: must be a number above 0"),
-    (("--limit", 0.0), "--limit = 0 K: must be above 0"),
-    (("--samples", 48), "--samples = 48: must be a power of two from 32, or 0"),
-    (("--samples", 16), "--samples = 16: must be a power of two from 32, or 0"),
-    (("--map", 1), "--map = 1: must be at least 2"),
-    (("--h", float("nan")), "--h = nan W/m2K: must be a number"),
-    (("--speed", 1e6), "--speed = 1e+06 m/s: must be a number above 0 and at most 100"),
-    (("--run", 1e12), "--run = 1e+12 s, --runs = 1 at --speed = 0.15 m/s"),
-    (("--ramp", 1e9), "the belt would go 7.5e+07 m, allowed is at most 95 m"),
-    (("--sensitivity", float("nan")), "--sensitivity = nan 1/K: must be a number at least 0"),
-    (("--sensitivity", 1e9), "--sensitivity = 1e+09 1/K: must be a number at least 0 and at most"),
-    (("--jobs", 0), "--jobs = 0: must be at least 1"),
-    (("--sensitivity", -0.1), "--sensitivity = -0.1 1/K: must be a number at least 0"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+        (("--thickness", 0.0), "--thickness = 0 m: must be a number above 0 and at most 0.1"),
+        (("--ambient", 1.0), "--ambient = 1 degC: must be a number at least -100 and below 0"),
+        (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
+        (("--h", -1.0), "--h = -1 W/m2K: must be a number at least 0"),
+        (("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
+        (("--run", 0.0), "--run = 0 s: must be above 0"),
+        (("--pause", float("inf")), "--pause = inf s: must be at least 0"),
+        (("--runs", 0), "--runs = 0: must be 1 to 100"),
+        (("slab",), 'rig.surface = "slab": has no belt; allowed is "belt"'),
+        (("no_such_case",), "no_such_case: no such file"),
+        (("--h", "air", "--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+        (("--speed", 0.0), "--speed = 0 m/s: must be a number above 0"),
+        (("--mass", float("nan")), "--mass = nan kg: must be a number above 0"),
+        (("--limit", 0.0), "--limit = 0 K: must be above 0"),
+        (("--samples", 48), "--samples = 48: must be a power of two from 32, or 0"),
+        (("--samples", 16), "--samples = 16: must be a power of two from 32, or 0"),
+        (("--map", 1), "--map = 1: must be at least 2"),
+        (("--h", float("nan")), "--h = nan W/m2K: must be a number"),
+        (("--speed", 1e6), "--speed = 1e+06 m/s: must be a number above 0 and at most 100"),
+        (("--run", 1e12), "--run = 1e+12 s, --runs = 1 at --speed = 0.15 m/s"),
+        (("--ramp", 1e9), "the belt would go 7.5e+07 m, allowed is at most 95 m"),
+        (("--sensitivity", float("nan")), "--sensitivity = nan 1/K: must be a number at least 0"),
+        (
+            ("--sensitivity", 1e9),
+            "--sensitivity = 1e+09 1/K: must be a number at least 0 and at most",
+        ),
+        (("--jobs", 0), "--jobs = 0: must be at least 1"),
+        (("--sensitivity", -0.1), "--sensitivity = -0.1 1/K: must be a number at least 0"),
+    ],
+)
 def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
     with pytest.raises(belt_length_command.REFUSED) as refused:
         call(*arguments, "-o", tmp_path)
@@ -193,13 +225,20 @@ def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize(("table", "options", "says"), [
-    ("[friction]\nmu_k = 0.0", (), "case.toml: friction.mu_k = 0: must be above 0"),
-    ("[surface]\nspeed = 0.0", (), "case.toml: surface.speed = 0 m/s: must not be 0"),
-    ("[belt]\nair_heat_transfer = 0.0", (), "case.toml: belt.air_heat_transfer = 0: a belt that"),
-    ("[run]\nduration = 1000.0", (), "case.toml: --ramp = "),
-    ("", ("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
-])
+@pytest.mark.parametrize(
+    ("table", "options", "says"),
+    [
+        ("[friction]\nmu_k = 0.0", (), "case.toml: friction.mu_k = 0: must be above 0"),
+        ("[surface]\nspeed = 0.0", (), "case.toml: surface.speed = 0 m/s: must not be 0"),
+        (
+            "[belt]\nair_heat_transfer = 0.0",
+            (),
+            "case.toml: belt.air_heat_transfer = 0: a belt that",
+        ),
+        ("[run]\nduration = 1000.0", (), "case.toml: --ramp = "),
+        ("", ("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+    ],
+)
 def test_a_fault_of_a_scenario_names_file_and_key(tmp_path, table, options, says):
     file = tmp_path / "case.toml"
     file.write_text(table)
@@ -239,16 +278,37 @@ def test_ctrl_c_keeps_the_part_of_the_map_that_is_done(tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(belt_length_command, "fill_map", stopped)
-    assert call("--length", 1, "--speed", 0.5, "--ambient", -8, "-o", tmp_path, "--samples", 0,
-                "--jobs", 1, "--map", 2) == 1
+    assert (
+        call(
+            "--length",
+            1,
+            "--speed",
+            0.5,
+            "--ambient",
+            -8,
+            "-o",
+            tmp_path,
+            "--samples",
+            0,
+            "--jobs",
+            1,
+            "--map",
+            2,
+        )
+        == 1
+    )
     numbers = json.loads((tmp_path / "belt_length.json").read_text())
     assert numbers["complete"] and numbers["map"]["drift"] == [[1.0, 1.0], [None, None]]
 
 
 def test_verdict_tells_of_melting():
     study = Study(Options(CAMERA, samples=0))
-    work_off(study, cases(Case(1.0, 3.0, mass=20.0, ambient_degC=-1.0), length=(1.0,)), 1,
-             lambda done: None)
+    work_off(
+        study,
+        cases(Case(1.0, 3.0, mass=20.0, ambient_degC=-1.0), length=(1.0,)),
+        1,
+        lambda done: None,
+    )
     assert study.rows[0].drift.steady_melts
     assert "In 1 of 1 cases the ice face comes to melt" in verdict(study)[-1]
 

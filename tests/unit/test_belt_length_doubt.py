@@ -40,7 +40,8 @@ def test_a_polynomial_is_found_again():
     other = np.random.default_rng(2).random((20, 3))
     assert fitted(points, model(points))(other) == pytest.approx(model(other), abs=1e-9)
     assert fitted(points, np.exp(model(points)))(other) == pytest.approx(
-        np.exp(model(other)), rel=1e-6)
+        np.exp(model(other)), rel=1e-6
+    )
 
 
 def test_as_it_is_gives_the_drift_as_it_is():
@@ -53,15 +54,30 @@ def test_as_it_is_gives_the_drift_as_it_is():
 def test_the_parts_make_the_drift_of_a_rig_with_all_of_them():
     """Friction, railing and warm rollers superposed, against the rig that has them."""
     values = as_it_is(CASE, "h") | {
-        "friction": 1.1, "railing_friction": 0.15, "railing_share": 0.6, "roller_rise": 0.3,
-        "roller_conductance": 200.0, "contact_area": 0.5, "heat_capacity": 1.2}
+        "friction": 1.1,
+        "railing_friction": 0.15,
+        "railing_share": 0.6,
+        "roller_rise": 0.3,
+        "roller_conductance": 200.0,
+        "contact_area": 0.5,
+        "heat_capacity": 1.2,
+    }
     drift = combined(answers(CASE, values), one(values))
     length = CASE.sliding().footprint.length
-    whole = replace(CASE, friction=1.1 * CASE.friction, h=CASE.film).changed({
-        "belt.railing_length": 0.08, "belt.railing_friction": 0.15, "belt.railing_share": 0.6,
-        "belt.railing_conductance": CASE.film, "belt.railing_load": CASE.mass * 9.81,
-        "belt.rollers": 2, "belt.roller_conductance": 200.0, "belt.roller_rise": 0.3,
-        "belt.heat_capacity": 1.2 * 840.0, "contact.length": 0.5 * length})
+    whole = replace(CASE, friction=1.1 * CASE.friction, h=CASE.film).changed(
+        {
+            "belt.railing_length": 0.08,
+            "belt.railing_friction": 0.15,
+            "belt.railing_share": 0.6,
+            "belt.railing_conductance": CASE.film,
+            "belt.railing_load": CASE.mass * 9.81,
+            "belt.rollers": 2,
+            "belt.roller_conductance": 200.0,
+            "belt.roller_rise": 0.3,
+            "belt.heat_capacity": 1.2 * 840.0,
+            "contact.length": 0.5 * length,
+        }
+    )
     assert drift[ENTRY] == pytest.approx(run_drift(whole), rel=1e-6)
     assert drift[INTERFACE] == pytest.approx(interface_drift(whole), rel=1e-6)
 
@@ -72,7 +88,8 @@ def test_unknowns_are_all_there_and_have_ranges_that_hold_their_usual_values():
     assert {unknown.key for unknown in SHAPING} < set(keys)
     for unknown in UNKNOWNS:
         assert unknown.low <= as_it_is(CASE, "h")[unknown.key] <= unknown.high or (
-            unknown.key == "roller_conductance"), unknown.key
+            unknown.key == "roller_conductance"
+        ), unknown.key
         assert np.all(unknown.at(np.array([0.0, 0.5, 0.999])) >= unknown.low)
         assert np.all(unknown.at(np.array([0.0, 0.5, 0.999])) <= unknown.high)
 
@@ -96,7 +113,8 @@ def test_single_changes_are_runs_of_the_model(found):
     friction, air = by_key["friction"], by_key["h"]
     as_it_is_drift = run_drift(CASE)
     assert (friction.drift_low, friction.drift_high) == pytest.approx(
-        (0.7 * as_it_is_drift, 1.2 * as_it_is_drift), rel=1e-3)
+        (0.7 * as_it_is_drift, 1.2 * as_it_is_drift), rel=1e-3
+    )
     assert air.drift_high == pytest.approx(run_drift(replace(CASE, h=25.0)), rel=0.01)
     assert by_key["roller_rise"].with_others == {"roller_conductance": 100.0}
     assert len(found.table()) == len(UNKNOWNS)

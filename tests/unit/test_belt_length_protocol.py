@@ -30,8 +30,9 @@ def test_the_ramp_counts(h, printed):
     assert run_drift(Case(1.0, 0.15, h=15.0, protocol=Protocol(ramp=0.0))) < CAMERA
 
 
-@pytest.mark.parametrize(("speed", "with_ramp", "without"), [
-    (0.15, 1.2, 1.0), (0.5, 4.8, 4.2), (0.82, 8.3, 7.3)])
+@pytest.mark.parametrize(
+    ("speed", "with_ramp", "without"), [(0.15, 1.2, 1.0), (0.5, 4.8, 4.2), (0.82, 8.3, 7.3)]
+)
 def test_shortest_belts_with_and_without_ramp(speed, with_ramp, without):
     case = Case(1.0, speed, h=15.0)
     assert shortest_belt(case, CAMERA, run_drift) == pytest.approx(with_ramp, rel=AS_PRINTED)
@@ -56,7 +57,8 @@ def test_a_belt_that_never_comes_round_enters_cold():
 def test_a_second_run_begins_as_the_pause_leaves_it():
     once = Case(2.0, 0.5)
     short, long = (
-        run_drift(replace(once, protocol=Protocol(pause=pause, runs=2))) for pause in (5.0, 3600.0))
+        run_drift(replace(once, protocol=Protocol(pause=pause, runs=2))) for pause in (5.0, 3600.0)
+    )
     assert run_drift(once) < 0.7 * short
     assert long == pytest.approx(run_drift(once), rel=0.03)
 
@@ -85,7 +87,8 @@ def test_a_longer_wait_for_a_run_that_must_stay_cool_too():
 
 def test_waiting_in_vain_is_told_with_the_reason():
     warm_rollers = Case(1.0, 0.5).changed(
-        {"belt.rollers": 2, "belt.roller_conductance": 1e3, "belt.roller_rise": 1.0})
+        {"belt.rollers": 2, "belt.roller_conductance": 1e3, "belt.roller_rise": 1.0}
+    )
     found = wait(warm_rollers, CAMERA)
     assert found.belt is None and found.begin is None
     assert "the belt is not within 0.07 K of the air after 6 h" in found.reason
@@ -103,22 +106,27 @@ def test_what_would_help_is_computed_change_by_change():
     assert start.interface_drift == pytest.approx(interface_drift(Case(2.0, 0.5)))
     half = found["half the mass"]
     assert (half.run, half.interface_run) == pytest.approx(
-        (0.5 * start.run, 0.5 * start.interface_run), rel=1e-6)
+        (0.5 * start.run, 0.5 * start.interface_run), rel=1e-6
+    )
     assert found["belt that never comes round"].run == 0.0
     assert found["belt twice as long"].run < start.run
     assert found["air 8 K colder"].run == pytest.approx(start.run, rel=0.02)
     assert found["sample twice as high"].interface_drift == pytest.approx(
-        start.interface_drift, rel=2e-3)
+        start.interface_drift, rel=2e-3
+    )
     cold = found["sample 1 K colder than the air at the start"]
     warm = found["sample 0.3 K warmer than the air at the start"]
     assert cold.run < start.run < warm.run
 
 
 TABLES = {
-    "rig": {"mass": 0.9}, "friction": {"mu_s": 0.4, "mu_k": 0.25},
-    "surface": {"speed": -0.4, "run_up_time": 4.0}, "run": {"duration": 12.0},
+    "rig": {"mass": 0.9},
+    "friction": {"mu_s": 0.4, "mu_k": 0.25},
+    "surface": {"speed": -0.4, "run_up_time": 4.0},
+    "run": {"duration": 12.0},
     "belt": {"length": 1.5, "railing_length": 0.1, "railing_friction": 0.1, "rollers": 2},
-    "contact": {"conductance": 5e3}, "ambient": {"temperature_degC": -12.0},
+    "contact": {"conductance": 5e3},
+    "ambient": {"temperature_degC": -12.0},
 }
 
 
@@ -152,8 +160,10 @@ def test_scenarios_without_belt_or_constant_speed_are_refused():
 
 
 def test_layers_keep_their_numbers_and_are_not_overridden():
-    layers = [{"thickness": 3e-4, "density": 2600.0, "heat_capacity": 780.0, "conductivity": 2.0},
-              {"thickness": 7e-4, "density": 500.0, "heat_capacity": 1300.0, "conductivity": 0.12}]
+    layers = [
+        {"thickness": 3e-4, "density": 2600.0, "heat_capacity": 780.0, "conductivity": 2.0},
+        {"thickness": 7e-4, "density": 500.0, "heat_capacity": 1300.0, "conductivity": 0.12},
+    ]
     case = scenario_case(Scenario.from_tables(TABLES | {"belt": {"layers": layers}}))
     assert len(case.thermal().belt.layers) == 2
     with pytest.raises(ParameterError, match="layers are both given"):

@@ -128,7 +128,7 @@ def test_a_fault_of_ours_is_one_line_and_no_bad_input(capsys, monkeypatch):
     def broken(folder):
         raise RuntimeError("spring\nbroke")
 
-    monkeypatch.setattr("cosim.fmu_build.build_fmu", broken)
+    monkeypatch.setattr("cosim.fmu.build.build_fmu", broken)
     monkeypatch.setattr("cosim.cli.build.build_fmu", broken, raising=False)
     assert main(["build"]) == 1
     assert capsys.readouterr().err == "error: spring broke (--debug shows where)\n"
@@ -156,8 +156,10 @@ def test_runs_beside_each_other_do_not_wait_for_each_others_threads(given, used)
     program = (
         "import os, sys; from cosim.cli import main; assert 'numpy' not in sys.modules;"
         "main(['simulate', 'nix.toml']); assert 'numpy' in sys.modules;"
-        "print(os.environ['OPENBLAS_NUM_THREADS'])")
+        "print(os.environ['OPENBLAS_NUM_THREADS'])"
+    )
     done = subprocess.run(
-        [sys.executable, "-c", program], env=environment, capture_output=True, text=True)
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True
+    )
     assert done.stdout.strip() == used
     assert done.stderr.startswith("error: nix.toml: no such file") and done.stderr.count("\n") == 1

@@ -7,11 +7,11 @@ import pytest
 import pythonfmu  # noqa: F401  before any FMU is loaded: one that imports it first spoils its copy
 
 from cosim import Scenario, run_scenario
-from cosim.fmu_build import build_fmu
-from cosim.master import FmuError
-from cosim.scenario_faults import ScenarioError
-from cosim.snapshots import Snapshots
-from cosim.thermal_participant import ThermalParticipant
+from cosim.coupling import FmuError
+from cosim.coupling.snapshots import Snapshots
+from cosim.coupling.thermal_participant import ThermalParticipant
+from cosim.fmu.build import build_fmu
+from cosim.scenario.faults import ScenarioError
 from thermal import BeltIceModel
 
 SHORT = {"run.duration": 2.0, "run.snapshot_interval": 0.5}
@@ -107,11 +107,14 @@ def test_a_scenario_or_an_fmu_that_does_not_fit_is_refused(fmu, tmp_path):
 
 #: Ice so near to melting that the first friction melts it.
 WARM = {
-    "ambient.temperature_degC": -1e-6, "surface.run_up_time": 0.5, "run.duration": 0.8,
+    "ambient.temperature_degC": -1e-6,
+    "surface.run_up_time": 0.5,
+    "run.duration": 0.8,
     "run.snapshot_interval": 0.5,
 }
 FEELING = {
-    "temperature_dependence.sensitivity": 0.02, "asperity_melting.length": 1e-3,
+    "temperature_dependence.sensitivity": 0.02,
+    "asperity_melting.length": 1e-3,
     "mixed_lubrication.share": 0.5,
 }
 
@@ -137,7 +140,8 @@ def test_melting_beside_dry_friction_ends_the_run_before_it(fmu, effect):
 def test_the_film_is_handed_over(fmu):
     run = run_scenario(case().changed(WARM | {"mixed_lubrication.share": 0.5}), fmu=fmu)
     np.testing.assert_array_equal(
-        run.result["mechanics.film_thickness"][1:], run.result["thermal.film_thickness"][:-1])
+        run.result["mechanics.film_thickness"][1:], run.result["thermal.film_thickness"][:-1]
+    )
 
 
 def model():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from stickslip import CATALOGUE, simulate
 
+from cosim.cli import effects as effects_command
 from cosim.cli import main
-from cosim.studies import effects_command
 from cosim.studies.effects import effect_figure
 from cosim.studies.effects.cases import CASES
 from cosim.studies.effects.figure import WATER
@@ -24,8 +24,10 @@ def test_every_effect_has_a_case():
 def test_the_case_shows(effect):
     """The motion differs by more than a tenth of its swing: the figure has something to say."""
     end = CASES[effect].window[1]
-    plain, shown = (simulate(CASES[effect].parameters(name), end, film_thickness=WATER)
-                    for name in (None, effect))
+    plain, shown = (
+        simulate(CASES[effect].parameters(name), end, film_thickness=WATER)
+        for name in (None, effect)
+    )
     assert plain.complete and shown.complete
     assert np.max(np.abs(plain["x"] - shown["x"])) > 0.1 * np.ptp(plain["x"])
 

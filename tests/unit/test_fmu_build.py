@@ -8,8 +8,8 @@ import zipfile
 
 import pytest
 
-from cosim import fmu_build
-from cosim.fmu_build import FmuBuildError, build_fmu, ensure_fmu, recipe_file
+from cosim.fmu import build as fmu_build
+from cosim.fmu.build import FmuBuildError, build_fmu, ensure_fmu, recipe_file
 
 sys.path.insert(0, str(recipe_file().parent))
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from cosim import read_scenario
-from cosim.studies import friction_regimes_command
-from cosim.studies.friction_regimes import (
+from cosim.cli import friction_map as friction_regimes_command
+from cosim.studies.friction_map import (
     decade_slopes,
     friction_map,
     lowest_friction,

@@ -26,13 +26,33 @@ from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, Trial, finished, try_model
 
 EFFECTS = (
-    "lateral_friction", "turning_surface", "static_strengthening", "velocity_weakening",
-    "film_drag", "thermal_weakening", "run_in", "spring_hardening", "structural_damping",
-    "speed_ripple", "surface_pattern", "load_dependence", "spring_misalignment", "stick_stiffness",
+    "lateral_friction",
+    "turning_surface",
+    "static_strengthening",
+    "velocity_weakening",
+    "film_drag",
+    "thermal_weakening",
+    "run_in",
+    "spring_hardening",
+    "structural_damping",
+    "speed_ripple",
+    "surface_pattern",
+    "load_dependence",
+    "spring_misalignment",
+    "stick_stiffness",
 )
 SIDEWAYS = {"lateral_friction", "turning_surface", "spring_misalignment"}
-SCALES = Scales(speed=0.15, distance=3.0, heat=5.0, duration=20.0, stiffness=38.5, travel=0.02,
-                mass=0.87, force=8.5, extension=0.03)
+SCALES = Scales(
+    speed=0.15,
+    distance=3.0,
+    heat=5.0,
+    duration=20.0,
+    stiffness=38.5,
+    travel=0.02,
+    mass=0.87,
+    force=8.5,
+    extension=0.03,
+)
 OFFERED = candidates(SCALES)
 EVERY = [pytest.param(c, id=f"{c.effect} {c.form} {i}") for i, c in enumerate(OFFERED)]
 KEYS = set(Parameters().flat())
@@ -179,17 +199,27 @@ def test_a_periodic_candidate_starts_at_a_period():
 
 # A model with a candidate added to it.
 
-BASE = Model((
-    Knob("friction.mu_s", 0.3, 0.01, 0.1, 20.0),
-    Knob("friction.mu_k", 0.2, 0.01, 0.0, 20.0),
-    Knob("offset.x", 0.0, 4e-4, prior=4e-4),
-    Knob("film_drag.coefficient", 0.5, 0.5, 0.0, 500.0),
-), {"load_dependence.reference_force": 8.0})
-FITTED = {"friction.mu_s": 0.35, "friction.mu_k": 0.15, "offset.x": 1e-4,
-          "film_drag.coefficient": 2.0}
-RATE = Candidate("static_strengthening", "logarithmic",
-                 (Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0),),
-                 {"static_strengthening.hold_time": 0.01})
+BASE = Model(
+    (
+        Knob("friction.mu_s", 0.3, 0.01, 0.1, 20.0),
+        Knob("friction.mu_k", 0.2, 0.01, 0.0, 20.0),
+        Knob("offset.x", 0.0, 4e-4, prior=4e-4),
+        Knob("film_drag.coefficient", 0.5, 0.5, 0.0, 500.0),
+    ),
+    {"load_dependence.reference_force": 8.0},
+)
+FITTED = {
+    "friction.mu_s": 0.35,
+    "friction.mu_k": 0.15,
+    "offset.x": 1e-4,
+    "film_drag.coefficient": 2.0,
+}
+RATE = Candidate(
+    "static_strengthening",
+    "logarithmic",
+    (Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0),),
+    {"static_strengthening.hold_time": 0.01},
+)
 
 
 def starts(model):
@@ -300,6 +330,7 @@ def test_plain_knobs_start_inside_their_ranges_and_fit(campaign):
     plain = {knob.key for knob in knobs}
     assert plain <= KEYS | set(OFFSETS) | {SPEED_OFFSET}
     assert not plain & {knob.key for c in OFFERED for knob in c.knobs}
-    problem = Problem(prepare(campaign, campaign.runs, False),
-                      [knob for knob in knobs if knob.key != "offset.y"])
+    problem = Problem(
+        prepare(campaign, campaign.runs, False), [knob for knob in knobs if knob.key != "offset.y"]
+    )
     assert fit(problem, start(problem.flights, problem.knobs)).gap() < 1.2

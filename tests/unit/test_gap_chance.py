@@ -71,8 +71,11 @@ def test_choosing_the_best_of_several_is_part_of_chance():
     alone = [p_of(campaign(seed), LAWS[:1]) for seed in range(20)]
     chosen = [p_of(campaign(seed)) for seed in range(20)]
     # the gain of the best is at least that of the first, yet the bar is higher for all of them
-    kept = [(a, b) for a, b, seed in zip(alone, chosen, range(20), strict=True)
-            if best_is_the_first(campaign(seed))]
+    kept = [
+        (a, b)
+        for a, b, seed in zip(alone, chosen, range(20), strict=True)
+        if best_is_the_first(campaign(seed))
+    ]
     assert len(kept) > 2
     assert all(a <= b for a, b in kept)
 

@@ -6,7 +6,7 @@ import pytest
 from gap_answers import answer
 from gap_campaigns import write_campaign
 
-from cosim import gap_command
+from cosim.cli import gap as gap_command
 from cosim.cli import main
 from cosim.gap.show import files
 
@@ -84,7 +84,8 @@ def test_ctrl_c_before_there_is_an_answer(gap, tmp_path, capsys, monkeypatch):
 def test_runs_of_figures_alone_have_their_own_way(tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(
-        "cosim.gap.summary.find_summary_gap", lambda campaign, **given: asked.append(campaign)
+        "cosim.studies.reproduction.summary.find_summary_gap",
+        lambda campaign, **given: asked.append(campaign),
     )
     run = {"summary": {"frequency": [1.7, 0.05]}}
     campaign = gap_command.read_campaign(write_campaign(tmp_path, [run]))

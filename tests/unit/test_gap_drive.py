@@ -50,8 +50,18 @@ def sawtooth(speed, lag, sticks=8, seed=0, noise=SMALL):
     times = INTERVAL * np.arange(len(values))
     x = sign * noisy(np.array(values), seed, noise)
     found = tuple(Stick(times[a], times[b], a, b, INTERVAL, INTERVAL) for a, b in held)
-    return MeasuredRun(f"run {speed} {seed}", None, KNOWN["mass"], KNOWN["stiffness"], speed, -8.0,
-                       False, Track(times, x), noise={"x": noise}, sticks=found)
+    return MeasuredRun(
+        f"run {speed} {seed}",
+        None,
+        KNOWN["mass"],
+        KNOWN["stiffness"],
+        speed,
+        -8.0,
+        False,
+        Track(times, x),
+        noise={"x": noise},
+        sticks=found,
+    )
 
 
 def creeping(creep, speeds=SPEEDS):
@@ -59,8 +69,10 @@ def creeping(creep, speeds=SPEEDS):
 
 
 def running_slow(part, speeds=SPEEDS):
-    return [sawtooth(speed, lambda load, lag=part * speed: abs(lag) * np.sign(part), seed=i)
-            for i, speed in enumerate(speeds)]
+    return [
+        sawtooth(speed, lambda load, lag=part * speed: abs(lag) * np.sign(part), seed=i)
+        for i, speed in enumerate(speeds)
+    ]
 
 
 def test_driven_speed_is_the_set_point_and_a_part_of_it():
@@ -73,7 +85,8 @@ def test_driven_speed_is_the_set_point_and_a_part_of_it():
 def test_a_roller_s_ripple_has_the_frequency_of_its_turns(speed):
     given = {"speed_ripple.amplitude": 0.1, RIPPLE_LENGTH: 0.05}
     assert model_parameters(speed, given) == pytest.approx(
-        {"speed_ripple.amplitude": 0.1, "speed_ripple.frequency": 4.0}, rel=1e-15)
+        {"speed_ripple.amplitude": 0.1, "speed_ripple.frequency": 4.0}, rel=1e-15
+    )
     assert RIPPLE_LENGTH in given
     assert model_parameters(speed, {"friction.mu_k": 0.2}) == {"friction.mu_k": 0.2}
 
@@ -81,10 +94,13 @@ def test_a_roller_s_ripple_has_the_frequency_of_its_turns(speed):
 @pytest.mark.parametrize("effect", ["speed_ripple", "surface_pattern"])
 def test_parts_of_a_second_harmonic_are_its_amplitude_and_phase(effect):
     given = {f"{effect}.second_in_phase": -0.3, f"{effect}.second_ahead": 0.4}
-    assert model_parameters(0.2, given) == pytest.approx({
-        f"{effect}.second_amplitude": 0.5,
-        f"{effect}.second_phase_deg": 180.0 - np.degrees(np.arctan(4.0 / 3.0)),
-    }, rel=1e-14)
+    assert model_parameters(0.2, given) == pytest.approx(
+        {
+            f"{effect}.second_amplitude": 0.5,
+            f"{effect}.second_phase_deg": 180.0 - np.degrees(np.arctan(4.0 / 3.0)),
+        },
+        rel=1e-14,
+    )
 
 
 @pytest.mark.parametrize("creep", [1e-3, 2e-3, 4e-3])
@@ -154,7 +170,8 @@ def kernel_run(speed, offset=0.0, creep=0.0, duration=8.0):
     parameters = Parameters(
         rig={"mass": KNOWN["mass"], "spring_natural_length": 0.17},
         springs={"stiffness": KNOWN["stiffness"]},
-        friction={"mu_s": 0.3, "mu_k": 0.2, "stick_creep": creep})
+        friction={"mu_s": 0.3, "mu_k": 0.2, "stick_creep": creep},
+    )
     time = np.arange(0.0, duration, 0.01)
     first = [Restart(0, np.array([0.0, 0.0, 0.0, speed, 0.0, 0.0]))]
     outputs = simulate_restarted(parameters.pack(), speed * (1.0 + offset), -8.0, time, first)
@@ -165,8 +182,13 @@ def kernel_campaign(folder, offsets=(0.0, 0.0, 0.0), creep=0.0):
     runs = []
     for seed, (speed, offset) in enumerate(zip((0.03, 0.05, 0.08), offsets, strict=True)):
         time, x = kernel_run(speed, offset, creep)
-        runs.append({"surface_speed": speed, "hold_out": seed == 1,
-                     "columns": {"t": time, "x": noisy(x, seed)}})
+        runs.append(
+            {
+                "surface_speed": speed,
+                "hold_out": seed == 1,
+                "columns": {"t": time, "x": noisy(x, seed)},
+            }
+        )
     return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
 
 
@@ -228,8 +250,7 @@ def test_a_flight_with_an_offset_is_one_on_a_faster_surface(tmp_path):
     flight = prepare(campaign, campaign.runs, False)[0]
     faster = replace(flight, speed=flight.speed * 1.04)
     states = flight.starts
-    np.testing.assert_array_equal(
-        flight.fly({SPEED_OFFSET: 0.04}, states), faster.fly({}, states))
+    np.testing.assert_array_equal(flight.fly({SPEED_OFFSET: 0.04}, states), faster.fly({}, states))
     assert np.abs(flight.fly({}, states) - faster.fly({}, states))[:, 0].max() > NOISE
 
 

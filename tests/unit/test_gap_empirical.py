@@ -160,8 +160,14 @@ def test_a_force_acts_beside_a_creep(plain):
 def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
     tracks = []
     for speed in SPEEDS:
-        rig = Hidden(speed=speed, mu_s=0.27, mu_k=0.2, resonator_mass=0.2,
-                     resonator_stiffness=90.0, resonator_damping=0.05)
+        rig = Hidden(
+            speed=speed,
+            mu_s=0.27,
+            mu_k=0.2,
+            resonator_mass=0.2,
+            resonator_stiffness=90.0,
+            resonator_damping=0.05,
+        )
         path = walk(rig, State(vx=speed), False, 1e-5, 8000)[::10]
         tracks.append((0.01 * np.arange(len(path)), path[:, 0]))
     campaign = campaign_of(tmp_path, tracks)

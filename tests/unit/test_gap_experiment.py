@@ -102,7 +102,7 @@ def test_proposal_is_plain_data_and_the_same_every_time(campaign):
     first = next_experiment(campaign, [damped, plain], planar=False)
     assert first == next_experiment(campaign, [damped, plain], planar=False)
     assert set(first) >= {"mass", "stiffness", "surface_speed", "duration", "separates", "text"}
-    (a, b, units), = first["separates"]
+    ((a, b, units),) = first["separates"]
     assert (a, b) == ("structural_damping", "film_drag")
     assert units == first["predicted_separation"] > 0.5
     assert f"{first['mass']:.4g} kg" in first["text"]

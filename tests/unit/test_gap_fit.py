@@ -33,15 +33,22 @@ TRUE = (MU_S, MU_K, LINEAR)
 @pytest.fixture(scope="module")
 def clean():
     """Exact motions with velocity weakening, one for each speed."""
-    return [motion(speed=speed, mu_s=MU_S, mu_k=MU_K, duration=6.0,
-                   velocity_weakening={"linear": LINEAR}) for speed in SPEEDS]
+    return [
+        motion(
+            speed=speed, mu_s=MU_S, mu_k=MU_K, duration=6.0, velocity_weakening={"linear": LINEAR}
+        )
+        for speed in SPEEDS
+    ]
 
 
 def campaign_of(folder, motions, seed, speeds=SPEEDS):
     """The motions with noise; the last one is held out."""
     runs = [
-        {"surface_speed": speed, "hold_out": number == len(speeds) - 1,
-         "columns": {"t": run.time, "x": noisy(run["x"], 10 * seed + number)}}
+        {
+            "surface_speed": speed,
+            "hold_out": number == len(speeds) - 1,
+            "columns": {"t": run.time, "x": noisy(run["x"], 10 * seed + number)},
+        }
         for number, (speed, run) in enumerate(zip(speeds, motions, strict=True))
     ]
     return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
@@ -117,8 +124,9 @@ def test_a_run_that_was_held_out_is_foretold(trials):
 
 def test_a_trial_counts_every_run_once(trials):
     _, trial = trials[0]
-    assert trial.rows.tolist() == [run.size for run in
-                                   (*trial.fitted.residuals, *trial.held_out.residuals)]
+    assert trial.rows.tolist() == [
+        run.size for run in (*trial.fitted.residuals, *trial.held_out.residuals)
+    ]
     assert trial.gaps[-1] == pytest.approx(trial.held_out_gap)
     assert trial.gap**2 == pytest.approx(np.average(trial.gaps**2, weights=trial.rows))
 
@@ -141,17 +149,24 @@ def test_derivatives_are_those_of_a_finer_difference(problem, fitted):
         at = point.shared, point.own[run], point.states[run]
         columns = problem.columns(run, point, fitted.residuals[run], range(len(KNOBS)))
         for j in range(len(KNOBS)):
-            fine = central(lambda s, at=at, j=j, run=run: problem.residuals(
-                run, moved(at[0], j, s), at[1], at[2]), 2e-3)
+            fine = central(
+                lambda s, at=at, j=j, run=run: problem.residuals(
+                    run, moved(at[0], j, s), at[1], at[2]
+                ),
+                2e-3,
+            )
             # of first order in a step of a hundredth: that part of them, and a corner's jump
             error = np.linalg.norm(columns.shared[:, j] - fine) / np.linalg.norm(fine)
             assert error < 0.03
         for number, (rows, by_state) in enumerate(columns.states):
             for j, axis in enumerate(problem.flights[run].windows[number].free):
                 step = {0: 1e-4, 3: 1e-3}[axis]
-                fine = central(lambda s, at=at, n=number, a=axis, step=step, run=run:
-                               problem.residuals(run, at[0], at[1],
-                                                 moved(at[2], (n, a), s * step)), 2e-3)
+                fine = central(
+                    lambda s, at=at, n=number, a=axis, step=step, run=run: problem.residuals(
+                        run, at[0], at[1], moved(at[2], (n, a), s * step)
+                    ),
+                    2e-3,
+                )
                 elsewhere = np.delete(fine, rows)
                 # nothing here outlives a window, but for the size of the integrator's next step
                 assert np.abs(elsewhere).max(initial=0.0) < 1e-6 * np.abs(fine).max()
@@ -171,15 +186,19 @@ def central(function, step):
 
 def test_brute_force_finds_nothing_better(problem, fitted):
     """All at once, by scipy: knobs and the states of all windows as they come."""
-    free = [(i, n, axis) for i, flight in enumerate(problem.flights)
-            for n, window in enumerate(flight.windows) for axis in window.free]
+    free = [
+        (i, n, axis)
+        for i, flight in enumerate(problem.flights)
+        for n, window in enumerate(flight.windows)
+        for axis in window.free
+    ]
     first = start(problem.flights, KNOBS)
     scale = np.array([1e-4, 0, 0, 1e-3, 0, 0])
 
     def residuals(steps):  # one more than they are: scipy's differences are parts of them
         unknown = steps - 1.0
         states = [s.copy() for s in first.states]
-        for (i, n, axis), step in zip(free, unknown[len(KNOBS):], strict=True):
+        for (i, n, axis), step in zip(free, unknown[len(KNOBS) :], strict=True):
             states[i][n, axis] += step * scale[axis]
         point = Point(first.shared + unknown[: len(KNOBS)], first.own, tuple(states))
         return np.concatenate(problem.all_residuals(point))
@@ -189,8 +208,9 @@ def test_brute_force_finds_nothing_better(problem, fitted):
     assert brute.success
     # a fit stops where a step gains less than 0.02, of a sum of squares of about 1200
     assert fitted.cost == pytest.approx(2.0 * brute.cost, abs=0.05)
-    values = [knob.value(s) for knob, s in zip(KNOBS, first.shared + brute.x[:3] - 1.0,
-                                               strict=True)]
+    values = [
+        knob.value(s) for knob, s in zip(KNOBS, first.shared + brute.x[:3] - 1.0, strict=True)
+    ]
     reach = [high - low for low, high in intervals(trial_of(problem, fitted)).values()]
     # the root of 0.02 is a seventh of a standard deviation, a 28th of an interval
     assert np.abs((np.array(values) - list(fitted.values.values())) / reach).max() < 0.04
@@ -210,8 +230,10 @@ def test_a_knob_that_would_leave_its_range_stays_at_its_end(problem, fitted):
         assert held.values[knob.key] == pytest.approx(others.values[knob.key], rel=2e-3)
 
 
-@pytest.mark.parametrize("mu_s, mu_k, linear", [
-    (0.20, 0.19, 0.0), (0.50, 0.10, 0.0), (0.45, 0.35, 2.0), (0.30, 0.20, 0.0), (0.6, 0.3, 1.0)])
+@pytest.mark.parametrize(
+    "mu_s, mu_k, linear",
+    [(0.20, 0.19, 0.0), (0.50, 0.10, 0.0), (0.45, 0.35, 2.0), (0.30, 0.20, 0.0), (0.6, 0.3, 1.0)],
+)
 def test_poor_starts_end_in_the_same_place(trials, mu_s, mu_k, linear):
     data, trial = trials[0]
     starts = (mu_s, mu_k, linear)
@@ -235,8 +257,13 @@ PATTERN = (
 @pytest.fixture(scope="module")
 def patterned(tmp_path_factory):
     motions = [
-        motion(speed=speed, mu_s=MU_S, mu_k=MU_K, duration=6.0, surface_pattern={
-            "amplitude": 0.2, "wavelength": 0.1, "phase_deg": phase})
+        motion(
+            speed=speed,
+            mu_s=MU_S,
+            mu_k=MU_K,
+            duration=6.0,
+            surface_pattern={"amplitude": 0.2, "wavelength": 0.1, "phase_deg": phase},
+        )
         for speed, phase in zip(SPEEDS[:2], PHASES, strict=True)
     ]
     campaign = campaign_of(tmp_path_factory.mktemp("pattern"), motions, 5, SPEEDS[:2])

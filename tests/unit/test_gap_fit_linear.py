@@ -41,7 +41,8 @@ def check_joint(problem):
     for run in range(len(problem.flights)):
         part = rest[run * width : (run + 1) * width]
         assert list(found.own_values(run).values()) == pytest.approx(
-            part[: len(problem.own)], abs=1e-4)
+            part[: len(problem.own)], abs=1e-4
+        )
         states = found.point.states[run][:, FREE].ravel()
         assert states == pytest.approx(part[len(problem.own) :], abs=1e-4)
     return found
@@ -101,8 +102,9 @@ def test_a_state_that_hardly_any_row_feels_moves_little():
 
 def half_widths(problem, found):
     """Of the intervals, in standard deviations of a normal distribution."""
-    return [(high - low) / (2.0 * 1.96)
-            for low, high in intervals(trial_of(problem, found)).values()]
+    return [
+        (high - low) / (2.0 * 1.96) for low, high in intervals(trial_of(problem, found)).values()
+    ]
 
 
 def test_intervals_of_a_linear_model_are_those_of_its_joint_least_squares():
@@ -126,9 +128,12 @@ def deviations(problem, found):
     white = np.sqrt(np.diag(np.linalg.inv(scarce.T @ scarce)))[:count]
     left = right - matrix @ np.linalg.lstsq(matrix, right, rcond=None)[0]
     nobody = np.full(len(problem.own), -1)  # nothing is known beforehand of a run's own
-    owner = np.concatenate([
-        [*(run * 3 + flight.window_of_rows()), *nobody]
-        for run, flight in enumerate(problem.flights)])
+    owner = np.concatenate(
+        [
+            [*(run * 3 + flight.window_of_rows()), *nobody]
+            for run, flight in enumerate(problem.flights)
+        ]
+    )
     rows = [np.flatnonzero(owner == window) for window in range(owner.max() + 1)]
     scores = np.array([matrix[r].T @ left[r] for r in rows])
     scatter = scores.T @ scores * len(scores) / (len(scores) - count)
@@ -148,15 +153,21 @@ def test_intervals_cover_what_noise_that_lingers_does_to_a_fit():
                 flight.by_key[key][:] = np.repeat(random.standard_normal(30), 20)
         problem = Problem(flights, SHARED)
         found = fit(problem, start(flights, SHARED))
-        inside += sum(low <= 0.0 <= high
-                      for low, high in intervals(trial_of(problem, found)).values())
+        inside += sum(
+            low <= 0.0 <= high for low, high in intervals(trial_of(problem, found)).values()
+        )
     # a share of 0.95 of 80 scatters by 0.024, and 30 windows know their own scatter to a tenth
     assert 0.86 <= inside / (2 * draws) <= 1.0
 
 
-@pytest.mark.parametrize("knob", [
-    Knob("a.a", 0.3, 0.02, 0.1, 2.0), Knob("a.a", 0.3, 0.5, 1e-3, 10.0, log=True),
-    Knob("a.a", 0.3, 0.5)])
+@pytest.mark.parametrize(
+    "knob",
+    [
+        Knob("a.a", 0.3, 0.02, 0.1, 2.0),
+        Knob("a.a", 0.3, 0.5, 1e-3, 10.0, log=True),
+        Knob("a.a", 0.3, 0.5),
+    ],
+)
 def test_scale_of_a_knob(knob):
     assert knob.value(knob.scaled(0.3)) == pytest.approx(0.3, rel=1e-14)
     assert knob.inside(knob.scaled(0.3)) == knob.scaled(0.3)

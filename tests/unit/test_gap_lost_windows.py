@@ -29,8 +29,13 @@ PATTERN = {"surface_pattern.amplitude": 0.1, "surface_pattern.wavelength": 0.05}
 @pytest.fixture(scope="module")
 def patterned(tmp_path_factory):
     """One run over a surface that is not the same everywhere."""
-    run = motion(speed=SPEED, mu_s=0.3, mu_k=0.2, duration=5.0, surface_pattern={
-        "amplitude": 0.1, "wavelength": 0.05, "phase_deg": PHASE})
+    run = motion(
+        speed=SPEED,
+        mu_s=0.3,
+        mu_k=0.2,
+        duration=5.0,
+        surface_pattern={"amplitude": 0.1, "wavelength": 0.05, "phase_deg": PHASE},
+    )
     runs = [{"columns": {"t": run.time, "x": noisy(run["x"], 1)}, "surface_speed": SPEED}]
     campaign = read_campaign(write_campaign(tmp_path_factory.mktemp("p"), runs, noise={"x": 2e-4}))
     return Problem(prepare(campaign, campaign.runs, False, SHORT_CYCLES), KNOBS, PATTERN)
@@ -129,8 +134,14 @@ def test_a_phase_is_found_by_following_it(patterned, fitted):
 
 def test_long_windows_start_where_short_ones_do(tmp_path):
     run = motion(speed=SPEED, mu_s=0.3, mu_k=0.2, duration=8.0)
-    runs = [{"columns": {"t": run.time, "x": noisy(run["x"], seed)}, "surface_speed": SPEED,
-             "hold_out": bool(seed)} for seed in range(2)]
+    runs = [
+        {
+            "columns": {"t": run.time, "x": noisy(run["x"], seed)},
+            "surface_speed": SPEED,
+            "hold_out": bool(seed),
+        }
+        for seed in range(2)
+    ]
     campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": 2e-4}))
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     for (long,), (short,) in ((data.fit, data.short), (data.held_out, data.held_out_short)):
@@ -140,13 +151,19 @@ def test_long_windows_start_where_short_ones_do(tmp_path):
             begun = by_first[window.first]
             assert np.array_equal(window.state, begun.state, equal_nan=True)
             assert (window.free, window.last) == (
-                begun.free, following.first if following else len(long.time))
+                begun.free,
+                following.first if following else len(long.time),
+            )
 
 
 def test_what_belongs_to_a_run_takes_no_long_step_by_what_is_hardly_felt():
     random = np.random.default_rng(1)
     felt, state = random.standard_normal((2, 30))
-    columns = Columns(1e3 * felt, np.zeros((30, 0)), np.column_stack([1e-3 * felt]),
-                      ((np.arange(30), state[:, None]),))
+    columns = Columns(
+        1e3 * felt,
+        np.zeros((30, 0)),
+        np.column_stack([1e-3 * felt]),
+        ((np.arange(30), state[:, None]),),
+    )
     own, steps = columns.local_step(np.zeros(0))
     assert own.tolist() == [-1.0] and len(steps) == 1

@@ -16,29 +16,40 @@ from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
-PLAIN = Model((Knob("friction.mu_s", 0.29, 0.015, 0.0, 2.0),
-               Knob("friction.mu_k", 0.21, 0.01, 0.0, 2.0)), {})
-RATE = Candidate("static_strengthening", "logarithmic",
-                 (Knob("static_strengthening.rate", 0.003, 0.02, 0.0, 2.0),),
-                 {"static_strengthening.hold_time": 0.01})
+PLAIN = Model(
+    (Knob("friction.mu_s", 0.29, 0.015, 0.0, 2.0), Knob("friction.mu_k", 0.21, 0.01, 0.0, 2.0)), {}
+)
+RATE = Candidate(
+    "static_strengthening",
+    "logarithmic",
+    (Knob("static_strengthening.rate", 0.003, 0.02, 0.0, 2.0),),
+    {"static_strengthening.hold_time": 0.01},
+)
 DRAG = Candidate("film_drag", "linear", (Knob("film_drag.coefficient", 0.01, 0.1, 0.0, 50.0),))
 CUBIC = Candidate("spring_hardening", "cubic", (Knob("spring_hardening.cubic", 10.0, 1e3, 0.0),))
 
 
 def measured(folder, hidden):
     """Runs with two effects in them, ready to be fitted."""
-    runs = [{"surface_speed": v, "hold_out": v == SPEEDS[2],
-             "columns": {"t": run.time, "x": noisy(run["x"], number)}}
-            for number, v in enumerate(SPEEDS)
-            for run in [motion(speed=v, duration=6.0, **hidden)]]
+    runs = [
+        {
+            "surface_speed": v,
+            "hold_out": v == SPEEDS[2],
+            "columns": {"t": run.time, "x": noisy(run["x"], number)},
+        }
+        for number, v in enumerate(SPEEDS)
+        for run in [motion(speed=v, duration=6.0, **hidden)]
+    ]
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
     return prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
 
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
-    hidden = {"static_strengthening": {"rate": 0.05, "hold_time": 0.01},
-              "film_drag": {"coefficient": 0.8}}
+    hidden = {
+        "static_strengthening": {"rate": 0.05, "hold_time": 0.01},
+        "film_drag": {"coefficient": 0.8},
+    }
     return measured(tmp_path_factory.mktemp("campaign"), hidden)
 
 
@@ -119,8 +130,9 @@ def test_the_second_effect_is_among_those_beside_the_first(data, plain, search):
     assert pair.trial.gap < 1.1
 
 
-@pytest.mark.parametrize("first, second, wrong, right", [
-    (RATE, CUBIC, CUBIC, DRAG), (CUBIC, DRAG, CUBIC, RATE)])
+@pytest.mark.parametrize(
+    "first, second, wrong, right", [(RATE, CUBIC, CUBIC, DRAG), (CUBIC, DRAG, CUBIC, RATE)]
+)
 def test_another_effect_may_take_the_place_of_either_of_a_pair(
     data, plain, search, first, second, wrong, right
 ):
@@ -134,11 +146,22 @@ def test_another_effect_may_take_the_place_of_either_of_a_pair(
 
 
 def test_a_wrong_period_beside_another_effect_is_put_right(tmp_path):
-    hidden = {"speed_ripple": {"amplitude": 0.3, "frequency": 2.3},
-              "film_drag": {"coefficient": 0.8}}
+    hidden = {
+        "speed_ripple": {"amplitude": 0.3, "frequency": 2.3},
+        "film_drag": {"coefficient": 0.8},
+    }
     rippled = measured(tmp_path, hidden)
-    extent = Scales(speed=0.1, distance=0.6, heat=1.0, duration=6.0, stiffness=38.5, travel=0.05,
-                    mass=0.87, force=8.5, extension=0.03)
+    extent = Scales(
+        speed=0.1,
+        distance=0.6,
+        heat=1.0,
+        duration=6.0,
+        stiffness=38.5,
+        travel=0.05,
+        mass=0.87,
+        force=8.5,
+        extension=0.03,
+    )
     laws = [c for c in candidates(extent) if c.effect == "speed_ripple"]
     wrong = laws[0].at(3.7, 0.2, 0.01)
     pair = pair_of(rippled, sketch(rippled, PLAIN, 8), DRAG, wrong)

@@ -17,10 +17,12 @@ from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.trial import Model, sketch
 
 SPEEDS, AMPLITUDE, PHASES = (0.04, 0.07), 0.08, (40.0, 190.0)
-PLAIN = Model((Knob("friction.mu_s", 0.3, 0.01, 0.0, 2.0),
-               Knob("friction.mu_k", 0.2, 0.01, 0.0, 2.0)), {})
-LAWS = {(c.effect, c.form): c for c in candidates(Scales(0.05, 0.5, 1.0, 10.0, 38.5, 0.05, 0.87,
-                                                         8.5))}
+PLAIN = Model(
+    (Knob("friction.mu_s", 0.3, 0.01, 0.0, 2.0), Knob("friction.mu_k", 0.2, 0.01, 0.0, 2.0)), {}
+)
+LAWS = {
+    (c.effect, c.form): c for c in candidates(Scales(0.05, 0.5, 1.0, 10.0, 38.5, 0.05, 0.87, 8.5))
+}
 FREQUENCY, LENGTH = 1.7, 0.031
 CASES = {
     ("speed_ripple", "sine"): [{"frequency": FREQUENCY}] * 2,
@@ -36,8 +38,9 @@ def scanned(request, tmp_path_factory):
     for number, (speed, shape) in enumerate(zip(SPEEDS, CASES[request.param], strict=True)):
         wave = {"amplitude": AMPLITUDE, "phase_deg": PHASES[number]} | shape
         run = motion(speed=speed, duration=8.0, **{effect: wave})
-        runs.append({"columns": {"t": run.time, "x": noisy(run["x"], number)},
-                     "surface_speed": speed})
+        runs.append(
+            {"columns": {"t": run.time, "x": noisy(run["x"], number)}, "surface_speed": speed}
+        )
     folder = tmp_path_factory.mktemp("scan")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": 2e-4}))
     flights = prepare(campaign, campaign.runs, False, SHORT_CYCLES)
@@ -93,6 +96,7 @@ def test_a_window_that_answers_violently_does_not_outweigh_the_others():
     products, squares, turned = sums(np.concatenate([part, 1e3 * part]), basis, sizes)
     # it never tells an amplitude better than each row would at 1 / 0.1, the answer's own error
     assert mild[0] < squares[1] < 10 / 0.1**2
-    assert np.abs(turned) == pytest.approx(squares * np.abs(np.sum(part**2)) / np.sum(
-        np.abs(part) ** 2))
+    assert np.abs(turned) == pytest.approx(
+        squares * np.abs(np.sum(part**2)) / np.sum(np.abs(part) ** 2)
+    )
     assert np.all(np.isfinite(products))

@@ -6,14 +6,14 @@ import tomllib
 import numpy as np
 import pytest
 
+from cosim.cli.gap import CAMPAIGNS
 from cosim.gap import read_campaign
 from cosim.gap.show.files import write_page
 from cosim.gap.show.model_file import model_text
 from cosim.gap.show.numbers import as_json
 from cosim.gap.show.words import closing_lines
-from cosim.gap.summary.observations import observations
-from cosim.gap.summary.result import FittedSummary, Ranked, SummaryGap, Where
-from cosim.gap_command import CAMPAIGNS
+from cosim.studies.reproduction.summary.observations import observations
+from cosim.studies.reproduction.summary.result import FittedSummary, Ranked, SummaryGap, Where
 
 PLAIN = {"friction.mu_s": 0.28, "friction.mu_k": 0.21}
 EXTENDED = {**PLAIN, "stick_stiffness.ratio": 0.9}
@@ -31,8 +31,15 @@ def gap():
     campaign = read_campaign(CAMPAIGNS / "study.toml")
     printed, plain = fitted(PLAIN, [30, -20, 5, 1, 9]), fitted(PLAIN, [20, -9, 5, 1, 2])
     extended = fitted(EXTENDED, [1, -1, 0.5, 0, 2])
-    found = Ranked("stick_stiffness", "part", 1.4, 1.1, 146.0, EXTENDED,
-                   {"stick_stiffness.ratio": (0.86, 0.96)})
+    found = Ranked(
+        "stick_stiffness",
+        "part",
+        1.4,
+        1.1,
+        146.0,
+        EXTENDED,
+        {"stick_stiffness.ratio": (0.86, 0.96)},
+    )
     return SummaryGap(
         campaign=campaign, observations=observations(campaign), verdict="named",
         effects=("stick_stiffness",), found=("stick_stiffness",), classes=(),

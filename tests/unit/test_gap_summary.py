@@ -12,13 +12,19 @@ import pytest
 from cosim.gap.errors import CampaignError
 from cosim.gap.read import Campaign, MeasuredRun, read_campaign
 from cosim.gap.read.tables import Rig
-from cosim.gap.summary import draw_figures, find, find_summary_gap, rows, summary_residuals
-from cosim.gap.summary.exact_model import exact_motion
-from cosim.gap.summary.motion import Motion, figures
-from cosim.gap.summary.observations import observations, predict
-from cosim.gap.summary.score import Target, gap, misfit
-from cosim.gap.summary.table import Draw
-from cosim.gap.summary.ways import Span, not_felt, plain_way, ways
+from cosim.studies.reproduction.summary import (
+    draw_figures,
+    find,
+    find_summary_gap,
+    rows,
+    summary_residuals,
+)
+from cosim.studies.reproduction.summary.exact_model import exact_motion
+from cosim.studies.reproduction.summary.motion import Motion, figures
+from cosim.studies.reproduction.summary.observations import observations, predict
+from cosim.studies.reproduction.summary.score import Target, gap, misfit
+from cosim.studies.reproduction.summary.table import Draw
+from cosim.studies.reproduction.summary.ways import Span, not_felt, plain_way, ways
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
@@ -151,7 +157,7 @@ def test_no_figures_is_refused():
 
 
 def test_known_friction_is_read_and_checked(tmp_path):
-    text = '[friction]\nmu_s = [0.3, {}]\n[[run]]\nmass = 1.0\nstiffness = 20.0\n'
+    text = "[friction]\nmu_s = [0.3, {}]\n[[run]]\nmass = 1.0\nstiffness = 20.0\n"
     text += "surface_speed = 0.1\nsummary = {{ mean_x = [0.02, 0.002] }}\n"
     path = tmp_path / "campaign.toml"
     path.write_text(text.format("0.01"))

@@ -94,8 +94,10 @@ class MadeUp:
         return sorted(done, key=lambda t: t.trial.gap) + rest
 
     def beside(self, base, fitted, candidates):
-        on_top = {id(t.model): self.second.get(t.candidate.effect, [])
-                  for t in [*self.first, *self.polish]}
+        on_top = {
+            id(t.model): self.second.get(t.candidate.effect, [])
+            for t in [*self.first, *self.polish]
+        }
         offered = {c.effect for c in candidates}
         self.asked.append(offered)
         found = [t for t in on_top.get(id(base), []) if t.candidate.effect in offered]
@@ -118,8 +120,9 @@ class MadeUp:
 
     def polished(self, chosen, candidates):
         better = {t.candidate.effect: t for t in self.polish}
-        return sorted((better.get(t.candidate.effect, t) for t in chosen),
-                      key=lambda t: t.trial.gap)
+        return sorted(
+            (better.get(t.candidate.effect, t) for t in chosen), key=lambda t: t.trial.gap
+        )
 
 
 def finding(first, plain=FAR, sketched=SKETCHED, **more):
@@ -136,10 +139,12 @@ def test_measures():
 
 def test_a_model_is_repaired_when_noise_is_left_or_next_to_nothing_of_what_was():
     assert repaired(trial(FAR), trial(LESS * FITS), EXPLAINED_BY_ONE)
-    assert repaired(trial(100.0), after(1.0 - LESS * (1.0 - EXPLAINED_BY_ONE), 100.0),
-                    EXPLAINED_BY_ONE)
-    assert not repaired(trial(100.0), after(1.0 - MORE * (1.0 - EXPLAINED_BY_ONE), 100.0),
-                        EXPLAINED_BY_ONE)
+    assert repaired(
+        trial(100.0), after(1.0 - LESS * (1.0 - EXPLAINED_BY_ONE), 100.0), EXPLAINED_BY_ONE
+    )
+    assert not repaired(
+        trial(100.0), after(1.0 - MORE * (1.0 - EXPLAINED_BY_ONE), 100.0), EXPLAINED_BY_ONE
+    )
     small = MORE * FITS  # a gap that was small before is not repaired by what is left of it
     assert not repaired(trial(1.2 * small), trial(small), EXPLAINED_BY_ONE)
 
@@ -162,16 +167,19 @@ def test_a_plain_model_that_fits_lacks_nothing_whatever_fits_better():
     assert [t.candidate.effect for t in found.ranking] == ["film_drag"]
 
 
-@pytest.mark.parametrize("period, part, rival, verdict", [
-    ("speed_ripple.frequency", MORE * WAVE, LESS * RIVAL, "named"),
-    ("speed_ripple.frequency", LESS * WAVE, LESS * RIVAL, "none"),
-    ("speed_ripple.frequency", MORE * WAVE, MORE * RIVAL * MORE, "none"),
-    ("", MORE * WAVE, LESS * RIVAL, "none")])
+@pytest.mark.parametrize(
+    "period, part, rival, verdict",
+    [
+        ("speed_ripple.frequency", MORE * WAVE, LESS * RIVAL, "named"),
+        ("speed_ripple.frequency", LESS * WAVE, LESS * RIVAL, "none"),
+        ("speed_ripple.frequency", MORE * WAVE, MORE * RIVAL * MORE, "none"),
+        ("", MORE * WAVE, LESS * RIVAL, "none"),
+    ],
+)
 def test_a_wave_is_named_though_the_plain_model_fits(period, part, rival, verdict):
     plain = np.sqrt(1.0 + MORE * SEEN)
     assert plain < PLAIN_FITS
-    first = [tried("speed_ripple", after(part, plain)),
-             tried("run_in", after(rival * part, plain))]
+    first = [tried("speed_ripple", after(part, plain)), tried("run_in", after(rival * part, plain))]
     first[0] = replace(first[0], candidate=replace(first[0].candidate, periodic=period))
     assert finding(first, plain=plain)[0].verdict == verdict
     # of an excess that is hardly there nothing is said
@@ -217,11 +225,14 @@ def test_friction_across_alone_is_named_when_others_add_nothing_to_it():
     assert alike([with_it, far]) == ("turning_surface",)
 
 
-@pytest.mark.parametrize("effect, without, effects", [
-    ("spring_misalignment", 5.0, ("spring_misalignment", PART_OF_OTHERS)),
-    ("spring_misalignment", 1.02, ("spring_misalignment",)),  # it does without
-    ("turning_surface", 5.0, ("turning_surface",)),  # it drags aside by that friction
-])
+@pytest.mark.parametrize(
+    "effect, without, effects",
+    [
+        ("spring_misalignment", 5.0, ("spring_misalignment", PART_OF_OTHERS)),
+        ("spring_misalignment", 1.02, ("spring_misalignment",)),  # it does without
+        ("turning_surface", 5.0, ("turning_surface",)),  # it drags aside by that friction
+    ],
+)
 def test_friction_across_that_another_effect_needs_is_named_with_it(effect, without, effects):
     first = [tried(effect, 1.01, ACROSS), tried(PART_OF_OTHERS, 6.0, ACROSS)]
     found, _ = finding(first, without={PART_OF_OTHERS: without})
@@ -231,8 +242,11 @@ def test_friction_across_that_another_effect_needs_is_named_with_it(effect, with
 
 def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
     """Tried alone it may have ended elsewhere; from where the best one ended it does as well."""
-    first = [tried("turning_surface", 1.01, ACROSS), tried("spring_misalignment", 1.02, ACROSS),
-             tried(PART_OF_OTHERS, 2.0, ACROSS)]
+    first = [
+        tried("turning_surface", 1.01, ACROSS),
+        tried("spring_misalignment", 1.02, ACROSS),
+        tried(PART_OF_OTHERS, 2.0, ACROSS),
+    ]
     found, _ = finding(first, across=1.02)
     assert (found.verdict, found.effects) == ("named", (PART_OF_OTHERS,))
     assert found.chosen.gap == pytest.approx(1.02)
@@ -240,9 +254,14 @@ def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
     assert names == [PART_OF_OTHERS, "turning_surface", "spring_misalignment"]
 
 
-@pytest.mark.parametrize("effect, gap, verdict", [
-    ("spring_misalignment", 1.02, "unknown"), ("spring_misalignment", 1.2, "named"),
-    ("film_drag", 1.02, "named")])  # nothing else looks like that
+@pytest.mark.parametrize(
+    "effect, gap, verdict",
+    [
+        ("spring_misalignment", 1.02, "unknown"),
+        ("spring_misalignment", 1.2, "named"),
+        ("film_drag", 1.02, "named"),
+    ],
+)  # nothing else looks like that
 def test_what_looks_like_an_effect_and_does_better_is_said(effect, gap, verdict):
     found, _ = finding([tried(effect, 1.21)], lookalike=gap)
     assert (found.verdict, found.nearest.gap) == (verdict, pytest.approx(1.21))
@@ -264,10 +283,14 @@ def test_effects_that_were_ruled_out_early_are_ranked_last():
 
 def two_effects(pair, one=0.6, other=0.5):
     """film_drag and run_in, each with a part alone, and a trial of both."""
-    first = [tried("film_drag", after(one)), tried("run_in", after(other)),
-             tried("speed_ripple", after(0.0))]
-    return finding(first, second={"film_drag": [tried("run_in", pair)],
-                                  "run_in": [tried("film_drag", pair)]})
+    first = [
+        tried("film_drag", after(one)),
+        tried("run_in", after(other)),
+        tried("speed_ripple", after(0.0)),
+    ]
+    return finding(
+        first, second={"film_drag": [tried("run_in", pair)], "run_in": [tried("film_drag", pair)]}
+    )
 
 
 def test_two_effects_are_named_where_both_repair_it():
@@ -288,12 +311,17 @@ def test_two_effects_that_conceal_one_another_are_named():
     assert found.chosen.gap == pytest.approx(1.02) and not search.asked
 
 
-@pytest.mark.parametrize("left, verdict", [
-    (LESS * HARDLY, ("film_drag", "run_in")), (MORE * HARDLY, ("speed_ripple", "run_in"))])
+@pytest.mark.parametrize(
+    "left, verdict",
+    [(LESS * HARDLY, ("film_drag", "run_in")), (MORE * HARDLY, ("speed_ripple", "run_in"))],
+)
 def test_a_pair_that_leaves_more_than_noise_may_have_a_double_for_its_first(left, verdict):
     """Its second does as well on top of another first, and leaves less there."""
-    first = [tried("film_drag", after(0.6, 100.0)), tried("speed_ripple", after(0.5, 100.0)),
-             tried("run_in", after(0.0, 100.0))]
+    first = [
+        tried("film_drag", after(0.6, 100.0)),
+        tried("speed_ripple", after(0.5, 100.0)),
+        tried("run_in", after(0.0, 100.0)),
+    ]
     far = trial(100.0).fitted
     second = {"film_drag": [tried("run_in", left)], "speed_ripple": [tried("run_in", 1.0)]}
     found, _ = finding(first, plain=100.0, sketched=far, second=second)
@@ -302,8 +330,11 @@ def test_a_pair_that_leaves_more_than_noise_may_have_a_double_for_its_first(left
 
 @pytest.mark.parametrize("lateral, second", [(True, "turning_surface"), (False, "run_in")])
 def test_what_moves_a_block_off_its_line_is_tried_in_place_of_what_does_so_too(lateral, second):
-    first = [tried("film_drag", after(0.6, 100.0)), tried("turning_surface", after(0.0, 100.0)),
-             tried("run_in", after(0.0, 100.0))]
+    first = [
+        tried("film_drag", after(0.6, 100.0)),
+        tried("turning_surface", after(0.0, 100.0)),
+        tried("run_in", after(0.0, 100.0)),
+    ]
     first[1] = replace(first[1], candidate=replace(first[1].candidate, lateral=True))
     pair = tried("run_in", MORE * PLAIN_FITS)
     pair = replace(pair, candidate=replace(pair.candidate, lateral=lateral))
@@ -313,12 +344,17 @@ def test_what_moves_a_block_off_its_line_is_tried_in_place_of_what_does_so_too(l
 
 
 def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_doubles():
-    first = [tried("lateral_friction", after(0.6, 100.0)), tried("run_in", after(0.5, 100.0)),
-             tried("turning_surface", after(0.0, 100.0))]
+    first = [
+        tried("lateral_friction", after(0.6, 100.0)),
+        tried("run_in", after(0.5, 100.0)),
+        tried("turning_surface", after(0.0, 100.0)),
+    ]
     for i in (0, 2):
         first[i] = replace(first[i], candidate=replace(first[i].candidate, lateral=True))
-    search = {"second": {"lateral_friction": [tried("run_in", MORE * PLAIN_FITS)]},
-              "doubles": [tried("turning_surface", 1.0)]}
+    search = {
+        "second": {"lateral_friction": [tried("run_in", MORE * PLAIN_FITS)]},
+        "doubles": [tried("turning_surface", 1.0)],
+    }
     found, _ = finding(first, plain=100.0, **search)
     assert (found.verdict, found.effects) == ("named", ("run_in", "turning_surface"))
 
@@ -327,10 +363,12 @@ def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_
 def test_a_period_that_was_found_beside_nothing_is_looked_for_beside_the_other(part, effects):
     first = [tried("film_drag", after(0.5)), tried("speed_ripple", after(0.1))]
     waves = [tried("speed_ripple", at) for at in (after(part * MOST), trial(1.02))]
-    waves = [replace(t, candidate=replace(t.candidate, periodic="speed_ripple.frequency"))
-             for t in waves]
-    found, search = finding(first, second={"film_drag": waves[:1]},
-                            once_more={"speed_ripple": waves[1]})
+    waves = [
+        replace(t, candidate=replace(t.candidate, periodic="speed_ripple.frequency")) for t in waves
+    ]
+    found, search = finding(
+        first, second={"film_drag": waves[:1]}, once_more={"speed_ripple": waves[1]}
+    )
     assert found.effects == effects
     assert ("speed_ripple" in search.asked) == bool(effects)
     assert "film_drag" not in search.asked  # it has no period
@@ -348,8 +386,9 @@ def test_a_pair_that_fits_in_short_windows_is_fitted_more_closely():
 
 def ended(at, time):
     """A trial whose law has a time that ended here; at 0.03 s it is a plain number."""
-    knob = Knob("static_strengthening.saturation_time", 0.1, 0.5, 0.03, 30.0, log=True,
-                plain_below=True)
+    knob = Knob(
+        "static_strengthening.saturation_time", 0.1, 0.5, 0.03, 30.0, log=True, plain_below=True
+    )
     fitted = Fitted((knob,), Point(np.array([knob.scaled(time)]), (), ()), (np.full(ROWS, at),))
     return replace(trial(at), model=Model((knob,), {}), fitted=fitted)
 
@@ -387,8 +426,11 @@ def test_two_effects_must_take_away_so_much():
 def test_friction_across_stands_for_what_brings_it_along_if_it_does_as_well(part, second):
     pair = trial(1.02)
     gap = np.sqrt(1.02**2 + part * (ALIKE + ALIKE_PART * excess(pair)))
-    first = [tried("film_drag", after(0.6)), tried("turning_surface", after(0.5), ACROSS),
-             tried(PART_OF_OTHERS, after(0.1), ACROSS)]
+    first = [
+        tried("film_drag", after(0.6)),
+        tried("turning_surface", after(0.5), ACROSS),
+        tried(PART_OF_OTHERS, after(0.1), ACROSS),
+    ]
     both = [tried("turning_surface", pair, ACROSS)]
     found, _ = finding(first, second={"film_drag": both}, across=gap)
     assert (found.verdict, found.effects) == ("named", ("film_drag", second))
@@ -404,23 +446,30 @@ def test_a_second_effect_that_the_first_does_without_is_not_named():
     assert (found.verdict, found.effects) == ("named", ("run_in",))
 
 
-@pytest.mark.parametrize("factor, effects", [
-    (LESS, ("film_drag", "run_in")), (MORE, ("film_drag",))])
+@pytest.mark.parametrize(
+    "factor, effects", [(LESS, ("film_drag", "run_in")), (MORE, ("film_drag",))]
+)
 def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_rest(
-        factor, effects):
+    factor, effects
+):
     """What is left by one whose law is a little wrong is seldom a second one."""
     plain, alone = 100.0, after(0.5 * (EXPLAINED_BY_ONE + 1.0), 100.0)
     pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED) * excess(alone)))
     first = [tried("film_drag", alone), tried("run_in", after(0.3, plain))]
-    found, _ = finding(first, plain=plain, second={"film_drag": [tried("run_in", pair)]},
-                       without={"run_in": alone.gap, "film_drag": 0.9 * plain})
+    found, _ = finding(
+        first,
+        plain=plain,
+        second={"film_drag": [tried("run_in", pair)]},
+        without={"run_in": alone.gap, "film_drag": 0.9 * plain},
+    )
     assert (found.verdict, found.effects) == ("named", effects)
 
 
 def test_an_effect_that_leaves_noise_once_it_sets_out_from_the_pair_needs_no_other():
     first = [tried("film_drag", after(0.5)), tried("run_in", after(0.3))]
-    found, _ = finding(first, second={"film_drag": [tried("run_in", 0.997)]},
-                       without={"run_in": 1.003})
+    found, _ = finding(
+        first, second={"film_drag": [tried("run_in", 0.997)]}, without={"run_in": 1.003}
+    )
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
 
 
@@ -436,19 +485,24 @@ def test_beside_an_effect_that_explains_all_no_other_is_looked_for():
 def test_one_effect_that_dominates_is_named_though_something_is_left():
     strong = 0.5 * (DOES_MOST + EXPLAINED_BY_ONE)
     plain = 30.0
-    first = [tried("film_drag", after(strong, plain)),
-             tried("run_in", after(LESS * RIVAL * strong, plain))]
+    first = [
+        tried("film_drag", after(strong, plain)),
+        tried("run_in", after(LESS * RIVAL * strong, plain)),
+    ]
     found, _ = finding(first, plain=plain)
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
     assert found.chosen.gap == pytest.approx(after(strong, plain).gap)
 
 
-@pytest.mark.parametrize("strong, rival", [
-    (LESS * DOES_MOST, 0.0), (0.5 * (DOES_MOST + EXPLAINED_BY_ONE), MORE * RIVAL)])
+@pytest.mark.parametrize(
+    "strong, rival", [(LESS * DOES_MOST, 0.0), (0.5 * (DOES_MOST + EXPLAINED_BY_ONE), MORE * RIVAL)]
+)
 def test_no_name_without_a_repair_or_with_a_rival(strong, rival):
     plain = 30.0
-    first = [tried("film_drag", after(strong, plain)),
-             tried("run_in", after(rival * strong, plain))]
+    first = [
+        tried("film_drag", after(strong, plain)),
+        tried("run_in", after(rival * strong, plain)),
+    ]
     found, _ = finding(first, plain=plain)
     assert (found.verdict, found.effects, found.chosen) == ("unknown", (), None)
     assert found.nearest.gap == pytest.approx(after(strong, plain).gap)
@@ -483,8 +537,9 @@ def test_a_little_that_nothing_explains_is_nothing():
     assert weak.gap < FITS
     found, _ = finding([tried("film_drag", weak)], plain=between)
     assert (found.verdict, found.effects) == ("none", ())
-    found, _ = finding([tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, between))],
-                       plain=between)
+    found, _ = finding(
+        [tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, between))], plain=between
+    )
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
 
 

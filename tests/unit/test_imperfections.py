@@ -5,8 +5,13 @@ import pytest
 from stickslip import Imperfections, Parameters
 from stickslip.kernel import layout
 
-ALL = {"mass": 0.01, "spring_stiffness": 0.02, "anchor_position": 1e-3,
-       "start_position": 1e-3, "start_angle_deg": 1.0}
+ALL = {
+    "mass": 0.01,
+    "spring_stiffness": 0.02,
+    "anchor_position": 1e-3,
+    "start_position": 1e-3,
+    "start_angle_deg": 1.0,
+}
 
 
 def packed(**imperfections):
@@ -29,9 +34,13 @@ def test_each_is_drawn_by_itself(key):
     """Switching another on does not change it."""
     alone, both = packed(**{key: ALL[key]}), packed(**ALL)
     changed = np.flatnonzero(alone != packed())
-    slots = {"mass": layout.P_MASS, "spring_stiffness": layout.P_RELATIVE_STIFFNESS,
-             "anchor_position": layout.P_ANCHOR, "start_position": layout.P_INITIAL,
-             "start_angle_deg": layout.P_INITIAL + 2}
+    slots = {
+        "mass": layout.P_MASS,
+        "spring_stiffness": layout.P_RELATIVE_STIFFNESS,
+        "anchor_position": layout.P_ANCHOR,
+        "start_position": layout.P_INITIAL,
+        "start_angle_deg": layout.P_INITIAL + 2,
+    }
     assert slots[key] in changed
     assert alone[slots[key]] == both[slots[key]]
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from cosim.master import (
+from cosim.coupling import (
     Connection,
     CoupledSystem,
     CouplingError,

@@ -7,7 +7,7 @@ import signal
 import numpy as np
 import pytest
 
-from cosim.master import (
+from cosim.coupling import (
     Connection,
     CoupledSystem,
     CouplingError,
@@ -18,7 +18,7 @@ from cosim.master import (
     port_table,
     run,
 )
-from cosim.master.macro_grid import macro_grid
+from cosim.coupling.macro_grid import macro_grid
 
 
 class Model:

@@ -20,37 +20,46 @@ REFUSED = {
     "inertia by a wrong word": ("rig", {"inertia": "sphere"}, ["rig.inertia", "'disc' or 'ring'"]),
     "no contact": ("rig", {"contact_radius": 0.0}, ["rig.contact_radius", "greater than 0"]),
     "three attachments": (
-        "rig", {"attachment_angles_deg": [0.0, 90.0, 180.0]},
+        "rig",
+        {"attachment_angles_deg": [0.0, 90.0, 180.0]},
         ["rig.attachment_angles_deg.3", "required"],
     ),
     "natural length": (
-        "rig", {"spring_natural_length": 0.41},
+        "rig",
+        {"spring_natural_length": 0.41},
         ["spring_natural_length = 0.41", "allowed is at most 0.4 m"],
     ),
     "unknown surface": ("rig", {"surface": "ice"}, ["rig.surface", "'belt' or 'slab'"]),
     "centre under the block": (
-        "rig", {"surface": "slab", "slab_radius": -0.04},
+        "rig",
+        {"surface": "slab", "slab_radius": -0.04},
         ["slab_radius = -0.04", "above contact_radius = 0.04 m"],
     ),
     "guided along x": ("rig", {"degrees_of_freedom": ["y"]}, ['must contain "x"']),
     "no such freedom": (
-        "rig", {"degrees_of_freedom": ["x", "z"]}, ["degrees_of_freedom.1", "'x', 'y' or 'phi'"],
+        "rig",
+        {"degrees_of_freedom": ["x", "z"]},
+        ["degrees_of_freedom.1", "'x', 'y' or 'phi'"],
     ),
     "negative stiffness": ("springs", {"stiffness": -1.0}, ["springs.stiffness", "equal to 0"]),
     "curve without forces": (
-        "springs", {"force_curve_extension": [0.0, 0.1]},
+        "springs",
+        {"force_curve_extension": [0.0, 0.1]},
         ["force_curve_extension has 2", "force_curve_force has 0", "same number"],
     ),
     "curve of one point": (
-        "springs", {"force_curve_extension": [0.0], "force_curve_force": [0.0]},
+        "springs",
+        {"force_curve_extension": [0.0], "force_curve_force": [0.0]},
         ["force curve of one point", "none or 2 to 16"],
     ),
     "curve that goes back": (
-        "springs", {"force_curve_extension": [0.0, 0.0], "force_curve_force": [0.0, 1.0]},
+        "springs",
+        {"force_curve_extension": [0.0, 0.0], "force_curve_force": [0.0, 1.0]},
         ["force_curve_extension must grow"],
     ),
     "curve that falls": (
-        "springs", {"force_curve_extension": [0.0, 0.1], "force_curve_force": [0.0, -1.0]},
+        "springs",
+        {"force_curve_extension": [0.0, 0.1], "force_curve_force": [0.0, -1.0]},
         ["force_curve_force must not fall"],
     ),
     "curve too long": (
@@ -62,7 +71,8 @@ REFUSED = {
         ["springs.force_curve_extension", "at most 16"],
     ),
     "curve with a gap": (
-        "springs", {"force_curve_extension": [0.0, math.nan], "force_curve_force": [0.0, 1.0]},
+        "springs",
+        {"force_curve_extension": [0.0, math.nan], "force_curve_force": [0.0, 1.0]},
         ["force_curve_extension.1", "finite number"],
     ),
     "negative friction": ("friction", {"mu_k": -0.1}, ["friction.mu_k", "equal to 0"]),
@@ -72,11 +82,15 @@ REFUSED = {
     "start not a number": ("initial", {"x": math.nan}, ["initial.x", "finite number"]),
     "loose solver": ("solver", {"tolerance": 0.1}, ["solver.tolerance", "0.001"]),
     "solver beyond rounding": (
-        "solver", {"tolerance": 1e-16}, ["solver.tolerance", "0.0000000000001"],
+        "solver",
+        {"tolerance": 1e-16},
+        ["solver.tolerance", "0.0000000000001"],
     ),
     "unknown key": ("rig", {"weight": 1.0}, ["rig.weight", "not permitted"]),
     "full ripple, too fast": (
-        "speed_ripple", {"amplitude": 1.0, "frequency": 500.0}, ["speed_ripple", "100 Hz"],
+        "speed_ripple",
+        {"amplitude": 1.0, "frequency": 500.0},
+        ["speed_ripple", "100 Hz"],
     ),
 }
 
@@ -110,6 +124,7 @@ def test_a_contact_creeps_by_one_law(part):
 
 def test_a_creep_is_that_under_what_the_contact_holds():
     """Per load: v_c / (mu N), mu the larger of the two, with its dependence on the load."""
+
     def slot(**tables):
         with warnings.catch_warnings(action="ignore"):
             return Parameters(**tables).pack()[P_STICK_CREEP]
@@ -118,8 +133,10 @@ def test_a_creep_is_that_under_what_the_contact_holds():
     for mu_s, mu_k in ((0.4, 0.2), (0.1, 0.4)):
         friction = {"mu_s": mu_s, "mu_k": mu_k, "stick_creep": 2e-3}
         assert slot(friction=friction) == pytest.approx(2e-3 / (0.4 * weight), rel=1e-14)
-    grown = slot(friction={"mu_s": 0.4, "stick_creep": 2e-3},
-                 load_dependence={"exponent": 1.0, "reference_force": 2.0 * weight})
+    grown = slot(
+        friction={"mu_s": 0.4, "stick_creep": 2e-3},
+        load_dependence={"exponent": 1.0, "reference_force": 2.0 * weight},
+    )
     assert grown == pytest.approx(2e-3 / (0.8 * weight), rel=1e-14)
     assert slot(friction={"mu_s": 0.0, "mu_k": 0.0, "stick_creep": 2e-3}) == 0.0
 

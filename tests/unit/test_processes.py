@@ -28,7 +28,8 @@ def test_an_interrupt_ends_calls_that_do_not_look_up(tmp_path):
     script.write_text(INTERRUPTED, encoding="utf-8")
     began = time.perf_counter()
     done = subprocess.run(
-        [sys.executable, str(script)], capture_output=True, text=True, timeout=50, check=True)
+        [sys.executable, str(script)], capture_output=True, text=True, timeout=50, check=True
+    )
     assert done.stdout.strip() == "interrupted"
     assert "Traceback" not in done.stderr
     assert time.perf_counter() - began < 40.0

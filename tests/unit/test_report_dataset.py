@@ -13,7 +13,7 @@ import xarray as xr
 from stickslip import Trajectory, simulate
 from stickslip.ports import OUTPUTS
 
-from cosim.master import Connection, CoupledResult, EnergyFlow, Ledger
+from cosim.coupling import Connection, CoupledResult, EnergyFlow, Ledger
 from cosim.report import OutputError, run_dataset, trajectory_dataset, write_data
 from cosim.report.blocks import mechanics_of, thermal_of
 from cosim.report.variables import THERMAL
@@ -36,14 +36,16 @@ def coupled(surface: str = "belt") -> tuple[CoupledResult, SimpleNamespace]:
 @cache
 def made_scenario(surface: str) -> Scenario:
     """Five seconds with a short run-up: a dozen stick-slip cycles on a coarse belt."""
-    return Scenario.from_tables({
-        "name": "short",
-        "rig": {"surface": surface},
-        "lateral_friction": {"ratio": 1.0},
-        "surface": {"speed": 0.08, "run_up_time": 1.0},
-        "run": {"duration": 6.0},
-        "belt": {"cell_length": 5e-3},
-    })
+    return Scenario.from_tables(
+        {
+            "name": "short",
+            "rig": {"surface": surface},
+            "lateral_friction": {"ratio": 1.0},
+            "surface": {"speed": 0.08, "run_up_time": 1.0},
+            "run": {"duration": 6.0},
+            "belt": {"cell_length": 5e-3},
+        }
+    )
 
 
 @cache
@@ -78,13 +80,25 @@ def made_coupled(surface: str) -> tuple[CoupledResult, SimpleNamespace]:
         {"thermal.heat_residual": thermal["heat_residual"][1]},
     )
     result = CoupledResult(
-        run.time, {n: v for n, (_, v) in ports.items()}, {n: u for n, (u, _) in ports.items()},
-        ledger, "complete", "", None, 1.5, 2, run.time.size - 1,
+        run.time,
+        {n: v for n, (_, v) in ports.items()},
+        {n: u for n, (u, _) in ports.items()},
+        ledger,
+        "complete",
+        "",
+        None,
+        1.5,
+        2,
+        run.time.size - 1,
     )
     times, profiles, contacts = zip(*pictures, strict=True)
     return result, SimpleNamespace(
-        time=times, position=model.belt_profile()[0], temperature=profiles, contact=contacts,
-        contact_length=model.footprint.length)
+        time=times,
+        position=model.belt_profile()[0],
+        temperature=profiles,
+        contact=contacts,
+        contact_length=model.footprint.length,
+    )
 
 
 def coupled_dataset(surface: str = "belt") -> xr.Dataset:
@@ -129,7 +143,8 @@ def test_outputs_are_taken_and_not_the_inputs_of_the_same_name():
     result, _ = coupled()
     dataset = coupled_dataset()
     np.testing.assert_array_equal(
-        dataset["interface_temperature"], result["thermal.interface_temperature"])
+        dataset["interface_temperature"], result["thermal.interface_temperature"]
+    )
     np.testing.assert_array_equal(dataset["x"], result["mechanics.x"])
 
 
@@ -184,8 +199,11 @@ def test_missing_numbers_survive_both_files(tmp_path):
 
 @pytest.mark.parametrize(
     ("reason", "status"),
-    [("", "complete"), ("stopped: KeyboardInterrupt", "interrupted"),
-     ("the integrator gave up at t = 1 s", "failed")],
+    [
+        ("", "complete"),
+        ("stopped: KeyboardInterrupt", "interrupted"),
+        ("the integrator gave up at t = 1 s", "failed"),
+    ],
 )
 def test_status_of_a_trajectory(reason, status):
     dataset = trajectory_dataset(replace(trajectory(), reason=reason), scenario(), "")

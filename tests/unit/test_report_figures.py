@@ -44,7 +44,8 @@ def wet(dataset):
     """As if it had melted: a film and a mass that grow."""
     grown = dataset["time"].values
     return dataset.copy(deep=True).assign(
-        film_thickness=("time", 1e-7 * grown), melted_mass=("time", 1e-4 * grown))
+        film_thickness=("time", 1e-7 * grown), melted_mass=("time", 1e-4 * grown)
+    )
 
 
 DATASETS = {
@@ -90,7 +91,8 @@ def row_label(figure, axes) -> str:
     """The label of the panel at the left of the same row, where panels have their own scales."""
     spec = axes.get_subplotspec()
     same_row = [
-        other for other in figure.axes
+        other
+        for other in figure.axes
         if other.get_subplotspec() and other.get_subplotspec().rowspan == spec.rowspan
     ]
     return same_row[0].get_ylabel()
@@ -125,8 +127,10 @@ def test_zoom_finds_cycles_that_ended_long_ago_and_vibrations_without_any():
     rest = dataset.isel(time=[-1] * 1000).assign_coords(time=6.0 + 0.1 * np.arange(1, 1001))
     rest["time"].attrs = dataset["time"].attrs
     longer = xr.concat(
-        [dataset.drop_dims("event_time"), rest.drop_dims("event_time")], "time",
-        combine_attrs="override")
+        [dataset.drop_dims("event_time"), rest.drop_dims("event_time")],
+        "time",
+        combine_attrs="override",
+    )
     zoom = zoom_of(longer)
     assert zoom.end < 10.0 and "stick-slip" in zoom.title
     still = longer.assign(slip_count=0 * longer["slip_count"])
@@ -136,9 +140,15 @@ def test_zoom_finds_cycles_that_ended_long_ago_and_vibrations_without_any():
 
 @pytest.mark.parametrize(
     ("largest", "unit", "expected"),
-    [(0.034, "m", (1e3, "mm")), (3.75, "m", (1.0, "m")), (0.055, "K", (1e3, "mK")),
-     (4e-5, "K", (1e6, "µK")), (1500.0, "W", (1e-3, "kW")), (0.0, "J", (1.0, "J")),
-     (0.2, "1", (1.0, "1"))],
+    [
+        (0.034, "m", (1e3, "mm")),
+        (3.75, "m", (1.0, "m")),
+        (0.055, "K", (1e3, "mK")),
+        (4e-5, "K", (1e6, "µK")),
+        (1500.0, "W", (1e-3, "kW")),
+        (0.0, "J", (1.0, "J")),
+        (0.2, "1", (1.0, "1")),
+    ],
 )
 def test_prefix_makes_one_to_a_thousand(largest, unit, expected):
     scaled = readable(np.array([0.0, -largest, np.nan]), unit)

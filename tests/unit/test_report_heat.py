@@ -9,10 +9,18 @@ from cosim.report.heat_numbers import heat_ledger, heat_shares
 
 def dataset(**last):
     """Totals that grow evenly to these, J."""
-    totals = {"heat_received": 2.0, "heat_residual": 0.0, "belt_heat": 1.0, "ice_heat": 0.6,
-              "air_heat": 0.4, "support_heat": 0.0, "railing_heat": 0.0} | last
+    totals = {
+        "heat_received": 2.0,
+        "heat_residual": 0.0,
+        "belt_heat": 1.0,
+        "ice_heat": 0.6,
+        "air_heat": 0.4,
+        "support_heat": 0.0,
+        "railing_heat": 0.0,
+    } | last
     return xr.Dataset(
-        {name: ("time", np.linspace(0.0, value, 5)) for name, value in totals.items()})
+        {name: ("time", np.linspace(0.0, value, 5)) for name, value in totals.items()}
+    )
 
 
 def shares(found):
@@ -25,11 +33,14 @@ def test_without_railing_and_rollers_the_shares_are_those_of_the_contacts_heat()
     assert shares(found) == pytest.approx({"belt": 0.5, "ice": 0.3, "air": 0.2, "supports": 0.0})
 
 
-@pytest.mark.parametrize("others", [
-    {"railing_heat": 1.0, "belt_heat": 2.0},
-    {"support_heat": -1.0, "belt_heat": 2.0},
-    {"railing_heat": 1.0, "support_heat": 0.5, "belt_heat": 1.5},
-])
+@pytest.mark.parametrize(
+    "others",
+    [
+        {"railing_heat": 1.0, "belt_heat": 2.0},
+        {"support_heat": -1.0, "belt_heat": 2.0},
+        {"railing_heat": 1.0, "support_heat": 0.5, "belt_heat": 1.5},
+    ],
+)
 def test_shares_are_of_all_heat_and_add_up(others):
     found = dataset(**others)
     assert sum(shares(found).values()) == pytest.approx(1.0)

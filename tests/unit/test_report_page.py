@@ -48,8 +48,12 @@ def written(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run")
     seen = []
     paths = write_results(
-        coupled_dataset(), folder, command="stickslip run <case>.toml",
-        files={"fields/temperature.pvd": "temperature fields"}, progress=seen.append)
+        coupled_dataset(),
+        folder,
+        command="stickslip run <case>.toml",
+        files={"fields/temperature.pvd": "temperature fields"},
+        progress=seen.append,
+    )
     return folder, paths, seen
 
 
@@ -73,8 +77,13 @@ def test_page_shows_scenario_ledger_numbers_and_versions(written):
     page, references = read(written[0] / "report.html")
     numbers = json.loads((written[0] / "summary.json").read_text(encoding="utf-8"))
     for text in (
-        "stickslip run &lt;case&gt;.toml", "stiffness", "20.17 N/m", "run_up_time = 1.0",
-        told(numbers["ledger"]["heat"]["received"], "J"), "scikit-fem", "Energy ledger",
+        "stickslip run &lt;case&gt;.toml",
+        "stiffness",
+        "20.17 N/m",
+        "run_up_time = 1.0",
+        told(numbers["ledger"]["heat"]["received"], "J"),
+        "scikit-fem",
+        "Energy ledger",
         f"{100 * numbers['heat_shares']['ice']:.2f} %",
     ):
         assert text in page, text
@@ -105,9 +114,17 @@ def test_a_run_without_a_row_still_has_its_page(tmp_path):
 
 @pytest.mark.parametrize(
     ("value", "unit", "text"),
-    [(None, "m", "–"), (0.034, "m", "34 mm"), (3.75, "m", "3.75 m"), (0.0494134, "K", "49.413 mK"),
-     (-4.57e-12, "J", "−4.57 · 10⁻¹² J"), (14, "1", "14"), (-40.384, "deg", "−40.38°"),
-     (-8.0, "degC", "−8 °C"), (1e-9, "deg", "0.00°")],
+    [
+        (None, "m", "–"),
+        (0.034, "m", "34 mm"),
+        (3.75, "m", "3.75 m"),
+        (0.0494134, "K", "49.413 mK"),
+        (-4.57e-12, "J", "−4.57 · 10⁻¹² J"),
+        (14, "1", "14"),
+        (-40.384, "deg", "−40.38°"),
+        (-8.0, "degC", "−8 °C"),
+        (1e-9, "deg", "0.00°"),
+    ],
 )
 def test_numbers_as_they_are_read(value, unit, text):
     assert told(value, unit) == text

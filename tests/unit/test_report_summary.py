@@ -66,8 +66,9 @@ def test_without_events_the_modes_tell_to_one_interval():
     exact, seen = slip_intervals(dataset), slip_intervals(sampled)
     interval = END / 600
     np.testing.assert_allclose(seen, exact, atol=0.5 * interval + 1e-12)
-    np.testing.assert_allclose(break_aways(sampled), break_aways(dataset),
-                               atol=0.5 * interval + 1e-12)
+    np.testing.assert_allclose(
+        break_aways(sampled), break_aways(dataset), atol=0.5 * interval + 1e-12
+    )
 
 
 def test_a_run_that_ends_in_the_run_up_has_no_stick_slip_numbers():
@@ -89,7 +90,8 @@ def test_heat_and_coupling_ledgers_close():
     heat, coupling = found["ledger"]["heat"], found["ledger"]["coupling"]
     assert heat["relative_residual"] < 1e-10
     assert heat["received"] == pytest.approx(
-        heat["belt"] + heat["ice"] + heat["air"] + heat["melting"], rel=1e-10)
+        heat["belt"] + heat["ice"] + heat["air"] + heat["melting"], rel=1e-10
+    )
     assert coupling["handed_over"] == pytest.approx(coupling["taken_up"], rel=1e-12)
     shares = found["heat_shares"]
     assert sum(shares[name] for name in ("belt", "ice", "air", "melting")) == pytest.approx(1.0)

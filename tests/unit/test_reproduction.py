@@ -11,7 +11,7 @@ from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
 
 from cosim.cli import main
-from cosim.studies import reproduction_command
+from cosim.cli import reproduce as reproduction_command
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
 from cosim.studies.reproduction.cases import DATASET_1, exact_figures, scheme_figures
 from cosim.studies.reproduction.claim import (
@@ -164,8 +164,17 @@ def test_figures_of_a_known_motion():
     time = np.linspace(0.0, 10.0, 20001)
     x = 0.02 + 0.01 * np.sin(2.0 * np.pi * 1.7 * time)
     phases = np.array([[0.0, 1.0, 0.0], [1.0, 4.0, 1.0], [4.0, 5.0, 0.0], [5.0, 10.0, 1.0]])
-    motion = Motion(time, x, 0.001 + 0 * x, 0.1 * np.sin(time), 0.1 * np.cos(time), 0 * x,
-                    (time > 1.0).astype(float), phases, np.zeros(4))
+    motion = Motion(
+        time,
+        x,
+        0.001 + 0 * x,
+        0.1 * np.sin(time),
+        0.1 * np.cos(time),
+        0 * x,
+        (time > 1.0).astype(float),
+        phases,
+        np.zeros(4),
+    )
     ours = figures(motion)
     assert ours.oscillations == pytest.approx(34.0, abs=1e-2)
     assert ours.mean_x == pytest.approx(0.02, abs=1e-5)
@@ -180,12 +189,16 @@ def test_figures_of_a_known_motion():
 def test_exact_and_mended_against_the_closed_form():
     weight = DATASET_1.weight
     expected = CoulombOscillator(
-        DATASET_1.mass, 4 * DATASET_1.stiffness, DATASET_1.speed, DATASET_1.mu_s * weight,
+        DATASET_1.mass,
+        4 * DATASET_1.stiffness,
+        DATASET_1.speed,
+        DATASET_1.mu_s * weight,
         DATASET_1.mu_k * weight,
     )
     for ours, tolerance in (
         # 0.1 % of the disc is not covered by the scheme's strips, and its scatter shakes events
-        (exact_figures(DATASET_1), 2e-3), (scheme_figures(DATASET_1, MENDED), 2e-2)
+        (exact_figures(DATASET_1), 2e-3),
+        (scheme_figures(DATASET_1, MENDED), 2e-2),
     ):
         assert ours.slip_time == pytest.approx(expected.slip_time, rel=tolerance)
         assert ours.oscillations == pytest.approx(20.0 / expected.period, rel=tolerance)
@@ -215,9 +228,10 @@ def test_scheme_against_an_independent_implementation(name):
 def test_misfit_counts_in_spreads():
     exact = Variant("all of it", tuple(o.value for o in OBSERVATIONS))
     assert exact.misfit == 0.0 and exact.met == 5
-    off = Variant("two off", tuple(
-        o.value + (3.0 * o.spread if i < 2 else 0.0) for i, o in enumerate(OBSERVATIONS)
-    ))
+    off = Variant(
+        "two off",
+        tuple(o.value + (3.0 * o.spread if i < 2 else 0.0) for i, o in enumerate(OBSERVATIONS)),
+    )
     assert off.misfit == pytest.approx(math.sqrt(2 * 9 / 5))
     assert off.met == 3
 
@@ -243,7 +257,9 @@ def quick() -> list[Claim]:
 
 def test_matrices_and_simple_runs_hold(quick):
     assert [(claim.id, claim.verdict) for claim in quick] == [
-        ("C1", "holds"), ("C2", "holds"), ("C3", "holds")
+        ("C1", "holds"),
+        ("C2", "holds"),
+        ("C3", "holds"),
     ]
 
 
@@ -261,7 +277,15 @@ def test_json(quick):
     assert [one["id"] for one in data["claims"]] == ["C1", "C2", "C3"]
     numbers = data["claims"][0]["numbers"][0]
     assert set(numbers) == {
-        "quantity", "unit", "study", "place", "derived", "how", "printed", "mended", "exact"
+        "quantity",
+        "unit",
+        "study",
+        "place",
+        "derived",
+        "how",
+        "printed",
+        "mended",
+        "exact",
     }
     assert (numbers["study"], numbers["place"]) == (4.0, "§4.2.2, eq. 4.16")
     drift = data["claims"][1]["numbers"][0]
@@ -279,21 +303,30 @@ def test_json(quick):
 
 def test_page(quick):
     html = page(quick, DESCRIPTIONS)
-    first_table = html[html.index("<tbody>"): html.index("</tbody>")]
+    first_table = html[html.index("<tbody>") : html.index("</tbody>")]
     assert first_table.count("<tr>") == 3
     assert "http" not in html  # needs nothing but itself
     assert html.count('class="verdict holds"') >= 6
     assert "&lt;" not in page([claim_of()], {})
     # a fault is explained before it is named in a verdict, and what is read before its numbers
     assert html.index(DESCRIPTIONS["F1"].split(",")[0]) < html.index("Referee")
-    drift = html[html.index('<h2 id="C2"'):]
+    drift = html[html.index('<h2 id="C2"') :]
     assert drift.index("Both drifts are without bound") < drift.index("<table>")
 
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(None, "–"), (math.nan, "–"), ("falls", "falls"), (0.0, "0"), (34.664, "34.66"),
-     (-0.07185, "−0.07185"), (0.00117, "0.00117"), (6.91e-5, "6.91e−05"), (409.2732, "409.3")],
+    [
+        (None, "–"),
+        (math.nan, "–"),
+        ("falls", "falls"),
+        (0.0, "0"),
+        (34.664, "34.66"),
+        (-0.07185, "−0.07185"),
+        (0.00117, "0.00117"),
+        (6.91e-5, "6.91e−05"),
+        (409.2732, "409.3"),
+    ],
 )
 def test_number(value, text):
     assert number(value) == text

@@ -75,7 +75,16 @@ def test_a_swing_is_timed_from_turn_to_turn():
     time = np.linspace(0.0, 10.0, 10001)
     phi = np.radians(20.0) * np.cos(2.0 * np.pi * 0.5 * time)  # 40 degrees in a second
     zero = 0.0 * time
-    motion = Motion(time, np.sin(9.0 * time), zero, phi, zero, zero, zero + 1.0,
-                    np.array([[0.0, 10.0, 1.0]]), np.zeros(1))
+    motion = Motion(
+        time,
+        np.sin(9.0 * time),
+        zero,
+        phi,
+        zero,
+        zero,
+        zero + 1.0,
+        np.array([[0.0, 10.0, 1.0]]),
+        np.zeros(1),
+    )
     assert figures(motion).swing_rate == pytest.approx(40.0, rel=1e-3)
     assert figures(motion.between(2.0, 4.0)).slip_share == 1.0

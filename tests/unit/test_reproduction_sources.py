@@ -24,12 +24,15 @@ def numbers(one: Printed) -> list[str]:
 def section(text: str, name: str) -> str:
     """The text from a section's heading to the next one that is not within it."""
     if name == "executive summary":
-        return text[text.index("Executive Summary"):text.index("Chapter 1")]
+        return text[text.index("Executive Summary") : text.index("Chapter 1")]
     headings = [(m.group(1), m.start()) for m in HEADING.finditer(text)]
     begin = next(start for number, start in headings if number == name)
-    after = (start for number, start in headings
-             if start > begin and not number.startswith(name) and number[0] == name[0])
-    return text[begin:next(after, len(text))]
+    after = (
+        start
+        for number, start in headings
+        if start > begin and not number.startswith(name) and number[0] == name[0]
+    )
+    return text[begin : next(after, len(text))]
 
 
 @pytest.mark.parametrize("one", every(), ids=lambda one: f"{one.value}")

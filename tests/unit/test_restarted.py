@@ -110,7 +110,8 @@ def test_a_force_acts_on_a_stick_that_creeps_too(creeping, parameters):
     free = simulate_restarted(creeping, SPEED, COLD, times, start)
     stiffer = 12.0  # N/m
     pulled = simulate_restarted(
-        creeping, SPEED, COLD, times, start, lambda block: -stiffer * block[layout.X])
+        creeping, SPEED, COLD, times, start, lambda block: -stiffer * block[layout.X]
+    )
     assert not pulled[:, O_MODE].any() and not free[:, O_MODE].any()
     k = 4.0 * parameters.springs.stiffness
     limit = creeping[layout.P_STICK_CREEP]  # x' = V - c (k + stiffer) x

@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from cosim.scenario import Scenario
-from cosim.scenario_faults import ScenarioError
+from cosim.scenario.faults import ScenarioError
 
 LAYERS = """
 [[belt.layers]]
@@ -33,17 +33,36 @@ def test_layers_reach_the_thermal_model_and_come_back(rig):
     assert again.thermal == case.thermal and again.to_toml() == case.to_toml()
 
 
-@pytest.mark.parametrize(("old", "new", "says"), [
-    ("conductivity = 0.12", "conductivty = 0.12",
-     "belt.layers[2].conductivity: missing, needed is a number greater than 0"),
-    ("conductivity = 0.12", "conductivity = 0.12\nconductivty = 1.0",
-     "belt.layers[2].conductivty: no such key, nearest known: conductivity"),
-    ("thickness = 3e-4", "thickness = 0.0",
-     "belt.layers[1].thickness: out of range (0.0), allowed is a number greater than 0"),
-    ("thickness = 3e-4", 'thickness = "thin"', 'belt.layers[1].thickness: not a number ("thin")'),
-    ("[[belt.layers]]", "[belt]\nthickness = 2e-3\n[[belt.layers]]",
-     "belt.thickness: 0.002 and belt.layers are both given"),
-])
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        (
+            "conductivity = 0.12",
+            "conductivty = 0.12",
+            "belt.layers[2].conductivity: missing, needed is a number greater than 0",
+        ),
+        (
+            "conductivity = 0.12",
+            "conductivity = 0.12\nconductivty = 1.0",
+            "belt.layers[2].conductivty: no such key, nearest known: conductivity",
+        ),
+        (
+            "thickness = 3e-4",
+            "thickness = 0.0",
+            "belt.layers[1].thickness: out of range (0.0), allowed is a number greater than 0",
+        ),
+        (
+            "thickness = 3e-4",
+            'thickness = "thin"',
+            'belt.layers[1].thickness: not a number ("thin")',
+        ),
+        (
+            "[[belt.layers]]",
+            "[belt]\nthickness = 2e-3\n[[belt.layers]]",
+            "belt.thickness: 0.002 and belt.layers are both given",
+        ),
+    ],
+)
 def test_faults_of_layers_are_one_line(old, new, says):
     with pytest.raises(ScenarioError) as refused:
         read(LAYERS.replace(old, new, 1))

@@ -1,7 +1,7 @@
 import pytest
 
 from cosim.scenario import Scenario, read_scenario
-from cosim.scenario_faults import ScenarioError
+from cosim.scenario.faults import ScenarioError
 
 
 def scenario(folder, mesh):
@@ -33,11 +33,16 @@ def test_without_a_mesh_there_is_none(tmp_path):
     assert Scenario().ice.mesh == ""
 
 
-@pytest.mark.parametrize(("tables", "says"), [
-    ({"ice": {"mesh": 3}}, r"ice\.mesh: not a text \(3\), allowed is a text"),
-    ({"ice": {"mesh": "a.msh"}, "contact": {"length": 0.05}},
-     r"contact\.length: 0\.05 m and ice\.mesh are both given"),
-])
+@pytest.mark.parametrize(
+    ("tables", "says"),
+    [
+        ({"ice": {"mesh": 3}}, r"ice\.mesh: not a text \(3\), allowed is a text"),
+        (
+            {"ice": {"mesh": "a.msh"}, "contact": {"length": 0.05}},
+            r"contact\.length: 0\.05 m and ice\.mesh are both given",
+        ),
+    ],
+)
 def test_refused(tables, says):
     with pytest.raises(ScenarioError, match=says):
         Scenario.from_tables(tables)

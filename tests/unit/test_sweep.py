@@ -48,10 +48,12 @@ def test_the_varied_keys_are_the_dimensions():
     assert done.attrs["status"] == "complete"
     for name in done.variables:
         assert done[name].attrs["units"] and done[name].attrs["long_name"]
-    one = BASE.model_copy(update={
-        "rig": BASE.rig.model_copy(update={"mass": 0.9}),
-        "surface": BASE.surface.model_copy(update={"speed": 0.1}),
-    })
+    one = BASE.model_copy(
+        update={
+            "rig": BASE.rig.model_copy(update={"mass": 0.9}),
+            "surface": BASE.surface.model_copy(update={"speed": 0.1}),
+        }
+    )
     alone = features(simulate(one, 2.0, 0.02))
     here = done.sel({"rig.mass": 0.9, "surface.speed": 0.1})
     for name, value in alone.items():
@@ -253,7 +255,8 @@ def test_equal_combinations_run_once(computed):
     """A slab's radius does not matter on a belt, but the parameters differ: two runs."""
     grid = product_grid(BASE, {"rig.mass": [0.5, 0.6]})
     twice = run_module.run_grid(
-        type(grid)(grid.base, grid.axes, lambda settings: {}), combination_module.Run(1.0, 0.1),
+        type(grid)(grid.base, grid.axes, lambda settings: {}),
+        combination_module.Run(1.0, 0.1),
         jobs=1,
     )
     assert sum(computed.values()) == 1

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 from cosim import read_scenario
-from cosim.studies import sweep_command
+from cosim.cli import sweep as sweep_command
 from cosim.studies.sweep import Run, SweepError
 from cosim.studies.sweep.arguments import parse_vary
 from cosim.studies.sweep.store import Store
@@ -39,12 +39,21 @@ def case(tmp_path):
         ("rig.mass = 1e-1 , .5", ("rig.mass",), [0.1, 0.5]),
         ("surface.speed=-0.1", ("surface.speed",), [-0.1]),
         ("rig.inertia=disc,'ring',0.1", ("rig.inertia",), ["disc", "ring", 0.1]),
-        ("rig.degrees_of_freedom=[x],[\"x\", phi]", ("rig.degrees_of_freedom",),
-         [("x",), ("x", "phi")]),
-        ("friction.mu_s+friction.mu_k=0.2:0.1,0.3:0.2", ("friction.mu_s", "friction.mu_k"),
-         [(0.2, 0.1), (0.3, 0.2)]),
-        ("springs.force_curve_extension=[],[0,1]", ("springs.force_curve_extension",),
-         [(), (0, 1)]),
+        (
+            'rig.degrees_of_freedom=[x],["x", phi]',
+            ("rig.degrees_of_freedom",),
+            [("x",), ("x", "phi")],
+        ),
+        (
+            "friction.mu_s+friction.mu_k=0.2:0.1,0.3:0.2",
+            ("friction.mu_s", "friction.mu_k"),
+            [(0.2, 0.1), (0.3, 0.2)],
+        ),
+        (
+            "springs.force_curve_extension=[],[0,1]",
+            ("springs.force_curve_extension",),
+            [(), (0, 1)],
+        ),
     ],
 )
 def test_text_to_values(text, keys, values):
@@ -125,8 +134,11 @@ def test_a_signal_to_all_processes_loses_nothing(tmp_path, wanted, chunks):
     """
     command = [sys.executable, "-m", "cosim", "sweep", "test_plan", "--test-plan", "--jobs", "2"]
     with subprocess.Popen(
-        [*command, "-o", tmp_path], start_new_session=True, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        [*command, "-o", tmp_path],
+        start_new_session=True,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     ) as process:
         while process.poll() is None and len(list(tmp_path.glob("chunks/*/*.json"))) < chunks:
             time.sleep(0.05)

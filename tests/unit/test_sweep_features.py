@@ -25,10 +25,13 @@ SWING = math.hypot(JUMP, SPEED / RATE)
 def coulomb():
     """The Coulomb oscillator, begun where it re-sticks: in its cycle from the start."""
     straight = Rig(mass=MASS, degrees_of_freedom=("x",), spring_length=0.2)
-    case = Parameters(rig=straight, springs=Springs(stiffness=STIFFNESS),
-                      friction=Friction(mu_s=MU_S, mu_k=MU_K),
-                      surface=Surface(speed=SPEED),
-                      initial=Initial(x=MIDDLE - JUMP, vx=SPEED))
+    case = Parameters(
+        rig=straight,
+        springs=Springs(stiffness=STIFFNESS),
+        friction=Friction(mu_s=MU_S, mu_k=MU_K),
+        surface=Surface(speed=SPEED),
+        initial=Initial(x=MIDDLE - JUMP, vx=SPEED),
+    )
     return features(simulate(case, 60.0, 0.01))
 
 

@@ -16,8 +16,10 @@ def model():
 
 
 def collection(path):
-    return [(float(entry.get("timestep")), entry.get("file"))
-            for entry in ElementTree.parse(path).iter("DataSet")]
+    return [
+        (float(entry.get("timestep")), entry.get("file"))
+        for entry in ElementTree.parse(path).iter("DataSet")
+    ]
 
 
 def test_series_reads_back(model, tmp_path):
@@ -25,8 +27,10 @@ def test_series_reads_back(model, tmp_path):
     series.write(0.2)
     model.step(0.1, 0.3, 0.05)
     series.write(0.3)
-    assert collection(series.path) == [(0.2, "temperature_00000.vtu"),
-                                       (0.3, "temperature_00001.vtu")]
+    assert collection(series.path) == [
+        (0.2, "temperature_00000.vtu"),
+        (0.3, "temperature_00001.vtu"),
+    ]
     mesh = meshio.read(tmp_path / "temperature_00001.vtu")
     temperature = mesh.point_data["temperature"]
     part = mesh.cell_data["part"][0]

@@ -11,7 +11,7 @@ def loads_by_quadrature(footprint, centre, movement, node, strip):
     x = (np.arange(4000) + 0.5) / 4000 * 2 * CELL + (node - 1) * CELL
     moved = centre + movement * (np.arange(400) + 0.5) / 400
     relative = x - moved[:, None]
-    low, high = footprint.edges[strip:strip + 2]
+    low, high = footprint.edges[strip : strip + 2]
     inside = (relative >= low) & (relative < high)
     hat = 1.0 - np.abs(x / CELL - node)
     return footprint.lane * 2 * CELL * np.mean(hat * inside)

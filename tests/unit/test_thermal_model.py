@@ -8,13 +8,29 @@ from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
 
 COARSE = ThermalParameters(belt=Belt(cell_length=4e-3))
 INSULATED = ThermalParameters(
-    belt=Belt(cell_length=4e-3, air_heat_transfer=0.0), ice=Ice(air_heat_transfer=0.0))
+    belt=Belt(cell_length=4e-3, air_heat_transfer=0.0), ice=Ice(air_heat_transfer=0.0)
+)
 OUTPUTS = {
-    "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
-    "ice_face_temperature", "belt_share", "melt_rate", "melted_mass", "heat_received",
-    "belt_heat", "ice_heat", "air_heat", "latent_heat", "support_heat",
-    "refrozen_mass", "wiped_ice_mass", "film_thickness", "meltwater_heat", "railing_heat",
-    "heat_residual"}
+    "interface_temperature",
+    "belt_entry_temperature",
+    "belt_exit_temperature",
+    "ice_face_temperature",
+    "belt_share",
+    "melt_rate",
+    "melted_mass",
+    "heat_received",
+    "belt_heat",
+    "ice_heat",
+    "air_heat",
+    "latent_heat",
+    "support_heat",
+    "refrozen_mass",
+    "wiped_ice_mass",
+    "film_thickness",
+    "meltwater_heat",
+    "railing_heat",
+    "heat_residual",
+}
 
 
 def test_starts_at_the_temperature_of_the_air():
@@ -66,7 +82,7 @@ def test_stuck_without_heat_conducts_from_ice_to_belt():
     model = BeltIceModel(COARSE)
     for _ in range(50):
         model.step(0.1, 0.3, 0.05)
-    model.step(1e-3, 0.0, 0.5)                      # fresh belt below the warm ice
+    model.step(1e-3, 0.0, 0.5)  # fresh belt below the warm ice
     before = model.outputs()
     for _ in range(20):
         model.step(0.01, 0.0, 0.0)
@@ -97,8 +113,9 @@ def test_a_very_good_contact_makes_the_faces_equal():
 @pytest.mark.parametrize("conductance", [1e-3, 1e4, 1e12])
 def test_stable_for_any_step_and_conductance(duration, conductance):
     """After heating stops, no temperature may rise above what it was, nor fall below the air."""
-    model = BeltIceModel(ThermalParameters(
-        belt=Belt(cell_length=4e-3), contact=Contact(conductance=conductance)))
+    model = BeltIceModel(
+        ThermalParameters(belt=Belt(cell_length=4e-3), contact=Contact(conductance=conductance))
+    )
     model.step(duration, 0.01 * duration, 0.3)
     hottest = max(model.belt_profile()[1].max(), model.ice_field()[2].max())
     for _ in range(60):
@@ -138,15 +155,18 @@ def test_state_of_another_mesh_is_refused():
         BeltIceModel(COARSE).restore(BeltIceModel().state())
 
 
-@pytest.mark.parametrize(("step", "says"), [
-    ((0.0, 0.1, 0.1), r"duration = 0 s must be positive"),
-    ((-1.0, 0.1, 0.1), "duration = -1 s"),
-    ((0.1, -0.1, 0.1), r"heat = -0\.1 J"),
-    ((math.nan, 0.1, 0.1), "duration = nan"),
-    ((0.1, math.inf, 0.1), "heat = inf"),
-    ((0.1, 0.1, math.nan), "displacement = nan"),
-    ((0.1, 0.1, -1e6), "more than 1000 loops"),
-])
+@pytest.mark.parametrize(
+    ("step", "says"),
+    [
+        ((0.0, 0.1, 0.1), r"duration = 0 s must be positive"),
+        ((-1.0, 0.1, 0.1), "duration = -1 s"),
+        ((0.1, -0.1, 0.1), r"heat = -0\.1 J"),
+        ((math.nan, 0.1, 0.1), "duration = nan"),
+        ((0.1, math.inf, 0.1), "heat = inf"),
+        ((0.1, 0.1, math.nan), "displacement = nan"),
+        ((0.1, 0.1, -1e6), "more than 1000 loops"),
+    ],
+)
 def test_bad_steps_are_refused_and_leave_the_state(step, says):
     model = BeltIceModel(COARSE)
     before = model.state()

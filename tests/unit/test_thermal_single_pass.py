@@ -24,8 +24,9 @@ def test_the_rounded_belt_mass_does_not_either():
     assert table(SinglePass(friction_force=4.1261, heated_mass=5.3e-3))[1.0] == -7.944
 
 
-@pytest.mark.parametrize("bad", [{"speed": 0.0}, {"heated_mass": -1.0},
-                                 {"cooling_rate": float("nan")}])
+@pytest.mark.parametrize(
+    "bad", [{"speed": 0.0}, {"heated_mass": -1.0}, {"cooling_rate": float("nan")}]
+)
 def test_bad_input(bad):
     with pytest.raises(ValueError, match=next(iter(bad))):
         SinglePass(friction_force=4.0, **bad)

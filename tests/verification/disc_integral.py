@@ -32,8 +32,13 @@ def _about_rotation(law, spinning, k, accuracy):
 
     def part(weight):
         value, _ = dblquad(
-            lambda q, t: law(spinning * q) * weight(q, t) * q, 0.0, np.pi, 0.0, reach,
-            epsabs=accuracy, epsrel=accuracy,
+            lambda q, t: law(spinning * q) * weight(q, t) * q,
+            0.0,
+            np.pi,
+            0.0,
+            reach,
+            epsabs=accuracy,
+            epsrel=accuracy,
         )
         return 2.0 / np.pi * value  # both halves, over the area
 

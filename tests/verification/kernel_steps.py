@@ -75,9 +75,5 @@ def _difference(p, u, block, other) -> float:
     unit = [*p]
     unit[P_TOLERANCE] = 1.0  # state_scale is then the state's own scale
     scales = [1.0 / p[P_RATE] + abs(block[TIME])]
-    scales += [
-        max(state_scale(unit, u, i, block[i]), abs(block[i])) for i in range(1, 1 + STATES)
-    ]
-    return max(
-        abs(block[i] - other[i]) / scale for i, scale in enumerate(scales)
-    )
+    scales += [max(state_scale(unit, u, i, block[i]), abs(block[i])) for i in range(1, 1 + STATES)]
+    return max(abs(block[i] - other[i]) / scale for i, scale in enumerate(scales))

@@ -123,7 +123,8 @@ class MeltingBlock:
         inner = 1.0 + CONDUCTANCE * of_belt
         # q = (flux/2 + h (T_face - T_belt)) / inner, T_face = T_ice + of_ice (flux - q)
         mean = (0.5 * flux + CONDUCTANCE * (self.ice[0] + of_ice * flux - below)) / (
-            inner + CONDUCTANCE * of_ice)
+            inner + CONDUCTANCE * of_ice
+        )
         face = self.ice[0] + of_ice * (flux - mean)
         self.melting = 0.0
         if face > 0.0 or self.film > 0.0:
@@ -141,8 +142,9 @@ class MeltingBlock:
         gain[:, 0] += covered * into - (1.0 - covered) * BELT_AIR * (self.belt[:, 0] - self.air)
         gain[:, -1] -= BELT_AIR * (self.belt[:, -1] - self.air)
         self.belt = gain @ self.belt_inverse
-        frozen = np.clip(-self.belt[:, 0] * self.belt_capacity[0] / LATENT,
-                         -self.frozen, self.water)
+        frozen = np.clip(
+            -self.belt[:, 0] * self.belt_capacity[0] / LATENT, -self.frozen, self.water
+        )
         self.water -= frozen
         self.frozen += frozen
         self.belt[:, 0] += frozen * LATENT / self.belt_capacity[0]
@@ -161,13 +163,15 @@ class MeltingBlock:
             covered = self.cover(sliding * self.dt)
             self.heat(force * sliding / self.area, covered)
             rate = self.melting / LATENT  # kg/(m2 s)
-            self.film += self.dt * (rate / LOAD_DENSITY["water"]
-                                    - sliding * self.film / self.length)
+            self.film += self.dt * (
+                rate / LOAD_DENSITY["water"] - sliding * self.film / self.length
+            )
             self.film = max(0.0, self.film)
             self.melted += self.dt * rate * self.area
             self.time += self.dt
-            for name, value in zip(self.rows, (self.time, force, self.film, self.melted),
-                                   strict=True):
+            for name, value in zip(
+                self.rows, (self.time, force, self.film, self.melted), strict=True
+            ):
                 self.rows[name].append(value)
         return self
 

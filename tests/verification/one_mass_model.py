@@ -49,8 +49,10 @@ class OneMass:
         t, since, side = times[0], times[0], 0.0
         samples, events = np.empty((6, len(times))), []
         while t < times[-1]:
-            phase = self._stick(t, since, state, times) if side == 0.0 else self._slip(
-                t, side, state, times
+            phase = (
+                self._stick(t, since, state, times)
+                if side == 0.0
+                else self._slip(t, side, state, times)
             )
             inside = (times >= t) & (times <= phase.t[-1])
             samples[:, inside] = phase.sol(times[inside])
@@ -87,8 +89,13 @@ class OneMass:
     def _solve(self, slopes, event, direction, t, state, times):
         event.terminal, event.direction = True, direction
         return solve_ivp(
-            slopes, (t, times[-1]), state, events=event, dense_output=True,
-            max_step=self.max_step, **ACCURACY,
+            slopes,
+            (t, times[-1]),
+            state,
+            events=event,
+            dense_output=True,
+            max_step=self.max_step,
+            **ACCURACY,
         )
 
     def _holding(self, t, s):

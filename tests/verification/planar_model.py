@@ -32,8 +32,10 @@ def contact_points(radius: float, radial: int = 40, angular: int = 80) -> tuple[
     r = radius * np.sqrt(0.5 * (nodes + 1.0))
     theta = 2.0 * np.pi * np.arange(angular) / angular
     r, theta = np.meshgrid(r, theta, indexing="ij")
-    return (r * np.cos(theta)).ravel(), (r * np.sin(theta)).ravel(), np.repeat(
-        0.5 * weights / angular, angular
+    return (
+        (r * np.cos(theta)).ravel(),
+        (r * np.sin(theta)).ravel(),
+        np.repeat(0.5 * weights / angular, angular),
     )
 
 
@@ -97,10 +99,12 @@ class Slider:
 
     def _elastic(self, q: np.ndarray) -> complex:
         x, y, phi = q
-        arms = np.array([
-            np.cos(phi) * CORNERS[0] - np.sin(phi) * CORNERS[1],
-            np.sin(phi) * CORNERS[0] + np.cos(phi) * CORNERS[1],
-        ])
+        arms = np.array(
+            [
+                np.cos(phi) * CORNERS[0] - np.sin(phi) * CORNERS[1],
+                np.sin(phi) * CORNERS[0] + np.cos(phi) * CORNERS[1],
+            ]
+        )
         gap = self.anchors - arms - np.array([[x], [y]])
         return np.sum(self.spring_energy(np.sqrt(gap[0] ** 2 + gap[1] ** 2) - self.natural))
 

@@ -39,9 +39,24 @@ def stiffness(alpha: np.ndarray) -> np.ndarray:
 
 
 def transcribed(
-    *, mass=0.67, k=20.17, speed=0.15, mu_s=0.2815, mu_k=0.2086, cycles=25, alpha0=(0.0,) * 4,
-    updated=True, scatter=0.0, per_draw=1, common=False, slope=0.0, slope_at=0.15, curvature=0.0,
-    stick_springs=1, reach=1.0, seed=0,
+    *,
+    mass=0.67,
+    k=20.17,
+    speed=0.15,
+    mu_s=0.2815,
+    mu_k=0.2086,
+    cycles=25,
+    alpha0=(0.0,) * 4,
+    updated=True,
+    scatter=0.0,
+    per_draw=1,
+    common=False,
+    slope=0.0,
+    slope_at=0.15,
+    curvature=0.0,
+    stick_springs=1,
+    reach=1.0,
+    seed=0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (n, 8): t, q, q', mode at every stick sample and block end; phases: begin, end, mode.
 

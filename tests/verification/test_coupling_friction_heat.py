@@ -13,15 +13,7 @@ from math import exp, expm1
 import numpy as np
 import pytest
 
-from cosim.master import (
-    Connection,
-    CoupledSystem,
-    GaussSeidel,
-    inputs,
-    outputs,
-    port_table,
-    run,
-)
+from cosim.coupling import Connection, CoupledSystem, GaussSeidel, inputs, outputs, port_table, run
 
 CAPACITY, LOSS = 50.0, 2.0  # J/K, W/K
 MU, BETA, LOAD, SPEED = 0.4, 0.02, 500.0, 3.0  # 1, 1/K, N, m/s

@@ -14,15 +14,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from cosim.master import (
-    Connection,
-    CoupledSystem,
-    GaussSeidel,
-    inputs,
-    outputs,
-    port_table,
-    run,
-)
+from cosim.coupling import Connection, CoupledSystem, GaussSeidel, inputs, outputs, port_table, run
 
 OWN_STIFFNESS, COUPLING_STIFFNESS = 4 * pi**2, 16 * pi**2
 OMEGA = sqrt(OWN_STIFFNESS + COUPLING_STIFFNESS)

@@ -95,9 +95,7 @@ def test_ellipse_overstates_what_a_disc_holds():
     Nowhere too far in; most where slide and spin are such that (f, m) = (0.7047, 0.4088).
     """
     angles = np.linspace(0.0, np.pi / 2, 2001)
-    ratios = [
-        limit_surface_ratio(np.cos(a), 2.0 / 3.0 * np.sin(a), [0.0] * W_SIZE) for a in angles
-    ]
+    ratios = [limit_surface_ratio(np.cos(a), 2.0 / 3.0 * np.sin(a), [0.0] * W_SIZE) for a in angles]
     assert min(ratios) == pytest.approx(1.0, abs=1e-12)
     worst = int(np.argmax(ratios))
     assert ratios[worst] == pytest.approx(1.070429, abs=1e-6)

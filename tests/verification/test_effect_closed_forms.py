@@ -11,7 +11,9 @@ GRAVITY = 9.81
 # along x alone, springs so long that none is ever carried into its anchor
 UNIT = {
     "rig": {
-        "mass": 1.0, "spring_length": 10.0, "spring_natural_length": 10.0,
+        "mass": 1.0,
+        "spring_length": 10.0,
+        "spring_natural_length": 10.0,
         "degrees_of_freedom": ("x",),
     },
     "springs": {"stiffness": 0.25},
@@ -135,9 +137,13 @@ def test_a_spinning_block_comes_down_exponentially(block):
     size = {"rotational": 2e-4} if block == "structural_damping" else {"coefficient": 0.25}
     run = simulate(
         Parameters(
-            rig={"mass": mass, "contact_radius": radius}, springs={"stiffness": 0.0},
-            lateral_friction={"ratio": 1.0}, surface={"speed": 0.0},
-            initial={"omega": 3.0}, **FREE, **{block: size},
+            rig={"mass": mass, "contact_radius": radius},
+            springs={"stiffness": 0.0},
+            lateral_friction={"ratio": 1.0},
+            surface={"speed": 0.0},
+            initial={"omega": 3.0},
+            **FREE,
+            **{block: size},
         ),
         5.0,
     )
@@ -149,9 +155,7 @@ def test_a_spinning_block_comes_down_exponentially(block):
 def test_hardening_is_the_duffing_oscillator():
     """x = A cn(Omega t, n), Omega^2 = (K + K_3 A^2)/m, n = K_3 A^2 / (2 (K + K_3 A^2))."""
     cubic, reach = 0.75, 0.8
-    run = simulate(
-        unit(spring_hardening={"cubic": cubic}, initial={"x": reach}, **FREE), 30.0, 0.1
-    )
+    run = simulate(unit(spring_hardening={"cubic": cubic}, initial={"x": reach}, **FREE), 30.0, 0.1)
     hardening = 4.0 * cubic * reach**2
     rate = np.sqrt(1.0 + hardening)
     _, cn, _, _ = ellipj(rate * run.time, hardening / (2.0 * (1.0 + hardening)))

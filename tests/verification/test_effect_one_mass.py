@@ -164,8 +164,11 @@ CASES = {
 def test_cycles(case):
     blocks, laws = CASES[case]
     parameters = Parameters(
-        rig=RIG, springs=Springs(stiffness=STIFFNESS / 4.0), solver=Solver(tolerance=1e-13),
-        initial={"vx": float(laws["speed"](0.0)) if "speed" in laws else SPEED}, **blocks,
+        rig=RIG,
+        springs=Springs(stiffness=STIFFNESS / 4.0),
+        solver=Solver(tolerance=1e-13),
+        initial={"vx": float(laws["speed"](0.0)) if "speed" in laws else SPEED},
+        **blocks,
     )
     run = simulate(parameters, TIMES[-1], TIMES[1])
     samples, events = model(**laws).run(TIMES)

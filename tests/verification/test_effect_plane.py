@@ -81,9 +81,7 @@ def test_slip_in_the_plane(case):
     )
     assert not len(run.events) or run.events[-1, 0] == 0.0  # it slides all the time
     expected = Slider(**laws).run(START, 0.2)
-    np.testing.assert_allclose(
-        [run[name][-1] for name in STATE], expected, rtol=0, atol=1e-9
-    )
+    np.testing.assert_allclose([run[name][-1] for name in STATE], expected, rtol=0, atol=1e-9)
 
 
 def test_a_slide_without_springs_is_straight():
@@ -107,7 +105,9 @@ def test_a_spin_without_springs_stops_at_its_time():
     omega = 5.0
     run = simulate(
         Parameters(
-            lateral_friction={"ratio": 1.0}, springs={"stiffness": 0.0}, surface={"speed": 0.0},
+            lateral_friction={"ratio": 1.0},
+            springs={"stiffness": 0.0},
+            surface={"speed": 0.0},
             initial={"omega": omega},
         ),
         0.2,
@@ -124,8 +124,10 @@ def test_a_block_at_rest_on_a_slab_goes_round_with_it():
     run = simulate(
         Parameters(
             rig={"spring_length": 2.0, "spring_natural_length": 2.0},
-            springs={"stiffness": 1.0}, friction={"mu_s": 0.9, "mu_k": 0.5},
-            lateral_friction={"ratio": 1.0}, turning_surface={"curvature": 1.0 / radius},
+            springs={"stiffness": 1.0},
+            friction={"mu_s": 0.9, "mu_k": 0.5},
+            lateral_friction={"ratio": 1.0},
+            turning_surface={"curvature": 1.0 / radius},
             initial={"vx": speed, "omega": speed / radius},
         ),
         2.0,
@@ -142,8 +144,10 @@ def test_misaligned_springs_rest_where_their_energy_is_least(angle, offset):
     """Damped to rest on a frictionless surface."""
     run = simulate(
         Parameters(
-            rig={"spring_natural_length": 0.15}, springs={"stiffness": 100.0},
-            friction={"mu_s": 0.0, "mu_k": 0.0}, surface={"speed": 0.0},
+            rig={"spring_natural_length": 0.15},
+            springs={"stiffness": 100.0},
+            friction={"mu_s": 0.0, "mu_k": 0.0},
+            surface={"speed": 0.0},
             initial={"x": 0.01, "y": 0.003, "phi": 0.1},
             structural_damping={"coefficient": 6.0, "rotational": 8e-3},
             spring_misalignment={"angle_deg": angle, "lateral_offset": offset},
@@ -152,12 +156,16 @@ def test_misaligned_springs_rest_where_their_energy_is_least(angle, offset):
         60.0,
     )
     model = Slider(
-        natural=0.15, anchors=turned_anchors(angle, offset),
+        natural=0.15,
+        anchors=turned_anchors(angle, offset),
         spring_energy=lambda e: 50.0 * e**2,
     )
     least = minimize(
-        lambda q: model._elastic(q).real, np.zeros(3), jac=lambda q: -model._springs(q),
-        method="BFGS", options={"gtol": 1e-10},
+        lambda q: model._elastic(q).real,
+        np.zeros(3),
+        jac=lambda q: -model._springs(q),
+        method="BFGS",
+        options={"gtol": 1e-10},
     )
     place = [run[name][-1] for name in ("x", "y", "phi")]
     np.testing.assert_allclose(place, least.x, rtol=0, atol=1e-8)

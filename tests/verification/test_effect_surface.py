@@ -33,7 +33,8 @@ def test_ripple_of_the_speed(run_up):
     run = simulate(
         Parameters(
             speed_ripple={"amplitude": a, "frequency": f, "phase_deg": 50.0},
-            surface={"speed": v, "run_up_time": run_up}, **X_ONLY,
+            surface={"speed": v, "run_up_time": run_up},
+            **X_ONLY,
         ),
         4.0,
     )
@@ -87,10 +88,15 @@ def test_scatter_has_its_mean_deviation_and_correlation():
     """Over 4000 seeds; what is left is the sampling error, asked to stay below four deviations."""
     deviation, length, seeds = 0.1, 0.02, 4000
     places = 0.3 + length * np.array([0.0, 0.5, 1.0, 2.0, 4.0])
-    fields = np.array([
-        field(scattered(deviation=deviation, correlation_length=length, seed=seed), places)
-        for seed in range(seeds)
-    ]) - 1.0
+    fields = (
+        np.array(
+            [
+                field(scattered(deviation=deviation, correlation_length=length, seed=seed), places)
+                for seed in range(seeds)
+            ]
+        )
+        - 1.0
+    )
     noise = 1.0 / np.sqrt(seeds)
     assert np.max(np.abs(fields.mean(axis=0))) < 4.0 * noise * deviation
     # the variance of a square is below 2 for a sum of waves, as for the normal distribution
@@ -132,7 +138,8 @@ def test_scatter_does_not_depend_on_the_step():
         simulate(
             Parameters(
                 surface_scatter={"deviation": 0.1, "correlation_length": 0.02},
-                solver={"tolerance": tolerance}, **X_ONLY,
+                solver={"tolerance": tolerance},
+                **X_ONLY,
             ),
             6.0,
         )

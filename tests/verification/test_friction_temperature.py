@@ -43,8 +43,11 @@ def film(speed):
     thickness = sqrt(2.0 * eta * speed * length / melting)  # scale of the numbers
     grown = solve_ivp(
         lambda t, y: [eta * speed**2 / (melting * y[0]), eta * speed / y[0]],
-        (0.0, length / speed), [1e-8 * thickness, 0.0],
-        rtol=1e-11, atol=[1e-12 * thickness, 1e-12 * PRESSURE * length / speed], method="DOP853",
+        (0.0, length / speed),
+        [1e-8 * thickness, 0.0],
+        rtol=1e-11,
+        atol=[1e-12 * thickness, 1e-12 * PRESSURE * length / speed],
+        method="DOP853",
     )
     assert grown.success
     return grown.y[1, -1] / (length / speed) / PRESSURE
@@ -97,6 +100,7 @@ def mean_over_square(peclet):
     A point source's rise exp(-P (r - x)) / (2 pi k r), P = v b / (2 alpha), b = 1 (Jaeger 1942),
     integrated over the square and averaged over it: weighted by how often a distance occurs.
     """
+
     def weighted(y, x):
         r = np.hypot(x, y)
         both_ways = np.exp(-peclet * (r - x)) + np.exp(-peclet * (r + x))

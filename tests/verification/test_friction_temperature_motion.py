@@ -39,8 +39,9 @@ def test_cycles_of_stick_and_slip(temperature):
     states, events = model.run(TIMES)
     run = simulate(
         Parameters(
-            rig=Rig(mass=MASS, degrees_of_freedom=("x",), spring_length=1.0,
-                    spring_natural_length=1.0),
+            rig=Rig(
+                mass=MASS, degrees_of_freedom=("x",), spring_length=1.0, spring_natural_length=1.0
+            ),
             springs=Springs(stiffness=20.17),
             solver=Solver(tolerance=1e-13),
             initial={"vx": SPEED},

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from cosim.gap.read import read_campaign
-from cosim.gap.summary import find, find_summary_gap, rows, search
+from cosim.studies.reproduction.summary import find, find_summary_gap, rows, search
 
 STUDY = Path(__file__).parents[2] / "cosim" / "gap" / "campaigns" / "study.toml"
 

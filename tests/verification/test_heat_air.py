@@ -22,8 +22,9 @@ def nusselt(prandtl):
 
     eta = np.linspace(0.0, 40.0, 400)
     decaying = np.exp(-0.7 * eta)
-    guess = np.stack((1.6 * (1.0 - decaying), decaying, -0.44 * decaying, decaying,
-                      -0.4 * decaying))
+    guess = np.stack(
+        (1.6 * (1.0 - decaying), decaying, -0.44 * decaying, decaying, -0.4 * decaying)
+    )
     found = solve_bvp(slopes, ends, eta, guess, tol=1e-8, max_nodes=20000)
     assert found.success
     return -found.y[4, 0], -found.y[2, 0]
@@ -77,9 +78,13 @@ def test_constant_properties_of_ice_cost_half_a_percent(length, speed):
     """-16 degC all along against 0 degC all along: more than a run between them can differ."""
     states = [
         SteadySliding(
-            ThermalParameters(belt=Belt(length=length, cell_length=2e-3),
-                              ice=Ice(**ice_properties(temperature)._asdict())),
-            speed, 4.03).until(20.0)
+            ThermalParameters(
+                belt=Belt(length=length, cell_length=2e-3),
+                ice=Ice(**ice_properties(temperature)._asdict()),
+            ),
+            speed,
+            4.03,
+        ).until(20.0)
         for temperature in (-16.0, 0.0)
     ]
     assert states[0].entry == pytest.approx(states[1].entry, rel=6e-3)

@@ -52,13 +52,17 @@ def sliding(length, speed, h, **blocks):
 def close(printed):
     """Within 2 %, and half a unit of the last digit that is printed."""
     digits = len(printed.split(".")[1])
-    return pytest.approx(float(printed), rel=0.0,
-                         abs=REPRODUCED * float(printed) + 0.5 * 10.0**-digits)
+    return pytest.approx(
+        float(printed), rel=0.0, abs=REPRODUCED * float(printed) + 0.5 * 10.0**-digits
+    )
 
 
 def entries(table):
-    return [(*case, h, rise) for case, rises in table.items()
-            for h, rise in zip(FILMS, rises, strict=True)]
+    return [
+        (*case, h, rise)
+        for case, rises in table.items()
+        for h, rise in zip(FILMS, rises, strict=True)
+    ]
 
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(SHARED))
@@ -93,9 +97,11 @@ def test_the_true_disc_differs_by_what_the_prototype_left_out():
         railing = LENGTH if blocks else 0.0
         for ice in (Ice(), NO_ICE):
             parameters = ThermalParameters(
-                belt=Belt(cell_length=2e-3, railing_length=railing), ice=ice, **blocks)
-            whole[name, ice is NO_ICE] = SteadySliding(
-                parameters, 0.82, FORCE).until(DURATION).entry
+                belt=Belt(cell_length=2e-3, railing_length=railing), ice=ice, **blocks
+            )
+            whole[name, ice is NO_ICE] = (
+                SteadySliding(parameters, 0.82, FORCE).until(DURATION).entry
+            )
     assert whole["disc", False] / whole["prototype", False] == pytest.approx(1.05, abs=0.01)
     assert whole["disc", True] / whole["prototype", True] == pytest.approx(0.97, abs=0.01)
 

@@ -141,7 +141,8 @@ def test_melt_rate_of_steady_ablation():
     area = np.pi * 0.04**2
     assert last["melt_rate"] == pytest.approx(flux * area / (334e3 + 2050.0 * 8.0), rel=1e-3)
     assert last["meltwater_heat"] == pytest.approx(
-        last["melted_mass"] * (334e3 + 2050.0 * 8.0), rel=1e-9)
+        last["melted_mass"] * (334e3 + 2050.0 * 8.0), rel=1e-9
+    )
     assert abs(last["heat_residual"]) < 1e-10 * last["heat_received"]
 
 

@@ -30,14 +30,19 @@ DECAY, END = 1.0 / 60.0, 100.0
 def radial(r):
     """g, g' and g'' + g'/r of g = 2 + cos(2 r^2/a^2)."""
     s = 2.0 * r**2 / A**2
-    return (2.0 + np.cos(s), -4.0 * r / A**2 * np.sin(s),
-            -8.0 / A**2 * np.sin(s) - 16.0 * r**2 / A**4 * np.cos(s))
+    return (
+        2.0 + np.cos(s),
+        -4.0 * r / A**2 * np.sin(s),
+        -8.0 / A**2 * np.sin(s) - 16.0 * r**2 / A**4 * np.cos(s),
+    )
 
 
 def axisymmetric_error(elements):
     body = assembled_cylinder(
-        IceParameters(air_heat_transfer=H), np.linspace(0.0, A, elements + 1),
-        np.linspace(0.0, HEIGHT, elements + 1))
+        IceParameters(air_heat_transfer=H),
+        np.linspace(0.0, A, elements + 1),
+        np.linspace(0.0, HEIGHT, elements + 1),
+    )
     basis = body.basis
     ice = IceBody(body.space(np.eye(basis.N)))
 
@@ -49,7 +54,8 @@ def axisymmetric_error(elements):
         return np.exp(-x[1] / D) * (-RHO * C * DECAY * g - K * (laplace + g / D**2))
 
     load = LinearForm(lambda v, w: 2.0 * np.pi * w.x[0] * source(w.x) * v).assemble(
-        CellBasis(basis.mesh, basis.elem, intorder=8))
+        CellBasis(basis.mesh, basis.elem, intorder=8)
+    )
     for part, normal in (("side", (1, 0)), ("top", (0, 1)), ("bottom", (0, -1))):
         h = 0.0 if part == "bottom" else H
 
@@ -59,15 +65,18 @@ def axisymmetric_error(elements):
             return 2.0 * np.pi * w.x[0] * np.exp(-w.x[1] / D) * (K * outward + h * g) * v
 
         load += LinearForm(flux).assemble(
-            FacetBasis(basis.mesh, basis.elem, facets=part, intorder=8))
+            FacetBasis(basis.mesh, basis.elem, facets=part, intorder=8)
+        )
     start = np.linalg.solve(ice._shapes, exact(basis.doflocs))
     forced = ice._shapes.T @ load
     decayed = np.exp(-ice.rates * END)
     ice.amplitudes[:] = start * decayed + forced * (
-        (np.exp(-DECAY * END) - decayed) / (ice.rates - DECAY))
+        (np.exp(-DECAY * END) - decayed) / (ice.rates - DECAY)
+    )
     fine = CellBasis(basis.mesh, basis.elem, intorder=8)
-    square = Functional(lambda w: 2.0 * np.pi * w.x[0] * (
-        w.u - exact(w.x) * np.exp(-DECAY * END)) ** 2)
+    square = Functional(
+        lambda w: 2.0 * np.pi * w.x[0] * (w.u - exact(w.x) * np.exp(-DECAY * END)) ** 2
+    )
     return np.sqrt(square.assemble(fine, u=fine.interpolate(ice.nodal())))
 
 
@@ -87,16 +96,25 @@ def box_error(n):
 
     def gradient(x):
         along = np.exp(-x[2] / D)
-        return (-np.sin(x[0] / L) * np.sin(1.0 + x[1] / L) * along / L,
-                np.cos(x[0] / L) * np.cos(1.0 + x[1] / L) * along / L, -exact(x) / D)
+        return (
+            -np.sin(x[0] / L) * np.sin(1.0 + x[1] / L) * along / L,
+            np.cos(x[0] / L) * np.cos(1.0 + x[1] / L) * along / L,
+            -exact(x) / D,
+        )
 
     fine = CellBasis(mesh, element, intorder=8)
     load = LinearForm(lambda v, w: K * (2.0 / L**2 - 1.0 / D**2) * exact(w.x) * v).assemble(fine)
     free = np.setdiff1d(mesh.boundary_facets(), mesh.boundaries["base"])
     for facets, h in ((free, H), (mesh.boundaries["base"], 0.0)):
-        load += LinearForm(lambda v, w, h=h: v * (h * exact(w.x) + K * sum(
-            slope * n for slope, n in zip(gradient(w.x), w.n, strict=True)))).assemble(
-                FacetBasis(mesh, element, facets=facets, intorder=8))
+        load += LinearForm(
+            lambda v, w, h=h: (
+                v
+                * (
+                    h * exact(w.x)
+                    + K * sum(slope * n for slope, n in zip(gradient(w.x), w.n, strict=True))
+                )
+            )
+        ).assemble(FacetBasis(mesh, element, facets=facets, intorder=8))
     found = spsolve(body.conduction().tocsc(), load)
     square = Functional(lambda w: (w.u - exact(w.x)) ** 2)
     return np.sqrt(square.assemble(fine, u=fine.interpolate(found)))

@@ -30,8 +30,10 @@ def test_formats(tmp_path, cube, suffix):
 
 def test_surface_triangles_and_unused_nodes_do_no_harm(tmp_path, cube):
     points, cells = cube
-    mesh = meshio.Mesh(np.concatenate(([[9.0, 9.0, 9.0]], points)),
-                       [("triangle", np.array([[1, 2, 3]])), ("tetra", cells + 1)])
+    mesh = meshio.Mesh(
+        np.concatenate(([[9.0, 9.0, 9.0]], points)),
+        [("triangle", np.array([[1, 2, 3]])), ("tetra", cells + 1)],
+    )
     mesh.write(tmp_path / "sample.vtu")
     assert read_sample(tmp_path / "sample.vtu")[0].shape == (64, 3)
 
@@ -52,22 +54,28 @@ def refused(path, says):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(("factor", "says"), [
-    (1000.0, r"the sample is 80 x 60 x 100 m, allowed is up to 2 m: is the file in mm\?"),
-    (100.0, r"is the file in cm\?"),
-    (1e-3, "the sample is 8e-05 x 6e-05 x 0.0001 m, allowed is at least 0.002 m"),
-])
+@pytest.mark.parametrize(
+    ("factor", "says"),
+    [
+        (1000.0, r"the sample is 80 x 60 x 100 m, allowed is up to 2 m: is the file in mm\?"),
+        (100.0, r"is the file in cm\?"),
+        (1e-3, "the sample is 8e-05 x 6e-05 x 0.0001 m, allowed is at least 0.002 m"),
+    ],
+)
 def test_wrong_units(tmp_path, cube, factor, says):
     refused(write(tmp_path / "sample.vtu", factor * cube[0], cube[1]), says)
 
 
-@pytest.mark.parametrize(("name", "content", "says"), [
-    ("absent.msh", None, "no such file"),
-    ("empty.msh", "", "cannot be read as a mesh"),
-    ("text.vtk", "hello", "cannot be read as a mesh"),
-    ("broken.vtu", "<VTKFile>", "cannot be read as a mesh"),
-    ("sample.xyz", "1 2 3", "cannot be read as a mesh"),
-])
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("absent.msh", None, "no such file"),
+        ("empty.msh", "", "cannot be read as a mesh"),
+        ("text.vtk", "hello", "cannot be read as a mesh"),
+        ("broken.vtu", "<VTKFile>", "cannot be read as a mesh"),
+        ("sample.xyz", "1 2 3", "cannot be read as a mesh"),
+    ],
+)
 def test_unreadable(tmp_path, capsys, name, content, says):
     if content is not None:
         (tmp_path / name).write_text(content)
@@ -127,8 +135,10 @@ def test_a_facet_of_three(tmp_path, cube):
     shared = facets[np.bincount(number) == 2][0]
     more = np.concatenate((points, [[0.0, 0.0, 0.033]]))
     third = np.append(shared, len(points))[None, :]
-    refused(write(tmp_path / "s.vtu", more, np.concatenate((cells, third))),
-            "1 facets belong to more than two tetrahedra")
+    refused(
+        write(tmp_path / "s.vtu", more, np.concatenate((cells, third))),
+        "1 facets belong to more than two tetrahedra",
+    )
 
 
 def test_a_missing_element_inside(tmp_path):
@@ -151,8 +161,10 @@ def test_elements_that_touch_along_an_edge(tmp_path, cube):
 
 def test_no_base(tmp_path, cube):
     points, cells = cube
-    refused(write(tmp_path / "s.vtu", points + [0, 0, 0.01], cells),
-            "its lowest node is at z = 0.01 m, allowed is a base at z = 0")
+    refused(
+        write(tmp_path / "s.vtu", points + [0, 0, 0.01], cells),
+        "its lowest node is at z = 0.01 m, allowed is a base at z = 0",
+    )
     round_below = points.copy()
     low = round_below[:, 2] == 0.0
     round_below[low, 2] += 0.3 * np.hypot(*(round_below[low, :2] - round_below[low][0, :2]).T)

@@ -40,8 +40,7 @@ def face_rise(ambient, flux, k=conductivity, c=capacity):
         return -np.diff(through) / (size * RHO * c(kelvin))
 
     bands = np.eye(CELLS) + np.eye(CELLS, k=1) + np.eye(CELLS, k=-1)
-    run = solve_ivp(rate, (0.0, DURATION), start, "BDF", rtol=1e-8, atol=1e-8,
-                    jac_sparsity=bands)
+    run = solve_ivp(rate, (0.0, DURATION), start, "BDF", rtol=1e-8, atol=1e-8, jac_sparsity=bands)
     first = run.y[0, -1]
     return first + flux * centres[0] / k(first) - start[0]
 
@@ -79,8 +78,15 @@ def errors(ambient, rise):
     flux = flux_for(ambient, rise)
     exact = face_rise(ambient, flux)
     kinds = IceParameters(), IceParameters.at(ambient), IceParameters.at(ambient + rise)
-    return [100.0 * (face_rise(ambient, flux, constant(ice.conductivity),
-                               constant(ice.heat_capacity)) / exact - 1.0) for ice in kinds]
+    return [
+        100.0
+        * (
+            face_rise(ambient, flux, constant(ice.conductivity), constant(ice.heat_capacity))
+            / exact
+            - 1.0
+        )
+        for ice in kinds
+    ]
 
 
 @pytest.mark.parametrize(("ambient", "rise"), FOUND)

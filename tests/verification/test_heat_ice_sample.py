@@ -62,8 +62,10 @@ def test_slowest_rate_of_the_cooled_box(tmp_path):
     def root(biot):
         return brentq(lambda s: s * np.tan(s) - biot, 1e-6, 1.57)
 
-    exact = ALPHA * ((root(h * EXTENT[2] / K) / EXTENT[2]) ** 2 + sum(
-        (root(0.5 * h * length / K) / (0.5 * length)) ** 2 for length in EXTENT[:2]))
+    exact = ALPHA * (
+        (root(h * EXTENT[2] / K) / EXTENT[2]) ** 2
+        + sum((root(0.5 * h * length / K) / (0.5 * length)) ** 2 for length in EXTENT[:2])
+    )
     errors = []
     for n in (3, 6):
         points, cells = box((n, n, n), EXTENT)
@@ -79,8 +81,9 @@ def test_the_small_space_answers_as_the_whole_mesh():
     points, cells = box((2, 2, 3), EXTENT)
     body = assembled(IceParameters(), points, cells, 0.02)
     load, area = body.contact()
-    reduced = IceBody(body.space(response_space(
-        body.capacity().tocsr(), body.conduction().tocsr(), load)))
+    reduced = IceBody(
+        body.space(response_space(body.capacity().tocsr(), body.conduction().tocsr(), load))
+    )
     rates, shapes = eigh(body.conduction().toarray(), body.capacity().toarray())
     face = shapes.T @ load / area
     for t in np.geomspace(1e-4, 1e5, 19):
@@ -93,9 +96,12 @@ def differences(tmp_path, across):
     ice = sample(tmp_path, cylinder(across, 5), h=50.0)
     round_ = Ice(IceParameters(air_heat_transfer=50.0), 0.04)
     area = np.pi * 0.04**2
-    return np.array([
-        ice.face_response(t)[1] * ice.area / (round_.face_response(t)[1] * area) - 1.0
-        for t in (1.0, 30.0, 3e3, 1e5)])
+    return np.array(
+        [
+            ice.face_response(t)[1] * ice.area / (round_.face_response(t)[1] * area) - 1.0
+            for t in (1.0, 30.0, 3e3, 1e5)
+        ]
+    )
 
 
 def test_cylinder_against_the_axisymmetric_model(tmp_path):
@@ -132,7 +138,7 @@ def test_section_shows_the_field(tmp_path):
     assert np.isfinite(rise).all()
     deep = 2.0 * np.sqrt(100.0 * ALPHA)
     s = z / deep
-    exact = 5.0 / ice.area * deep / K * (np.exp(-s**2) / np.sqrt(np.pi) - s * erfc(s))
+    exact = 5.0 / ice.area * deep / K * (np.exp(-(s**2)) / np.sqrt(np.pi) - s * erfc(s))
     assert rise[x.size // 2] == pytest.approx(exact, abs=0.01 * exact[0])
 
 
@@ -142,9 +148,13 @@ def models(tmp_path, across=4, **ambient):
     belt = Belt(width=0.1, cell_length=4e-3)
     contact = Contact(radius=0.04)
     return [
-        BeltIceModel(ThermalParameters(
-            belt=belt, contact=contact, ambient=Ambient(**ambient), ice=IceParameters(mesh=mesh)))
-        for mesh in ("", str(path))]
+        BeltIceModel(
+            ThermalParameters(
+                belt=belt, contact=contact, ambient=Ambient(**ambient), ice=IceParameters(mesh=mesh)
+            )
+        )
+        for mesh in ("", str(path))
+    ]
 
 
 def test_the_whole_model_agrees_with_a_mesh_of_its_cylinder(tmp_path):
@@ -187,8 +197,9 @@ def test_a_melting_sample_continues_bit_for_bit(tmp_path):
 
 def test_fields_of_a_sample_read_back(tmp_path):
     path = write(tmp_path / "sample.vtu", *cylinder(2, 3))
-    model = BeltIceModel(ThermalParameters(
-        belt=Belt(cell_length=5e-3), ice=IceParameters(mesh=str(path))))
+    model = BeltIceModel(
+        ThermalParameters(belt=Belt(cell_length=5e-3), ice=IceParameters(mesh=str(path)))
+    )
     model.step(1.0, 5.0, 0.1)
     mesh = meshio.read(FieldSeries(tmp_path, model).write(0.0))
     kinds = {block.type: block.data for block in mesh.cells}
@@ -209,9 +220,13 @@ def test_refusals_name_the_key(tmp_path):
         BeltIceModel(ThermalParameters(ice=IceParameters(mesh=str(beside))))
     long_base = write(tmp_path / "long.vtu", *box((2, 2, 2), (0.1, 0.02, 0.05)))
     with pytest.raises(ParameterError, match=r"belt\.length = 0\.09 m is shorter than the contact"):
-        BeltIceModel(ThermalParameters(
-            belt=Belt(length=0.09, width=0.01), contact=Contact(radius=0.01),
-            ice=IceParameters(mesh=str(long_base))))
+        BeltIceModel(
+            ThermalParameters(
+                belt=Belt(length=0.09, width=0.01),
+                contact=Contact(radius=0.01),
+                ice=IceParameters(mesh=str(long_base)),
+            )
+        )
     with pytest.raises(ParameterError, match=r"contact\.length = 0\.05 m and ice\.mesh"):
         ThermalParameters.checked({"ice": {"mesh": str(long_base)}, "contact": {"length": 0.05}})
 
@@ -221,7 +236,8 @@ def test_steady_sliding_takes_the_sample(tmp_path):
     steady = []
     for mesh in ("", str(path)):
         parameters = ThermalParameters(
-            belt=Belt(width=0.1, cell_length=4e-3), ice=IceParameters(mesh=mesh))
+            belt=Belt(width=0.1, cell_length=4e-3), ice=IceParameters(mesh=mesh)
+        )
         steady.append(SteadySliding(parameters, 0.5, 2.0).settle().ice_face)
     assert steady[1] == pytest.approx(steady[0], rel=0.03), "the polygon is 2.6 % smaller"
     assert steady[1] != steady[0]

@@ -52,8 +52,7 @@ def test_two_layers_cool_at_their_slowest_rate_with_the_order_of_p2():
     exact = slowest_rate(h)
     elements = np.array([4, 8, 16])
     errors = [
-        abs(thickness_of(two_layers(h, int(n)), 1.0).rates[0] / exact - 1.0)
-        for n in elements
+        abs(thickness_of(two_layers(h, int(n)), 1.0).rates[0] / exact - 1.0) for n in elements
     ]
     orders = np.diff(np.log(errors)) / np.diff(np.log(1.0 / elements))
     assert orders[-1] == pytest.approx(ORDER_OF_P2_EIGENVALUES, abs=ASYMPTOTIC)
@@ -64,7 +63,8 @@ def test_heat_crosses_layers_in_series():
     """Long after a flux q is switched on: T_contact - T_back = q_through sum(d / k)."""
     h, q = 5.0, 1e3
     belt = BeltField(
-        Belt(layers=(GRIT, CLOTH), air_heat_transfer=h, length=0.3, cell_length=0.01), 1.0)
+        Belt(layers=(GRIT, CLOTH), air_heat_transfer=h, length=0.3, cell_length=0.01), 1.0
+    )
     load = {CONTACT: np.zeros(belt.cells // 2 + 1, dtype=complex)}
     load[CONTACT][0] = q * belt.cells * belt.cell
     belt.advance(1e6, load)
@@ -97,10 +97,12 @@ def test_conduction_along_layers_is_that_of_the_assembled_problem():
     basis = CellBasis(mesh, ElementQuad2())
     below = mesh.p[1, mesh.t].mean(axis=0) > GRIT.thickness
     k = np.where(below, CLOTH.conductivity, GRIT.conductivity)[:, None]
-    capacity = np.where(below, CLOTH.density * CLOTH.heat_capacity,
-                        GRIT.density * GRIT.heat_capacity)[:, None]
+    capacity = np.where(
+        below, CLOTH.density * CLOTH.heat_capacity, GRIT.density * GRIT.heat_capacity
+    )[:, None]
     stiffness = BilinearForm(
-        lambda u, v, w: k * (u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])).assemble(basis)
+        lambda u, v, w: k * (u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])
+    ).assemble(basis)
     mass = BilinearForm(lambda u, v, w: capacity * u * v).assemble(basis)
     rates = eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)
     # The mesh is half a wave long with insulated ends: its first rate is that wave's.
@@ -110,15 +112,19 @@ def test_conduction_along_layers_is_that_of_the_assembled_problem():
 THIN = {"thickness": 1e-4, "density": 7000.0, "conductivity": 50.0, "air_heat_transfer": 0.0}
 
 
-@pytest.mark.parametrize("support", [
-    {"railing_length": 0.12, "railing_conductance": 300.0},
-    {"rollers": 1, "roller_arc": 0.12, "roller_conductance": 300.0},
-])
+@pytest.mark.parametrize(
+    "support",
+    [
+        {"railing_length": 0.12, "railing_conductance": 300.0},
+        {"rollers": 1, "roller_arc": 0.12, "roller_conductance": 300.0},
+    ],
+)
 def test_a_support_cools_what_runs_over_it(support):
     """A thin belt loses the part 1 - exp(-h l/(v c'')) of its heat on a support of length l."""
     speed = 0.2
-    model = BeltIceModel(ThermalParameters(
-        belt=Belt(length=0.6, cell_length=2e-3, **THIN, **support), **ALONE))
+    model = BeltIceModel(
+        ThermalParameters(belt=Belt(length=0.6, cell_length=2e-3, **THIN, **support), **ALONE)
+    )
     model.belt.amplitudes[0, 0] = 1.0
     before = model.belt.heat()
     for _ in range(300):
@@ -133,8 +139,12 @@ def test_a_railing_without_conductance_only_covers():
     h, speed, covered = 50.0, 0.2, 0.3
     kept = {}
     for railing in (0.0, covered):
-        belt = Belt(length=0.6, cell_length=2e-3, railing_length=railing,
-                    **(THIN | {"air_heat_transfer": h}))
+        belt = Belt(
+            length=0.6,
+            cell_length=2e-3,
+            railing_length=railing,
+            **(THIN | {"air_heat_transfer": h}),
+        )
         model = BeltIceModel(ThermalParameters(belt=belt, **ALONE))
         model.belt.amplitudes[0, 0] = 1.0
         before = model.belt.heat()

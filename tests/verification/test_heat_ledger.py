@@ -11,7 +11,8 @@ SHORT = {"length": 0.3, "cell_length": 4e-3}
 CASES = {
     "rig": ThermalParameters(belt=Belt(**SHORT)),
     "loop hardly longer than the contact": ThermalParameters(
-        belt=Belt(length=0.09, cell_length=3e-3)),
+        belt=Belt(length=0.09, cell_length=3e-3)
+    ),
     "near melting": ThermalParameters(ambient=Ambient(temperature_degC=-0.3), belt=Belt(**SHORT)),
     "strong draught": ThermalParameters(
         belt=Belt(air_heat_transfer=500.0, **SHORT), ice=Ice(air_heat_transfer=200.0)
@@ -33,9 +34,7 @@ CASES = {
             **SHORT,
         )
     ),
-    "rectangle": ThermalParameters(
-        belt=Belt(**SHORT), contact=Contact(radius=0.045, length=0.08)
-    ),
+    "rectangle": ThermalParameters(belt=Belt(**SHORT), contact=Contact(radius=0.045, length=0.08)),
     "odd cells": ThermalParameters(belt=Belt(length=0.305, cell_length=5e-3)),
 }
 PASSES = dict.fromkeys(CASES, 50) | {"loop hardly longer than the contact": 1000}

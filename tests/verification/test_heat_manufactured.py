@@ -49,9 +49,12 @@ def wave(x):
 
 def wave_gradient(x):
     angle = BETA * (1.0 - 2.0 * x[1] / D)
-    return np.stack((
-        -np.pi / A * np.sin(np.pi * x[0] / A) * np.cos(angle),
-        2.0 * BETA / D * np.cos(np.pi * x[0] / A) * np.sin(angle)))
+    return np.stack(
+        (
+            -np.pi / A * np.sin(np.pi * x[0] / A) * np.cos(angle),
+            2.0 * BETA / D * np.cos(np.pi * x[0] / A) * np.sin(angle),
+        )
+    )
 
 
 def hill(x):
@@ -60,8 +63,7 @@ def hill(x):
 
 
 def hill_gradient(x):
-    return np.stack((-np.pi / A * np.sin(2.0 * np.pi * x[0] / A) * np.exp(x[1] / D),
-                     hill(x) / D))
+    return np.stack((-np.pi / A * np.sin(2.0 * np.pi * x[0] / A) * np.exp(x[1] / D), hill(x) / D))
 
 
 def hill_source(x):
@@ -74,8 +76,12 @@ def setting(cells, element):
     if element is ElementTriP2:
         mesh = MeshTri.init_tensor(np.linspace(0, A, 2 * cells + 1), np.linspace(0, D, cells + 1))
     basis = CellBasis(mesh, element(), intorder=8)
-    faces = FacetBasis(mesh, element(), intorder=8, facets=mesh.facets_satisfying(
-        lambda x: (x[1] < 1e-9) | (x[1] > D - 1e-9)))
+    faces = FacetBasis(
+        mesh,
+        element(),
+        intorder=8,
+        facets=mesh.facets_satisfying(lambda x: (x[1] < 1e-9) | (x[1] > D - 1e-9)),
+    )
     return basis, faces, eigenmodes(basis, [(faces, H)], MEDIUM, lambda x: 1.0 + 0.0 * x[0])
 
 
@@ -103,8 +109,14 @@ def steady(cells, element):
     basis, faces, modes = setting(cells, element)
     load = LinearForm(lambda v, w: hill_source(w.x) * v).assemble(basis)
     load = load + LinearForm(
-        lambda v, w: (MEDIUM.conductivity * sum(
-            hill_gradient(w.x)[i] * w.n[i] for i in (0, 1)) + H * hill(w.x)) * v).assemble(faces)
+        lambda v, w: (
+            (
+                MEDIUM.conductivity * sum(hill_gradient(w.x)[i] * w.n[i] for i in (0, 1))
+                + H * hill(w.x)
+            )
+            * v
+        )
+    ).assemble(faces)
     amplitudes = (modes.shapes.T @ load) / modes.rates
     return errors(basis, modes.shapes @ amplitudes, hill, hill_gradient, 1.0)
 

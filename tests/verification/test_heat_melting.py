@@ -30,7 +30,8 @@ class Block:
 
     def __init__(self, rise, height=0.12, elements=16):
         parameters = IceParameters(
-            height=height, air_heat_transfer=0.0, axial_elements=elements, radial_elements=1)
+            height=height, air_heat_transfer=0.0, axial_elements=elements, radial_elements=1
+        )
         self.ice = Ice(parameters, 0.04)
         # the modes span all functions of the mesh: interpolation is a change of basis
         self.ice.amplitudes[:] = np.linalg.solve(self.ice._shapes, rise(self.ice.basis.doflocs[1]))
@@ -39,7 +40,8 @@ class Block:
 
     def step(self, duration, flux, available=0.0):
         step = self.ablation.exchange(
-            duration, available, lambda face: exchange(NO_BELT, face, 1e4, 0.0, flux))
+            duration, available, lambda face: exchange(NO_BELT, face, 1e4, 0.0, flux)
+        )
         area = self.ice.space.area
         self.ice.advance(duration, step.fluxes.ice * area, step.sinking, step.recession)
         self.received += flux * duration * area
@@ -85,7 +87,7 @@ class Neumann:
         self.root = brentq(self._balance, -0.5, 3.0)
 
     def _balance(self, root):
-        into_ice = K * MELTING * np.exp(-root**2) / (np.sqrt(np.pi * ALPHA) * erfc(root))
+        into_ice = K * MELTING * np.exp(-(root**2)) / (np.sqrt(np.pi * ALPHA) * erfc(root))
         return RHO * LATENT * root * np.sqrt(ALPHA) + into_ice - self.strength
 
     def front(self, t):

@@ -22,7 +22,8 @@ def test_steady_film_is_melt_rate_times_residence(steps):
     water, rate, speed, duration = film(), 1e-4, 0.5, 3.0
     left = sum(
         water.advance(duration / steps, speed * duration / steps, rate * duration / steps)
-        for _ in range(steps))
+        for _ in range(steps)
+    )
     assert water.thickness == pytest.approx(rate / (WATER_DENSITY * AREA) * LENGTH / speed)
     assert left + water.mass == pytest.approx(rate * duration, rel=1e-13)
 
@@ -95,21 +96,30 @@ def test_a_wiper_takes_its_part_of_what_passes(movement):
 
 def test_what_froze_on_the_belt_and_was_wiped_off_is_on_the_books():
     """Melted = water anywhere + ice on the belt + ice wiped off."""
-    model = BeltIceModel(ThermalParameters(
-        ambient=Ambient(temperature_degC=-2.0), contact=Contact(wiper=1.0)))
+    model = BeltIceModel(
+        ThermalParameters(ambient=Ambient(temperature_degC=-2.0), contact=Contact(wiper=1.0))
+    )
     for _ in range(400):
         model.step(0.01, 4.0, 0.03)
     water, found = model.meltwater, model.outputs()
     assert found["wiped_ice_mass"] > 0.01 * found["melted_mass"] > 0.0
     assert found["melted_mass"] == pytest.approx(
-        water.water + found["refrozen_mass"] + found["wiped_ice_mass"], rel=1e-12)
+        water.water + found["refrozen_mass"] + found["wiped_ice_mass"], rel=1e-12
+    )
 
 
 def test_a_belt_that_is_wiped_brings_no_water_back():
     """Warm air and belt, so that nothing freezes: all that was wiped is on the books."""
-    wet, wiped = (BeltIceModel(ThermalParameters(
-        ambient=Ambient(temperature_degC=-1e-3), contact=Contact(wiper=share),
-        belt=Belt(cell_length=2e-3))) for share in (0.0, 1.0))
+    wet, wiped = (
+        BeltIceModel(
+            ThermalParameters(
+                ambient=Ambient(temperature_degC=-1e-3),
+                contact=Contact(wiper=share),
+                belt=Belt(cell_length=2e-3),
+            )
+        )
+        for share in (0.0, 1.0)
+    )
     for model in (wet, wiped):
         drive(model, 600)
         outputs = model.outputs()
@@ -125,8 +135,9 @@ def test_a_belt_that_is_wiped_brings_no_water_back():
 def test_what_the_block_weighs_squeezes_the_film():
     """Left at rest, h^-2 grows by 4 p t/(3 eta a^2): with the load given, or the ice's own."""
     for load in (0.0, 400.0):
-        model = BeltIceModel(ThermalParameters(
-            ambient=Ambient(temperature_degC=-1e-9), contact=Contact(load=load)))
+        model = BeltIceModel(
+            ThermalParameters(ambient=Ambient(temperature_degC=-1e-9), contact=Contact(load=load))
+        )
         film, area = model.meltwater.film, model.footprint.area
         film.mass = 1e-4 * WATER_DENSITY * area
         film.advance(5.0, 0.0, 0.0)
@@ -141,7 +152,8 @@ def drive(model, steps, duration=0.01, power=100.0, speed=0.5):
 
 
 COLD_BELT = ThermalParameters(
-    ambient=Ambient(temperature_degC=-3.0), belt=Belt(cell_length=2e-3, length=2.0))
+    ambient=Ambient(temperature_degC=-3.0), belt=Belt(cell_length=2e-3, length=2.0)
+)
 
 
 def mass_found(model):
@@ -171,8 +183,11 @@ def test_film_of_the_model_is_that_of_its_melt_rate():
     model = BeltIceModel(COLD_BELT)
     drive(model, 300)
     first_loop = model.outputs()
-    expected = first_loop["melt_rate"] / (WATER_DENSITY * model.footprint.area) * (
-        model.footprint.length / 0.5)
+    expected = (
+        first_loop["melt_rate"]
+        / (WATER_DENSITY * model.footprint.area)
+        * (model.footprint.length / 0.5)
+    )
     assert first_loop["film_thickness"] == pytest.approx(expected, rel=0.01)
 
 
@@ -196,8 +211,9 @@ def test_water_freezes_on_the_cold_belt_and_warms_it():
 
 def test_one_film_of_water_freezes_as_in_stefans_problem():
     """Water on a uniform belt far below 0 degC, deep: frozen mass = 2 e dT sqrt(t/pi) / L'."""
-    parameters = ThermalParameters(belt=Belt(
-        cell_length=5e-3, thickness=0.02, air_heat_transfer=0.0, elements=14))
+    parameters = ThermalParameters(
+        belt=Belt(cell_length=5e-3, thickness=0.02, air_heat_transfer=0.0, elements=14)
+    )
     model = BeltIceModel(parameters)
     water = model.meltwater.on_belt
     per_node = model.footprint.lane * model.belt.cell
@@ -214,7 +230,8 @@ def test_one_film_of_water_freezes_as_in_stefans_problem():
 
 def test_a_melting_state_continues_bit_for_bit():
     parameters = ThermalParameters(
-        ambient=Ambient(temperature_degC=-1.0), belt=Belt(cell_length=4e-3), ice=Ice(height=0.02))
+        ambient=Ambient(temperature_degC=-1.0), belt=Belt(cell_length=4e-3), ice=Ice(height=0.02)
+    )
     model = BeltIceModel(parameters)
     drive(model, 100)
     kept = model.state()

@@ -8,8 +8,9 @@ from thermal.air import convection, moving_belt, radiation
 from thermal.moisture import frost, saturation_over_ice
 
 
-@pytest.mark.parametrize(("temperature", "pascal"), [
-    (0.0, 611.15), (-8.0, 309.9), (-16.0, 150.7), (-40.0, 12.84)])
+@pytest.mark.parametrize(
+    ("temperature", "pascal"), [(0.0, 611.15), (-8.0, 309.9), (-16.0, 150.7), (-40.0, 12.84)]
+)
 def test_vapour_pressure_over_ice(temperature, pascal):
     """Smithsonian Meteorological Tables."""
     assert saturation_over_ice(temperature) == pytest.approx(pascal, rel=2e-3)

@@ -42,11 +42,20 @@ def jaeger(x):
 def parameters(cell, elements=30):
     """A belt so thick and long that it is a half-space; uniform flux, no ice."""
     return ThermalParameters(
-        belt=Belt(length=LOOP * HALF_LENGTH, thickness=30.0 * HALF_LENGTH, width=0.005,
-                  conductivity=K, density=RHO, heat_capacity=C, air_heat_transfer=0.0,
-                  cell_length=cell, elements=elements),
+        belt=Belt(
+            length=LOOP * HALF_LENGTH,
+            thickness=30.0 * HALF_LENGTH,
+            width=0.005,
+            conductivity=K,
+            density=RHO,
+            heat_capacity=C,
+            air_heat_transfer=0.0,
+            cell_length=cell,
+            elements=elements,
+        ),
         ice=Ice(conductivity=1e-9, heat_capacity=1e-3, air_heat_transfer=0.0),
-        contact=Contact(radius=3e-3, length=2.0 * HALF_LENGTH, strips=1))
+        contact=Contact(radius=3e-3, length=2.0 * HALF_LENGTH, strips=1),
+    )
 
 
 def test_contact_frame_follows_jaeger():
@@ -74,8 +83,9 @@ def test_stepped_model_converges_to_jaeger():
             seen = np.interp(place, np.arange(face.size), face)
             errors[name].append(np.sqrt(np.mean((seen / jaeger(x) - 1.0) ** 2)))
     assert errors["inside"][-1] < 2e-4
-    orders = {name: np.polyfit(np.log(CELLS), np.log(error), 1)[0]
-              for name, error in errors.items()}
+    orders = {
+        name: np.polyfit(np.log(CELLS), np.log(error), 1)[0] for name, error in errors.items()
+    }
     assert orders["inside"] > ORDER_INSIDE - 0.2
     assert orders["front"] > ORDER_IN_FRONT - 0.2
     assert errors["edges"][-1] < 0.03

@@ -45,7 +45,8 @@ class Body:
         if key not in self._solvers:
             self._solvers[key] = splu(self.matrix[free][:, free].tocsc())
         self._new[free] = self._solvers[key].solve(
-            (right - self.matrix[:, given] @ self._new[given])[free])
+            (right - self.matrix[:, given] @ self._new[given])[free]
+        )
 
     def begin(self, source, held_values):
         """Start a time step: source at its end, values of the held nodes there."""
@@ -106,8 +107,9 @@ def square(left, cells):
     basis = CellBasis(mesh, ElementTriP2())
     at = basis.doflocs
     interface = np.flatnonzero(np.abs(at[0] - 1.0) < 1e-9)
-    outer = np.flatnonzero((np.abs(at[0] - 2.0 * left) < 1e-9)
-                           | (at[1] < 1e-9) | (at[1] > 1.0 - 1e-9))
+    outer = np.flatnonzero(
+        (np.abs(at[0] - 2.0 * left) < 1e-9) | (at[1] < 1e-9) | (at[1] > 1.0 - 1e-9)
+    )
     return Body(basis, 1.0, 1.0, WINDOW, interface, outer, lambda places: places[1])
 
 
@@ -117,8 +119,10 @@ def run_tutorial(relaxation, tolerance, cells=4):
     for body in bodies:
         body.u = tutorial(body.basis.doflocs, 0.0)
         # The interface's corners belong to the outer boundary, where the solution is given.
-        inner = np.isin(body.interface, np.flatnonzero(
-            (body.basis.doflocs[1] > 1e-9) & (body.basis.doflocs[1] < 1.0 - 1e-9)))
+        inner = np.isin(
+            body.interface,
+            np.flatnonzero((body.basis.doflocs[1] > 1e-9) & (body.basis.doflocs[1] < 1.0 - 1e-9)),
+        )
         body.held = np.union1d(body.held, body.interface[~inner])
         body.interface = body.interface[inner]
     left, right = bodies
@@ -163,8 +167,15 @@ def slab(left, capacity, conductivity):
     mesh = MeshLine(np.linspace(left, left + 1.0, ELEMENTS + 1))
     basis = CellBasis(mesh, ElementLineP1())
     at = basis.doflocs[0]
-    body = Body(basis, capacity, conductivity, DT, np.flatnonzero(np.abs(at) < 1e-9),
-                np.flatnonzero(np.abs(np.abs(at) - 1.0) < 1e-9), lambda places: places[0])
+    body = Body(
+        basis,
+        capacity,
+        conductivity,
+        DT,
+        np.flatnonzero(np.abs(at) < 1e-9),
+        np.flatnonzero(np.abs(np.abs(at) - 1.0) < 1e-9),
+        lambda places: places[0],
+    )
     body.u = 500.0 * np.sin(0.5 * np.pi * (at + 1.0))
     return body
 
@@ -192,8 +203,9 @@ def test_water_and_steel_end_where_the_whole_does(on_water):
     assert heats == pytest.approx(list(HEAT_AFTER.values()), rel=1e-8)
 
 
-@pytest.mark.parametrize(("relaxation", "most"), [(1.0, 14), (0.5, 16), (0.76447, 3),
-                                                  ("aitken", 3)])
+@pytest.mark.parametrize(
+    ("relaxation", "most"), [(1.0, 14), (0.5, 16), (0.76447, 3), ("aitken", 3)]
+)
 def test_iterations_of_water_and_steel(relaxation, most):
     """Contraction 0.3081 with the temperature given to the water."""
     assert run_slabs(True, relaxation, steps=1)[2] <= most

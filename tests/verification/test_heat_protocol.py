@@ -13,7 +13,8 @@ RAMP, RUN, STEP = 10.0, 20.0, 0.02
 
 def parameters(length=1.0, h=15.0, **contact):
     return ThermalParameters(
-        belt=Belt(length=length, air_heat_transfer=h, cell_length=2e-3), contact=Contact(**contact))
+        belt=Belt(length=length, air_heat_transfer=h, cell_length=2e-3), contact=Contact(**contact)
+    )
 
 
 def small_steps(given, speed, pause=0.0):
@@ -30,8 +31,9 @@ def small_steps(given, speed, pause=0.0):
 
 
 def rises(outputs):
-    return [outputs[f"{name}_temperature"] + 8.0
-            for name in ("belt_entry", "interface", "ice_face")]
+    return [
+        outputs[f"{name}_temperature"] + 8.0 for name in ("belt_entry", "interface", "ice_face")
+    ]
 
 
 def long_steps(given, speed, coarseness=1.0):
@@ -40,14 +42,17 @@ def long_steps(given, speed, coarseness=1.0):
     return sliding, sliding.run(RUN, coarseness)
 
 
-@pytest.mark.parametrize(("length", "speed", "h", "published"), [
-    (1.0, 0.15, 15.0, 0.082), (1.0, 0.15, 7.0, 0.107), (1.0, 0.82, 15.0, None)])
+@pytest.mark.parametrize(
+    ("length", "speed", "h", "published"),
+    [(1.0, 0.15, 15.0, 0.082), (1.0, 0.15, 7.0, 0.107), (1.0, 0.82, 15.0, None)],
+)
 def test_ramp_and_run_against_small_steps(length, speed, h, published):
     """Published: computed once by others, to three digits."""
     given = parameters(length, h)
     _, state = long_steps(given, speed)
     assert (state.entry, state.mean_interface, state.ice_face) == pytest.approx(
-        rises(small_steps(given, speed)), rel=4e-3)
+        rises(small_steps(given, speed)), rel=4e-3
+    )
     if published:
         assert state.entry == pytest.approx(published, rel=0.01)
 
@@ -86,7 +91,8 @@ def test_a_lifted_belt_cools_like_a_thin_plate():
     sliding, state = long_steps(given, 0.5)
     after = sliding.pause(40.0, lifted=True)
     assert after.belt_mean == pytest.approx(
-        state.belt_mean * np.exp(-2.0 * 10.0 * 40.0 / (700.0 * 840.0 * 1e-3)), rel=5e-3)
+        state.belt_mean * np.exp(-2.0 * 10.0 * 40.0 / (700.0 * 840.0 * 1e-3)), rel=5e-3
+    )
     assert 0.0 < after.ice_face < 0.5 * state.ice_face
 
 
@@ -105,8 +111,14 @@ def test_another_film_leaves_the_temperatures_and_then_matters():
 
 def test_rises_are_the_sum_of_what_each_heat_makes():
     """Contact, railing and warm rollers; the doubt of the belt's length rests on it."""
-    belt = Belt(cell_length=4e-3, railing_length=0.08, railing_friction=0.1, railing_load=13.0,
-                rollers=2, roller_rise=0.4)
+    belt = Belt(
+        cell_length=4e-3,
+        railing_length=0.08,
+        railing_friction=0.1,
+        railing_load=13.0,
+        rollers=2,
+        roller_rise=0.4,
+    )
     sliding = SteadySliding(ThermalParameters(belt=belt), 0.5, FORCE)
     entries = []
     for force, rubbing, warmth in ((FORCE, 1, 1), (FORCE, 0, 0), (0.0, 1, 0), (0.0, 0, 1)):

@@ -7,8 +7,13 @@ from thermal import Belt, BeltIceModel, Contact, Ice, ParameterError, ThermalPar
 from thermal.steady_sliding import SteadySliding
 
 LOAD, FRICTION, SHARE = 13.45, 0.1, 0.5  # N, 1, 1
-RAILING = {"railing_length": 0.08, "railing_friction": FRICTION, "railing_load": LOAD,
-           "railing_share": SHARE, "railing_conductance": 15.0}
+RAILING = {
+    "railing_length": 0.08,
+    "railing_friction": FRICTION,
+    "railing_load": LOAD,
+    "railing_share": SHARE,
+    "railing_conductance": 15.0,
+}
 ROLLERS = {"rollers": 2, "roller_arc": 0.1, "roller_conductance": 1000.0}
 #: Next to nothing crosses the contact.
 APART = Contact(conductance=1e-9)
@@ -47,12 +52,19 @@ def test_a_block_that_sticks_lets_the_railing_rub():
 
 def test_ledger_closes_with_railing_heat_and_warm_rollers():
     rng = np.random.default_rng(4)
-    model = BeltIceModel(ThermalParameters(belt=Belt(
-        length=0.5, cell_length=4e-3, roller_rise=0.7,
-        **(ROLLERS | {"roller_arc": 0.04}), **RAILING)))
+    model = BeltIceModel(
+        ThermalParameters(
+            belt=Belt(
+                length=0.5,
+                cell_length=4e-3,
+                roller_rise=0.7,
+                **(ROLLERS | {"roller_arc": 0.04}),
+                **RAILING,
+            )
+        )
+    )
     for _ in range(300):
-        model.step(rng.choice([1e-3, 0.02, 0.3]), rng.exponential(0.05),
-                   *rng.normal(0.0, 0.05, 2))
+        model.step(rng.choice([1e-3, 0.02, 0.3]), rng.exponential(0.05), *rng.normal(0.0, 0.05, 2))
     outputs = model.outputs()
     put_in = outputs["heat_received"] + outputs["railing_heat"]
     assert outputs["railing_heat"] > 0.05 * put_in
@@ -63,9 +75,11 @@ def test_ledger_closes_with_railing_heat_and_warm_rollers():
 def test_off_is_as_if_there_were_no_such_keys():
     """Bit for bit: a railing without friction, rollers as cold as the air."""
     plain, off = (
-        BeltIceModel(ThermalParameters(belt=Belt(
-            cell_length=4e-3, railing_length=0.08, **ROLLERS, **more)))
-        for more in ({}, {"railing_load": LOAD, "railing_share": 0.9, "roller_rise": 0.0}))
+        BeltIceModel(
+            ThermalParameters(belt=Belt(cell_length=4e-3, railing_length=0.08, **ROLLERS, **more))
+        )
+        for more in ({}, {"railing_load": LOAD, "railing_share": 0.9, "roller_rise": 0.0})
+    )
     for model in (plain, off):
         for _ in range(20):
             model.step(0.05, 0.02, 0.02)
@@ -75,8 +89,15 @@ def test_off_is_as_if_there_were_no_such_keys():
 def test_warm_rollers_warm_a_belt_that_conducts_well():
     """h_r A_r (T_r - T) = h A_open T for a belt of one temperature, no friction anywhere."""
     h, warm = 15.0, 2.0
-    belt = Belt(cell_length=4e-3, conductivity=2e3, air_heat_transfer=h, roller_rise=warm,
-                rollers=2, roller_arc=0.1, roller_conductance=50.0)
+    belt = Belt(
+        cell_length=4e-3,
+        conductivity=2e3,
+        air_heat_transfer=h,
+        roller_rise=warm,
+        rollers=2,
+        roller_arc=0.1,
+        roller_conductance=50.0,
+    )
     sliding = SteadySliding(ThermalParameters(belt=belt, contact=APART), 5.0, 0.0)
     state = sliding.settle()
     lane = sliding.footprint.lane
@@ -88,19 +109,22 @@ def test_warm_rollers_warm_a_belt_that_conducts_well():
 
 @pytest.mark.parametrize("speed", [0.15, 0.82])
 def test_long_steps_and_small_steps_agree_on_railing_and_rollers(speed):
-    belt = Belt(cell_length=2e-3, roller_rise=0.3,
-                **(ROLLERS | {"roller_conductance": 100.0}), **RAILING)
+    belt = Belt(
+        cell_length=2e-3, roller_rise=0.3, **(ROLLERS | {"roller_conductance": 100.0}), **RAILING
+    )
     model = BeltIceModel(ThermalParameters(belt=belt))
     for _ in range(1000):
         model.step(0.02, 4.03 * speed * 0.02, speed * 0.02)
     outputs = model.outputs()
     state = SteadySliding(ThermalParameters(belt=belt), speed, 4.03).until(20.0)
     assert (state.entry, state.ice_face) == pytest.approx(
-        (outputs["belt_entry_temperature"] + 8.0, outputs["ice_face_temperature"] + 8.0), rel=5e-3)
+        (outputs["belt_entry_temperature"] + 8.0, outputs["ice_face_temperature"] + 8.0), rel=5e-3
+    )
 
 
-@pytest.mark.parametrize(("speed", "added", "taken"),
-                         [(0.15, 0.24, 0.81), (0.5, 0.21, 0.69), (0.82, 0.20, 0.66)])
+@pytest.mark.parametrize(
+    ("speed", "added", "taken"), [(0.15, 0.24, 0.81), (0.5, 0.21, 0.69), (0.82, 0.20, 0.66)]
+)
 def test_what_railing_and_rollers_do_to_the_drift_of_a_run(speed, added, taken):
     """Half of the heat of mu 0.1 adds 20 to 25 %; two rollers at 1000 W/m2K take 66 to 81 %.
 
@@ -123,8 +147,11 @@ def test_faces_apart_keep_what_arises_on_them(side):
 def test_where_the_heat_arises_hardly_matters_in_a_good_contact():
     shares = []
     for side in (0.0, 1.0):
-        model = BeltIceModel(ThermalParameters(
-            belt=Belt(cell_length=4e-3), contact=Contact(conductance=1e6, belt_side=side)))
+        model = BeltIceModel(
+            ThermalParameters(
+                belt=Belt(cell_length=4e-3), contact=Contact(conductance=1e6, belt_side=side)
+            )
+        )
         for _ in range(50):
             model.step(0.1, 0.3, 0.05)
         shares.append(model.outputs()["belt_share"])

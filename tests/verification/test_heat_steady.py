@@ -11,15 +11,25 @@ PASSES = 10_000
 LIKE_MANY_PASSES = 1e-6
 #: Belt and ice that forget the start within the passes, and few unknowns.
 SMALL = ThermalParameters(
-    belt=Belt(length=0.045, width=0.05, cell_length=1.5e-3, elements=1, railing_length=0.02,
-              railing_conductance=40.0),
+    belt=Belt(
+        length=0.045,
+        width=0.05,
+        cell_length=1.5e-3,
+        elements=1,
+        railing_length=0.02,
+        railing_conductance=40.0,
+    ),
     ice=Ice(height=0.01, air_heat_transfer=60.0, radial_elements=2, axial_elements=2),
     contact=Contact(radius=0.02, strips=4),
 )
 STEP = (0.02, 0.01, 1.5e-3)  # s, J, m
 STEPS_IN_A_PASS = 30
-SENSES = ("belt_entry_temperature", "belt_exit_temperature", "ice_face_temperature",
-          "interface_temperature")
+SENSES = (
+    "belt_entry_temperature",
+    "belt_exit_temperature",
+    "ice_face_temperature",
+    "interface_temperature",
+)
 
 
 def rises(model):
@@ -36,7 +46,8 @@ def set_temperatures(model, values):
     ice = model.ice.amplitudes.size
     model.ice.amplitudes[:] = values[:ice]
     model.belt.amplitudes.view(np.float64)[:] = values[ice:].reshape(
-        model.belt.amplitudes.shape[0], -1)
+        model.belt.amplitudes.shape[0], -1
+    )
 
 
 def one_pass(start, heat):
@@ -113,7 +124,8 @@ def test_long_steps_follow_the_transient(length, speed):
         model.step(0.01, 4.03 * speed * 0.01, speed * 0.01)
     state = SteadySliding(parameters, speed, 4.03).until(20.0)
     assert (state.entry, state.exit, state.ice_face, state.mean_interface) == pytest.approx(
-        rises(model), rel=3e-3)
+        rises(model), rel=3e-3
+    )
     assert state.belt_share_so_far == pytest.approx(model.outputs()["belt_share"], abs=1e-3)
 
 
@@ -121,8 +133,8 @@ def test_heat_of_the_steady_state_leaves_by_the_films():
     """All heat to the belt: mean rise F v/(2 h w L), less the film that the block covers."""
     h, force, speed, length = 15.0, 4.03, 0.82, 1.0
     parameters = ThermalParameters(
-        belt=Belt(length=length, air_heat_transfer=h, conductivity=50.0),
-        ice=Ice(conductivity=1e-6))
+        belt=Belt(length=length, air_heat_transfer=h, conductivity=50.0), ice=Ice(conductivity=1e-6)
+    )
     sliding = SteadySliding(parameters, speed, force)
     state = sliding.settle()
     covered = sliding.footprint.area * sliding.strip_means().mean()
@@ -157,9 +169,15 @@ def test_ways_that_are_not_whole_cells_are_refused():
         settle(BeltIceModel(), 0.01, 0.01, 1.5e-3)
 
 
-@pytest.mark.parametrize(("speed", "force", "says"), [
-    (0.0, 4.0, "speed = 0 m/s must be above 0"), (-0.1, 4.0, "speed = -0.1"),
-    (0.1, -1.0, "force = -1 N"), (np.nan, 1.0, "speed = nan")])
+@pytest.mark.parametrize(
+    ("speed", "force", "says"),
+    [
+        (0.0, 4.0, "speed = 0 m/s must be above 0"),
+        (-0.1, 4.0, "speed = -0.1"),
+        (0.1, -1.0, "force = -1 N"),
+        (np.nan, 1.0, "speed = nan"),
+    ],
+)
 def test_steady_sliding_refuses_what_cannot_be(speed, force, says):
     with pytest.raises(ValueError, match=says):
         SteadySliding(ThermalParameters(), speed, force)

@@ -111,9 +111,7 @@ def check_inside(kernel, p, u, z, w):
     kernel.copy_block(exact, HERE, SHOWN)
     for _ in range(steps):
         kernel.begin_step(p, u, exact, scratch, SHOWN)
-        kernel.take_step(
-            p, u, exact, scratch, SHOWN, BETWEEN, (time - z[HERE + TIME]) / steps
-        )
+        kernel.take_step(p, u, exact, scratch, SHOWN, BETWEEN, (time - z[HERE + TIME]) / steps)
         kernel.copy_block(exact, BETWEEN, SHOWN)
     units = [
         abs(z[SHOWN + i] - exact[SHOWN + i]) / state_scale(p, u, i, exact[SHOWN + i])

@@ -82,10 +82,12 @@ def test_disc_energy():
     """Work of the friction on mass and rotation = what their energy gains, segment by segment."""
     for segment in DISC.simulate(20.0)[:6]:
         side = np.sign(np.median(DISC.belt_speed - segment.state[1] - segment.state[3]))
-        force = np.array([
-            DISC.sticking_force(s) if segment.mode == STICK else DISC.sliding_force(s, side)
-            for s in segment.state.T
-        ])
+        force = np.array(
+            [
+                DISC.sticking_force(s) if segment.mode == STICK else DISC.sliding_force(s, side)
+                for s in segment.state.T
+            ]
+        )
         power = force * (segment.state[1] + segment.state[3])
         gained = DISC.energy(segment.state[:, -1]) - DISC.energy(segment.state[:, 0])
         # trapezium over steps of at most 0.05/omega: its error is h^2/12 of the power's curvature

@@ -218,7 +218,12 @@ def test_slides_through_where_friction_cannot_hold():
     weight = MASS * 9.81
     slope, mu_rest = 0.03, 0.0545
     run = Scheme(
-        speed=0.37, mu_s=0.065, mu_k=mu_rest, mu_k_speed=0.0, mu_slope=slope, scatter=0.0,
+        speed=0.37,
+        mu_s=0.065,
+        mu_k=mu_rest,
+        mu_k_speed=0.0,
+        mu_slope=slope,
+        scatter=0.0,
         faults=MENDED,
     ).run(cycles=4)
     share = strips(0.05)[0].sum()
@@ -238,7 +243,12 @@ def test_slides_through_where_friction_cannot_hold():
     np.testing.assert_allclose(ours, slip_time, atol=1e-6)
     # the first meeting of the speeds is well before: there the springs pull harder than mu_s N
     plain = Scheme(
-        speed=0.37, mu_s=0.065, mu_k=mu_rest, mu_k_speed=0.0, mu_slope=slope, scatter=0.0,
+        speed=0.37,
+        mu_s=0.065,
+        mu_k=mu_rest,
+        mu_k_speed=0.0,
+        mu_slope=slope,
+        scatter=0.0,
         faults=MENDED.only("F6"),
     ).run(cycles=4)
     early = plain.slip_phases[:, 1] - plain.slip_phases[:, 0]

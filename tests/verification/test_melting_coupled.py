@@ -12,7 +12,7 @@ import pytest
 from melting_by_hand import MeltingBlock
 
 from cosim import read_scenario
-from cosim.coupled import run_scenario
+from cosim.coupling.coupled_case import run_scenario
 from cosim.report import run_dataset, summary
 
 END = 4.5
@@ -56,9 +56,14 @@ def test_friction_film_and_melted_mass_by_hand(coupled, by_hand, time):
 
 
 def test_the_onset_where_the_whole_face_touches():
-    case = read_scenario("meltwater").changed({
-        "run.duration": 0.9, "belt.width": 0.08,
-        "coupling.macro_step": 1e-3, "run.output_interval": 1e-3})
+    case = read_scenario("meltwater").changed(
+        {
+            "run.duration": 0.9,
+            "belt.width": 0.08,
+            "coupling.macro_step": 1e-3,
+            "run.output_interval": 1e-3,
+        }
+    )
     run = run_scenario(case).result
     one_column = MeltingBlock(area=np.pi * 0.04**2, width=0.08, dt=2.5e-4).run(0.9)
     onset = run.time[np.argmax(run["thermal.melted_mass"] > 0.0)]
@@ -87,7 +92,8 @@ def test_the_balance_closes_on_itself(numbers):
     water = w**2 * 1.79e-3 * 3.0 / film
     assert melting["water_shear"] == pytest.approx(water, rel=5e-3)
     assert melting["friction_stress"] == pytest.approx(
-        (1.0 - w) * 0.2086 * pressure + water, rel=5e-3)
+        (1.0 - w) * 0.2086 * pressure + water, rel=5e-3
+    )
     assert melting["flooded_share"] < melting["largest_flooded_share"]
     assert melting["friction_end"] < 0.65 * melting["friction_before"]
     assert melting["friction_before"] == pytest.approx(0.2086, rel=1e-3)
@@ -104,7 +110,8 @@ def test_the_rig_keeps_straight(coupled):
 def test_a_finer_macro_step_changes_little(coupled):
     """Half the step: the film follows friction sooner; 1.5 s in, a per mille of each."""
     case = read_scenario("meltwater").changed(
-        {"run.duration": 1.5, "coupling.macro_step": 0.5 * MACRO_STEP})
+        {"run.duration": 1.5, "coupling.macro_step": 0.5 * MACRO_STEP}
+    )
     fine = run_scenario(case).result
     for name in ("mechanics.friction_force_x", "thermal.film_thickness", "thermal.melted_mass"):
         assert at(coupled, name, 1.5) == pytest.approx(fine[name][-1], rel=4e-3), name

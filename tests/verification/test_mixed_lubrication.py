@@ -40,7 +40,8 @@ def test_dry_and_wet_contact_share_the_load(share, film):
     w = share * film / (film + ROUGHNESS)
     depth = film / w
     np.testing.assert_allclose(
-        found, (1.0 - w) * MU_K + w * ETA * SPEEDS / depth / PRESSURE, rtol=1e-12)
+        found, (1.0 - w) * MU_K + w * ETA * SPEEDS / depth / PRESSURE, rtol=1e-12
+    )
 
 
 def test_limits():
@@ -75,8 +76,9 @@ def test_age_belongs_to_the_dry_part():
 @pytest.mark.parametrize("film", [0.0, 5e-7, 2e-5])
 def test_interpreted_and_compiled_take_the_same_step(film):
     plane = parameters(lateral_friction={"ratio": 1.0}, initial={"vx": 0.1, "y": 0.01, "phi": 0.1})
-    plane = plane.model_copy(update={"rig": plane.rig.model_copy(
-        update={"degrees_of_freedom": ("x", "y", "phi")})})
+    plane = plane.model_copy(
+        update={"rig": plane.rig.model_copy(update={"degrees_of_freedom": ("x", "y", "phi")})}
+    )
     memory = memory_of(plane, film_thickness=film)
     assert largest_step_difference(compiled_kernel(), memory, 60) < 1e-12
 
@@ -102,8 +104,12 @@ def couette_film(speed, length, melting):
     scale = sqrt(4.0 * ETA * speed * length / melting)
     grown = solve_ivp(
         lambda x, y: [2.0 * ETA * speed / (melting * y[0]), ETA * speed / y[0], y[0]],
-        (0.0, length), [1e-6 * scale, 0.0, 0.0], rtol=1e-10, method="DOP853",
-        atol=1e-12 * np.array([scale, ETA * speed * length / scale, scale * length]))
+        (0.0, length),
+        [1e-6 * scale, 0.0, 0.0],
+        rtol=1e-10,
+        method="DOP853",
+        atol=1e-12 * np.array([scale, ETA * speed * length / scale, scale * length]),
+    )
     assert grown.success
     return grown.y[1, -1] / length, grown.y[2, -1] / length
 
@@ -117,7 +123,8 @@ def test_shear_of_a_film_that_only_its_shear_melts(speed):
     assert mean == pytest.approx(4.0 / 3.0 * sqrt(ETA * speed * length / melting), rel=1e-5)
     # water that is carried at the whole speed: sqrt(2 eta v rho L / l), the law of melt_film
     assert couette_film(2.0 * speed, length, melting)[0] == pytest.approx(
-        sqrt(2.0 * ETA * speed * melting / length), rel=1e-5)
+        sqrt(2.0 * ETA * speed * melting / length), rel=1e-5
+    )
 
 
 @pytest.mark.parametrize(("mass", "speed"), [(40.0, 3.0), (40.0, 0.5), (5.0, 1.0)])
@@ -128,14 +135,21 @@ def test_heat_film_and_friction_close_on_themselves(mass, speed):
     1 nm. Melt rate from the heat, film from the melt rate, shear from the film, heat from the
     shear.
     """
-    rig = Parameters(rig={"mass": mass}, friction={"mu_s": 0.2, "mu_k": 0.2},
-                     mixed_lubrication={"share": 1.0, "roughness": 1e-9})
-    model = BeltIceModel(ThermalParameters(
-        ambient=Ambient(temperature_degC=-1e-3),
-        belt=Belt(width=0.08, length=1.0, cell_length=2e-3, conductivity=1e-7,
-                  air_heat_transfer=0.0),
-        ice=Ice(conductivity=1e-7, air_heat_transfer=0.0),
-        contact=Contact(conductance=1e12, load=mass * 9.81, wiper=1.0)))
+    rig = Parameters(
+        rig={"mass": mass},
+        friction={"mu_s": 0.2, "mu_k": 0.2},
+        mixed_lubrication={"share": 1.0, "roughness": 1e-9},
+    )
+    model = BeltIceModel(
+        ThermalParameters(
+            ambient=Ambient(temperature_degC=-1e-3),
+            belt=Belt(
+                width=0.08, length=1.0, cell_length=2e-3, conductivity=1e-7, air_heat_transfer=0.0
+            ),
+            ice=Ice(conductivity=1e-7, air_heat_transfer=0.0),
+            contact=Contact(conductance=1e12, load=mass * 9.81, wiper=1.0),
+        )
+    )
     melting = WATER_DENSITY * Ice().latent_heat
     step = 0.02 * model.footprint.length / speed
     film = 0.0

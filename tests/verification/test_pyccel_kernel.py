@@ -37,7 +37,10 @@ def translated(tmp_path_factory):
     environment = {k: v for k, v in os.environ.items() if k != "PYTEST_XDIST_WORKER"}
     done = subprocess.run(
         [sys.executable, "-c", PYCCEL, "compile", f"{NAME}.py", "--language", "c"],
-        cwd=folder, env=environment, capture_output=True, text=True,
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert (folder / "__pyccel__" / f"{NAME}.c").exists()

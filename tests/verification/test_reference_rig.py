@@ -17,8 +17,17 @@ def figures(parameters):
     run = simulate(parameters, 30.0)
     late, starts = run.time > 10.0, run.slip_starts[run.slip_starts > 10.0]
     x = run["x"][late]
-    return np.array([starts.size / 20.0, run.slip_share, x.mean(), x.min(), x.max(),
-                     np.mean(np.diff(starts)), run["heat"][-1]])
+    return np.array(
+        [
+            starts.size / 20.0,
+            run.slip_share,
+            x.mean(),
+            x.min(),
+            x.max(),
+            np.mean(np.diff(starts)),
+            run["heat"][-1],
+        ]
+    )
 
 
 def turned(parameters, angle):

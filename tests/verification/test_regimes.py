@@ -27,19 +27,26 @@ MU_K, LOAD, STIFFNESS = 0.2086, 0.67 * 9.81, 4.0 * 20.17
 
 def rig(speed, mu_s=0.2815, damping=0.0, **blocks):
     """The published rig, pretensioned, so that it keeps to its line."""
-    return Parameters(**{
-        "rig": Rig(spring_natural_length=0.17), "lateral_friction": LateralFriction(ratio=1.0),
-        "friction": Friction(mu_s=mu_s, mu_k=MU_K),
-        "surface": Surface(speed=speed, run_up_time=10.0),
-        "structural_damping": StructuralDamping(coefficient=damping),
-    } | blocks)
+    return Parameters(
+        **{
+            "rig": Rig(spring_natural_length=0.17),
+            "lateral_friction": LateralFriction(ratio=1.0),
+            "friction": Friction(mu_s=mu_s, mu_k=MU_K),
+            "surface": Surface(speed=speed, run_up_time=10.0),
+            "structural_damping": StructuralDamping(coefficient=damping),
+        }
+        | blocks
+    )
 
 
 def closed_form(speed, mu_s, damping, run_up=10.0):
     oscillator = CoulombOscillator(0.67, STIFFNESS, speed, mu_s * LOAD, MU_K * LOAD)
     start = BeltStart(oscillator, damping, run_up)
-    sticks = {REST: start.sticks_from_rest(), RIDING: start.sticks_riding(),
-              RAMP: start.sticks_after_run_up()}
+    sticks = {
+        REST: start.sticks_from_rest(),
+        RIDING: start.sticks_riding(),
+        RAMP: start.sticks_after_run_up(),
+    }
     return {name: STICK_SLIP if does else SLIDING for name, does in sticks.items()}
 
 
@@ -79,7 +86,12 @@ def test_at_a_fifth_of_a_metre_a_second_two_regimes_exist():
     found = regimes(rig(0.2))
     assert list(found) == list(STARTS)
     assert {start: regime.name for start, regime in found.items()} == {
-        OWN: SLIDING, DISTURBED: SLIDING, REST: SLIDING, RIDING: STICK_SLIP, RAMP: SLIDING}
+        OWN: SLIDING,
+        DISTURBED: SLIDING,
+        REST: SLIDING,
+        RIDING: STICK_SLIP,
+        RAMP: SLIDING,
+    }
     assert list(coexisting(found)) == [RIDING]
     assert found[RIDING].frequency > 1.0 and found[OWN].frequency == 0.0
     # a free vibration about F_k/K from rest has that amplitude

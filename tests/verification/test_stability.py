@@ -24,18 +24,22 @@ GRAVITY = 9.81
 
 def rig(pretension=0.0, ratio=1.0, speed=0.15, free=("x", "y", "phi"), **blocks):
     """The published rig on a belt that runs up in 10 s."""
-    return Parameters(**{
-        "rig": Rig(spring_natural_length=0.2 - pretension, degrees_of_freedom=free),
-        "lateral_friction": LateralFriction(ratio=ratio),
-        "surface": Surface(speed=speed, run_up_time=10.0),
-    } | blocks)
+    return Parameters(
+        **{
+            "rig": Rig(spring_natural_length=0.2 - pretension, degrees_of_freedom=free),
+            "lateral_friction": LateralFriction(ratio=ratio),
+            "surface": Surface(speed=speed, run_up_time=10.0),
+        }
+        | blocks
+    )
 
 
 def standing(ratio, pretension, speed=0.5):
     """Slides evenly from the start, at F_k/K, free to move across only."""
     place = 0.2086 * 0.67 * GRAVITY / (4.0 * 20.17)
-    return place, rig(pretension, ratio, speed, ("x", "y"), surface=Surface(speed=speed),
-                      initial=Initial(x=place))
+    return place, rig(
+        pretension, ratio, speed, ("x", "y"), surface=Surface(speed=speed), initial=Initial(x=place)
+    )
 
 
 def lateral_stiffness(place, pretension, k=20.17, length=0.2):
@@ -56,7 +60,8 @@ def test_multipliers_of_even_sliding_are_those_of_the_linear_equation(ratio, pre
     # the disturbance of 1 um is known to the integrator's 1e-11, the frequency's square root apart
     assert found.multipliers == pytest.approx(expected, rel=2e-4)
     assert found.straight and found.verdict == (
-        "unstable" if expected[0] > 1.001 else "neutral" if ratio == 0.0 else "stable")
+        "unstable" if expected[0] > 1.001 else "neutral" if ratio == 0.0 else "stable"
+    )
 
 
 def test_multipliers_of_a_swing_are_those_of_an_independent_model():
@@ -83,9 +88,13 @@ def drawn_rig(draw, i):
     """A rig at random: three quarters with friction in the plane."""
     mu_k, length = draw.uniform(0.03, 0.3), draw.uniform(0.15, 0.25)
     return Parameters(
-        rig=Rig(mass=draw.uniform(0.4, 2.2), contact_radius=draw.uniform(0.03, 0.05),
-                attachment_radius=draw.uniform(0.04, 0.06), spring_length=length,
-                spring_natural_length=length - draw.uniform(0.0, 0.012)),
+        rig=Rig(
+            mass=draw.uniform(0.4, 2.2),
+            contact_radius=draw.uniform(0.03, 0.05),
+            attachment_radius=draw.uniform(0.04, 0.06),
+            spring_length=length,
+            spring_natural_length=length - draw.uniform(0.0, 0.012),
+        ),
         springs=Springs(stiffness=draw.uniform(18.0, 75.0)),
         friction=Friction(mu_s=mu_k * draw.uniform(1.1, 1.6), mu_k=mu_k),
         lateral_friction=LateralFriction(ratio=(1.0, 1.0, 0.5, 0.0)[i % 4]),
@@ -99,8 +108,7 @@ DURATION = 120.0  # s: multipliers a hundredth beside 1 show in it
 
 def grows(parameters, duration=DURATION):
     """By a run turned by 1e-7 rad at its start: does it swerve, or swing more and more?"""
-    run = simulate(
-        parameters.model_copy(update={"initial": Initial(phi=1e-7)}), duration, 0.02)
+    run = simulate(parameters.model_copy(update={"initial": Initial(phi=1e-7)}), duration, 0.02)
     beside = np.hypot(run["y"], parameters.rig.contact_radius * run["phi"])
     middle = beside[(run.time > 0.35 * duration) & (run.time < 0.6 * duration)].max()
     late = beside[run.time > 0.75 * duration].max()
@@ -189,8 +197,11 @@ def test_a_rig_without_a_line_is_asked_about_its_own_motion(blocks):
 def test_imperfections_and_the_start_do_not_change_the_line():
     """It is the line of the rig as drawn; half a percent of 1 um is the integrator's."""
     plain = rig(0.03)
-    real = rig(0.03, imperfections=Imperfections(spring_stiffness=0.02, anchor_position=1e-3),
-               initial=Initial(y=2e-3, phi=0.02))
+    real = rig(
+        0.03,
+        imperfections=Imperfections(spring_stiffness=0.02, anchor_position=1e-3),
+        initial=Initial(y=2e-3, phi=0.02),
+    )
     assert stability(real).growth == pytest.approx(stability(plain).growth, rel=1e-6)
 
 

@@ -7,11 +7,13 @@ from stickslip.kernel.interpolant import copy_block
 from stickslip.kernel.layout import DONE, E_FIRST, HERE, MODE, NEXT, SLIP, TIME, W_SIZE
 
 # steps of a slip over a pattern are as long as the tolerance allows, not as the period does
-SHORT_WAVES = Parameters.model_validate({
-    "surface": {"speed": 0.1},
-    "friction": {"mu_s": 0.3, "mu_k": 0.2},
-    "surface_pattern": {"amplitude": 0.1, "wavelength": 0.004},
-})
+SHORT_WAVES = Parameters.model_validate(
+    {
+        "surface": {"speed": 0.1},
+        "friction": {"mu_s": 0.3, "mu_k": 0.2},
+        "surface_pattern": {"amplitude": 0.1, "wavelength": 0.004},
+    }
+)
 
 
 def test_a_refused_step_is_not_tried_again(monkeypatch):

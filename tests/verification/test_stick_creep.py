@@ -77,8 +77,12 @@ def test_what_a_stick_that_creeps_shows():
     slid = SPEED * time - x
     lag = RATE * x
     power = STIFFNESS * x * lag
-    heat = STIFFNESS * RATE * (SPEED / RATE) ** 2 * (
-        time + 2.0 * np.expm1(-RATE * time) / RATE - np.expm1(-2.0 * RATE * time) / (2.0 * RATE))
+    heat = (
+        STIFFNESS
+        * RATE
+        * (SPEED / RATE) ** 2
+        * (time + 2.0 * np.expm1(-RATE * time) / RATE - np.expm1(-2.0 * RATE * time) / (2.0 * RATE))
+    )
     assert not run["mode"][stick].any() and not run["slip_time"][stick].any()
     np.testing.assert_allclose(run["sliding_speed"][stick], lag, rtol=1e-10, atol=0)
     np.testing.assert_allclose(run["sliding_distance"][stick], slid, rtol=0, atol=1e-13)
@@ -134,7 +138,8 @@ def test_the_heat_of_a_creep_weakens_the_slip_after_it():
 
 def test_a_creep_that_vanishes_is_none():
     rigid, hardly = (
-        on_a_line(8.0, friction={"stick_creep": creep}) for creep in (0.0, 1e-10 * CREEP))
+        on_a_line(8.0, friction={"stick_creep": creep}) for creep in (0.0, 1e-10 * CREEP)
+    )
     np.testing.assert_allclose(hardly["x"], rigid["x"], rtol=0, atol=1e-10)
     np.testing.assert_array_equal(hardly["mode"], rigid["mode"])
 
@@ -153,8 +158,9 @@ def late(creep: float) -> float:
         return eta * (SPEED - y[1]) - HOLD
 
     limit.terminal = True
-    run = solve_ivp(slopes, (0.0, 5.0), [0.0, SPEED], method="Radau", events=limit,
-                    rtol=1e-11, atol=1e-14)
+    run = solve_ivp(
+        slopes, (0.0, 5.0), [0.0, SPEED], method="Radau", events=limit, rtol=1e-11, atol=1e-14
+    )
     return run.t[-1] - on_a_line(friction={"stick_creep": creep}).slip_starts[0]
 
 
@@ -168,9 +174,14 @@ def test_the_inertia_left_out_is_worth_the_time_that_it_is_said_to_be():
 PLANES = {
     "belt": {},
     "isotropic": {"lateral_friction": {"ratio": 1.0}},
-    "slab": {"rig": {"surface": "slab", "slab_radius": 0.4},
-             "initial": {"vx": 0.02 * (1.0 - 0.007 / 0.4), "vy": 0.02 * -0.008 / 0.4,
-                         "omega": 0.02 / 0.4}},
+    "slab": {
+        "rig": {"surface": "slab", "slab_radius": 0.4},
+        "initial": {
+            "vx": 0.02 * (1.0 - 0.007 / 0.4),
+            "vy": 0.02 * -0.008 / 0.4,
+            "omega": 0.02 / 0.4,
+        },
+    },
     "damped": {"structural_damping": {"coefficient": 3.0, "rotational": 0.01}},
     "guided": {"rig": {"degrees_of_freedom": ("x", "y")}},
 }
@@ -289,9 +300,16 @@ def test_loads_that_change_at_every_step_do_not_tear_the_stick():
         ends.append((o[layout.O_X], o[layout.O_HEAT]))
     c = CREEP / HOLD
     exact = solve_ivp(
-        lambda t, y: [SPEED - c * (STIFFNESS * y[0] + growth * t),
-                      c * (STIFFNESS * y[0] + growth * t) ** 2],
-        (0.0, 1.0), [0.0, 0.0], method="DOP853", rtol=1e-13, atol=1e-16).y[:, -1]
+        lambda t, y: [
+            SPEED - c * (STIFFNESS * y[0] + growth * t),
+            c * (STIFFNESS * y[0] + growth * t) ** 2,
+        ],
+        (0.0, 1.0),
+        [0.0, 0.0],
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-16,
+    ).y[:, -1]
     errors = np.abs(np.array(ends) - exact)
     assert np.all(errors[1] < 1e-6)
     assert errors[0, 0] / errors[1, 0] == pytest.approx(4.0, rel=0.05)

@@ -35,9 +35,7 @@ def sources(tracks: Sequence[ModelTrack]) -> list[Source]:
             ]
             pieces = [piece for piece in pieces if len(piece.values)]
             unsuited = AT_REST if mode == STICK else ()
-            every.append(
-                Source(channel, regime, "position", UNITS[channel], pieces, unsuited)
-            )
+            every.append(Source(channel, regime, "position", UNITS[channel], pieces, unsuited))
     return [source for source in every if source.pieces]
 
 
@@ -61,9 +59,7 @@ def _sticks(tracks: Sequence[ModelTrack]) -> list[Stretch]:
         residual = track.residual("x")
         for rows in track.stretches(STICK, FEWEST):
             time = track.time[rows]
-            found.append(
-                stick_stretch(number, rows, time, residual[rows], track.run.noise["x"])
-            )
+            found.append(stick_stretch(number, rows, time, residual[rows], track.run.noise["x"]))
     return found
 
 

@@ -63,6 +63,4 @@ class Source:
 def _normal_of_points(points: Points, inputs: np.ndarray) -> Normal:
     columns = inputs / points.errors[:, None]
     scaled = points.values / points.errors
-    return Normal(
-        columns.T @ columns, columns.T @ scaled, float(scaled @ scaled), len(scaled)
-    )
+    return Normal(columns.T @ columns, columns.T @ scaled, float(scaled @ scaled), len(scaled))

@@ -106,9 +106,7 @@ def _of_source(
     return strongest_period(found[0].pieces, [coordinate(track) for track in tracks])
 
 
-def strongest_period(
-    stretches: Sequence[Stretch], along: Sequence[np.ndarray]
-) -> Period | None:
+def strongest_period(stretches: Sequence[Stretch], along: Sequence[np.ndarray]) -> Period | None:
     """The rate whose sinusoid, one in each run, explains most of the misfit of the stretches.
 
     A periodogram by least squares (Lomb 1976, Scargle 1982) of inputs that are seen through their

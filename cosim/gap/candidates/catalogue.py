@@ -34,9 +34,20 @@ class Scales:
 def candidates(scales: Scales) -> tuple[Candidate, ...]:
     """All laws of all effects, in the catalogue's order; several starts of one law are several."""
     makers = (
-        _lateral_friction, _turning_surface, _static_strengthening, _velocity_weakening, _film_drag,
-        _thermal_weakening, _run_in, _spring_hardening, _structural_damping, _speed_ripple,
-        _surface_pattern, _load_dependence, _spring_misalignment, _stick_stiffness,
+        _lateral_friction,
+        _turning_surface,
+        _static_strengthening,
+        _velocity_weakening,
+        _film_drag,
+        _thermal_weakening,
+        _run_in,
+        _spring_hardening,
+        _structural_damping,
+        _speed_ripple,
+        _surface_pattern,
+        _load_dependence,
+        _spring_misalignment,
+        _stick_stiffness,
     )
     return tuple(candidate for maker in makers for candidate in maker(scales))
 
@@ -70,42 +81,77 @@ _HOLD = 0.5
 
 def _static_strengthening(s: Scales):
     rate = Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
-    yield Candidate("static_strengthening", "logarithmic", (rate,),
-                    {"static_strengthening.hold_time": 0.01}, grows=2.0)
+    yield Candidate(
+        "static_strengthening",
+        "logarithmic",
+        (rate,),
+        {"static_strengthening.hold_time": 0.01},
+        grows=2.0,
+    )
     for time in (0.03, 0.5):
         onset = Knob("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
-        yield Candidate("static_strengthening", "logarithmic after an onset", (rate, onset),
-                        grows=log10(1.0 + _HOLD / time))
+        yield Candidate(
+            "static_strengthening",
+            "logarithmic after an onset",
+            (rate, onset),
+            grows=log10(1.0 + _HOLD / time),
+        )
     for time in (0.1, 0.5):
-        yield Candidate("static_strengthening", "saturating", (
-            Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
-            # over a much shorter time it would be another mu_s, not a law of the hold
-            Knob("static_strengthening.saturation_time", time, 0.5, 0.03, 30.0, log=True,
-                 plain_below=True)),
-            grows=1.0)
+        yield Candidate(
+            "static_strengthening",
+            "saturating",
+            (
+                Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
+                # over a much shorter time it would be another mu_s, not a law of the hold
+                Knob(
+                    "static_strengthening.saturation_time",
+                    time,
+                    0.5,
+                    0.03,
+                    30.0,
+                    log=True,
+                    plain_below=True,
+                ),
+            ),
+            grows=1.0,
+        )
 
 
 def _velocity_weakening(s: Scales):
     part = 0.15
     for name in ("linear", "hyperbolic", "inverse_root"):
-        knob = Knob(f"velocity_weakening.{name}", part / s.speed, 0.1 / s.speed, 0.0,
-                    {"linear": 10.0 / s.speed}.get(name, 1e3 / s.speed))
+        knob = Knob(
+            f"velocity_weakening.{name}",
+            part / s.speed,
+            0.1 / s.speed,
+            0.0,
+            {"linear": 10.0 / s.speed}.get(name, 1e3 / s.speed),
+        )
         yield Candidate("velocity_weakening", name, (knob,))
     peak = Knob("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
     for share in (0.3, 1.0):
         # over a much smaller speed it would be another mu_s, not a law of the sliding speed
-        speed = Knob("velocity_weakening.stribeck_speed", share * s.speed, 0.4, 0.1 * s.speed,
-                     1e2 * s.speed, log=True, plain_below=True)
+        speed = Knob(
+            "velocity_weakening.stribeck_speed",
+            share * s.speed,
+            0.4,
+            0.1 * s.speed,
+            1e2 * s.speed,
+            log=True,
+            plain_below=True,
+        )
         yield Candidate("velocity_weakening", "stribeck", (peak, speed))
 
 
 def _film_drag(s: Scales):
     drag = 0.02 * s.force / s.speed
-    yield Candidate("film_drag", "linear", (
-        Knob("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag),))
+    yield Candidate(
+        "film_drag", "linear", (Knob("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag),)
+    )
     root = 0.02 * s.force / s.speed**0.5
-    yield Candidate("film_drag", "root", (
-        Knob("film_drag.root_coefficient", root, root, 0.0, 1e3 * root),))
+    yield Candidate(
+        "film_drag", "root", (Knob("film_drag.root_coefficient", root, root, 0.0, 1e3 * root),)
+    )
 
 
 def _thermal_weakening(s: Scales):
@@ -122,10 +168,21 @@ def _thermal_weakening(s: Scales):
 def _run_in(s: Scales):
     for share in (0.1, 0.5):
         for change in (0.1, -0.1):
-            yield Candidate("run_in", "exponential", (
-                Knob("run_in.change", change, 0.1, -0.95, 5.0),
-                Knob("run_in.distance", share * s.distance, 0.5, 1e-3 * s.distance,
-                     1e2 * s.distance, log=True)))
+            yield Candidate(
+                "run_in",
+                "exponential",
+                (
+                    Knob("run_in.change", change, 0.1, -0.95, 5.0),
+                    Knob(
+                        "run_in.distance",
+                        share * s.distance,
+                        0.5,
+                        1e-3 * s.distance,
+                        1e2 * s.distance,
+                        log=True,
+                    ),
+                ),
+            )
 
 
 def _spring_hardening(s: Scales):
@@ -133,15 +190,22 @@ def _spring_hardening(s: Scales):
     hardening = Knob("spring_hardening.cubic", cubic, cubic, 0.0, 1e4 * cubic)
     yield Candidate("spring_hardening", "cubic", (hardening,))
     if s.extension != 0.0:  # as found by pulling at the block in its place
-        yield Candidate("spring_hardening", "cubic as installed", (hardening,),
-                        {"spring_hardening.neutral_extension": s.extension})
+        yield Candidate(
+            "spring_hardening",
+            "cubic as installed",
+            (hardening,),
+            {"spring_hardening.neutral_extension": s.extension},
+        )
 
 
 def _structural_damping(s: Scales):
     drag = 0.02 * (4.0 * s.stiffness * s.mass) ** 0.5  # a hundredth of the critical one
     for much in (1.0, 15.0):
-        yield Candidate("structural_damping", "viscous", (
-            Knob("structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag),))
+        yield Candidate(
+            "structural_damping",
+            "viscous",
+            (Knob("structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag),),
+        )
 
 
 def _second(effect: str):
@@ -151,11 +215,15 @@ def _second(effect: str):
 
 def _periodic(effect: str, period: Knob, form: str):
     """A sine, and one with its second harmonic; a scan says where they start."""
-    knobs = (Knob(f"{effect}.amplitude", 0.1, 0.05, 0.0, 1.0), period,
-             Knob(f"{effect}.phase_deg", 0.0, 30.0, per_run=True))
+    knobs = (
+        Knob(f"{effect}.amplitude", 0.1, 0.05, 0.0, 1.0),
+        period,
+        Knob(f"{effect}.phase_deg", 0.0, 30.0, per_run=True),
+    )
     yield Candidate(effect, form, knobs, periodic=period.key)
     yield Candidate(
-        effect, f"{form} and second harmonic", knobs + _second(effect), periodic=period.key)
+        effect, f"{form} and second harmonic", knobs + _second(effect), periodic=period.key
+    )
 
 
 def _speed_ripple(s: Scales):
@@ -172,22 +240,38 @@ def _surface_pattern(s: Scales):
 
 def _load_dependence(s: Scales):
     for sign in (0.1, -0.1):
-        yield Candidate("load_dependence", "power law", (
-            Knob("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
-            {"load_dependence.reference_force": s.force})
+        yield Candidate(
+            "load_dependence",
+            "power law",
+            (Knob("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
+            {"load_dependence.reference_force": s.force},
+        )
 
 
 def _spring_misalignment(s: Scales):
     for across in (_ACROSS, {}):
         for sign in (3.0, -3.0):
-            yield Candidate("spring_misalignment", "angle", (
-                Knob("spring_misalignment.angle_deg", sign, 2.0, -60.0, 60.0),), across, True)
+            yield Candidate(
+                "spring_misalignment",
+                "angle",
+                (Knob("spring_misalignment.angle_deg", sign, 2.0, -60.0, 60.0),),
+                across,
+                True,
+            )
         for sign in (0.005, -0.005):
-            yield Candidate("spring_misalignment", "offset", (
-                Knob("spring_misalignment.lateral_offset", sign, 0.003, -1.0, 1.0),), across, True)
+            yield Candidate(
+                "spring_misalignment",
+                "offset",
+                (Knob("spring_misalignment.lateral_offset", sign, 0.003, -1.0, 1.0),),
+                across,
+                True,
+            )
 
 
 def _stick_stiffness(s: Scales):
     for part in (0.8, 0.5, 0.3):
-        yield Candidate("stick_stiffness", "part of the springs", (
-            Knob("stick_stiffness.ratio", part, 0.15, 0.05, 1.0),))
+        yield Candidate(
+            "stick_stiffness",
+            "part of the springs",
+            (Knob("stick_stiffness.ratio", part, 0.15, 0.05, 1.0),),
+        )

@@ -35,8 +35,11 @@ def reduced(
     """
     gone = {knob.key for knob in candidate.knobs}
     knobs = tuple(moved(knob, fitted) for knob in model.knobs if knob.key not in gone)
-    settings = {key: value for key, value in model.settings.items()
-                if key not in candidate.settings or key in keep}
+    settings = {
+        key: value
+        for key, value in model.settings.items()
+        if key not in candidate.settings or key in keep
+    }
     return Model(knobs, settings, model.added - 1)
 
 

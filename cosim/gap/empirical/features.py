@@ -83,7 +83,9 @@ _FEATURES = (
 
 
 def library(
-    both_ways: bool, reach: tuple[float, float], frequency: float | None = None,
+    both_ways: bool,
+    reach: tuple[float, float],
+    frequency: float | None = None,
     wavenumber: float | None = None,
 ) -> list[Feature]:
     """All features that a campaign can tell.

@@ -148,6 +148,7 @@ def _friction(best: Formula, runs: Sequence[MeasuredRun]) -> tuple[dict[str, flo
 
     Where these differ between the two directions of the surface, the formula gets a term for it.
     """
+
     def force(m):
         return sum(c * f.of(m) for c, f in zip(best.coefficients, best.features, strict=True))
 
@@ -179,8 +180,8 @@ def _described(base: Trial, trial: Trial, features: Sequence[Feature]) -> dict[s
         "kind": "empirical",
         "formula": text,
         "terms": [
-            {"feature": t.feature.name or "1", "coefficient": t.coefficient,
-             "unit": t.feature.unit} for t in terms
+            {"feature": t.feature.name or "1", "coefficient": t.coefficient, "unit": t.feature.unit}
+            for t in terms
         ],  # fmt: skip
         "parameters": {
             name: float(value) for name, value in values.items() if name.startswith("friction.")

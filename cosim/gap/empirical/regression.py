@@ -63,8 +63,7 @@ def _solved(every, features: Sequence[Feature], chosen: Sequence[int]) -> Formul
     scaled, size = _scaled(every[0][0][:, which])
     solved = np.linalg.lstsq(scaled, every[0][1], rcond=1e-10)[0] / size
     left = [
-        float(np.sqrt(np.mean((seen - columns[:, which] @ solved) ** 2)))
-        for columns, seen in every
+        float(np.sqrt(np.mean((seen - columns[:, which] @ solved) ** 2))) for columns, seen in every
     ]
     return Formula(tuple(features[i] for i in chosen), solved[1:], float(solved[0]), *left)
 

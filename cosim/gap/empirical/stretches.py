@@ -49,8 +49,9 @@ def _slips(number: int, run: MeasuredRun) -> list[Slip]:
     rows = np.flatnonzero(_moving(run, moment) & np.isfinite(track.x))
     found = []
     for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1 + 2 * _MARGIN) + 1):
-        pieces = 1 + int(np.ptp(track.time[part]) * omega / (2.0 * np.pi * _LONGEST)) if len(
-            part) else 1
+        pieces = (
+            1 + int(np.ptp(track.time[part]) * omega / (2.0 * np.pi * _LONGEST)) if len(part) else 1
+        )
         for piece in np.array_split(part, pieces):
             if len(piece) >= _FEWEST:
                 stretch = slip_stretch(

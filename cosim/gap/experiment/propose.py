@@ -70,8 +70,14 @@ def _most_telling(scored: Sequence[tuple[float, Experiment]]) -> list[tuple[floa
     """Best first; among those nearly as good as the best, what the rig already has comes first."""
     scored = [pair for pair in scored if pair[0] > 0.0]
     most = max((score for score, _ in scored), default=0.0)
-    return sorted(scored, key=lambda pair: (
-        pair[0] < _NEARLY * most, pair[1].changed if pair[0] >= _NEARLY * most else 0, -pair[0]))
+    return sorted(
+        scored,
+        key=lambda pair: (
+            pair[0] < _NEARLY * most,
+            pair[1].changed if pair[0] >= _NEARLY * most else 0,
+            -pair[0],
+        ),
+    )
 
 
 def _side(member: Member) -> _Side:
@@ -100,7 +106,8 @@ def _apart(setting: Setting, experiment: Experiment, sides, pairs, rounds: int) 
             return {}
     return {
         (truth, other): separation(
-            flights[truth], sides[other].member, sides[other].information, rounds)
+            flights[truth], sides[other].member, sides[other].information, rounds
+        )
         for truth, other in pairs
     }
 

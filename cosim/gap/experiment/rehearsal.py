@@ -38,7 +38,8 @@ def setting_of(campaign: Campaign, planar: bool) -> Setting:
     interval = float(np.median([run.track.interval for run in runs]))
     time = interval * np.arange(int(round(duration / interval)) + 1)
     channels = tuple(
-        name for name in COLUMN
+        name
+        for name in COLUMN
         if all(name in run.track.channels for run in runs) and campaign.noise.get(name)
     )
     return Setting(campaign, time, channels, planar)

@@ -17,8 +17,10 @@ def moves_across(campaign: Campaign) -> bool:
     free = set(campaign.rig.degrees_of_freedom) & {"y", "phi"}
     return bool(free) and any(
         _moves(run, channel)
-        for run in campaign.runs if run.track is not None
-        for channel in ("y", "phi") if channel in run.track.channels
+        for run in campaign.runs
+        if run.track is not None
+        for channel in ("y", "phi")
+        if channel in run.track.channels
     )
 
 

@@ -38,7 +38,10 @@ _CLEARLY = 0.99
 
 
 def find_gap(
-    campaign: Campaign, *, seed: int = 0, jobs: int = 2,
+    campaign: Campaign,
+    *,
+    seed: int = 0,
+    jobs: int = 2,
     progress: Callable[[int], object] | None = None,
 ) -> Gap:
     """What the plain model lacks in a campaign with tracks.
@@ -94,8 +97,14 @@ def _is_felt(law: Candidate, campaign: Campaign, planar: bool) -> bool:
 
 
 def _answer(
-    campaign: Campaign, data: Data, plain: Trial, finding: Finding, ranking, seed: int,
-    planar: bool, mapped: Map,
+    campaign: Campaign,
+    data: Data,
+    plain: Trial,
+    finding: Finding,
+    ranking,
+    seed: int,
+    planar: bool,
+    mapped: Map,
 ) -> Gap:
     finalists = [t.trial for t in finding.ranking if t.trial is not None]
     before = _fitted_model(campaign, data, plain)
@@ -167,8 +176,9 @@ def _remarks(campaign: Campaign, tried: set[str], finding: Finding) -> tuple[str
     lines = []
     if finding.lookalike:
         lines.append(f"{finding.lookalike} does better than any effect of the catalogue")
-    silent = [e for e in ("lateral_friction", "turning_surface", "spring_misalignment")
-              if e not in tried]
+    silent = [
+        e for e in ("lateral_friction", "turning_surface", "spring_misalignment") if e not in tried
+    ]
     if silent:
         seen = any("y" in run.track.channels for run in campaign.runs if run.track is not None)
         why = "no motion across was seen" if seen else "y was not measured"

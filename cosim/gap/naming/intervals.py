@@ -27,10 +27,14 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     information, scatter = _information(trial)
     known = np.diag(weight**2)
     scarce = known + information / max(trial.fitted.gap(), 1.0) ** 2
-    reach = _NINETY_FIVE * np.sqrt(np.maximum(
-        np.diag(_inverse(scarce)),
-        np.diag(_inverse(known + information) @ (known + scatter) @ _inverse(known + information)),
-    ))
+    reach = _NINETY_FIVE * np.sqrt(
+        np.maximum(
+            np.diag(_inverse(scarce)),
+            np.diag(
+                _inverse(known + information) @ (known + scatter) @ _inverse(known + information)
+            ),
+        )
+    )
     reach[np.diag(scarce) <= _UNFELT] = np.inf
     result = {}
     for knob, at, wide in zip(shared, trial.fitted.point.shared, reach, strict=True):

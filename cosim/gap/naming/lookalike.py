@@ -19,9 +19,15 @@ from .tried import ACROSS, Tried
 #: By effect of the catalogue: what looks like it.
 _LOOKALIKES = {
     "spring_misalignment": tuple(
-        Candidate("a rig tilted sideways", "tilt", (Knob(TILT, sine, 0.005, -0.3, 0.3),), across,
-                  lateral=True)
-        for across in ({}, {ACROSS: 1.0}) for sine in (0.01, -0.01)
+        Candidate(
+            "a rig tilted sideways",
+            "tilt",
+            (Knob(TILT, sine, 0.005, -0.3, 0.3),),
+            across,
+            lateral=True,
+        )
+        for across in ({}, {ACROSS: 1.0})
+        for sine in (0.01, -0.01)
     ),
 }
 
@@ -34,7 +40,9 @@ def better_lookalike(search: Search, plain: Trial, sketched: Fitted, best: Tried
     laws = _LOOKALIKES.get(best.candidate.effect, ())
     if not laws:
         return None
-    other = min((t for t in search.on(plain.model, sketched, laws) if t.trial is not None),
-                key=lambda t: t.trial.gap)
+    other = min(
+        (t for t in search.on(plain.model, sketched, laws) if t.trial is not None),
+        key=lambda t: t.trial.gap,
+    )
     clearly = best.trial.gap**2 > as_good(other.trial) and excess(best.trial) > 0.0
     return other if clearly else None

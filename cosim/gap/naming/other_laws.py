@@ -22,8 +22,11 @@ def other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
             if law.periodic and law.periodic not in own:
                 continue
             told = any(knob.key in values for knob in law.knobs[:1])
-            law = replace(law, knobs=tuple(moved(knob, values) for knob in law.knobs),
-                          grows=0.0 if told else law.grows)
+            law = replace(
+                law,
+                knobs=tuple(moved(knob, values) for knob in law.knobs),
+                grows=0.0 if told else law.grows,
+            )
             model = extended(base, law, values)
             key = (law.knobs, *law.settings.items())
             laws.setdefault(key, replace(tried, candidate=law, model=model))

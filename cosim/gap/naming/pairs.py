@@ -34,7 +34,10 @@ DOMINANT, NEEDED = 0.85, 0.7
 
 
 def best_pair(
-    search: Search, plain: Trial, sketched: Fitted, done: Sequence[Tried],
+    search: Search,
+    plain: Trial,
+    sketched: Fitted,
+    done: Sequence[Tried],
     candidates: Sequence[Candidate],
 ) -> Pair | None:
     """The two effects that together leave least, if each is needed beside the other.
@@ -67,7 +70,10 @@ def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
 
 
 def _sketched(
-    search: Search, plain: Trial, sketched: Fitted, done: Sequence[Tried],
+    search: Search,
+    plain: Trial,
+    sketched: Fitted,
+    done: Sequence[Tried],
     candidates: Sequence[Candidate],
 ) -> list[Pair]:
     """The best pairs in short windows, each pair of effects once, best first."""
@@ -77,8 +83,7 @@ def _sketched(
         if any(second.sketched.gap() ** 2 <= little for _, second in pairs):
             break
         others = [c for c in candidates if c.effect != first.candidate.effect]
-        pairs += [(first, second)
-                  for second in search.beside(first.model, first.sketched, others)]
+        pairs += [(first, second) for second in search.beside(first.model, first.sketched, others)]
     best: dict[frozenset[str], Pair] = {}
     for pair in sorted(pairs, key=lambda pair: penalised(pair[1].sketched)):
         best.setdefault(frozenset(t.candidate.effect for t in pair), pair)
@@ -86,7 +91,10 @@ def _sketched(
 
 
 def _concealed(
-    search: Search, plain: Trial, sketched: Fitted, done: Sequence[Tried],
+    search: Search,
+    plain: Trial,
+    sketched: Fitted,
+    done: Sequence[Tried],
     candidates: Sequence[Candidate],
 ) -> list[Pair]:
     """The pair of which neither does much alone, if there is one."""
@@ -106,8 +114,11 @@ def _firsts(plain: Trial, sketched: Fitted, done: Sequence[Tried]) -> list[Tried
     best, *others = telling(done)
     aside = next((t for t in (best, *others) if t.candidate.lateral), None)
     others = [t for t in others if t is aside or not t.candidate.lateral]
-    worth = [t for t in others if WORTH_A_SECOND <= max(
-        explained(plain, t.trial), gone(sketched.gap(), t.sketched.gap()))]
+    worth = [
+        t
+        for t in others
+        if WORTH_A_SECOND <= max(explained(plain, t.trial), gone(sketched.gap(), t.sketched.gap()))
+    ]
     return [best, *worth][:FIRSTS]
 
 

@@ -124,7 +124,9 @@ def first_guess(
     mu_k = max(float(np.median(np.abs(sliding))), 1e-3)
     mu_s = float(np.median(np.abs(holding))) if holding else 1.3 * mu_k
     if everywhere and all(never_slips(run) for run in everywhere):
-        held = [run.total_stiffness * np.nanmax(np.abs(run.track.x)) / (run.mass * GRAVITY)
-                for run in everywhere]
+        held = [
+            run.total_stiffness * np.nanmax(np.abs(run.track.x)) / (run.mass * GRAVITY)
+            for run in everywhere
+        ]
         mu_s = 1.3 * max(held)
     return max(mu_s, 1.05 * mu_k), mu_k

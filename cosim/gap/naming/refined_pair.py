@@ -32,9 +32,7 @@ def gap_of(pair: Pair) -> float:
     return pair[1].trial.gap
 
 
-def alternated(
-    search: Search, plain: Fitted, pair: Pair, candidates: Sequence[Candidate]
-) -> Pair:
+def alternated(search: Search, plain: Fitted, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
     """Each periodic effect's period anew beside the other: it was found while that was missing.
 
     Backfitting (Breiman & Friedman 1985), in short windows; only of a pair that does most and does
@@ -84,7 +82,10 @@ def polished(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pai
 
 
 def doubled(
-    search: Search, pair: Pair, alone: Mapping[str, Trial], plain: Trial,
+    search: Search,
+    pair: Pair,
+    alone: Mapping[str, Trial],
+    plain: Trial,
     candidates: Sequence[Candidate],
 ) -> list[Pair]:
     """Others in place of an effect that moves the block off its line, if a pair does not fit."""

@@ -61,9 +61,12 @@ def scan(candidate: Candidate, answers: Sequence[WaveAnswer]) -> list[Peak]:
     in_time = candidate.periodic.endswith("frequency")
     part = _STEP / _FINE * (rates[1] - rates[0])
     return [
-        Peak(float(rates[i] if in_time else 1.0 / rates[i]),
-             float(np.clip(amplitude[i], *_STARTS)), float(power[i]),
-             float(part if in_time else part / rates[i]))
+        Peak(
+            float(rates[i] if in_time else 1.0 / rates[i]),
+            float(np.clip(amplitude[i], *_STARTS)),
+            float(power[i]),
+            float(part if in_time else part / rates[i]),
+        )
         for i in [first, *(i for i in others if power[i] > least)]
     ]
 

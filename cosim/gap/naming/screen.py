@@ -53,8 +53,10 @@ class Screen:
             strengths, gain = self._together(i, j)
             if gain > max(best, _TIMES * max(alone[i], alone[j])) and np.all(strengths > 0.0):
                 best = gain
-                found = tuple(self.laws[k].times(float(strength))
-                              for k, strength in zip((i, j), strengths, strict=True))
+                found = tuple(
+                    self.laws[k].times(float(strength))
+                    for k, strength in zip((i, j), strengths, strict=True)
+                )
         return found
 
     def _together(self, i: int, j: int) -> tuple[np.ndarray, float]:
@@ -99,6 +101,9 @@ def _answer(flight: Flight, base: Model, law: Candidate, at) -> np.ndarray:
     faint = {knob.key: knob.start for knob in law.knobs}
     settings = {**base.settings, **law.settings, **faint}
     knobs = tuple(knob for knob in base.knobs if knob.key not in faint)
-    kept = [s for k, s in zip([k for k in base.knobs if not k.per_run], at[0], strict=True)
-            if k.key not in faint]
+    kept = [
+        s
+        for k, s in zip([k for k in base.knobs if not k.per_run], at[0], strict=True)
+        if k.key not in faint
+    ]
     return Problem([flight], knobs, settings).residuals(0, np.array(kept), *at[1:])

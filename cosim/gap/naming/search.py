@@ -58,9 +58,7 @@ class Search:
         rest = [t for t in best_laws([*sketches, *seen], 1) if t.candidate.effect not in effects]
         return done + rest
 
-    def beside(
-        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
-    ) -> list[Tried]:
+    def beside(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
         """The best laws beside an effect that is in the base, in short windows, best first."""
         sketches, _ = self._sketches(base, fitted, candidates, BESIDE)
         return best_laws(sketches, FORMS)
@@ -85,8 +83,10 @@ class Search:
         best = sorted(range(len(pairs)), key=lambda i: trials[i].gap)[:FINISHED]
         ended = self._run(finished, [(self.data, trials[i]) for i in best])
         trials = [ended[best.index(i)] if i in best else trial for i, trial in enumerate(trials)]
-        return [(first, replace(second, trial=trial))
-                for (first, second), trial in zip(pairs, trials, strict=True)]
+        return [
+            (first, replace(second, trial=trial))
+            for (first, second), trial in zip(pairs, trials, strict=True)
+        ]
 
     def instead(
         self, second: Tried, law: Candidate, candidates: Sequence[Candidate], keep: Sequence[str]
@@ -111,9 +111,7 @@ class Search:
         (trial,) = self._run(try_model, [(self.data, model, again.sketched)])
         return replace(again, trial=trial)
 
-    def anew(
-        self, second: Tried, law: Candidate, candidates: Sequence[Candidate]
-    ) -> Tried | None:
+    def anew(self, second: Tried, law: Candidate, candidates: Sequence[Candidate]) -> Tried | None:
         """The best law of a periodic effect of a pair, its period looked for beside the other.
 
         second : the pair's second effect on top of the first; law : that of either that is dropped
@@ -132,9 +130,12 @@ class Search:
         does not feel, and an effect unrecognised for it. A law with one number more finds its way
         from where the simpler one ended.
         """
-        again = [replace(t, model=model) for i, t in enumerate(tried)
-                 if all(t.model is not other.model for other in tried[:i])
-                 for model in other_starts(t.model, t.trial.fitted.values)]
+        again = [
+            replace(t, model=model)
+            for i, t in enumerate(tried)
+            if all(t.model is not other.model for other in tried[:i])
+            for model in other_starts(t.model, t.trial.fitted.values)
+        ]
         again += [law for t in tried for law in other_laws(t, candidates)]
         again = best_laws(self._run(_sketched, [(self.data, t) for t in again]), AGAIN)
         return best_laws([*tried, *self._tried(again)], 1, lambda t: t.trial.gap)
@@ -172,8 +173,10 @@ class Search:
         placed = placed + [c.faint() for c in promising if c.can_be_faint]
         laws = [*((c, GLANCE) for c in placed), *((c, 0) for c in feeble)]
         models = [extended(base, c, fitted.values) for c, _ in laws]
-        tasks = [(self.data, m, grounds[_across(base, c)], rounds)
-                 for (c, rounds), m in zip(laws, models, strict=True)]
+        tasks = [
+            (self.data, m, grounds[_across(base, c)], rounds)
+            for (c, rounds), m in zip(laws, models, strict=True)
+        ]
         glances = self._run(glance, tasks)
         tried = [Tried(c, m, g) for (c, _), m, g in zip(laws, models, glances, strict=True)]
         return tried[: len(placed)], tried[len(placed) :]
@@ -266,6 +269,7 @@ def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
     kept = {knob.key for knob in model.knobs}
     shared = [knob.key in kept for knob in fitted.knobs if not knob.per_run]
     own = [knob.key in kept for knob in fitted.knobs if knob.per_run]
-    point = Point(fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own),
-                  fitted.point.states)
+    point = Point(
+        fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own), fitted.point.states
+    )
     return fit(Problem(data.short, model.knobs, model.settings), point, LOOK, fixed=True)

@@ -48,8 +48,9 @@ def best_laws(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:
 def rank(tried: Tried, seen: Sequence[Tried]) -> int:
     """How many laws of its effect did better."""
     cost = penalised(tried.sketched)
-    return sum(t.candidate.effect == tried.candidate.effect and penalised(t.sketched) < cost
-               for t in seen)
+    return sum(
+        t.candidate.effect == tried.candidate.effect and penalised(t.sketched) < cost for t in seen
+    )
 
 
 def in_the_running(tried: Sequence[Tried], fitted: Fitted) -> list[Tried]:

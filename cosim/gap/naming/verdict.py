@@ -140,8 +140,12 @@ def _with_friction_across(
 
 
 def _of_two(
-    search: Search, plain: Trial, sketched: Fitted, ranking: Sequence[Tried],
-    candidates: Sequence[Candidate], single: Finding | None,
+    search: Search,
+    plain: Trial,
+    sketched: Fitted,
+    ranking: Sequence[Tried],
+    candidates: Sequence[Candidate],
+    single: Finding | None,
 ) -> Finding:
     """Two effects; or one that does the most, or that turns out to do without its second.
 

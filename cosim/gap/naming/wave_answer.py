@@ -79,8 +79,14 @@ class WaveAnswer:
         place = np.where(known, rates, 0.0) / self.step
         first = np.floor(place).astype(int)
         f = place - first
-        weights = np.array([-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2,
-                            -(f + 1) * f * (f - 2) / 2, (f + 1) * f * (f - 1) / 6])
+        weights = np.array(
+            [
+                -f * (f - 1) * (f - 2) / 6,
+                (f + 1) * (f - 1) * (f - 2) / 2,
+                -(f + 1) * f * (f - 2) / 2,
+                (f + 1) * f * (f - 1) / 6,
+            ]
+        )
         weights = np.where(known, weights, 0.0)
         turn = np.exp(2j * np.pi * np.outer(np.where(known, rates, 0.0), self.centres))
         products = _summed(self.products, first, weights, turn)
@@ -137,8 +143,10 @@ def wave_answer(
     windows = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
     centres = np.array([along[rows].mean() for rows in windows])
-    step = _STEP / max(float(np.quantile([np.ptp(along[rows]) for rows in windows], 0.9)),
-                       _SHORTEST * flight.noise["x"])
+    step = _STEP / max(
+        float(np.quantile([np.ptp(along[rows]) for rows in windows], 0.9)),
+        _SHORTEST * flight.noise["x"],
+    )
     weight, basis = _weight_and_basis(columns, windows)
     order = np.concatenate(windows)
     sizes = np.array([rows.size for rows in windows])

@@ -23,7 +23,7 @@ from cosim.gap.read.sticks import find_sticks
 from cosim.gap.read.tables import RunTable
 from cosim.gap.read.toml_file import FILE_NAME, read_tables
 from cosim.gap.read.units import check_units
-from cosim.scenario_faults import describe_faults
+from cosim.scenario.faults import describe_faults
 
 #: Fewer samples of x than this hold neither a cycle nor its noise.
 FEWEST = 20
@@ -109,9 +109,7 @@ def read_track(file: Path) -> tuple[Track, list[str]]:
             remarks.append(f"{file.name}: column {channel} has {count} samples and is not used")
             continue
         channels[channel], outliers[channel] = without_outliers(time, values)
-    track = Track(
-        time=time - time[0], time_offset=float(time[0]), outliers=outliers, **channels
-    )
+    track = Track(time=time - time[0], time_offset=float(time[0]), outliers=outliers, **channels)
     return track, remarks
 
 
@@ -156,8 +154,11 @@ def _with_hold_outs(
     if held:
         return runs, [f"no run is marked hold_out; held out by rule: {', '.join(held)}"]
     alone = [run.name for run in runs if run.track is not None]
-    return runs, [f"no run is held out, {name} is the only one with a track: the model is judged "
-                  "by what it was fitted to" for name in alone]
+    return runs, [
+        f"no run is held out, {name} is the only one with a track: the model is judged "
+        "by what it was fitted to"
+        for name in alone
+    ]
 
 
 def _with_noise(
@@ -182,9 +183,7 @@ def _with_noise(
     return runs, overall, tuple(estimated), remarks
 
 
-def _estimated(
-    channel: str, runs: list[MeasuredRun]
-) -> tuple[list[float], float, list[str]]:
+def _estimated(channel: str, runs: list[MeasuredRun]) -> tuple[list[float], float, list[str]]:
     """Noise of each run, pooled where the runs agree; that of the campaign; remarks."""
     values, counts = [], []
     for run in runs:

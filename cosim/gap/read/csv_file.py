@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from cosim.gap.errors import CampaignError
-from cosim.scenario_faults import nearest
+from cosim.scenario.faults import nearest
 
 TIME = "t"
 UNITS = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}
@@ -109,9 +109,7 @@ def _names(path: Path, fields: list[str]) -> tuple[list[str], tuple[str, ...]]:
     for name, field in zip(names, fields, strict=True):
         unit = (HEADER.match(field) or {"unit": None})["unit"]
         if name in UNITS and unit and unit != UNITS[name]:
-            raise CampaignError(
-                f"{path}: column {name}: unit {unit}, allowed is {UNITS[name]}"
-            )
+            raise CampaignError(f"{path}: column {name}: unit {unit}, allowed is {UNITS[name]}")
         if names.count(name) > 1 and name in UNITS:
             raise CampaignError(f"{path}: column {name}: there twice, allowed is once")
     for needed in (TIME, "x"):

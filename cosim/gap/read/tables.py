@@ -115,9 +115,7 @@ class RunTable(Block):
     mass: float = quantity(math.nan, "kg", "mass of the block", gt=0)
     stiffness: float = quantity(math.nan, "N/m", "stiffness of one of the four springs", gt=0)
     surface_speed: float = quantity(math.nan, "m/s", "set-point of the surface's speed")
-    ambient_degC: float = quantity(
-        -8.0, "degC", "temperature of the room", ge=-273.15, le=100
-    )
+    ambient_degC: float = quantity(-8.0, "degC", "temperature of the room", ge=-273.15, le=100)
     hold_out: bool = Field(False, description="never used for fitting")
     summary: Summary = Summary()
 

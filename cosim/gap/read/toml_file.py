@@ -11,7 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from cosim.gap.errors import CampaignError
 from cosim.gap.read.tables import CampaignTable, RunTable
-from cosim.scenario_faults import describe_faults, nearest
+from cosim.scenario.faults import describe_faults, nearest
 
 FILE_NAME = "campaign.toml"
 Table = TypeVar("Table", bound=BaseModel)

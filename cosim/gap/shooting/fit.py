@@ -33,8 +33,12 @@ Derivatives = Callable[[int, Point, np.ndarray], Columns]
 
 
 def fit(
-    problem: Problem, point: Point, rounds: int = MOST_ROUNDS, fixed: bool = False,
-    derivatives: Derivatives | None = None, tries: int = MOST_TRIES,
+    problem: Problem,
+    point: Point,
+    rounds: int = MOST_ROUNDS,
+    fixed: bool = False,
+    derivatives: Derivatives | None = None,
+    tries: int = MOST_TRIES,
 ) -> Fitted:
     """The best point from a first one.
 
@@ -45,8 +49,11 @@ def fit(
     for _ in range(rounds):
         if is_stopped():  # nobody waits for it any more
             break
-        columns = way.columns() if derivatives is None else [
-            derivatives(i, way.point, r) for i, r in enumerate(way.residuals)]
+        columns = (
+            way.columns()
+            if derivatives is None
+            else [derivatives(i, way.point, r) for i, r in enumerate(way.residuals)]
+        )
         if not way.gains(columns, tries):
             break
         # derivatives are most of the work, and do for another step or two (Shamanskii 1967)
@@ -117,8 +124,12 @@ def _inside(problem: Problem, shared: np.ndarray, matrix: np.ndarray, right: np.
     while free.any():
         held = matrix[np.ix_(free, ~free)] @ step[~free]
         step[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], right[free] - held, rcond=None)[0]
-        reach = np.array([knob.inside(s) for knob, s in zip(
-            problem.shared, shared + step, strict=True)]) - shared
+        reach = (
+            np.array(
+                [knob.inside(s) for knob, s in zip(problem.shared, shared + step, strict=True)]
+            )
+            - shared
+        )
         out = free & (np.abs(reach - step) > 1e-12 * (1.0 + np.abs(step)))
         if not out.any():
             break

@@ -32,8 +32,10 @@ def ground(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fit
     problem = Problem(data.short, model.knobs, model.settings)
     point = fitted.point
     if other:
-        states = [best_states(problem, run, point.shared, own, at)
-                  for run, (own, at) in enumerate(zip(point.own, point.states, strict=True))]
+        states = [
+            best_states(problem, run, point.shared, own, at)
+            for run, (own, at) in enumerate(zip(point.own, point.states, strict=True))
+        ]
         point = replace(point, states=tuple(states))
     fitted = replace(fitted, point=point, residuals=problem.all_residuals(point))
     return with_columns(problem, fitted)

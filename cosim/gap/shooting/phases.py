@@ -26,8 +26,11 @@ def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = N
     A fit finds its way over an eighth of a turn, not over half of one. All are judged from the
     states read off the data: fitted ones have made up for the present phase.
     """
-    turned = [j for j, knob in enumerate(problem.own)
-              if knob.key.endswith("phase_deg") and (keys is None or knob.key in keys)]
+    turned = [
+        j
+        for j, knob in enumerate(problem.own)
+        if knob.key.endswith("phase_deg") and (keys is None or knob.key in keys)
+    ]
     if not turned:
         return point
     own, states = list(point.own), list(point.states)
@@ -79,8 +82,12 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
     ended = [_followed(problem, run, point, turned) for run in range(len(problem.flights))]
     if all(fitted is None for fitted in ended):
         return point
-    parts = [(point.own[i], point.states[i]) if fitted is None
-             else (fitted.point.own[0], fitted.point.states[0]) for i, fitted in enumerate(ended)]
+    parts = [
+        (point.own[i], point.states[i])
+        if fitted is None
+        else (fitted.point.own[0], fitted.point.states[0])
+        for i, fitted in enumerate(ended)
+    ]
     own, states = zip(*parts, strict=True)
     return Point(point.shared, own, states)
 

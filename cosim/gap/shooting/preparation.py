@@ -38,7 +38,8 @@ def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -
     noise = {name: run.noise[name] for name in channels}
     temperature = known["temperature_dependence.reference_degC"]
     return Flight(
-        run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows)
+        run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows
+    )
 
 
 def known_parameters(campaign: Campaign, run: MeasuredRun, planar: bool) -> dict[str, float]:

@@ -22,8 +22,12 @@ _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 class Problem:
     """Some runs, the knobs to turn and what else is set."""
 
-    def __init__(self, flights: Sequence[Flight], knobs: Sequence[Knob],
-                 settings: dict[str, float] | None = None):
+    def __init__(
+        self,
+        flights: Sequence[Flight],
+        knobs: Sequence[Knob],
+        settings: dict[str, float] | None = None,
+    ):
         self.flights, self.knobs = tuple(flights), tuple(knobs)
         self.settings = dict(settings or {})
         self.shared = [knob for knob in knobs if not knob.per_run]
@@ -115,13 +119,17 @@ class Problem:
         self, point: Point, step: np.ndarray, columns: Sequence[Columns]
     ) -> tuple[Point, tuple[np.ndarray, ...]]:
         """The point after a step of the campaign's knobs, the runs following, and its residuals."""
-        shared = np.array([
-            k.inside(s) for k, s in zip(self.shared, point.shared + step, strict=True)])
+        shared = np.array(
+            [k.inside(s) for k, s in zip(self.shared, point.shared + step, strict=True)]
+        )
         own, states, residuals = [], [], []
         for i, c in enumerate(columns):
             own_step, state_steps = c.local_step(shared - point.shared)
-            own.append(np.array([k.inside(s) for k, s in zip(
-                self.own, point.own[i] + own_step, strict=True)]))
+            own.append(
+                np.array(
+                    [k.inside(s) for k, s in zip(self.own, point.own[i] + own_step, strict=True)]
+                )
+            )
             move = self._state_step(i, state_steps)
             limit = self._limit(i, c.residuals, alone=not step.any())
             best = self._follow(i, shared, own[i], point.states[i], move, limit)

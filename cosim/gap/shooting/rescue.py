@@ -58,8 +58,7 @@ def _squares(problem: Problem, run: int, point: Point, states: np.ndarray) -> np
 
 def _lost(problem: Problem, run: int, squares: np.ndarray) -> np.ndarray:
     """(windows,) whether each is lost."""
-    rows = np.maximum(np.bincount(
-        problem.flights[run].window_of_rows(), minlength=squares.size), 1)
+    rows = np.maximum(np.bincount(problem.flights[run].window_of_rows(), minlength=squares.size), 1)
     mean = squares / rows
     return mean > np.maximum(_TIMES * np.median(mean), _LEAST)
 

@@ -44,12 +44,16 @@ def _cycles(run: MeasuredRun) -> int:
 def _with_rows(run: MeasuredRun, rows: np.ndarray) -> MeasuredRun:
     track = run.track
     channels = {name: track[name][rows] for name in track.channels}
-    cut = Track(track.time[rows], time_offset=track.time_offset, outliers=track.outliers,
-                **channels)
+    cut = Track(
+        track.time[rows], time_offset=track.time_offset, outliers=track.outliers, **channels
+    )
     sticks = []
     for stick in run.sticks:
         first, last = np.searchsorted(rows, [stick.first, stick.last + 1])
         if last - first >= 2:
-            sticks.append(Stick(stick.start, stick.end, int(first), int(last) - 1,
-                                stick.start_sd, stick.end_sd))
+            sticks.append(
+                Stick(
+                    stick.start, stick.end, int(first), int(last) - 1, stick.start_sd, stick.end_sd
+                )
+            )
     return replace(run, track=cut, sticks=tuple(sticks))

@@ -76,9 +76,7 @@ def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) 
     return fit(problem, with_phases(problem, point), rounds)
 
 
-def try_model(
-    data: Data, model: Model, sketched: Fitted, rounds: int = MOST_ROUNDS
-) -> Trial:
+def try_model(data: Data, model: Model, sketched: Fitted, rounds: int = MOST_ROUNDS) -> Trial:
     """Fit in long windows from a sketch, and judge; in no ``rounds`` the sketch is judged."""
     problem = Problem(data.fit, model.knobs, model.settings)
     point = _carried_over(problem, data.short, sketched.point)

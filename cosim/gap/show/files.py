@@ -7,12 +7,12 @@ from functools import partial
 from pathlib import Path
 
 from cosim.atomic import write_bytes, write_text
-from cosim.coupled import own_fmu
+from cosim.coupling.coupled_case import own_fmu
 from cosim.gap.atlas import draw_atlas, residual_atlas
 from cosim.gap.result import Gap
-from cosim.gap.summary import SummaryGap
 from cosim.interrupts import held_interrupts
-from cosim.studies.drawing import Picture
+from cosim.report.drawing import Picture
+from cosim.studies.reproduction.summary import SummaryGap
 
 from .flown import Reproduced
 from .model_file import model_text

@@ -13,8 +13,8 @@ import tomli_w
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.result import FittedRun, Gap
 from cosim.gap.shooting.drive import driven_speed
-from cosim.gap.summary import SummaryGap
 from cosim.scenario import Scenario
+from cosim.studies.reproduction.summary import SummaryGap
 from thermal import Ambient
 
 from .quantities import unit_and_meaning
@@ -87,8 +87,9 @@ def _known(campaign: Campaign, run: MeasuredRun) -> dict[str, dict[str, Any]]:
         key: value for key, value in tables["rig"].items()
         if key != "slab_radius" or campaign.rig.surface == "slab"
     }  # fmt: skip
-    melting = next(m.lt for m in Ambient.model_fields["temperature_degC"].metadata
-                   if hasattr(m, "lt"))
+    melting = next(
+        m.lt for m in Ambient.model_fields["temperature_degC"].metadata if hasattr(m, "lt")
+    )
     if run.ambient_degC < melting:
         tables["ambient"] = {"temperature_degC": run.ambient_degC}
     return tables

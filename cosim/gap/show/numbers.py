@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cosim.gap.result import FittedModel, Gap
-from cosim.gap.summary import SummaryGap
+from cosim.studies.reproduction.summary import SummaryGap
 
 #: Significant digits of every number: more than any fit to noisy data knows, fewer than what the
 #: order of a sum may change.

@@ -10,9 +10,9 @@ from typing import Any
 from jinja2 import Environment, StrictUndefined
 
 from cosim.gap.result import Gap
-from cosim.gap.summary import SummaryGap
-from cosim.inline import inline
-from cosim.studies.drawing import Picture
+from cosim.report.drawing import Picture
+from cosim.report.inline import inline
+from cosim.studies.reproduction.summary import SummaryGap
 
 from .flown import Reproduced
 from .model_file import model_text
@@ -24,8 +24,9 @@ def page(
     gap: Gap | SummaryGap, pictures: Sequence[Picture], reproduced: Sequence[Reproduced] = ()
 ) -> str:
     """HTML with every picture inside."""
-    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-                              lstrip_blocks=True)
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
     environment.filters |= {"number": number, "inline": inline}
     source = resources.files(__package__).joinpath("gap.html.j2").read_text(encoding="utf-8")
     figures_only = isinstance(gap, SummaryGap)

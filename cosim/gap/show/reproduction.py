@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 from stickslip.restarted import STATE, Restart, simulate_restarted
 
+from cosim.coupling import FmuParticipant
 from cosim.gap.result import FittedRun, Gap
 from cosim.gap.shooting.flight import COLUMN
-from cosim.master import FmuParticipant
 from cosim.scenario import Scenario
 
 from .flown import Reproduced

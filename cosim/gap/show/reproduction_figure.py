@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.studies.drawing import INK, RED, panels, picture
+from cosim.report.drawing import INK, RED, panels, picture
 
 from .flown import Reproduced
 from .run_figures import SCALES, channels
@@ -29,14 +29,25 @@ def draw_reproduction(gap: Gap, reproduced: Sequence[Reproduced]) -> Figure:
     for (left, right), (one, channel) in zip(axes, rows, strict=True):
         noise = gap.model.of(one.name).track.run.noise[channel]
         factor, label = SCALES[channel]
-        left.plot(one.time, factor * one.measured[channel], ".", color=INK, markersize=2.6,
-                  label="measured")
+        left.plot(
+            one.time,
+            factor * one.measured[channel],
+            ".",
+            color=INK,
+            markersize=2.6,
+            label="measured",
+        )
         left.plot(one.time, factor * one.motion[channel], color=RED, label="FMU")
         left.set_ylabel(label)
         left.set_title(f"{one.name}: gap {one.gap:.3g}")
         right.axhspan(-2.0, 2.0, color="#EDEDED", zorder=0)
-        right.plot(one.time, (one.measured[channel] - one.motion[channel]) / noise, ".", color=RED,
-                   markersize=2.6)
+        right.plot(
+            one.time,
+            (one.measured[channel] - one.motion[channel]) / noise,
+            ".",
+            color=RED,
+            markersize=2.6,
+        )
         right.set_ylabel("noise units")
     for axis in axes[-1]:
         axis.set_xlabel("time in the run (s)")

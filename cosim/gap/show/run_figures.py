@@ -8,17 +8,7 @@ from matplotlib.figure import Figure
 
 from cosim.gap.result import FittedRun, Gap
 from cosim.gap.shooting.preparation import period
-from cosim.studies.drawing import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    PURPLE,
-    RED,
-    Picture,
-    panels,
-    picture,
-)
+from cosim.report.drawing import BLUE, GREEN, GREY, INK, PURPLE, RED, Picture, panels, picture
 
 #: Runs that a figure shows: more rows than these nobody reads.
 MOST_RUNS = 8
@@ -106,7 +96,10 @@ def excerpt(plain: FittedRun, channel: str) -> tuple[float, float]:
 
 
 def _motion(
-    axis: Axes, plain: FittedRun, extended: FittedRun | None, channel: str,
+    axis: Axes,
+    plain: FittedRun,
+    extended: FittedRun | None,
+    channel: str,
     span: tuple[float, float] | None,
 ) -> None:
     track, factor = plain.track, SCALES[channel][0]
@@ -114,8 +107,14 @@ def _motion(
     rows = (track.time >= low) & (track.time <= high)
     size = 2.6 if span else 0.8
     time = track.time[rows]
-    axis.plot(time, factor * track.run.track[channel][rows], ".", color=INK, markersize=size,
-              label="measured")
+    axis.plot(
+        time,
+        factor * track.run.track[channel][rows],
+        ".",
+        color=INK,
+        markersize=size,
+        label="measured",
+    )
     for run, colour, label in ((plain, BLUE, "plain model"), (extended, RED, "extended model")):
         if run is not None:
             model = factor * getattr(run.track, channel)[rows]
@@ -148,8 +147,14 @@ def draw_residuals(gap: Gap) -> Figure:
             run = model.of(name)
             axis.axhspan(-2.0, 2.0, color="#EDEDED", zorder=0)
             for channel in run.track.channels:
-                axis.plot(run.track.time, run.track.residual(channel), ".", markersize=1.2,
-                          color=colours[channel], label=channel.replace("phi", "φ"))
+                axis.plot(
+                    run.track.time,
+                    run.track.residual(channel),
+                    ".",
+                    markersize=1.2,
+                    color=colours[channel],
+                    label=channel.replace("phi", "φ"),
+                )
             _noise_scale(axis, np.max(np.abs(gap.plain.of(name).residuals())))
             axis.set_title(f"{name}, {label}: gap {run.gap:.3g}")
         row[0].set_ylabel("noise units")

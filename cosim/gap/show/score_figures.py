@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.gap.summary import SummaryGap
-from cosim.studies.drawing import BLUE, GREY, INK, ORANGE, RED, panels, picture
+from cosim.report.drawing import BLUE, GREY, INK, ORANGE, RED, panels, picture
+from cosim.studies.reproduction.summary import SummaryGap
 
 from .quantities import unit_and_meaning
 
@@ -44,8 +44,14 @@ def draw_ranking(gap: Gap | SummaryGap) -> Figure:
     axis.barh(names, values, color=colours, height=0.7)
     for place, name in enumerate(names):
         over = "beyond " if best[name] > limit else ""
-        axis.text(values[place], place, f" {over}{best[name]:.3g}", va="center", fontsize=8.0,
-                  bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4})
+        axis.text(
+            values[place],
+            place,
+            f" {over}{best[name]:.3g}",
+            va="center",
+            fontsize=8.0,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},
+        )
     axis.axvline(1.0, color=INK, linewidth=1.0, label="measurement noise")
     axis.axvline(gap.gap_before[1], color=GREY, linestyle="--", label="plain model")
     axis.invert_yaxis()
@@ -84,8 +90,9 @@ def draw_gaps(gap: Gap) -> Figure:
         axis.plot([], [], "o", color=colour, markerfacecolor=fill, label=label)
     figure.legend(loc="outside upper center", ncols=4)
     _log_ticks(axis, [run.gap for run in gap.plain.runs])
-    axis.set_xticks(range(len(gap.plain.runs)), [run.name for run in gap.plain.runs], rotation=40,
-                    ha="right")
+    axis.set_xticks(
+        range(len(gap.plain.runs)), [run.name for run in gap.plain.runs], rotation=40, ha="right"
+    )
     axis.set_ylabel("gap (noise units)")
     return figure
 
@@ -111,12 +118,18 @@ def draw_parameters(gap: Gap) -> Figure:
     )  # fmt: skip
     models = [plain]
     if gap.extended:
-        models.append(SimpleNamespace(label="extended", colour=RED, values=gap.extended.values,
-                                      intervals=gap.extended.intervals))
+        models.append(
+            SimpleNamespace(
+                label="extended",
+                colour=RED,
+                values=gap.extended.values,
+                intervals=gap.extended.intervals,
+            )
+        )
     keys = list(dict.fromkeys(key for model in models for key in model.values))
     rows = -(-len(keys) // COLUMNS)
     figure, axes = panels(rows, COLUMNS, height=2.1, width=11.0)
-    for axis in axes.flat[len(keys):]:
+    for axis in axes.flat[len(keys) :]:
         axis.set_axis_off()
     for axis, key in zip(axes.flat, keys, strict=False):
         for place, model in enumerate(models):
@@ -131,9 +144,7 @@ def draw_parameters(gap: Gap) -> Figure:
     return figure
 
 
-def _value(
-    axis: Axes, place: int, value: float, intervals: Mapping, key: str, colour: str
-) -> None:
+def _value(axis: Axes, place: int, value: float, intervals: Mapping, key: str, colour: str) -> None:
     axis.plot(place, value, "o", color=colour)
     if key in intervals:
         low, high = intervals[key]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.gap.summary import SummaryGap
-from cosim.studies.drawing import BLUE, GREY, INK, RED, panels, picture
+from cosim.report.drawing import BLUE, GREY, INK, RED, panels, picture
+from cosim.studies.reproduction.summary import SummaryGap
 
 CAPTION = (
     "How far each figure of the model is from the observed one, in the observation's standard "

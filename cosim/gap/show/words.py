@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from stickslip import CATALOGUE
 
 from cosim.gap.result import Gap
-from cosim.gap.summary import SummaryGap
+from cosim.studies.reproduction.summary import SummaryGap
 
 from .flown import Reproduced
 from .quantities import PLAIN, Quantity, quantities

@@ -30,8 +30,14 @@ def draw_belt_temperature(dataset: xr.Dataset) -> Figure:
     times = shown["snapshot_time"].values
     shades = matplotlib.colormaps["viridis"](np.linspace(DARKEST, LIGHTEST, times.size))
     for time, values, colour in zip(times, rise, shades, strict=True):
-        line(profiles, shown["belt_position"].values, scaled(values), color=colour,
-             linewidth=1.5, label=f"{time:.4g} s")
+        line(
+            profiles,
+            shown["belt_position"].values,
+            scaled(values),
+            color=colour,
+            linewidth=1.5,
+            label=f"{time:.4g} s",
+        )
     plain_ticks(profiles)
     profiles.set_ylabel(f"rise over the air [{scaled.unit}]")
     profiles.set_xlabel("")

@@ -57,7 +57,8 @@ def draw_friction_force(dataset: xr.Dataset) -> Figure:
 
 def _acting(dataset: xr.Dataset, smallest: float) -> list[tuple[str, str, str, str]]:
     return [
-        component for component in COMPONENTS
+        component
+        for component in COMPONENTS
         if component[0] == "friction_force_x"
         or np.nanmax(np.abs(dataset[component[0]].values), initial=0.0) > smallest
     ]
@@ -74,8 +75,14 @@ def _mark_limits(axes: Axes, limits: dict[str, float]) -> None:
                 continue
             axes.axhline(level, color=GREY, linewidth=0.9, linestyle="--", zorder=1)
             axes.annotate(
-                mark + _mathtext(text), (1.0, level), xycoords=("axes fraction", "data"),
-                xytext=(3, 0), textcoords="offset points", va="center", fontsize=9, color=INK,
+                mark + _mathtext(text),
+                (1.0, level),
+                xycoords=("axes fraction", "data"),
+                xytext=(3, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=9,
+                color=INK,
             )
 
 

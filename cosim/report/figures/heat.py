@@ -28,7 +28,10 @@ from ..style import (
 
 COLOURS = {"belt": BLUE, "ice": SKY, "air": ORANGE, "supports": GREEN, "melting": PURPLE}
 LABELS = {
-    "belt": "in the belt", "ice": "in the ice", "air": "in the air", "supports": "in the supports",
+    "belt": "in the belt",
+    "ice": "in the ice",
+    "air": "in the air",
+    "supports": "in the supports",
     "melting": "melting",
 }
 #: Sinks that most runs do not have.
@@ -49,8 +52,13 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
         _stack(axes[1, column], dataset, sinks, heat)
         line(axes[1, column], time, heat(dataset["heat"].values), color=INK)
         if beside.any():
-            line(axes[1, column], time, heat(dataset["heat"].values + beside), color=INK,
-                 linestyle="--")
+            line(
+                axes[1, column],
+                time,
+                heat(dataset["heat"].values + beside),
+                color=INK,
+                linestyle="--",
+            )
         if sinks:
             _shares(axes[2, column], dataset, sinks)
     axes[0, 0].set_ylabel(f"friction heat [{flow.unit}]")
@@ -74,7 +82,8 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
 def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
     """Sinks that the dataset knows -> variable; the rare ones only where they took heat."""
     return {
-        sink: name for sink, name in SINKS.items()
+        sink: name
+        for sink, name in SINKS.items()
         if name in dataset and (sink not in RARE or float(dataset[name].max()) > 0.0)
     }
 
@@ -82,8 +91,11 @@ def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
 def _stack(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str], heat: Scaled) -> None:
     if sinks:
         axes.stackplot(
-            dataset["time"].values, *(heat(held(dataset, name)) for name in sinks.values()),
-            colors=[COLOURS[sink] for sink in sinks], alpha=0.75, linewidth=0.0,
+            dataset["time"].values,
+            *(heat(held(dataset, name)) for name in sinks.values()),
+            colors=[COLOURS[sink] for sink in sinks],
+            alpha=0.75,
+            linewidth=0.0,
         )
 
 

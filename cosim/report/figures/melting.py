@@ -39,14 +39,30 @@ def draw_melting(dataset: xr.Dataset) -> Figure:
         top, middle, bottom = axes[:, column]
         _stresses(top, time, film, stress, parts)
         line(middle, time, thickness(film.thickness), color=BLUE, label="film")
-        line(middle, time, thickness(film.fed), color=GREY, linestyle="--",
-             label="film that melting alone\nwould feed")
+        line(
+            middle,
+            time,
+            thickness(film.fed),
+            color=GREY,
+            linestyle="--",
+            label="film that melting alone\nwould feed",
+        )
         line(bottom, time, mass(1e3 * dataset["melted_mass"].values), color=PURPLE, label="melted")
-        line(bottom, time, mass(1e3 * dataset["refrozen_mass"].values), color=SKY,
-             label="of it, ice on the belt")
+        line(
+            bottom,
+            time,
+            mass(1e3 * dataset["refrozen_mass"].values),
+            color=SKY,
+            label="of it, ice on the belt",
+        )
         if dataset["wiped_ice_mass"].max() > 0.0:
-            line(bottom, time, mass(1e3 * dataset["wiped_ice_mass"].values), color=GREY,
-                 label="of it, ice wiped off")
+            line(
+                bottom,
+                time,
+                mass(1e3 * dataset["wiped_ice_mass"].values),
+                color=GREY,
+                label="of it, ice wiped off",
+            )
     axes[0, 0].set_ylabel(f"stress [{stress.unit}]")
     axes[1, 0].set_ylabel(f"water [{thickness.unit}]")
     axes[2, 0].set_ylabel(f"mass [{mass.unit}]")
@@ -70,6 +86,12 @@ def _stresses(axes: Axes, time: np.ndarray, film: Film, scaled: Scaled, parts: b
         water = np.nan_to_num(film.water)
         line(axes, time, scaled(film.friction - water), color=ORANGE, label="dry part of it")
         line(axes, time, scaled(film.water), color=BLUE, label="shear of the water")
-    line(axes, time, scaled(film.whole), color=GREY, linestyle=":",
-         label="shear of the film if it\ncovered the whole contact")
+    line(
+        axes,
+        time,
+        scaled(film.whole),
+        color=GREY,
+        linestyle=":",
+        label="shear of the film if it\ncovered the whole contact",
+    )
     axes.set_ylim(top=1.3 * scaled.factor * float(np.nanmax(film.friction, initial=0.0)) or 1.0)

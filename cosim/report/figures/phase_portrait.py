@@ -29,7 +29,8 @@ def draw_phase_portrait(dataset: xr.Dataset) -> Figure:
     vx = readable(np.append(dataset["vx"].values, speed), "m/s")
     _path(panels[0], dataset, ("x", x), ("vx", vx))
     panels[0].axhline(
-        vx.factor * speed, color=INK, linewidth=1.0, linestyle="--", label="speed of the surface")
+        vx.factor * speed, color=INK, linewidth=1.0, linestyle="--", label="speed of the surface"
+    )
     panels[0].set_xlabel(f"x [{x.unit}]")
     panels[0].set_ylabel(f"velocity along x [{vx.unit}]")
     if turns:

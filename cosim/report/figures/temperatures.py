@@ -25,10 +25,14 @@ from ..style import (
 )
 
 GROUPS = (
-    (("interface_temperature", "contact, mean of both faces", RED, "-"),
-     ("ice_face_temperature", "face of the ice", INK, (0, (2, 2)))),
-    (("belt_entry_temperature", "belt before the contact", BLUE, "-"),
-     ("belt_exit_temperature", "belt behind the contact", GREEN, "-")),
+    (
+        ("interface_temperature", "contact, mean of both faces", RED, "-"),
+        ("ice_face_temperature", "face of the ice", INK, (0, (2, 2))),
+    ),
+    (
+        ("belt_entry_temperature", "belt before the contact", BLUE, "-"),
+        ("belt_exit_temperature", "belt behind the contact", GREEN, "-"),
+    ),
 )
 # below this (K) a rise is rounding
 SMALLEST_RISE = 1e-9
@@ -72,8 +76,10 @@ def _thermometer(axes: Axes, ambient: float, scaled: Scaled) -> None:
     """A second scale in degC beside an axis that shows the rise."""
     right = axes.secondary_yaxis(
         "right",
-        functions=(lambda rise: ambient + rise / scaled.factor,
-                   lambda degC: (degC - ambient) * scaled.factor),
+        functions=(
+            lambda rise: ambient + rise / scaled.factor,
+            lambda degC: (degC - ambient) * scaled.factor,
+        ),
     )
     plain_ticks(right)
     right.set_ylabel("temperature [°C]")

@@ -33,7 +33,8 @@ def draw_top_view(dataset: xr.Dataset) -> Figure:
     stacked = width > 1.6 * height
     figure = Figure(figsize=_sheet(width, height, len(poses), stacked), layout="compressed")
     panels = figure.subplots(
-        *((len(poses), 1) if stacked else (1, len(poses))), squeeze=False, sharex=True, sharey=True)
+        *((len(poses), 1) if stacked else (1, len(poses))), squeeze=False, sharex=True, sharey=True
+    )
     for panel, (text, pose) in zip(panels.flat, poses, strict=True):
         _draw_surface(panel, dataset, parameters, box)
         if pose != REST:
@@ -133,13 +134,26 @@ def _draw_surface(
         left, y = box[0] + 0.012, box[2] + 0.014
         ends = (left, left + ARROW) if speed > 0.0 else (left + ARROW, left)
         axes.annotate(
-            "", (ends[1], y), (ends[0], y),
+            "",
+            (ends[1], y),
+            (ends[0], y),
             arrowprops={
-                "arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0},
+                "arrowstyle": "-|>",
+                "color": RED,
+                "linewidth": 1.8,
+                "shrinkA": 0,
+                "shrinkB": 0,
+            },
         )
         axes.annotate(
-            f"surface, {abs(speed):g} m/s" + _turning(parameters), (left + ARROW, y),
-            xytext=(6, 0), textcoords="offset points", va="center", color=RED, fontsize=9)
+            f"surface, {abs(speed):g} m/s" + _turning(parameters),
+            (left + ARROW, y),
+            xytext=(6, 0),
+            textcoords="offset points",
+            va="center",
+            color=RED,
+            fontsize=9,
+        )
 
 
 def _turning(parameters: Parameters) -> str:
@@ -155,16 +169,30 @@ def _draw_centre(axes: Axes, centre: tuple[float, float]) -> None:
     radius = abs(centre[1])
     axes.plot(*centre, marker="+", markersize=12, markeredgewidth=1.6, color=RED)
     axes.annotate(
-        "centre of the slab", centre, xytext=(9, 0), textcoords="offset points", va="center",
-        color=RED, fontsize=9)
+        "centre of the slab",
+        centre,
+        xytext=(9, 0),
+        textcoords="offset points",
+        va="center",
+        color=RED,
+        fontsize=9,
+    )
     axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
 
 
 def _draw_outline(axes: Axes, parameters: Parameters) -> None:
     """Where the block is at rest."""
-    axes.add_patch(Circle(
-        (0.0, 0.0), parameters.rig.contact_radius, fill=False, edgecolor=GREY, linestyle=":",
-        linewidth=1.0, zorder=4))
+    axes.add_patch(
+        Circle(
+            (0.0, 0.0),
+            parameters.rig.contact_radius,
+            fill=False,
+            edgecolor=GREY,
+            linestyle=":",
+            linewidth=1.0,
+            zorder=4,
+        )
+    )
 
 
 def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
@@ -175,11 +203,19 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
     axes.add_collection(LineCollection(springs, colors=INK, linewidths=1.0, zorder=3))
     arms = [np.array([middle, end]) for end in moving]
     axes.add_collection(LineCollection(arms, colors=BLUE, linewidths=2.2, zorder=1))
-    axes.add_patch(Circle(
-        middle, parameters.rig.contact_radius, facecolor="#CFE3F1", edgecolor=BLUE, linewidth=1.6,
-        zorder=2))
+    axes.add_patch(
+        Circle(
+            middle,
+            parameters.rig.contact_radius,
+            facecolor="#CFE3F1",
+            edgecolor=BLUE,
+            linewidth=1.6,
+            zorder=2,
+        )
+    )
     tip = middle + 0.8 * parameters.rig.contact_radius * np.array(
-        [np.cos(pose.phi), np.sin(pose.phi)])
+        [np.cos(pose.phi), np.sin(pose.phi)]
+    )
     axes.plot([middle[0], tip[0]], [middle[1], tip[1]], color=BLUE, linewidth=1.4, zorder=4)
     axes.plot(*middle, "o", color=BLUE, markersize=4, zorder=5)
     axes.plot(*moving.T, "o", color=INK, markersize=4, zorder=5)

@@ -26,8 +26,11 @@ FEWEST_WAVES, MOST_WAVES = 40, 7500
 CONTACT_LENGTH = 0.08
 #: Thermal key -> field of a case that stands in its place.
 OWN_KEYS = {
-    "belt.length": "length", "belt.conductivity": "conductivity", "belt.thickness": "thickness",
-    "belt.air_heat_transfer": "h", "contact.conductance": "conductance",
+    "belt.length": "length",
+    "belt.conductivity": "conductivity",
+    "belt.thickness": "thickness",
+    "belt.air_heat_transfer": "h",
+    "contact.conductance": "conductance",
     "ambient.temperature_degC": "ambient_degC",
 }
 
@@ -150,12 +153,12 @@ class Case:
         parameters = self.thermal()
         waves = min(max(FEWEST_WAVES, round(WAVES_PER_METRE * self.length)), MOST_WAVES)
         block = _block(parameters.ice, parameters.contact, parameters.belt.width)
-        return SteadySliding(parameters, self.speed, self.force, waves, block, sensitivity,
-                             self.ice_rise)
+        return SteadySliding(
+            parameters, self.speed, self.force, waves, block, sensitivity, self.ice_rise
+        )
 
     def follow(self, sliding: SteadySliding) -> tuple[SlidingState, SlidingState]:
-        """Through all runs of the protocol; the state where the last one's ramp ends, and its end.
-        """
+        """Through all runs of the protocol: the state where the last ramp ends, and at the end."""
         protocol = self.protocol
         for run in range(protocol.runs):
             if run > 0:
@@ -170,8 +173,9 @@ class Case:
 
     def as_the_study(self) -> SinglePass:
         """The study's check: all heat to the belt, one pass, kappa as a rate."""
-        return SinglePass(friction_force=self.force, speed=self.speed,
-                          ambient_degC=self.ambient_degC)
+        return SinglePass(
+            friction_force=self.force, speed=self.speed, ambient_degC=self.ambient_degC
+        )
 
     def single_pass(self) -> SinglePass:
         """The same with its faults mended: the belt's mass per length, cooled by h on two faces."""
@@ -180,10 +184,14 @@ class Case:
         footprint = _block(parameters.ice, parameters.contact, belt.width)[0]
         capacity = belt.capacity_per_area
         return SinglePass(
-            friction_force=self.force, contact_length=footprint.length, speed=self.speed,
+            friction_force=self.force,
+            contact_length=footprint.length,
+            speed=self.speed,
             heated_mass=capacity / belt.heat_capacity * footprint.lane * footprint.length,
-            heat_capacity=belt.heat_capacity, cooling_rate=2.0 * self.film / capacity,
-            ambient_degC=self.ambient_degC)
+            heat_capacity=belt.heat_capacity,
+            cooling_rate=2.0 * self.film / capacity,
+            ambient_degC=self.ambient_degC,
+        )
 
 
 def _block(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody]:

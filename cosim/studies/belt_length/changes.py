@@ -31,8 +31,9 @@ def changes(case: Case) -> list[Change]:
     for what, changed in _changed(case):
         before, after = changed.follow(changed.sliding())
         entry = 0.0 if never_comes_round(changed) else after.entry
-        found.append(Change(what, entry, after.mean_interface - before.mean_interface,
-                            after.mean_interface))
+        found.append(
+            Change(what, entry, after.mean_interface - before.mean_interface, after.mean_interface)
+        )
     return found
 
 
@@ -41,8 +42,7 @@ def _changed(case: Case) -> Iterator[tuple[str, Case]]:
     yield "as it is", case
     yield "belt twice as long", case.with_length(2.0 * case.length)
     yield "belt that never comes round", endless_belt(case)
-    yield f"air {COLDER_AIR:g} K colder", replace(
-        case, ambient_degC=case.ambient_degC - COLDER_AIR)
+    yield f"air {COLDER_AIR:g} K colder", replace(case, ambient_degC=case.ambient_degC - COLDER_AIR)
     yield "run half as long", replace(case, protocol=replace(protocol, run=0.5 * protocol.run))
     if protocol.ramp > 0.0:
         yield "no ramp", replace(case, protocol=replace(protocol, ramp=0.0))
@@ -50,24 +50,55 @@ def _changed(case: Case) -> Iterator[tuple[str, Case]]:
     if not case.rig.ice.mesh:
         yield "sample twice as high", case.changed({"ice.height": 2.0 * case.rig.ice.height})
         if 3.0 * contact.radius < case.length:
-            yield "sample of 1.5 times the diameter, same mass", case.changed(
-                {"contact.radius": 1.5 * contact.radius,
-                 "contact.length": 1.5 * contact.length})
-    yield f"sample {COLDER_SAMPLE:g} K colder than the air at the start", replace(
-        case, ice_rise=-COLDER_SAMPLE)
-    yield f"sample {WARMER_SAMPLE:g} K warmer than the air at the start", replace(
-        case, ice_rise=WARMER_SAMPLE)
+            yield (
+                "sample of 1.5 times the diameter, same mass",
+                case.changed(
+                    {"contact.radius": 1.5 * contact.radius, "contact.length": 1.5 * contact.length}
+                ),
+            )
+    yield (
+        f"sample {COLDER_SAMPLE:g} K colder than the air at the start",
+        replace(case, ice_rise=-COLDER_SAMPLE),
+    )
+    yield (
+        f"sample {WARMER_SAMPLE:g} K warmer than the air at the start",
+        replace(case, ice_rise=WARMER_SAMPLE),
+    )
     yield "twice the heat transfer to the air", replace(case, h=2.0 * case.film)
     yield "belt frosted all over", replace(case, h=case.film + case.frost.added)
     if belt.rollers == 0 and belt.railing_length + 2.0 * ROLLER_ARC < 0.5 * case.length:
-        yield f"two rollers that touch {ROLLER_ARC:g} m with {GOOD_ROLLER:g} W/m2K", case.changed(
-            {"belt.rollers": 2, "belt.roller_arc": ROLLER_ARC,
-             "belt.roller_conductance": GOOD_ROLLER})
-        yield "two rollers at 100 W/m2K, 1 K warmer than the air", case.changed(
-            {"belt.rollers": 2, "belt.roller_arc": ROLLER_ARC, "belt.roller_conductance": 100.0,
-             "belt.roller_rise": 1.0})
+        yield (
+            f"two rollers that touch {ROLLER_ARC:g} m with {GOOD_ROLLER:g} W/m2K",
+            case.changed(
+                {
+                    "belt.rollers": 2,
+                    "belt.roller_arc": ROLLER_ARC,
+                    "belt.roller_conductance": GOOD_ROLLER,
+                }
+            ),
+        )
+        yield (
+            "two rollers at 100 W/m2K, 1 K warmer than the air",
+            case.changed(
+                {
+                    "belt.rollers": 2,
+                    "belt.roller_arc": ROLLER_ARC,
+                    "belt.roller_conductance": 100.0,
+                    "belt.roller_rise": 1.0,
+                }
+            ),
+        )
     if belt.railing_friction == 0.0:
-        yield f"friction {RAILING_FRICTION:g} on the railing, half of its heat to the belt", (
-            case.changed({"belt.railing_friction": RAILING_FRICTION, "belt.railing_share": 0.5,
-                          "belt.railing_length": belt.railing_length or 2.0 * contact.radius,
-                          "belt.railing_conductance": belt.railing_conductance or case.film}))
+        yield (
+            f"friction {RAILING_FRICTION:g} on the railing, half of its heat to the belt",
+            (
+                case.changed(
+                    {
+                        "belt.railing_friction": RAILING_FRICTION,
+                        "belt.railing_share": 0.5,
+                        "belt.railing_length": belt.railing_length or 2.0 * contact.radius,
+                        "belt.railing_conductance": belt.railing_conductance or case.film,
+                    }
+                )
+            ),
+        )

@@ -52,14 +52,19 @@ def drift(case: Case) -> Drift:
     return Drift(
         study=case.as_the_study().temperature_degC(case.length) - ambient,
         single_pass=case.single_pass().temperature_degC(case.length) - ambient,
-        run=0.0 if never_comes_round(case) else run.entry, steady=steady.entry,
-        ice_run=run.ice_face, ice_steady=steady.ice_face,
+        run=0.0 if never_comes_round(case) else run.entry,
+        steady=steady.entry,
+        ice_run=run.ice_face,
+        ice_steady=steady.ice_face,
         interface_run=run.mean_interface,
         interface_drift=run.mean_interface - before.mean_interface,
         interface_run_endless=endless.mean_interface,
         interface_drift_endless=endless.mean_interface - endless_before.mean_interface,
-        flash_run=run.flash_interface, belt_share=run.belt_share_so_far,
-        belt_share_steady=steady.belt_share, steady_melts=steady.melting > 0.0)
+        flash_run=run.flash_interface,
+        belt_share=run.belt_share_so_far,
+        belt_share_steady=steady.belt_share,
+        steady_melts=steady.melting > 0.0,
+    )
 
 
 def _follow(case: Case):
@@ -86,7 +91,8 @@ def never_comes_round(case: Case) -> bool:
     """Does the contact never meet again what was heated, in all runs? The belt enters cold then."""
     belt = case.rig.belt
     elsewhere = (belt.rollers > 0 and belt.roller_rise != 0.0) or (
-        belt.railing_friction > 0.0 and belt.railing_length > CONTACT_LENGTH)
+        belt.railing_friction > 0.0 and belt.railing_length > CONTACT_LENGTH
+    )
     return case.length > _way(case) and not elsewhere
 
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from cosim.studies.drawing import BLUE, GREY, INK, RED, SERIES, panels, picture
+from cosim.report.drawing import BLUE, GREY, INK, RED, SERIES, panels, picture
 
 from .case import Case
 from .drift import never_comes_round, steady_drift
@@ -31,15 +31,20 @@ def _title(cases: list[Case]) -> str:
     film = " to ".join(f"{h:.3g}" for h in sorted({min(films), max(films)}))
     where = f" (still air, {first.length:g} m)" if first.h is None else ""
     belt = first.thermal().belt.stack[0]
-    said = (f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt.conductivity:g}"
-            f" W/(m K), air {first.ambient_degC:g} °C\n{first.protocol.in_words()}")
+    said = (
+        f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt.conductivity:g}"
+        f" W/(m K), air {first.ambient_degC:g} °C\n{first.protocol.in_words()}"
+    )
     return said.replace("-", "−")
 
 
-@picture("drift_over_length", "Above: rise of the belt where it enters the contact, over its "
-         "length: at the end of the runs, for ever, and the study's single pass. A curve falls to "
-         "nothing where a belt is so long that nothing comes round. Bars: 5 to 95 % over what is "
-         "not known of the rig. Below: what the interface warms by at constant speed.")
+@picture(
+    "drift_over_length",
+    "Above: rise of the belt where it enters the contact, over its "
+    "length: at the end of the runs, for ever, and the study's single pass. A curve falls to "
+    "nothing where a belt is so long that nothing comes round. Bars: 5 to 95 % over what is "
+    "not known of the rig. Below: what the interface warms by at constant speed.",
+)
 def draw_drift(study: Study) -> Figure:
     """Two panels for the first choice of everything but length and speed."""
     speeds = sorted({row.case.speed for row in study.rows})
@@ -54,13 +59,18 @@ def draw_drift(study: Study) -> Figure:
         _bars(axes[0, 0], study, case, SERIES[i % len(SERIES)], aside)
     for ax in axes[:, 0]:
         ax.axhline(study.options.limit, color=INK, linewidth=1.0)
-        ax.text(1.01, study.options.limit, f"limit\n{study.options.limit:g} K", va="center",
-                transform=ax.get_yaxis_transform())
+        ax.text(
+            1.01,
+            study.options.limit,
+            f"limit\n{study.options.limit:g} K",
+            va="center",
+            transform=ax.get_yaxis_transform(),
+        )
         ax.set(xscale="log", yscale="log")
-    axes[0, 0].set(ylabel="belt's rise at entry [K]",
-                   title=_title(firsts))
-    axes[1, 0].set(xlabel="length of the belt [m]",
-                   ylabel="interface's rise\nat constant speed [K]")
+    axes[0, 0].set(ylabel="belt's rise at entry [K]", title=_title(firsts))
+    axes[1, 0].set(
+        xlabel="length of the belt [m]", ylabel="interface's rise\nat constant speed [K]"
+    )
     axes[0, 0].set_ylim(bottom=_FLOOR)
     _plain_ticks(axes[1, 0].xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), curve[0], curve[-1])
     axes[1, 0].set_xlim(curve[0], curve[-1])
@@ -74,14 +84,23 @@ def _curves(axes, case: Case, curve, colour: str) -> None:
     """Entry and interface of one speed over the lengths."""
     belts = [case.with_length(float(length)) for length in curve]
     followed = [one.follow(one.sliding()) for one in belts]
-    entry = [0.0 if never_comes_round(one) else after.entry
-             for one, (_, after) in zip(belts, followed, strict=True)]
+    entry = [
+        0.0 if never_comes_round(one) else after.entry
+        for one, (_, after) in zip(belts, followed, strict=True)
+    ]
     axes[0].plot(curve, _falling(entry), color=colour)
     axes[0].plot(curve, _falling([steady_drift(one) for one in belts]), "--", color=colour)
-    axes[0].plot(curve, [one.as_the_study().temperature_degC(one.length) - one.ambient_degC
-                         for one in belts], ":", color=colour)
-    axes[1].plot(curve, [after.mean_interface - before.mean_interface
-                         for before, after in followed], color=colour)
+    axes[0].plot(
+        curve,
+        [one.as_the_study().temperature_degC(one.length) - one.ambient_degC for one in belts],
+        ":",
+        color=colour,
+    )
+    axes[1].plot(
+        curve,
+        [after.mean_interface - before.mean_interface for before, after in followed],
+        color=colour,
+    )
 
 
 def _first(study: Study, speed: float) -> Case:
@@ -93,10 +112,12 @@ def _key(speeds: list[float], study: Study) -> list[Artist]:
     """Colours say the speed, strokes the model."""
     handles: list[Artist] = [
         Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
-        for i, speed in enumerate(speeds)]
+        for i, speed in enumerate(speeds)
+    ]
     kinds = {"-": "after the runs", "--": "for ever", ":": "study, one pass"}
-    handles += [Line2D([], [], color=INK, linestyle=style, label=label)
-                for style, label in kinds.items()]
+    handles += [
+        Line2D([], [], color=INK, linestyle=style, label=label) for style, label in kinds.items()
+    ]
     if any(row.uncertainty for row in study.rows):
         handles.append(Patch(color=GREY, alpha=0.35, label="5–95 %, after the runs"))
     return handles
@@ -111,9 +132,14 @@ def _bars(ax, study: Study, case: Case, colour: str, aside: float) -> None:
     """At the length, or a little aside of it where several speeds have one."""
     for row in study.rows:
         if row.uncertainty is not None and row.case == case.with_length(row.case.length):
-            ax.plot([aside * row.case.length] * 2,
-                    [max(row.uncertainty.low, _FLOOR), row.uncertainty.high],
-                    color=colour, linewidth=5.0, alpha=0.35, solid_capstyle="butt")
+            ax.plot(
+                [aside * row.case.length] * 2,
+                [max(row.uncertainty.low, _FLOOR), row.uncertainty.high],
+                color=colour,
+                linewidth=5.0,
+                alpha=0.35,
+                solid_capstyle="butt",
+            )
 
 
 def _plain_ticks(axis, places, low: float, high: float) -> None:
@@ -122,11 +148,14 @@ def _plain_ticks(axis, places, low: float, high: float) -> None:
     axis.set_ticks([], minor=True)
 
 
-@picture("doubt", "What the doubt is made of, in the case that drifts most. Left: the drift with "
-         "one unknown at either end of its range, all else as the case is but for what stands in "
-         "brackets. Right: the total Sobol index of each unknown, the part of the drift's variance "
-         "that it has a hand in, alone or together with others, so that the parts add up to more "
-         "than 1; strokes: 95 % intervals. The largest index is on top.")
+@picture(
+    "doubt",
+    "What the doubt is made of, in the case that drifts most. Left: the drift with "
+    "one unknown at either end of its range, all else as the case is but for what stands in "
+    "brackets. Right: the total Sobol index of each unknown, the part of the drift's variance "
+    "that it has a hand in, alone or together with others, so that the parts add up to more "
+    "than 1; strokes: 95 % intervals. The largest index is on top.",
+)
 def draw_doubt(row: Row) -> Figure:
     """Bars of single changes beside the indices, one line an unknown."""
     doubt = row.uncertainty
@@ -141,48 +170,67 @@ def draw_doubt(row: Row) -> Figure:
     left.plot(ends[:, 1], places, "o", color=RED, markersize=6.0, label="high end")
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
     left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
-    left.set(xlabel="belt's rise at entry [K]",
-             title=f"{row.case.length:g} m at {row.case.speed:g} m/s, what each unknown does\n"
-                   "alone, from the low to the high end of its range")
+    left.set(
+        xlabel="belt's rise at entry [K]",
+        title=f"{row.case.length:g} m at {row.case.speed:g} m/s, what each unknown does\n"
+        "alone, from the low to the high end of its range",
+    )
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
     totals = [indices[one.key].total for one in single]
     errors = [indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set(xlabel="part of the drift's variance [1]",
-              title="How much of the doubt it has a hand in\n"
-              "(total Sobol index, with 95 % interval)")
+    right.set(
+        xlabel="part of the drift's variance [1]",
+        title="How much of the doubt it has a hand in\n(total Sobol index, with 95 % interval)",
+    )
     right.set_xlim(left=0.0)
     return figure
 
 
 def _span_of(one) -> str:
     unit = {"x": " times", "1": ""}.get(one.unit, f" {one.unit}")
-    others = {"railing_friction": "friction on it {:g}",
-              "roller_conductance": "conductance to them {:g} W/m2K"}
+    others = {
+        "railing_friction": "friction on it {:g}",
+        "roller_conductance": "conductance to them {:g} W/m2K",
+    }
     seen_in = "".join(f" ({others[key].format(value)})" for key, value in one.with_others.items())
     return f"{one.low:g} to {one.high:g}{unit}{seen_in}".replace("W/m2K", "W/(m² K)")
 
 
-@picture("map", "Rise of the belt where it enters the contact at the end of the runs, over length "
-         "and speed.")
+@picture(
+    "map",
+    "Rise of the belt where it enters the contact at the end of the runs, over length and speed.",
+)
 def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     """Colours in the logarithm, a line at the limit."""
     figure, axes = panels(1, 1, height=4.6, width=7.0)
     ax = axes[0, 0]
     shown = np.ma.masked_invalid(np.maximum(drift.drift, _FLOOR))
-    colours = ax.pcolormesh(drift.lengths, drift.speeds, shown.T, shading="nearest",
-                            norm=LogNorm(_FLOOR, max(1.0, float(shown.max()))), cmap="viridis",
-                            rasterized=True)
+    colours = ax.pcolormesh(
+        drift.lengths,
+        drift.speeds,
+        shown.T,
+        shading="nearest",
+        norm=LogNorm(_FLOOR, max(1.0, float(shown.max()))),
+        cmap="viridis",
+        rasterized=True,
+    )
     if np.any(shown > limit) and np.any(shown < limit):
-        ax.contour(drift.lengths, drift.speeds, shown.T, levels=[limit], colors="white",
-                   linewidths=2.0)
+        ax.contour(
+            drift.lengths, drift.speeds, shown.T, levels=[limit], colors="white", linewidths=2.0
+        )
     moving = case.protocol.runs * case.protocol.moving
     ax.plot(drift.lengths, drift.lengths / moving, color="white", linestyle="--", linewidth=1.0)
     ax.set_ylim(drift.speeds[0], drift.speeds[-1])
     film = "of still air" if case.h is None else f"{case.h:g} W/(m² K)"
-    ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="speed [m/s]",
-           title=f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}\n"
-                 f"white: {limit:g} K; dashed: one loop in all")
+    ax.set(
+        xscale="log",
+        yscale="log",
+        xlabel="length of the belt [m]",
+        ylabel="speed [m/s]",
+        title=f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}\n"
+        f"white: {limit:g} K; dashed: one loop in all",
+    )
     _plain_ticks(ax.xaxis, (0.3, 0.5, 1, 2, 5, 10), drift.lengths[0], drift.lengths[-1] * 1.001)
     _plain_ticks(ax.yaxis, (0.05, 0.1, 0.2, 0.5, 1), drift.speeds[0] * 0.999, drift.speeds[-1])
     ax.grid(False)

@@ -44,24 +44,28 @@ def linear_sensitivity(ambient_degC: float) -> float:
 
 
 @lru_cache(maxsize=4096)
-def stick_slip_frequency(speed: float, mass: float, stiffness: float, mu_s: float,
-                         mu_k: float) -> float | None:
+def stick_slip_frequency(
+    speed: float, mass: float, stiffness: float, mu_s: float, mu_k: float
+) -> float | None:
     """Break-aways per second along x on a belt, Hz; None where there are none."""
-    run = simulate(mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION,
-                   output_interval=1.0)
+    run = simulate(
+        mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION, output_interval=1.0
+    )
     starts = run.slip_starts
     if len(starts) < 3:
         return None
     return float((len(starts) - 1) / (starts[-1] - starts[0]))
 
 
-def mechanics(speed: float, mass: float, stiffness: float, mu_s: float,
-              mu_k: float) -> Parameters:
+def mechanics(speed: float, mass: float, stiffness: float, mu_s: float, mu_k: float) -> Parameters:
     """The rig along x; the block moves with the belt at the start."""
     return Parameters(
-        rig=Rig(mass=mass, degrees_of_freedom=("x",)), springs=Springs(stiffness=stiffness),
-        friction=Friction(mu_s=mu_s, mu_k=mu_k), surface=Surface(speed=speed),
-        initial=Initial(vx=speed))
+        rig=Rig(mass=mass, degrees_of_freedom=("x",)),
+        springs=Springs(stiffness=stiffness),
+        friction=Friction(mu_s=mu_s, mu_k=mu_k),
+        surface=Surface(speed=speed),
+        initial=Initial(vx=speed),
+    )
 
 
 def friction_effect(case: Case, sensitivity: float | None = None) -> FrictionEffect:

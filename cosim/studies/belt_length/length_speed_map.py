@@ -31,15 +31,20 @@ def _column(case: Case, speeds: NDArray[np.float64]) -> list[float]:
 
 def empty_map(points: int) -> DriftMap:
     """points x points places, evenly in the logarithm, with nothing known."""
-    return DriftMap(np.geomspace(*LENGTHS, points), np.geomspace(*SPEEDS, points),
-                    np.full((points, points), np.nan))
+    return DriftMap(
+        np.geomspace(*LENGTHS, points),
+        np.geomspace(*SPEEDS, points),
+        np.full((points, points), np.nan),
+    )
 
 
-def fill_map(grid: DriftMap, case: Case, jobs: int,
-             progress: Callable[[int], None] = lambda done: None) -> None:
+def fill_map(
+    grid: DriftMap, case: Case, jobs: int, progress: Callable[[int], None] = lambda done: None
+) -> None:
     """Drifts of a case on other belts, in `jobs` processes; what interrupts it leaves the rest."""
     columns = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_column)(case.with_length(float(length)), grid.speeds) for length in grid.lengths)
+        delayed(_column)(case.with_length(float(length)), grid.speeds) for length in grid.lengths
+    )
     for i, column in enumerate(columns):
         grid.drift[i] = column
         progress(grid.speeds.size)

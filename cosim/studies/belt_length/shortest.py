@@ -36,8 +36,9 @@ class Length:
     reason: str = ""
 
 
-def shortest_belt(case: Case, limit: float, drift: Callable[[Case], float],
-                  longest: float = LONGEST) -> float | None:
+def shortest_belt(
+    case: Case, limit: float, drift: Callable[[Case], float], longest: float = LONGEST
+) -> float | None:
     """Length, m; the shortest that has room when that does already, None when `longest` does not.
 
     drift: of a case, K; it falls with the length. limit: K, > 0.
@@ -54,8 +55,9 @@ def shortest_belt(case: Case, limit: float, drift: Callable[[Case], float],
     return math.exp(brentq(excess, low, high, xtol=_TOLERANCE))
 
 
-def shortest_in_doubt(lengths: Sequence[float], doubts: Sequence[Uncertainty | None],
-                      limit: float) -> dict[str, dict[str, Length]]:
+def shortest_in_doubt(
+    lengths: Sequence[float], doubts: Sequence[Uncertainty | None], limit: float
+) -> dict[str, dict[str, Length]]:
     """Shortest belts by rise and level, `QUANTILES`; limit in K.
 
     lengths: in m, increasing, with the doubt on each. Nothing is told beyond them.
@@ -64,9 +66,12 @@ def shortest_in_doubt(lengths: Sequence[float], doubts: Sequence[Uncertainty | N
         unknown = Length(None, "", "no doubt was computed: --samples 0, or the ice melts")
         return {rise: dict.fromkeys(levels, unknown) for rise, levels in QUANTILES.items()}
     return {
-        rise: {level: _between(lengths, [getattr(one, name) for one in doubts], limit,
-                               LEVELS[level]) for level, name in levels.items()}
-        for rise, levels in QUANTILES.items()}
+        rise: {
+            level: _between(lengths, [getattr(one, name) for one in doubts], limit, LEVELS[level])
+            for level, name in levels.items()
+        }
+        for rise, levels in QUANTILES.items()
+    }
 
 
 def _between(lengths: Sequence[float], rises: Sequence[float], limit: float, level: str) -> Length:
@@ -76,9 +81,11 @@ def _between(lengths: Sequence[float], rises: Sequence[float], limit: float, lev
         return Length(lengths[0], f"<{lengths[0]:g}", "the shortest of the belts asked for")
     last = above[-1]
     if last == len(lengths) - 1:
-        return Length(None, f">{lengths[-1]:g}",
-                      f"on {lengths[-1]:g} m, the longest belt asked for, the {level} is"
-                      f" {rises[-1]:.2g} K")
+        return Length(
+            None,
+            f">{lengths[-1]:g}",
+            f"on {lengths[-1]:g} m, the longest belt asked for, the {level} is {rises[-1]:.2g} K",
+        )
     # a rise that falls to nothing within a step would draw the place to the shorter belt
     below = max(rises[last + 1], 0.1 * limit)
     part = math.log(rises[last] / limit) / math.log(rises[last] / below)

@@ -26,9 +26,14 @@ Progress = Callable[[int], None]
 AIR = "air"
 #: Field of a case -> column of the table.
 COLUMNS = {
-    "length": "length [m]", "speed": "speed [m/s]", "mass": "mass [kg]",
-    "conductivity": "conductivity [W/mK]", "friction": "friction", "ambient_degC": "ambient [degC]",
-    "conductance": "conductance [W/m2K]", "thickness": "thickness [m]",
+    "length": "length [m]",
+    "speed": "speed [m/s]",
+    "mass": "mass [kg]",
+    "conductivity": "conductivity [W/mK]",
+    "friction": "friction",
+    "ambient_degC": "ambient [degC]",
+    "conductance": "conductance [W/m2K]",
+    "thickness": "thickness [m]",
 }
 
 
@@ -55,9 +60,11 @@ class Row:
     def used(self) -> dict[str, float]:
         """The numbers of the case, those of the rig where the case has none of its own."""
         thermal, layered = self.case.thermal(), bool(self.case.rig.belt.layers)
-        own = {"conductivity": None if layered else thermal.belt.conductivity,
-               "thickness": None if layered else thermal.belt.thickness,
-               "conductance": thermal.contact.conductance}
+        own = {
+            "conductivity": None if layered else thermal.belt.conductivity,
+            "thickness": None if layered else thermal.belt.thickness,
+            "conductance": thermal.contact.conductance,
+        }
         return {name: own.get(name, getattr(self.case, name)) for name in COLUMNS}
 
     def flat(self) -> dict[str, object]:
@@ -66,22 +73,33 @@ class Row:
         return {
             **{column: self.used[name] for name, column in COLUMNS.items()},
             "h [W/m2K]": self.case.film,
-            "study [K]": d.study, "single pass mended [K]": d.single_pass,
-            "drift [K]": d.run, "drift low [K]": u and u.low, "drift high [K]": u and u.high,
+            "study [K]": d.study,
+            "single pass mended [K]": d.single_pass,
+            "drift [K]": d.run,
+            "drift low [K]": u and u.low,
+            "drift high [K]": u and u.high,
             "drift steady [K]": d.steady,
             "interface drift [K]": d.interface_drift,
             "interface drift low [K]": u and u.interface_low,
-            "interface drift high [K]": u and u.interface_high, "interface [K]": d.interface_run,
+            "interface drift high [K]": u and u.interface_high,
+            "interface [K]": d.interface_run,
             "interface drift, endless belt [K]": d.interface_drift_endless,
-            "ice [K]": d.ice_run, "ice steady [K]": d.ice_steady, "flash [K]": d.flash_run,
-            "belt share": d.belt_share, "belt share steady": d.belt_share_steady,
-            "seen by camera": d.seen_by_camera, "steady melts": d.steady_melts,
-            "mu change": e.mu_change, "drift, weaker friction [K]": e.drift,
-            "frequency [Hz]": e.frequency, "frequency change": e.frequency_change,
+            "ice [K]": d.ice_run,
+            "ice steady [K]": d.ice_steady,
+            "flash [K]": d.flash_run,
+            "belt share": d.belt_share,
+            "belt share steady": d.belt_share_steady,
+            "seen by camera": d.seen_by_camera,
+            "steady melts": d.steady_melts,
+            "mu change": e.mu_change,
+            "drift, weaker friction [K]": e.drift,
+            "frequency [Hz]": e.frequency,
+            "frequency change": e.frequency_change,
             "shortest belt [m]": self.shortest_run,
             "shortest belt steady [m]": self.shortest_steady,
             "shortest belt interface [m]": self.shortest_interface,
-            "wait [s]": self.wait.begin, "wait drift [s]": self.wait.drift,
+            "wait [s]": self.wait.begin,
+            "wait drift [s]": self.wait.drift,
         }
 
     def questions(self, limit: float) -> dict[str, dict[str, object]]:
@@ -89,28 +107,48 @@ class Row:
         d, u = self.drift, self.uncertainty
         return {
             "comes_round_cold": {
-                "answer": d.run <= limit, "rise": d.run,
+                "answer": d.run <= limit,
+                "rise": d.run,
                 "rise_in_doubt": u and [u.low, u.median, u.high],
-                "shortest_belt": self.shortest_run},
+                "shortest_belt": self.shortest_run,
+            },
             "interface_steady": {
-                "answer": d.interface_drift <= limit, "rise_at_constant_speed": d.interface_drift,
+                "answer": d.interface_drift <= limit,
+                "rise_at_constant_speed": d.interface_drift,
                 "rise_in_doubt": u and [u.interface_low, u.interface_median, u.interface_high],
-                "rise": d.interface_run, "endless_belt": d.interface_drift_endless,
-                "shortest_belt": self.shortest_interface},
+                "rise": d.interface_run,
+                "endless_belt": d.interface_drift_endless,
+                "shortest_belt": self.shortest_interface,
+            },
         }
 
     def as_dict(self, limit: float) -> dict[str, object]:
         """Everything, for JSON."""
-        case = {one.name: getattr(self.case, one.name) for one in fields(Case)
-                if one.name not in ("rig", "protocol")}
-        h = {"h": self.case.film, "h_of_still_air": self.case.h is None,
-             "frost": self.case.frost._asdict()}
-        rest = {name: value and asdict(value) for name, value in (
-            ("drift", self.drift), ("effect", self.effect), ("wait", self.wait),
-            ("uncertainty", self.uncertainty))}
+        case = {
+            one.name: getattr(self.case, one.name)
+            for one in fields(Case)
+            if one.name not in ("rig", "protocol")
+        }
+        h = {
+            "h": self.case.film,
+            "h_of_still_air": self.case.h is None,
+            "frost": self.case.frost._asdict(),
+        }
+        rest = {
+            name: value and asdict(value)
+            for name, value in (
+                ("drift", self.drift),
+                ("effect", self.effect),
+                ("wait", self.wait),
+                ("uncertainty", self.uncertainty),
+            )
+        }
         return {
-            "case": case | self.used | h, "questions": self.questions(limit), **rest,
-            "shortest_run": self.shortest_run, "shortest_steady": self.shortest_steady,
+            "case": case | self.used | h,
+            "questions": self.questions(limit),
+            **rest,
+            "shortest_run": self.shortest_run,
+            "shortest_steady": self.shortest_steady,
             "shortest_interface": self.shortest_interface,
             "changes": [asdict(one) for one in self.changes],
             "seen_by_camera": self.drift.seen_by_camera,
@@ -138,11 +176,21 @@ class Study:
     def table(self) -> pd.DataFrame:
         """One row a case."""
         doubted = self.shortest_in_doubt()
-        return pd.DataFrame([row.flat() | {
-            f"{name}, {level} [m]": found[rise][key].length
-            for rise, name in (("run", "shortest belt"), ("interface", "shortest belt interface"))
-            for key, level in (("median", "median"), ("high", "95 %"))}
-            for row in self.rows for found in (doubted[row.case.with_length(1.0)],)])
+        return pd.DataFrame(
+            [
+                row.flat()
+                | {
+                    f"{name}, {level} [m]": found[rise][key].length
+                    for rise, name in (
+                        ("run", "shortest belt"),
+                        ("interface", "shortest belt interface"),
+                    )
+                    for key, level in (("median", "median"), ("high", "95 %"))
+                }
+                for row in self.rows
+                for found in (doubted[row.case.with_length(1.0)],)
+            ]
+        )
 
     def shortest_in_doubt(self) -> dict[Case, dict[str, dict[str, Length]]]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
@@ -151,9 +199,12 @@ class Study:
             alike.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
         return {
             case: shortest_in_doubt(
-                sorted(rows), [rows[length].uncertainty for length in sorted(rows)],
-                self.options.limit)
-            for case, rows in alike.items()}
+                sorted(rows),
+                [rows[length].uncertainty for length in sorted(rows)],
+                self.options.limit,
+            )
+            for case, rows in alike.items()
+        }
 
     def changes(self) -> pd.DataFrame:
         """One row a case and change: what would help."""
@@ -164,10 +215,18 @@ class Study:
         return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
 
     def _each(self, of: Callable[[Row], list[dict]]) -> pd.DataFrame:
-        return pd.DataFrame([
-            {"length [m]": row.case.length, "speed [m/s]": row.case.speed,
-             "ambient [degC]": row.case.ambient_degC} | one
-            for row in self.rows for one in of(row)])
+        return pd.DataFrame(
+            [
+                {
+                    "length [m]": row.case.length,
+                    "speed [m/s]": row.case.speed,
+                    "ambient [degC]": row.case.ambient_degC,
+                }
+                | one
+                for row in self.rows
+                for one in of(row)
+            ]
+        )
 
     @property
     def worst(self) -> Row:
@@ -176,24 +235,42 @@ class Study:
 
     def as_dict(self) -> dict[str, object]:
         """Everything, for JSON."""
-        first = {} if not self.rows else {
-            "protocol": asdict(self.rows[0].case.protocol),
-            "rig": _shared([row.case.thermal().model_dump() for row in self.rows])}
+        first = (
+            {}
+            if not self.rows
+            else {
+                "protocol": asdict(self.rows[0].case.protocol),
+                "rig": _shared([row.case.thermal().model_dump() for row in self.rows]),
+            }
+        )
         doubted = self.shortest_in_doubt()
-        return {"complete": self.complete, "limit": self.options.limit, **first,
-                "cases": [
-                    row.as_dict(self.options.limit) | {"shortest_in_doubt": {
+        return {
+            "complete": self.complete,
+            "limit": self.options.limit,
+            **first,
+            "cases": [
+                row.as_dict(self.options.limit)
+                | {
+                    "shortest_in_doubt": {
                         rise: {level: asdict(one) for level, one in levels.items()}
-                        for rise, levels in doubted[row.case.with_length(1.0)].items()}}
-                    for row in self.rows]}
+                        for rise, levels in doubted[row.case.with_length(1.0)].items()
+                    }
+                }
+                for row in self.rows
+            ],
+        }
 
 
 def _shared(rigs: list[dict]) -> dict[str, object]:
     """What was used in all cases; None where that differs, and each case has its own."""
     return {
-        key: _shared([rig[key] for rig in rigs]) if isinstance(value, dict)
-        else value if all(rig[key] == value for rig in rigs) else None
-        for key, value in rigs[0].items()}
+        key: _shared([rig[key] for rig in rigs])
+        if isinstance(value, dict)
+        else value
+        if all(rig[key] == value for rig in rigs)
+        else None
+        for key, value in rigs[0].items()
+    }
 
 
 def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
@@ -203,9 +280,15 @@ def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
     """
     names = [name for name in choices if name != "length"] + ["length"]
     return [
-        replace(base, **{name: None if value == AIR else value
-                         for name, value in zip(names, values, strict=True)})
-        for values in product(*(choices[name] for name in names))]
+        replace(
+            base,
+            **{
+                name: None if value == AIR else value
+                for name, value in zip(names, values, strict=True)
+            },
+        )
+        for values in product(*(choices[name] for name in names))
+    ]
 
 
 def scenario_case(scenario: Scenario) -> Case:
@@ -224,33 +307,46 @@ def scenario_case(scenario: Scenario) -> Case:
     if not constant > 0.0:
         raise StudyError(
             f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
-            f" surface.run_up_time = {surface.run_up_time:g} s")
+            f" surface.run_up_time = {surface.run_up_time:g} s"
+        )
     thermal, belt = scenario.thermal, scenario.belt
     # in still air it is that of each case's own speed
     given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
     return Case(
-        length=belt.length, speed=abs(surface.speed), mass=rig.mass,
-        h=belt.film if given else None, friction=friction.mu_k,
+        length=belt.length,
+        speed=abs(surface.speed),
+        mass=rig.mass,
+        h=belt.film if given else None,
+        friction=friction.mu_k,
         ambient_degC=scenario.ambient.temperature_degC,
         protocol=Protocol(surface.run_up_time, constant),
         rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
         static_over_kinetic=friction.mu_s / friction.mu_k,
-        stiffness=scenario.springs.stiffness)
+        stiffness=scenario.springs.stiffness,
+    )
 
 
 def _row(case: Case, options: Options) -> Row:
     return Row(
-        case, drift(case), friction_effect(case, options.sensitivity),
-        *_shortest(case.with_length(1.0), options.limit), wait(case, options.limit),
-        tuple(changes(case)), uncertainty(case, options.samples) if options.samples else None)
+        case,
+        drift(case),
+        friction_effect(case, options.sensitivity),
+        *_shortest(case.with_length(1.0), options.limit),
+        wait(case, options.limit),
+        tuple(changes(case)),
+        uncertainty(case, options.samples) if options.samples else None,
+    )
 
 
 @lru_cache(maxsize=64)
 def _shortest(case: Case, limit: float) -> tuple[float | None, float | None, float | None]:
     """For runs, for ever, for the interface; the same for cases that differ in length alone."""
     endless = endless_belt(case).length
-    return (shortest_belt(case, limit, run_drift), shortest_belt(case, limit, steady_drift),
-            shortest_belt(case, limit, interface_drift, min(LONGEST, endless)))
+    return (
+        shortest_belt(case, limit, run_drift),
+        shortest_belt(case, limit, steady_drift),
+        shortest_belt(case, limit, interface_drift, min(LONGEST, endless)),
+    )
 
 
 def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
@@ -266,4 +362,5 @@ def _in_processes(wanted: list[Case], options: Options, jobs: int) -> Iterator[R
         yield from (_row(case, options) for case in wanted)
         return
     yield from Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_row)(case, options) for case in wanted)
+        delayed(_row)(case, options) for case in wanted
+    )

@@ -33,16 +33,19 @@ class Polynomial:
 
     def __call__(self, points: Array) -> Array:
         """Values at points (n, dimensions) of the unit cube."""
-        values = np.concatenate([
-            _terms(points[i:i + _AT_ONCE], self.indices) @ self.coefficients
-            for i in range(0, len(points), _AT_ONCE)])
+        values = np.concatenate(
+            [
+                _terms(points[i : i + _AT_ONCE], self.indices) @ self.coefficients
+                for i in range(0, len(points), _AT_ONCE)
+            ]
+        )
         return np.exp(values) if self.logarithm else values
 
 
 def fitted(points: Array, values: Array) -> Polynomial:
     """Through points (n, dimensions) of the unit cube with values (n,)."""
     best, least = None, np.inf
-    for logarithm in ((False, True) if np.all(values > 0.0) else (False,)):
+    for logarithm in (False, True) if np.all(values > 0.0) else (False,):
         for indices in _index_sets(points.shape[1], int(_MOST_TERMS * len(points))):
             one, error = _fit(points, values, indices, logarithm)
             if error < least:
@@ -50,8 +53,9 @@ def fitted(points: Array, values: Array) -> Polynomial:
     return best
 
 
-def _fit(points: Array, values: Array, indices: NDArray[np.intp],
-         logarithm: bool) -> tuple[Polynomial, float]:
+def _fit(
+    points: Array, values: Array, indices: NDArray[np.intp], logarithm: bool
+) -> tuple[Polynomial, float]:
     """The fit, and the root mean square error of each point by a fit without it."""
     terms = _terms(points, indices)
     goal = np.log(values) if logarithm else values
@@ -60,8 +64,10 @@ def _fit(points: Array, values: Array, indices: NDArray[np.intp],
     fit = terms @ coefficients
     left_out = goal - (goal - fit) / np.maximum(1.0 - np.sum(q**2, axis=1), 1e-6)
     said = np.exp(np.minimum(left_out, 50.0)) if logarithm else left_out
-    return (Polynomial(indices, coefficients, logarithm),
-            float(np.sqrt(np.mean((said - values) ** 2))))
+    return (
+        Polynomial(indices, coefficients, logarithm),
+        float(np.sqrt(np.mean((said - values) ** 2))),
+    )
 
 
 def _terms(points: Array, indices: NDArray[np.intp]) -> Array:

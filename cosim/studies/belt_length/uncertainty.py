@@ -99,8 +99,7 @@ class Uncertainty:
     @property
     def widest_interval(self) -> float:
         """Largest half-width of the indices' 95 % intervals."""
-        return max(max(one.first_order_half_width, one.total_half_width)
-                   for one in self.influences)
+        return max(max(one.first_order_half_width, one.total_half_width) for one in self.influences)
 
     def table(self) -> list[dict[str, object]]:
         """Single change and indices of each unknown, side by side."""
@@ -118,29 +117,44 @@ def uncertainty(case: Case, samples: int) -> Uncertainty | None:
     points = _levelled(np.concatenate((draws.random(samples), draws.random(tested))))
     values = _values(SHAPING, points)
     try:
-        parts = np.array([
-            answers(case, {key: float(column[i]) for key, column in values.items()})
-            for i in range(len(points))])
+        parts = np.array(
+            [
+                answers(case, {key: float(column[i]) for key, column in values.items()})
+                for i in range(len(points))
+            ]
+        )
         single_changes = _single_changes(case)
     except Melts:
         return None
     entry, interface = (
-        _in_place(points[:samples], parts[:samples, rise]) for rise in (ENTRY, INTERFACE))
+        _in_place(points[:samples], parts[:samples, rise]) for rise in (ENTRY, INTERFACE)
+    )
 
-    problem = {"num_vars": len(UNKNOWNS), "names": [one.key for one in UNKNOWNS],
-               "bounds": [[0.0, 1.0]] * len(UNKNOWNS)}
+    problem = {
+        "num_vars": len(UNKNOWNS),
+        "names": [one.key for one in UNKNOWNS],
+        "bounds": [[0.0, 1.0]] * len(UNKNOWNS),
+    }
     drawn = sample.sample(problem, SEQUENCE, calc_second_order=False, seed=1)
     drifts = entry(drawn)
     low, median, high = _quantiles(drifts)
     # one point in each block of the sequence has all unknowns drawn anew
     interface_low, interface_median, interface_high = _quantiles(
-        interface(drawn[::len(UNKNOWNS) + 2]))
+        interface(drawn[:: len(UNKNOWNS) + 2])
+    )
     return Uncertainty(
-        low, median, high, _influences(problem, drifts), single_changes,
+        low,
+        median,
+        high,
+        _influences(problem, drifts),
+        single_changes,
         samples + tested + 2 * len(UNKNOWNS),
         _unexplained(points[samples:], parts[samples:, ENTRY], entry),
-        interface_low, interface_median, interface_high,
-        _unexplained(points[samples:], parts[samples:, INTERFACE], interface))
+        interface_low,
+        interface_median,
+        interface_high,
+        _unexplained(points[samples:], parts[samples:, INTERFACE], interface),
+    )
 
 
 def _in_place(points: Array, parts: Array) -> Callable[[Array], Array]:
@@ -149,8 +163,9 @@ def _in_place(points: Array, parts: Array) -> Callable[[Array], Array]:
 
     def rise(shares: Array) -> Array:
         shaping = _levelled(shares[:, [not one.linear for one in UNKNOWNS]])
-        return combined(np.stack([one(shaping) for one in surrogates], axis=1),
-                        _values(UNKNOWNS, shares))
+        return combined(
+            np.stack([one(shaping) for one in surrogates], axis=1), _values(UNKNOWNS, shares)
+        )
 
     return rise
 
@@ -185,8 +200,18 @@ def _single_changes(case: Case) -> tuple[SingleChange, ...]:
             values = with_one(case, one.key, end)
             parts = answers(case, values)[ENTRY][None, :]
             ends.append(float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0]))
-        found.append(SingleChange(one.key, one.says, one.unit, one.low, one.high, *ends,
-                                  with_others=needs(case, one.key), basis=one.basis))
+        found.append(
+            SingleChange(
+                one.key,
+                one.says,
+                one.unit,
+                one.low,
+                one.high,
+                *ends,
+                with_others=needs(case, one.key),
+                basis=one.basis,
+            )
+        )
     return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
 
 
@@ -200,5 +225,6 @@ def _influences(problem: dict, drifts: Array) -> tuple[Influence, ...]:
         found = analyse.analyze(problem, drifts, calc_second_order=False, seed=1)
     influences = [
         Influence(key, *(float(found[name][i]) for name in ("S1", "S1_conf", "ST", "ST_conf")))
-        for i, key in enumerate(keys)]
+        for i, key in enumerate(keys)
+    ]
     return tuple(sorted(influences, key=lambda one: -one.total))

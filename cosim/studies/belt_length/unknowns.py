@@ -62,34 +62,121 @@ class Unknown:
 
 #: Blocks of ice take time, so their two unknowns have levels.
 UNKNOWNS = (
-    Unknown("h", "heat transfer to the air", "W/m2K", 5.0, 25.0,
-            "still air with radiation, to a light draught", logarithmic=True),
-    Unknown("friction", "friction coefficient of the ice", "x", 0.7, 1.2,
-            "0.2086 was measured where the study's check of the belt takes 0.3; above: assumed",
-            linear=True),
-    Unknown("conductivity", "conductivity of the belt", "x", 0.5, 4.0,
-            "assumed, of 0.5 W/mK: paper to cloth filled with a conductor",
-            logarithmic=True),
-    Unknown("heat_capacity", "heat capacity of the belt", "x", 0.9, 1.5,
-            "assumed, of 840 J/kgK: glass fibre to plastics"),
-    Unknown("ice_conductivity", "conductivity of the ice", "x", 0.86, 1.09,
-            "of 2.2 W/mK: porous ice (assumed) to clear ice at -20 degC (Yen 1981)", levels=5),
-    Unknown("conductance", "conductance of the contact", "W/m2K", 1e3, 1e5,
-            "assumed: a poor contact to one next to perfect", logarithmic=True),
-    Unknown("belt_side", "share of the heat that arises on the belt's face", "1", 0.0, 1.0,
-            "all that is possible"),
-    Unknown("contact_area", "real over nominal contact", "x", 0.3, 1.0,
-            "assumed: ice that bears on a third of its face, to all of it", levels=8),
-    Unknown("railing_friction", "friction on the railing", "1", 0.0, 0.2,
-            "none, to the most that PTFE is known for", linear=True),
-    Unknown("railing_share", "share of the railing's heat into the belt", "1", 0.25, 0.75,
-            "assumed: about a half", linear=True),
-    Unknown("railing_conductance", "conductance to the railing", "W/m2K", 5.0, 100.0,
-            "assumed: a gap of air to a light touch", logarithmic=True),
-    Unknown("roller_conductance", "conductance to the rollers", "W/m2K", 10.0, 1000.0,
-            "assumed: rollers that hardly touch, to firm contact", logarithmic=True),
-    Unknown("roller_rise", "rollers above the air", "K", 0.0, 0.5,
-            "assumed: as cold as the air, to warmed by their drive", linear=True),
+    Unknown(
+        "h",
+        "heat transfer to the air",
+        "W/m2K",
+        5.0,
+        25.0,
+        "still air with radiation, to a light draught",
+        logarithmic=True,
+    ),
+    Unknown(
+        "friction",
+        "friction coefficient of the ice",
+        "x",
+        0.7,
+        1.2,
+        "0.2086 was measured where the study's check of the belt takes 0.3; above: assumed",
+        linear=True,
+    ),
+    Unknown(
+        "conductivity",
+        "conductivity of the belt",
+        "x",
+        0.5,
+        4.0,
+        "assumed, of 0.5 W/mK: paper to cloth filled with a conductor",
+        logarithmic=True,
+    ),
+    Unknown(
+        "heat_capacity",
+        "heat capacity of the belt",
+        "x",
+        0.9,
+        1.5,
+        "assumed, of 840 J/kgK: glass fibre to plastics",
+    ),
+    Unknown(
+        "ice_conductivity",
+        "conductivity of the ice",
+        "x",
+        0.86,
+        1.09,
+        "of 2.2 W/mK: porous ice (assumed) to clear ice at -20 degC (Yen 1981)",
+        levels=5,
+    ),
+    Unknown(
+        "conductance",
+        "conductance of the contact",
+        "W/m2K",
+        1e3,
+        1e5,
+        "assumed: a poor contact to one next to perfect",
+        logarithmic=True,
+    ),
+    Unknown(
+        "belt_side",
+        "share of the heat that arises on the belt's face",
+        "1",
+        0.0,
+        1.0,
+        "all that is possible",
+    ),
+    Unknown(
+        "contact_area",
+        "real over nominal contact",
+        "x",
+        0.3,
+        1.0,
+        "assumed: ice that bears on a third of its face, to all of it",
+        levels=8,
+    ),
+    Unknown(
+        "railing_friction",
+        "friction on the railing",
+        "1",
+        0.0,
+        0.2,
+        "none, to the most that PTFE is known for",
+        linear=True,
+    ),
+    Unknown(
+        "railing_share",
+        "share of the railing's heat into the belt",
+        "1",
+        0.25,
+        0.75,
+        "assumed: about a half",
+        linear=True,
+    ),
+    Unknown(
+        "railing_conductance",
+        "conductance to the railing",
+        "W/m2K",
+        5.0,
+        100.0,
+        "assumed: a gap of air to a light touch",
+        logarithmic=True,
+    ),
+    Unknown(
+        "roller_conductance",
+        "conductance to the rollers",
+        "W/m2K",
+        10.0,
+        1000.0,
+        "assumed: rollers that hardly touch, to firm contact",
+        logarithmic=True,
+    ),
+    Unknown(
+        "roller_rise",
+        "rollers above the air",
+        "K",
+        0.0,
+        0.5,
+        "assumed: as cold as the air, to warmed by their drive",
+        linear=True,
+    ),
 )
 #: With which the railing's share and the rollers' rise are seen where a rig has neither.
 SOME_FRICTION, SOME_CONDUCTANCE = 0.1, 100.0
@@ -125,9 +212,11 @@ def answers(case: Case, values: dict[str, float]) -> Array:
 
 def combined(parts: Array, values: dict[str, Array]) -> Array:
     """A rise, K, from its A, B and C (n, 3) and the other unknowns, each (n,)."""
-    return (values["friction"] * parts[:, CONTACT]
-            + values["railing_friction"] * values["railing_share"] * parts[:, RAILING]
-            + values["roller_rise"] * parts[:, ROLLERS])
+    return (
+        values["friction"] * parts[:, CONTACT]
+        + values["railing_friction"] * values["railing_share"] * parts[:, RAILING]
+        + values["roller_rise"] * parts[:, ROLLERS]
+    )
 
 
 def as_it_is(case: Case, key: str) -> dict[str, float]:
@@ -141,9 +230,11 @@ def as_it_is(case: Case, key: str) -> dict[str, float]:
     factors = dict.fromkeys((one.key for one in UNKNOWNS if one.unit == "x"), 1.0)
     railing, rollers = belt.railing_length > 0.0, belt.rollers > 0
     values = factors | {
-        "h": case.film, "belt_side": contact.belt_side,
+        "h": case.film,
+        "belt_side": contact.belt_side,
         "conductance": contact.conductance if case.conductance is None else case.conductance,
-        "railing_friction": belt.railing_friction, "railing_share": belt.railing_share,
+        "railing_friction": belt.railing_friction,
+        "railing_share": belt.railing_share,
         "railing_conductance": belt.railing_conductance if railing else case.film,
         "roller_conductance": belt.roller_conductance if rollers else case.film,
         "roller_rise": belt.roller_rise if rollers else 0.0,
@@ -173,15 +264,20 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
     footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
     rollers = belt.rollers or _ROLLERS
     keys = {
-        "contact.conductance": values["conductance"], "contact.belt_side": values["belt_side"],
+        "contact.conductance": values["conductance"],
+        "contact.belt_side": values["belt_side"],
         "ice.conductivity": ice.conductivity * values["ice_conductivity"],
-        "belt.railing_length": belt.railing_length or min(
-            2.0 * contact.radius, _RAILING_PART * case.length),
+        "belt.railing_length": belt.railing_length
+        or min(2.0 * contact.radius, _RAILING_PART * case.length),
         "belt.railing_conductance": values["railing_conductance"],
-        "belt.railing_friction": 1.0, "belt.railing_share": 1.0, "belt.rollers": rollers,
-        "belt.roller_arc": belt.roller_arc if belt.rollers else min(
-            _ARC, _ARC_PART * 2.0 / rollers * case.length),
-        "belt.roller_conductance": values["roller_conductance"], "belt.roller_rise": 1.0,
+        "belt.railing_friction": 1.0,
+        "belt.railing_share": 1.0,
+        "belt.rollers": rollers,
+        "belt.roller_arc": belt.roller_arc
+        if belt.rollers
+        else min(_ARC, _ARC_PART * 2.0 / rollers * case.length),
+        "belt.roller_conductance": values["roller_conductance"],
+        "belt.roller_rise": 1.0,
     }
     if not ice.mesh and values["contact_area"] != 1.0:
         keys["contact.length"] = footprint.length * values["contact_area"]
@@ -194,10 +290,20 @@ def _with_belt(case: Case, conductivity: float, heat_capacity: float) -> Case:
     belt = case.rig.belt
     if not belt.layers:
         own = belt.conductivity if case.conductivity is None else case.conductivity
-        return case.changed({"belt.conductivity": own * conductivity,
-                             "belt.heat_capacity": belt.heat_capacity * heat_capacity})
-    layers = tuple(layer.model_copy(update={
-        "conductivity": layer.conductivity * conductivity,
-        "heat_capacity": layer.heat_capacity * heat_capacity}) for layer in belt.layers)
+        return case.changed(
+            {
+                "belt.conductivity": own * conductivity,
+                "belt.heat_capacity": belt.heat_capacity * heat_capacity,
+            }
+        )
+    layers = tuple(
+        layer.model_copy(
+            update={
+                "conductivity": layer.conductivity * conductivity,
+                "heat_capacity": layer.heat_capacity * heat_capacity,
+            }
+        )
+        for layer in belt.layers
+    )
     rig = case.rig.model_copy(update={"belt": belt.model_copy(update={"layers": layers})})
     return replace(case, rig=rig)

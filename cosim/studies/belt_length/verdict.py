@@ -14,9 +14,18 @@ def verdict(study: Study) -> list[str]:
     if not study.rows:
         return ["Nothing was computed, so nothing can be said."]
     rows = [row for row in study.rows if row.case.length == ONE_METRE]
-    return [*_one_metre(study, rows), *_limit(study), *_shortest(study), *_doubted(study),
-            *_interface(study), *_wait(study), *_helps(study),
-            *_study_number(study), *_influence(study), *_melting(study)]
+    return [
+        *_one_metre(study, rows),
+        *_limit(study),
+        *_shortest(study),
+        *_doubted(study),
+        *_interface(study),
+        *_wait(study),
+        *_helps(study),
+        *_study_number(study),
+        *_influence(study),
+        *_melting(study),
+    ]
 
 
 def _by_speed(rows: list[Row]) -> list[tuple[float, list[Row]]]:
@@ -34,30 +43,41 @@ def _one_metre(study: Study, rows: list[Row]) -> list[str]:
         drifts = [row.drift.run for row in some]
         low, high = min(drifts), max(drifts)
         word = words[speed] = (
-            "suffices" if high <= limit else "does not suffice" if low > limit
-            else "suffices in some of the cases")
+            "suffices"
+            if high <= limit
+            else "does not suffice"
+            if low > limit
+            else "suffices in some of the cases"
+        )
         said.append(
             f"At {speed:g} m/s {ONE_METRE:g} m of belt {word}: after"
             f" {some[0].case.protocol.in_words()} it meets the ice {_span(low, high)} K warmer than"
-            f" the air{_doubt(some, limit)}.")
+            f" the air{_doubt(some, limit)}."
+        )
     return [_summary(words, limit), *said]
 
 
 def _summary(words: dict[float, str], limit: float) -> str:
     """All speeds in one sentence; words: by speed."""
-    by_word = {word: [f"{speed:g}" for speed in words if words[speed] == word]
-               for word in dict.fromkeys(words.values())}
+    by_word = {
+        word: [f"{speed:g}" for speed in words if words[speed] == word]
+        for word in dict.fromkeys(words.values())
+    }
     said = "; ".join(f"{word} at {', '.join(speeds)} m/s" for word, speeds in by_word.items())
-    return (f"For a belt that meets the ice less than {limit:g} K above the air,"
-            f" {ONE_METRE:g} m: {said}.")
+    return (
+        f"For a belt that meets the ice less than {limit:g} K above the air,"
+        f" {ONE_METRE:g} m: {said}."
+    )
 
 
 def _limit(study: Study) -> list[str]:
     if study.options.limit != CAMERA:
         return []
-    return [f"The limit of {CAMERA:g} K is a choice, which --limit changes: the figure in the data"
-            " sheet of the source study's thermal camera; the study's own test of it told 1 K"
-            " apart, and not 0.01 K."]
+    return [
+        f"The limit of {CAMERA:g} K is a choice, which --limit changes: the figure in the data"
+        " sheet of the source study's thermal camera; the study's own test of it told 1 K"
+        " apart, and not 0.01 K."
+    ]
 
 
 def _doubt(rows: list[Row], limit: float) -> str:
@@ -66,16 +86,17 @@ def _doubt(rows: list[Row], limit: float) -> str:
     if not known:
         return ""
     low, high = min(one.low for one in known), max(one.high for one in known)
-    return (f" ({_span(low, high)} K over what is not known of the rig"
-            f"{', so nobody can promise it' if low < limit < high else ''})")
+    return (
+        f" ({_span(low, high)} K over what is not known of the rig"
+        f"{', so nobody can promise it' if low < limit < high else ''})"
+    )
 
 
 def _doubted(study: Study) -> list[str]:
     """The shortest belts at levels of the doubt, by speed."""
     doubted, said = study.shortest_in_doubt(), []
     for speed, rows in _by_speed([row for row in study.rows if row.uncertainty]):
-        found = [doubted[case] for case in dict.fromkeys(
-            row.case.with_length(1.0) for row in rows)]
+        found = [doubted[case] for case in dict.fromkeys(row.case.with_length(1.0) for row in rows)]
 
         def words(rise: str, level: str, found=found) -> str:
             return ", ".join(dict.fromkeys(one[rise][level].says or "?" for one in found)) + " m"
@@ -85,17 +106,22 @@ def _doubted(study: Study) -> list[str]:
             f" in half of the rigs on {words('run', 'median')}, in 95 % of them on"
             f" {words('run', 'high')}; the interface is that steady in half on"
             f" {words('interface', 'median')}, in 95 % on {words('interface', 'high')}"
-            " (between the lengths asked for; nothing is told beyond them).")
+            " (between the lengths asked for; nothing is told beyond them)."
+        )
     if not said:
         return []
     belt = study.rows[0].case.rig.belt
-    lacks = [name for name, there in (("rollers", belt.rollers), ("railing", belt.railing_length))
-             if not there]
+    lacks = [
+        name
+        for name, there in (("rollers", belt.rollers), ("railing", belt.railing_length))
+        if not there
+    ]
     if lacks:
         said.append(
             f"The nominal figures are of a rig as it is said, with no {' and no '.join(lacks)}; the"
             " doubt has both in every rig, rollers up to 0.5 K warmer than the air and a railing"
-            " that rubs, so that a nominal figure may lie outside what the doubt calls likely.")
+            " that rubs, so that a nominal figure may lie outside what the doubt calls likely."
+        )
     return said
 
 
@@ -103,10 +129,11 @@ def _shortest(study: Study) -> list[str]:
     """Does the belt come round cold? The shortest belts, by speed."""
     limit, said = study.options.limit, []
     for speed, rows in _by_speed(study.rows):
-        run, steady = (
-            _lengths(rows, name) for name in ("shortest_run", "shortest_steady"))
-        said.append(f"At {speed:g} m/s a belt that comes round less than {limit:g} K warm takes"
-                    f" {run} for the runs, and {steady} for ever.")
+        run, steady = (_lengths(rows, name) for name in ("shortest_run", "shortest_steady"))
+        said.append(
+            f"At {speed:g} m/s a belt that comes round less than {limit:g} K warm takes"
+            f" {run} for the runs, and {steady} for ever."
+        )
     return said
 
 
@@ -128,13 +155,20 @@ def _interface(study: Study) -> list[str]:
         drifts = [row.drift.interface_drift for row in rows]
         wholes = [row.drift.interface_run for row in rows]
         endless = [row.drift.interface_drift_endless for row in rows]
-        steady = "" if max(drifts) <= limit else (
-            f"; on a belt that never comes round it would be {_span(min(endless), max(endless))} K,"
-            f" and below {limit:g} K it is on {_lengths(rows, 'shortest_interface', 'no belt')}")
+        steady = (
+            ""
+            if max(drifts) <= limit
+            else (
+                "; on a belt that never comes round it would be "
+                f"{_span(min(endless), max(endless))} K, and below {limit:g} K it is on "
+                f"{_lengths(rows, 'shortest_interface', 'no belt')}"
+            )
+        )
         said.append(
             f"At {speed:g} m/s the interface warms by {_span(min(drifts), max(drifts))} K at"
             f" constant speed ({_span(min(wholes), max(wholes))} K from the start) on the belts"
-            f" asked for{_interface_doubt(rows)}{steady}.")
+            f" asked for{_interface_doubt(rows)}{steady}."
+        )
     return said
 
 
@@ -157,9 +191,11 @@ def _wait(study: Study) -> list[str]:
     if not said:
         return [f"No pause makes a later run as cold as the first: {'; '.join(sorted(reasons))}."]
     iced = "lifted" if study.rows[0].case.protocol.lifted else "resting"
-    return [f"Belt and ice are within {study.options.limit:g} K of the air again, the belt at a"
-            f" standstill and the ice {iced}, after {', '.join(said)}"
-            f"{'; in other cases never: ' + '; '.join(sorted(reasons)) if reasons else ''}."]
+    return [
+        f"Belt and ice are within {study.options.limit:g} K of the air again, the belt at a"
+        f" standstill and the ice {iced}, after {', '.join(said)}"
+        f"{'; in other cases never: ' + '; '.join(sorted(reasons)) if reasons else ''}."
+    ]
 
 
 def _helps(study: Study) -> list[str]:
@@ -171,19 +207,24 @@ def _helps(study: Study) -> list[str]:
         ranked = sorted(rest, key=lambda one: abs(getattr(one, name)))[:3]
         return ", ".join(f"{one.what} {getattr(one, name):.2g} K" for one in ranked)
 
-    return [f"On {row.case.length:g} m at {row.case.speed:g} m/s, of single changes, the entering"
-            f" belt's {start.run:.2g} K fall most by: {best('run')}; the interface's"
-            f" {start.interface_drift:.2g} K at constant speed by: {best('interface_drift')}."]
+    return [
+        f"On {row.case.length:g} m at {row.case.speed:g} m/s, of single changes, the entering"
+        f" belt's {start.run:.2g} K fall most by: {best('run')}; the interface's"
+        f" {start.interface_drift:.2g} K at constant speed by: {best('interface_drift')}."
+    ]
 
 
 def _study_number(study: Study) -> list[str]:
-    factors = [row.drift.run / row.drift.study for row in study.rows
-               if row.drift.run > study.options.limit]
+    factors = [
+        row.drift.run / row.drift.study for row in study.rows if row.drift.run > study.options.limit
+    ]
     if not factors:
         return []
-    return [f"Where the drift is above the limit, the source study's single-pass number is"
-            f" {_span(min(factors), max(factors))} times too small: it counts one pass of many,"
-            " and a rate of cooling of 0.25 1/s that was a conductivity."]
+    return [
+        f"Where the drift is above the limit, the source study's single-pass number is"
+        f" {_span(min(factors), max(factors))} times too small: it counts one pass of many,"
+        " and a rate of cooling of 0.25 1/s that was a conductivity."
+    ]
 
 
 def _influence(study: Study) -> list[str]:
@@ -195,20 +236,26 @@ def _influence(study: Study) -> list[str]:
     doubt = row.uncertainty
     words = {one.key: one.says for one in doubt.single_changes}
     shares = ", ".join(f"{words[one.key]} {one.total:.0%}" for one in doubt.influences[:4])
-    return [f"The doubt on {row.case.length:g} m at {row.case.speed:g} m/s, {doubt.low:.2g} to"
-            f" {doubt.high:.2g} K, is made of (shares of the variance, with what each does together"
-            f" with others): {shares}."]
+    return [
+        f"The doubt on {row.case.length:g} m at {row.case.speed:g} m/s, {doubt.low:.2g} to"
+        f" {doubt.high:.2g} K, is made of (shares of the variance, with what each does together"
+        f" with others): {shares}."
+    ]
 
 
 def _melting(study: Study) -> list[str]:
     melts = sum(row.drift.steady_melts for row in study.rows)
     if not melts:
         return []
-    return [f"In {melts} of {len(study.rows)} cases the ice face comes to melt and stays at 0 degC;"
-            " the water between ice and belt is left out of these drifts."]
+    return [
+        f"In {melts} of {len(study.rows)} cases the ice face comes to melt and stays at 0 degC;"
+        " the water between ice and belt is left out of these drifts."
+    ]
 
 
 def _span(low: float, high: float) -> str:
-    one, other = (f"{round(value, -1 if value >= 100.0 else 0):g}" if value >= 10.0
-                  else f"{value:.2g}" for value in (low, high))
+    one, other = (
+        f"{round(value, -1 if value >= 100.0 else 0):g}" if value >= 10.0 else f"{value:.2g}"
+        for value in (low, high)
+    )
     return one if one == other else f"{one} to {other}"

@@ -61,8 +61,14 @@ def wait(case: Case, limit: float) -> Wait:
     belt = _least(lambda pause: abs(begin(pause)[0]), limit)
     ice = _least(lambda pause: abs(begin(pause)[1]), limit)
     through = None if first > limit else _least(entry, limit)
-    return Wait(runs, belt, ice, None if None in (belt, ice) else max(belt, ice), through,
-                _reason(belt, ice, through, first, limit))
+    return Wait(
+        runs,
+        belt,
+        ice,
+        None if None in (belt, ice) else max(belt, ice),
+        through,
+        _reason(belt, ice, through, first, limit),
+    )
 
 
 def _one_run(case: Case, sliding: SteadySliding) -> float:
@@ -93,15 +99,20 @@ def _least(rise: Callable[[float], float], limit: float) -> float | None:
     return math.exp(brentq(excess, low, high, xtol=_TOLERANCE))
 
 
-def _reason(belt: float | None, ice: float | None, through: float | None, first: float,
-            limit: float) -> str:
+def _reason(
+    belt: float | None, ice: float | None, through: float | None, first: float, limit: float
+) -> str:
     """Why what is None is."""
     hours = LONGEST_PAUSE / 3600.0
-    said = [f"the {name} is not within {limit:g} K of the air after {hours:g} h"
-            for name, value in (("belt", belt), ("ice", ice)) if value is None]
+    said = [
+        f"the {name} is not within {limit:g} K of the air after {hours:g} h"
+        for name, value in (("belt", belt), ("ice", ice))
+        if value is None
+    ]
     if through is None:
         said.append(
             f"the belt enters {first:.2g} K warm at the end of the first run already"
-            if first > limit else
-            f"after {hours:g} h the next run still takes the belt above {limit:g} K")
+            if first > limit
+            else f"after {hours:g} h the next run still takes the belt above {limit:g} K"
+        )
     return "; ".join(said)

@@ -25,9 +25,7 @@ class Case:
 
     def parameters(self, effect_id: str | None) -> Parameters:
         """The rig with the effect, or without it for None."""
-        blocks = {
-            name: PLAIN.get(name, {}) | self.rig.get(name, {}) for name in PLAIN | self.rig
-        }
+        blocks = {name: PLAIN.get(name, {}) | self.rig.get(name, {}) for name in PLAIN | self.rig}
         if effect_id is not None:
             blocks[effect_id] = blocks.get(effect_id, {}) | self.effect
         return Parameters.model_validate(blocks)

@@ -51,10 +51,22 @@ def allowed(parameter: dict[str, Any]) -> str:
     >>> allowed({"ge": 0.0, "lt": 2.0})
     '[0, 2)'
     """
-    lower = next((f"{mark}{parameter[kind]:g}" for kind, mark in (("ge", "["), ("gt", "("))
-                  if kind in parameter), "(-inf")
-    upper = next((f"{parameter[kind]:g}{mark}" for kind, mark in (("le", "]"), ("lt", ")"))
-                  if kind in parameter), "inf)")
+    lower = next(
+        (
+            f"{mark}{parameter[kind]:g}"
+            for kind, mark in (("ge", "["), ("gt", "("))
+            if kind in parameter
+        ),
+        "(-inf",
+    )
+    upper = next(
+        (
+            f"{parameter[kind]:g}{mark}"
+            for kind, mark in (("le", "]"), ("lt", ")"))
+            if kind in parameter
+        ),
+        "inf)",
+    )
     return f"{lower}, {upper}"
 
 

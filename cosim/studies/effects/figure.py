@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from stickslip import Parameters, simulate
 
-from cosim.studies.drawing import BLUE, GREY, RC, Picture, picture
+from cosim.report.drawing import BLUE, GREY, RC, Picture, picture
 
 from .cases import CASES
 
@@ -57,7 +57,10 @@ def _motion(parameters: Parameters, end: float) -> tuple[np.ndarray, np.ndarray]
     law = parameters.temperature_dependence
     warmer = WARMER if law.sensitivity > 0.0 else 0.0
     run = simulate(
-        parameters, end, INTERVAL,
-        interface_temperature=law.reference_degC + warmer, film_thickness=WATER,
+        parameters,
+        end,
+        INTERVAL,
+        interface_temperature=law.reference_degC + warmer,
+        film_thickness=WATER,
     )
     return run.time, run["x"]

@@ -120,14 +120,13 @@ class Datasets:
             f"fits better than the quarter in {len(explained)} of {several}"
             + (f"; not in: {', '.join(others)}" if others else "")
             + f". C7: both of its parts in {len(both)} of {several}"
-            + (f": {', '.join(both)}" if both else "") + "."
+            + (f": {', '.join(both)}" if both else "")
+            + "."
         )
 
 
 def datasets() -> Datasets:
     """Every reading beside the marks, and the claims under those that stand."""
     every = outcomes()
-    standing = [
-        one.reading for one in every if one.reading == AS_PRINTED or sum(one.met) >= ENOUGH
-    ]
+    standing = [one.reading for one in every if one.reading == AS_PRINTED or sum(one.met) >= ENOUGH]
     return Datasets(tuple(every), tuple(many(attribution, standing)))

@@ -92,8 +92,15 @@ def scheme(case: Case, faults: Faults, **changes) -> Scheme:
     """The study's scheme for a case; friction scatters, or depends on speed, never both."""
     changes = {"scatter": 0.0 if case.weakening else SCATTER} | changes
     return Scheme(
-        mass=case.mass, stiffness=case.stiffness, speed=case.speed, mu_s=case.mu_s,
-        mu_k=case.mu_k, mu_slope=case.mu_slope, mu_k_speed=SPEEDS[0], faults=faults, **changes,
+        mass=case.mass,
+        stiffness=case.stiffness,
+        speed=case.speed,
+        mu_s=case.mu_s,
+        mu_k=case.mu_k,
+        mu_slope=case.mu_slope,
+        mu_k_speed=SPEEDS[0],
+        faults=faults,
+        **changes,
     )
 
 
@@ -110,8 +117,10 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) ->
             "spring_natural_length": LENGTH - pretension,
         },
         "springs": {"stiffness": case.stiffness},
-        "friction": {"mu_s": max(case.mu_s, at_rest) if case.weakening else case.mu_s,
-                     "mu_k": at_rest},
+        "friction": {
+            "mu_s": max(case.mu_s, at_rest) if case.weakening else case.mu_s,
+            "mu_k": at_rest,
+        },
         "velocity_weakening": {"linear": case.mu_slope / at_rest if at_rest else 0.0},
         "lateral_friction": {"ratio": 1.0},
         "surface": {"speed": case.speed},

@@ -8,7 +8,7 @@ from itertools import combinations
 
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
-from cosim.studies.drawing import Picture
+from cosim.report.drawing import Picture
 
 from .printed import Printed
 
@@ -220,7 +220,9 @@ def _reason(check: Check) -> str:
     answers = [
         f"{model}: {'yes' if answer else 'no'}"
         for model, answer in (
-            ("as printed", check.printed), ("mended", check.mended), ("exact", check.exact)
+            ("as printed", check.printed),
+            ("mended", check.mended),
+            ("exact", check.exact),
         )
         if answer is not None
     ]

@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from cosim.studies.drawing import BLUE, GREEN, INK, RED
+from cosim.report.drawing import BLUE, GREEN, INK, RED
 
 from .cases import EXACT_MODEL, MENDED_MODEL, PRINTED_MODEL
 
 MODELS = (PRINTED_MODEL, MENDED_MODEL, EXACT_MODEL)
 LABELS = {
-    PRINTED_MODEL: "scheme as printed", MENDED_MODEL: "scheme mended", EXACT_MODEL: "exact model"
+    PRINTED_MODEL: "scheme as printed",
+    MENDED_MODEL: "scheme mended",
+    EXACT_MODEL: "exact model",
 }
 COLOURS = {PRINTED_MODEL: RED, MENDED_MODEL: BLUE, EXACT_MODEL: GREEN}
 # the scheme mended and the exact model often coincide: the one shows as a rim about the other

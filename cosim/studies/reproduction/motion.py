@@ -35,8 +35,15 @@ class Motion:
     def of_scheme(cls, run: SchemeRun) -> Motion:
         """The motion of a run of the study's scheme."""
         return cls(
-            run.time, run.q[:, 0], run.q[:, 1], run.q[:, 2], run.velocity[:, 2], run.load[:, 0],
-            run.mode, run.phases[:, :3], run.phases[:, 4],
+            run.time,
+            run.q[:, 0],
+            run.q[:, 1],
+            run.q[:, 2],
+            run.velocity[:, 2],
+            run.load[:, 0],
+            run.mode,
+            run.phases[:, :3],
+            run.phases[:, 4],
         )
 
     @classmethod
@@ -48,8 +55,15 @@ class Motion:
             [edges[:-1], edges[1:], np.concatenate([[run["mode"][0]], modes])], axis=1
         )
         return cls(
-            run.time, run["x"], run["y"], run["phi"], run["omega"], run["friction_force_x"],
-            run["mode"], phases, np.zeros(len(phases)),
+            run.time,
+            run["x"],
+            run["y"],
+            run["phi"],
+            run["omega"],
+            run["friction_force_x"],
+            run["mode"],
+            phases,
+            np.zeros(len(phases)),
         )
 
     def last(self, share: float) -> Motion:
@@ -68,8 +82,15 @@ class Motion:
         cut = self.phases[phases].copy()
         cut[:, :2] = np.clip(cut[:, :2], start, end)
         return Motion(
-            self.time[keep], self.x[keep], self.y[keep], self.phi[keep], self.omega[keep],
-            self.friction[keep], self.mode[keep], cut, self.jumps[phases],
+            self.time[keep],
+            self.x[keep],
+            self.y[keep],
+            self.phi[keep],
+            self.omega[keep],
+            self.friction[keep],
+            self.mode[keep],
+            cut,
+            self.jumps[phases],
         )
 
 

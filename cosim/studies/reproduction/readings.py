@@ -54,15 +54,47 @@ ENOUGH = 3  # a reading stands with most of the five marks
 SEEN = 5.0  # deg: a rotation that shows in a plot of some hundred
 #: A run turns by half as much again as another of the same kind; a window may cut an oscillation.
 MARKS = (
-    Mark("oscillations in 20 s, #2", "1", 2, "oscillations", "30 or 31", 29.5, 32.0,
-         "one or two more than the 29 of §5.4, fig. 5.11c"),
+    Mark(
+        "oscillations in 20 s, #2",
+        "1",
+        2,
+        "oscillations",
+        "30 or 31",
+        29.5,
+        32.0,
+        "one or two more than the 29 of §5.4, fig. 5.11c",
+    ),
     Mark("mean of x, #2", "m", 2, "mean_x", MEAN_2.value, 0.0035, 0.0045, MEAN_2.place),
-    Mark("largest rotation, #2", "deg", 2, "max_rotation", TURN_2.value, TURN_2.value / FACTOR,
-         TURN_2.value * FACTOR, TURN_2.place),
-    Mark("largest rotation, #1", "deg", 1, "max_rotation", TURN_1.value, TURN_1.value / FACTOR,
-         TURN_1.value * FACTOR, TURN_1.place),
-    Mark("rotation sets in, #1", "s", 1, "onset", SETS_IN.value, SETS_IN_AFTER / FACTOR,
-         SETS_IN_AFTER * FACTOR, SETS_IN.place),
+    Mark(
+        "largest rotation, #2",
+        "deg",
+        2,
+        "max_rotation",
+        TURN_2.value,
+        TURN_2.value / FACTOR,
+        TURN_2.value * FACTOR,
+        TURN_2.place,
+    ),
+    Mark(
+        "largest rotation, #1",
+        "deg",
+        1,
+        "max_rotation",
+        TURN_1.value,
+        TURN_1.value / FACTOR,
+        TURN_1.value * FACTOR,
+        TURN_1.place,
+    ),
+    Mark(
+        "rotation sets in, #1",
+        "s",
+        1,
+        "onset",
+        SETS_IN.value,
+        SETS_IN_AFTER / FACTOR,
+        SETS_IN_AFTER * FACTOR,
+        SETS_IN.place,
+    ),
 )
 
 
@@ -191,8 +223,9 @@ def onset(motion: Motion, angle: float = 1.0) -> float:
 @cache
 def outcome(reading: Reading) -> Outcome:
     """A reading laid beside the marks."""
-    return Outcome(reading, tuple(_value(reading, mark) for mark in MARKS),
-                   onset(reading.motion(2)))
+    return Outcome(
+        reading, tuple(_value(reading, mark) for mark in MARKS), onset(reading.motion(2))
+    )
 
 
 def _value(reading: Reading, mark: Mark) -> float:

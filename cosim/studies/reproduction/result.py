@@ -25,22 +25,27 @@ def as_data(
     claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
 ) -> dict[str, Any]:
     """A tree of plain values; numbers that a model does not have are None."""
-    return _plain({
-        "datasets": _datasets(datasets) if datasets else None,
-        "referee": [_referee(one) for one in claims],
-        "claims": [_claim(one) for one in claims],
-        "faults": DESCRIPTIONS | OTHER_FAULTS,
-        "wall_time": wall_time,
-    })
+    return _plain(
+        {
+            "datasets": _datasets(datasets) if datasets else None,
+            "referee": [_referee(one) for one in claims],
+            "claims": [_claim(one) for one in claims],
+            "faults": DESCRIPTIONS | OTHER_FAULTS,
+            "wall_time": wall_time,
+        }
+    )
 
 
 def as_json(
     claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
 ) -> str:
     """The same as JSON text, without NaN."""
-    return json.dumps(
-        as_data(claims, wall_time, datasets), indent=2, ensure_ascii=False, allow_nan=False
-    ) + "\n"
+    return (
+        json.dumps(
+            as_data(claims, wall_time, datasets), indent=2, ensure_ascii=False, allow_nan=False
+        )
+        + "\n"
+    )
 
 
 def _referee(claim: Claim) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_SLIP
 
-from cosim.studies.drawing import BLUE, INK, RED, panels, picture
+from cosim.report.drawing import BLUE, INK, RED, panels, picture
 
 from .case import Case
 from .pretension_map import PretensionMap
@@ -21,10 +21,13 @@ OTHER = "#CFCFCF"
 LOW, HIGH = 0.5, 2.0
 
 
-@picture("pretension_map", "Largest multiplier of a small disturbance to the side or in rotation "
-         "in one cycle, over pretension and speed of the surface: below 1 it dies out, above it "
-         "grows. Line: the border. Dots: the block does not stick there. Cross: the scenario. "
-         "Grey: no motion that can be followed.")
+@picture(
+    "pretension_map",
+    "Largest multiplier of a small disturbance to the side or in rotation "
+    "in one cycle, over pretension and speed of the surface: below 1 it dies out, above it "
+    "grows. Line: the border. Dots: the block does not stick there. Cross: the scenario. "
+    "Grey: no motion that can be followed.",
+)
 def draw_pretension_map(found: PretensionMap, case: Case):
     """Growth as colour, its border as a line."""
     figure, axes = panels(1, 1, height=4.2, width=7.2)
@@ -33,15 +36,25 @@ def draw_pretension_map(found: PretensionMap, case: Case):
     ax.grid(False)
     speeds, stretched = found.speeds, 1e3 * found.pretensions
     shown = np.log2(np.clip(found.growth, LOW, HIGH))
-    mesh = ax.pcolormesh(speeds, stretched, shown, cmap="RdBu_r", vmin=np.log2(LOW),
-                         vmax=np.log2(HIGH), shading="nearest")
+    mesh = ax.pcolormesh(
+        speeds,
+        stretched,
+        shown,
+        cmap="RdBu_r",
+        vmin=np.log2(LOW),
+        vmax=np.log2(HIGH),
+        shading="nearest",
+    )
     if np.nanmin(found.growth) < 1.0 < np.nanmax(found.growth):
         ax.contour(speeds, stretched, found.growth, levels=[1.0], colors=INK, linewidths=1.4)
     sliding = np.argwhere(found.sticks == 0.0)
     ax.plot(speeds[sliding[:, 1]], stretched[sliding[:, 0]], ".", color=INK, ms=2.0)
     _cross(ax, abs(case.parameters.surface.speed), 1e3 * _pretension(case))
-    ax.set(xlabel="speed of the surface [m/s]", ylabel="pretension [mm]",
-           title=f"Growth of small disturbances: {case.name}")
+    ax.set(
+        xlabel="speed of the surface [m/s]",
+        ylabel="pretension [mm]",
+        title=f"Growth of small disturbances: {case.name}",
+    )
     bar = figure.colorbar(mesh, ax=ax, label="multiplier of a cycle")
     bar.set_ticks(np.log2([0.5, 0.7, 1.0, 1.4, 2.0]), labels=["≤ 0.5", "0.7", "1", "1.4", "≥ 2"])
     return figure
@@ -52,10 +65,13 @@ def _pretension(case: Case) -> float:
     return rig.spring_length - rig.spring_natural_length
 
 
-@picture("regime_map", "Regime that the model comes to from three starts, over the surface's speed "
-         "and µ_s/µ_k at the scenario's µ_k. Where the panels differ, regimes exist side by side. "
-         "Lines: borders of the Coulomb oscillator in closed form, where the scenario is one. "
-         "Cross: the scenario.")
+@picture(
+    "regime_map",
+    "Regime that the model comes to from three starts, over the surface's speed "
+    "and µ_s/µ_k at the scenario's µ_k. Where the panels differ, regimes exist side by side. "
+    "Lines: borders of the Coulomb oscillator in closed form, where the scenario is one. "
+    "Cross: the scenario.",
+)
 def draw_regime_map(found: RegimeMap, case: Case):
     """A panel for each start."""
     figure, axes = panels(1, len(STARTS), height=3.6, width=11.0, sharey=True)
@@ -65,13 +81,15 @@ def draw_regime_map(found: RegimeMap, case: Case):
     for k, (ax, start) in enumerate(zip(axes[0], STARTS, strict=True)):
         numbers = _numbered(found.simulated[k], kinds)
         ax.grid(False)
-        ax.pcolormesh(found.speeds, found.ratios, numbers, cmap=colours, norm=norm,
-                      shading="nearest")
+        ax.pcolormesh(
+            found.speeds, found.ratios, numbers, cmap=colours, norm=norm, shading="nearest"
+        )
         if found.closed_form is not None:
             border = _numbered(found.closed_form[k], kinds).astype(float)
             if np.ptp(border) > 0.0:
-                ax.contour(found.speeds, found.ratios, border, levels=[0.5], colors=INK,
-                           linewidths=1.4)
+                ax.contour(
+                    found.speeds, found.ratios, border, levels=[0.5], colors=INK, linewidths=1.4
+                )
         friction = case.parameters.friction
         _cross(ax, abs(case.parameters.surface.speed), friction.mu_s / friction.mu_k)
         ax.set(xlabel="speed of the surface [m/s]", title=TITLES[start])

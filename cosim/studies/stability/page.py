@@ -8,15 +8,17 @@ from typing import Any
 
 from jinja2 import Environment, StrictUndefined
 
-from cosim.inline import inline
-from cosim.studies.drawing import Picture
+from cosim.report.drawing import Picture
+from cosim.report.inline import inline
 
 
 def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
     """HTML of the numbers of `result.as_json`, what they say, and the maps."""
-    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-                              lstrip_blocks=True)
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
     environment.filters["inline"] = inline
     source = resources.files(__package__).joinpath("stability.html.j2").read_text(encoding="utf-8")
     return environment.from_string(source).render(
-        numbers=numbers, sentences=sentences, pictures=pictures)
+        numbers=numbers, sentences=sentences, pictures=pictures
+    )

@@ -67,8 +67,9 @@ def regime_map(
                 closed[:, i, j] = predicted(parameters)
             done(1)
     fastest = belt_start(case.parameters).fastest_from_rest if known else None
-    return RegimeMap(np.asarray(ratios), np.asarray(speeds), simulated,
-                     closed if known else None, fastest)
+    return RegimeMap(
+        np.asarray(ratios), np.asarray(speeds), simulated, closed if known else None, fastest
+    )
 
 
 def _with_ratio(parameters: Parameters, ratio: float) -> Parameters:
@@ -114,10 +115,13 @@ def belt_start(parameters: Parameters) -> BeltStart:
     """The oscillator of the motion along the line, on a belt that runs up as that of RAMP."""
     rig, friction, load = parameters.rig, parameters.friction, parameters.rig.mass * GRAVITY
     return BeltStart(
-        CoulombOscillator(rig.mass, 4.0 * parameters.springs.stiffness,
-                          abs(parameters.surface.speed),
-                          max(friction.mu_s, friction.mu_k) * load,
-                          friction.mu_k * load),
+        CoulombOscillator(
+            rig.mass,
+            4.0 * parameters.springs.stiffness,
+            abs(parameters.surface.speed),
+            max(friction.mu_s, friction.mu_k) * load,
+            friction.mu_k * load,
+        ),
         parameters.structural_damping.coefficient,
         other_starts(parameters)[RAMP].surface.run_up_time,
     )
@@ -126,6 +130,9 @@ def belt_start(parameters: Parameters) -> BeltStart:
 def predicted(parameters: Parameters) -> list[str]:
     """Names of the regimes from `STARTS` in closed form."""
     start = belt_start(parameters)
-    sticks = {REST: start.sticks_from_rest(), RIDING: start.sticks_riding(),
-              RAMP: start.sticks_after_run_up()}
+    sticks = {
+        REST: start.sticks_from_rest(),
+        RIDING: start.sticks_riding(),
+        RAMP: start.sticks_after_run_up(),
+    }
     return [STICK_SLIP if sticks[name] else SLIDING for name in STARTS]

@@ -22,18 +22,23 @@ def as_json(
         "name": case.name,
         **case.assessment.as_dict(),
         "starts": STARTS,
-        "pretension_map": None if stretched is None else {
+        "pretension_map": None
+        if stretched is None
+        else {
             "pretensions": stretched.pretensions.tolist(),
             "speeds": stretched.speeds.tolist(),
             "growth": _plain(stretched.growth),
             "sticks": _plain(stretched.sticks),
         },
-        "regime_map": None if regimes is None else {
+        "regime_map": None
+        if regimes is None
+        else {
             "ratios": regimes.ratios.tolist(),
             "speeds": regimes.speeds.tolist(),
             "simulated": dict(zip(MAPPED, regimes.simulated.tolist(), strict=True)),
-            "closed_form": None if regimes.closed_form is None else dict(
-                zip(MAPPED, regimes.closed_form.tolist(), strict=True)),
+            "closed_form": None
+            if regimes.closed_form is None
+            else dict(zip(MAPPED, regimes.closed_form.tolist(), strict=True)),
             "cells_that_differ": regimes.wrong,
             "fastest_from_rest": regimes.fastest_from_rest,
         },

@@ -14,6 +14,14 @@ from .grid import Grid, product_grid
 from .run import run_grid, sweep
 
 __all__ = [
-    "FEATURES", "Grid", "Run", "SweepError", "SweepStopped", "features", "product_grid",
-    "run_grid", "sweep", "write_sweep",
+    "FEATURES",
+    "Grid",
+    "Run",
+    "SweepError",
+    "SweepStopped",
+    "features",
+    "product_grid",
+    "run_grid",
+    "sweep",
+    "write_sweep",
 ]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from stickslip import Parameters
 
-from cosim.scenario_faults import known_keys, nearest
+from cosim.scenario.faults import known_keys, nearest
 
 from .errors import SweepError
 

@@ -30,16 +30,28 @@ def sweep_dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
     }
     status = np.array([row.status for row in rows], dtype=np.int8)
     reason = np.array([row.reason for row in rows], dtype=object)
-    variables["status"] = grid.dims, status.reshape(grid.shape), {
-        "units": "1", "long_name": "how the run ended",
-        "flag_values": CODES, "flag_meanings": STATUS_MEANINGS,
-    }
-    variables["reason"] = grid.dims, reason.reshape(grid.shape), {
-        "units": "1", "long_name": "why the run is not complete; empty when it is",
-    }
+    variables["status"] = (
+        grid.dims,
+        status.reshape(grid.shape),
+        {
+            "units": "1",
+            "long_name": "how the run ended",
+            "flag_values": CODES,
+            "flag_meanings": STATUS_MEANINGS,
+        },
+    )
+    variables["reason"] = (
+        grid.dims,
+        reason.reshape(grid.shape),
+        {
+            "units": "1",
+            "long_name": "why the run is not complete; empty when it is",
+        },
+    )
     coordinates = {
         name: (axis.name, values, attributes)
-        for axis in grid.axes for name, (values, attributes) in axis.coordinates.items()
+        for axis in grid.axes
+        for name, (values, attributes) in axis.coordinates.items()
     }
     return xr.Dataset(variables, coordinates, _attributes(grid, run, status))
 

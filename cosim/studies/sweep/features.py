@@ -30,10 +30,12 @@ FEATURES = {
     "slip_time": ("s", "mean length of the slip phases that lie in the constant-speed part"),
     "slip_share": ("1", "share of the constant-speed part spent in slip"),
     "friction_coefficient": (
-        "1", "mean friction force along x over normal force at constant surface speed",
+        "1",
+        "mean friction force along x over normal force at constant surface speed",
     ),
     "kinetic_coefficient": (
-        "1", "mean size of the friction force over normal force in slip, at constant speed",
+        "1",
+        "mean size of the friction force over normal force in slip, at constant speed",
     ),
     "heat": ("J", "friction heat of the whole run"),
     "sliding_distance": ("m", "sliding distance of the whole run, mean over the contact"),
@@ -97,7 +99,8 @@ def _coefficients(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
     slipping = run["mode"][late] == 1.0
     return {
         "friction_coefficient": float(np.trapezoid(along, time) / (time[-1] - time[0]) / normal),
-        "kinetic_coefficient": float(size[slipping].mean() / normal) if slipping.any()
+        "kinetic_coefficient": float(size[slipping].mean() / normal)
+        if slipping.any()
         else math.nan,
     }
 

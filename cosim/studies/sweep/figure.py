@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosim.studies.drawing import BLUE, RC
+from cosim.report.drawing import BLUE, RC
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,9 @@ def draw_sweep(dataset: xr.Dataset) -> Figure:
         complete = int(np.count_nonzero(dataset["status"] == 0))
         figure.suptitle(
             f"Sweep over {dataset.attrs['title']}: {complete} of {dataset['status'].size} "
-            "combinations", x=0.01, ha="left",
+            "combinations",
+            x=0.01,
+            ha="left",
         )
     return figure
 
@@ -102,8 +104,9 @@ def _draw_spread(axes: Axes, places: Array, quantiles: Array, numeric: bool) -> 
             axes.fill_between(places, bottom, top, color=colour, linewidth=0.0)
         else:
             axes.vlines(places, bottom, top, color=colour, linewidth=7.0)
-    axes.plot(places, middle, color=BLUE, marker="o", markersize=3.0,
-              linewidth=1.3 if numeric else 0.0)
+    axes.plot(
+        places, middle, color=BLUE, marker="o", markersize=3.0, linewidth=1.3 if numeric else 0.0
+    )
 
 
 def _colours(count: int) -> list:
@@ -129,8 +132,13 @@ def _name_axis(axes: Axes, dataset: xr.Dataset, dim: str) -> None:
     if not _is_numeric(coordinate):
         labels = [str(label) for label in coordinate.values]
         long = sum(map(len, labels)) > 24
-        axes.set_xticks(_places(coordinate), labels, rotation=60 if long else 0,
-                        ha="right" if long else "center", rotation_mode="anchor")
+        axes.set_xticks(
+            _places(coordinate),
+            labels,
+            rotation=60 if long else 0,
+            ha="right" if long else "center",
+            rotation_mode="anchor",
+        )
         axes.set_xlim(-0.4, coordinate.size - 0.6)
 
 
@@ -149,9 +157,17 @@ def _explain(axes: Axes, dataset: xr.Dataset, dim: str, dims: list[str]) -> None
         for place in grid
     ]
     axes.legend(
-        axes.lines, labels, title=", ".join(others), fontsize=7.5, title_fontsize=7.5,
-        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=min(len(labels), 3),
-        borderaxespad=0.0, columnspacing=1.0, handlelength=1.2,
+        axes.lines,
+        labels,
+        title=", ".join(others),
+        fontsize=7.5,
+        title_fontsize=7.5,
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=min(len(labels), 3),
+        borderaxespad=0.0,
+        columnspacing=1.0,
+        handlelength=1.2,
     )
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 from stickslip import Parameters
 
-from cosim.scenario_faults import describe_faults
+from cosim.scenario.faults import describe_faults
 
 from .axis import Axis, axis
 from .combination import Run, content_key, with_changes

@@ -79,8 +79,12 @@ def sweep(
     True
     """
     return run_grid(
-        product_grid(parameters, vary), Run(duration, output_interval),
-        jobs=jobs, dask=dask, folder=folder, progress=progress,
+        product_grid(parameters, vary),
+        Run(duration, output_interval),
+        jobs=jobs,
+        dask=dask,
+        folder=folder,
+        progress=progress,
     )
 
 
@@ -118,7 +122,11 @@ class _Sweeper:
     """Tasks, the rows there are of them, and where to keep new ones."""
 
     def __init__(
-        self, work: Work, tasks: dict[str, Task], rows: dict[str, Row], store: Store,
+        self,
+        work: Work,
+        tasks: dict[str, Task],
+        rows: dict[str, Row],
+        store: Store,
         progress: Progress | None,
     ):
         self.work, self.tasks, self.rows, self.store = work, tasks, rows, store

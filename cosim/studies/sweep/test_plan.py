@@ -30,8 +30,15 @@ REPEATS = 10
 
 #: mu_k of the belts at -8 degC: sandpapers around the 0.21 found on concrete, metals below
 BELTS = {
-    "K40": 0.30, "K60": 0.27, "K80": 0.24, "K100": 0.21, "K120": 0.19, "K150": 0.17,
-    "aluminium": 0.10, "steel": 0.08, "stainless steel": 0.05,
+    "K40": 0.30,
+    "K60": 0.27,
+    "K80": 0.24,
+    "K100": 0.21,
+    "K120": 0.19,
+    "K150": 0.17,
+    "aluminium": 0.10,
+    "steel": 0.08,
+    "stainless steel": 0.05,
 }
 #: mu_s / mu_k of the published experiment
 STATIC_RATIO = 0.2815 / 0.2086
@@ -53,12 +60,22 @@ def plan_grid(
     growth = [{"growth": 1.0 + per_kelvin * (TEMPERATURES[0] - each)} for each in TEMPERATURES]
     axes = (
         labelled_axis("temperature", "temperature of the room", "degC", TEMPERATURES, growth),
-        labelled_axis("belt", "material of the belt", "1", list(belts),
-                      [{"mu_k": value} for value in belts.values()]),
+        labelled_axis(
+            "belt",
+            "material of the belt",
+            "1",
+            list(belts),
+            [{"mu_k": value} for value in belts.values()],
+        ),
         axis("rig.mass", [round(ICE + added, 3) for added in ADDED_MASSES]),
         axis("surface.speed", SPEEDS),
-        labelled_axis("guides", "motion that the rig allows", "1", list(GUIDES),
-                      [{"rig.degrees_of_freedom": each} for each in GUIDES.values()]),
+        labelled_axis(
+            "guides",
+            "motion that the rig allows",
+            "1",
+            list(GUIDES),
+            [{"rig.degrees_of_freedom": each} for each in GUIDES.values()],
+        ),
     )
     return Grid(mechanics_of(parameters), axes, _with_friction)
 

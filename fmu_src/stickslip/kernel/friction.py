@@ -32,9 +32,7 @@ from .layout import (
 )
 
 
-def set_friction(
-    p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, sliding: float
-):
+def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, sliding: float):
     """Friction from the coefficients in ``w[W_PAIR:]`` (force, moment), into ``w[W_FRICTION:]``.
 
     (sx, sy, sr) is the scaled sliding velocity, of which only the direction counts here;

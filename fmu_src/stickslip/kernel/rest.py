@@ -78,9 +78,7 @@ def stop_sliding(
     z[block + WORK_SURFACE] -= work
 
 
-def stick_excess(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int
-) -> float:
+def stick_excess(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
     """`excess_load` of a block that were to stick, with the creep that it would then have."""
     load_block(p, z, w, block)
     set_stick_velocity(p, u, w, p[P_STICK_CREEP])
@@ -89,9 +87,7 @@ def stick_excess(
     return holding_ratio(p, u, w) - 1.0
 
 
-def come_to_rest(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int
-) -> float:
+def come_to_rest(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
     """Bring a block that hardly slides to rest on the surface, or to its creep; its `excess_load`.
 
     One that is not to stick creeps no longer, but keeps what velocity it had from that.

@@ -169,9 +169,7 @@ def follow_surface(
         z[block + OMEGA] = w[W_STATE + OMEGA]
 
 
-def finish_stick(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int
-):
+def finish_stick(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int):
     """Velocity of a stick at block ``end``, and the surface's work on it since block ``start``."""
     follow_surface(p, u, z, w, end, p[P_STICK_CREEP])
     if p[P_STICK_CREEP] != 0.0:

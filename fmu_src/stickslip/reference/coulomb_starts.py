@@ -42,8 +42,10 @@ class BeltStart:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.ratio < 1.0:
-            raise ValueError(f"damping = {self.damping:g} N s/m: a vibration has 0 to less than "
-                             f"{2.0 * self.oscillator.mass * self.oscillator.omega:g}")
+            raise ValueError(
+                f"damping = {self.damping:g} N s/m: a vibration has 0 to less than "
+                f"{2.0 * self.oscillator.mass * self.oscillator.omega:g}"
+            )
         if not self.run_up >= 0.0:
             raise ValueError(f"run_up = {self.run_up:g} s: must not be negative")
 
@@ -118,12 +120,14 @@ class BeltStart:
 
         def x(t):
             return o.centre + np.exp(-decay * t) * (
-                first * np.cos(rate * t) + second * np.sin(rate * t))
+                first * np.cos(rate * t) + second * np.sin(rate * t)
+            )
 
         def behind(t):
             velocity = np.exp(-decay * t) * (
                 (second * rate - decay * first) * np.cos(rate * t)
-                - (first * rate + decay * second) * np.sin(rate * t))
+                - (first * rate + decay * second) * np.sin(rate * t)
+            )
             belt = o.belt_speed * (np.minimum(1.0, (begin + t) / self.run_up) if self.run_up else 1)
             return belt - velocity
 
@@ -141,8 +145,12 @@ def _first_touch(behind, times: np.ndarray, touch: float) -> float | None:
         if values[i] <= touch and values[i - 1] > touch and i > 1:
             return float(brentq(behind, times[i - 1], times[i])) if values[i] < 0.0 else times[i]
         if i > 1 and values[i - 1] > values[i] < values[i + 1]:
-            least = minimize_scalar(behind, bounds=(times[i - 1], times[i + 1]), method="bounded",
-                                    options={"xatol": 1e-12})
+            least = minimize_scalar(
+                behind,
+                bounds=(times[i - 1], times[i + 1]),
+                method="bounded",
+                options={"xatol": 1e-12},
+            )
             if least.fun <= touch:
                 if least.fun >= 0.0:
                     return float(least.x)

@@ -99,7 +99,11 @@ class Scheme:
                 raise ValueError(f"{name} = {getattr(self, name):g}: must not be negative")
 
     def run(
-        self, *, cycles: int = 1_000_000, duration: float = 300.0, seed: int = 0,
+        self,
+        *,
+        cycles: int = 1_000_000,
+        duration: float = 300.0,
+        seed: int = 0,
         turned: float = 0.0,
     ) -> SchemeRun:
         """Stick-slip from rest at the springs' middle, until ``cycles`` or ``duration`` (s).

@@ -151,9 +151,7 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
         if rig.strip_wise and not faults.lagging:
             even_load(rig, v1, memory.shares, memory.middles, memory.mean)
         if effects.on:
-            friction_load(
-                rig, effects, past, side, mean, shares, middles, t + STEP, q1, v1, load1
-            )
+            friction_load(rig, effects, past, side, mean, shares, middles, t + STEP, q1, v1, load1)
             add_spring_and_damping_load(effects, alpha, attachment, q1, v1, load1)
         else:
             _plain_load(memory, load1)

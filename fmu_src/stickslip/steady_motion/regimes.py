@@ -111,14 +111,16 @@ def other_starts(parameters: Parameters) -> dict[str, Parameters]:
     guided = {"y", "phi"} - set(parameters.rig.degrees_of_freedom)
     aside = {name: place for name, place in aside.items() if name not in guided}
     return {
-        DISTURBED: parameters.model_copy(
-            update={"initial": initial.model_copy(update=aside)}),
+        DISTURBED: parameters.model_copy(update={"initial": initial.model_copy(update=aside)}),
         REST: parameters.model_copy(
-            update={"surface": at_speed, "initial": initial.model_copy(update=still)}),
+            update={"surface": at_speed, "initial": initial.model_copy(update=still)}
+        ),
         RIDING: parameters.model_copy(
-            update={"surface": at_speed, "initial": initial.model_copy(update=carried)}),
+            update={"surface": at_speed, "initial": initial.model_copy(update=carried)}
+        ),
         RAMP: parameters.model_copy(
-            update={"surface": running_up, "initial": initial.model_copy(update=still)}),
+            update={"surface": running_up, "initial": initial.model_copy(update=still)}
+        ),
     }
 
 
@@ -134,8 +136,11 @@ def regime_of(
     """
     period = 1.0 / max(parameters.natural_frequency, 0.1)
     run = simulate(
-        parameters, duration, min(0.05 * period, 0.01 * duration),
-        **interface.inputs, progress=lambda reached: look(),
+        parameters,
+        duration,
+        min(0.05 * period, 0.01 * duration),
+        **interface.inputs,
+        progress=lambda reached: look(),
     )
     if not run.complete:
         raise RunEnded(run.reason)

@@ -128,10 +128,19 @@ def _multipliers(
     if _has_line(parameters):
         parameters = _as_drawn(parameters)
         on_line = guided(parameters)
-    beside = [i for name in ("y", "phi") if name in parameters.rig.degrees_of_freedom
-              for i in BESIDE[name]]
-    run = simulate(on_line, duration, _sampling(parameters), **interface.inputs,
-                   progress=lambda reached: look())
+    beside = [
+        i
+        for name in ("y", "phi")
+        if name in parameters.rig.degrees_of_freedom
+        for i in BESIDE[name]
+    ]
+    run = simulate(
+        on_line,
+        duration,
+        _sampling(parameters),
+        **interface.inputs,
+        progress=lambda reached: look(),
+    )
     if not run.complete:
         raise RunEnded(run.reason)
     moments, sticking = _sections(run)
@@ -169,10 +178,12 @@ def _has_line(parameters: Parameters) -> bool:
 def _as_drawn(parameters: Parameters) -> Parameters:
     """The same rig without imperfections, started on the x axis."""
     start = {"y": 0.0, "phi": 0.0, "vy": 0.0, "omega": 0.0}
-    return parameters.model_copy(update={
-        "initial": parameters.initial.model_copy(update=start),
-        "imperfections": type(parameters.imperfections)(),
-    })
+    return parameters.model_copy(
+        update={
+            "initial": parameters.initial.model_copy(update=start),
+            "imperfections": type(parameters.imperfections)(),
+        }
+    )
 
 
 def _sampling(parameters: Parameters) -> float:
@@ -248,9 +259,11 @@ def _amplification(
             continue
         start = {name: START / (arm if name == "phi" else 1.0)}
         moved = parameters.model_copy(
-            update={"initial": parameters.initial.model_copy(update=start)})
-        run = simulate(moved, time[-1], time[1], **interface.inputs,
-                       progress=lambda reached: look())
+            update={"initial": parameters.initial.model_copy(update=start)}
+        )
+        run = simulate(
+            moved, time[-1], time[1], **interface.inputs, progress=lambda reached: look()
+        )
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)
     return largest

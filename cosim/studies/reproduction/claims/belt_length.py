@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import cache
 
-from cosim.studies.drawing import panels, picture
+from cosim.report.drawing import panels, picture
 from thermal import Belt, BeltIceModel, ThermalParameters
 from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
@@ -72,7 +72,8 @@ def all_mended(length: float) -> float:
     """
     share = finite_elements(length)[1]
     check = SinglePass(
-        share * FROM_FACTORS.friction_force, heat_capacity=BELT.heat_capacity,
+        share * FROM_FACTORS.friction_force,
+        heat_capacity=BELT.heat_capacity,
         heated_mass=BELT.density * BELT.thickness * BELT.width * FROM_FACTORS.contact_length,
         cooling_rate=cooling_rate(),
     )
@@ -99,23 +100,37 @@ def judge_length() -> Claim:
     told = round(TABLE[1.0] - ambient, 4)
     passes = repeated(FROM_FACTORS, 1.0) - ambient
     return Claim(
-        "C13", "1 m of belt is enough",
+        "C13",
+        "1 m of belt is enough",
         (
-            *(Row(f"rise where the belt meets the ice, {length:.0f} m, no run-up, "
-                  f"h {HEAT_TRANSFER:.0f} W/m²K", "K", None, *rises[length],
-                  derived=round(TABLE[length] - ambient, 4), how="table 3.5, less −8 degC")
-              for length in TABLE),
+            *(
+                Row(
+                    f"rise where the belt meets the ice, {length:.0f} m, no run-up, "
+                    f"h {HEAT_TRANSFER:.0f} W/m²K",
+                    "K",
+                    None,
+                    *rises[length],
+                    derived=round(TABLE[length] - ambient, 4),
+                    how="table 3.5, less −8 degC",
+                )
+                for length in TABLE
+            ),
             Row("sensitivity of the camera, data sheet", "mK", STUDY["camera_mK"]),
         ),
         (
-            Check(f"the rise on 1 m is the table's, {told} K, within a half",
-                  *(rise < AS_TOLD * told for rise in rises[1.0]), faults=("F9",),
-                  margin=Margin("rise after the run, finite elements", exact, AS_TOLD * told, "K"),
-                  turns=tuple(_other_runs(AS_TOLD * told))),
-            Check(f"the rise on 1 m stays below what the camera sees, {SENSITIVITY} K",
-                  *(rise < SENSITIVITY for rise in rises[1.0]),
-                  margin=Margin("rise after the run, finite elements", exact, SENSITIVITY, "K"),
-                  turns=(*_other_limits(exact), *_other_runs(SENSITIVITY))),
+            Check(
+                f"the rise on 1 m is the table's, {told} K, within a half",
+                *(rise < AS_TOLD * told for rise in rises[1.0]),
+                faults=("F9",),
+                margin=Margin("rise after the run, finite elements", exact, AS_TOLD * told, "K"),
+                turns=tuple(_other_runs(AS_TOLD * told)),
+            ),
+            Check(
+                f"the rise on 1 m stays below what the camera sees, {SENSITIVITY} K",
+                *(rise < SENSITIVITY for rise in rises[1.0]),
+                margin=Margin("rise after the run, finite elements", exact, SENSITIVITY, "K"),
+                turns=(*_other_limits(exact), *_other_runs(SENSITIVITY)),
+            ),
         ),
         remarks=(
             "As printed: one pass. Mended: the same kind of check with its faults away: force "
@@ -134,8 +149,10 @@ def judge_length() -> Claim:
             "told 1 °C, and not the 0.01 °C that were wanted (§6.1): so a rise between the two is "
             "neither surely seen nor surely not.",
         ),
-        assumed=(f"{HEAT_TRANSFER:.0f} W/m²K on both faces of the belt; belt, contact and ice as "
-                 "in the thermal model's defaults; constant speed from the start",),
+        assumed=(
+            f"{HEAT_TRANSFER:.0f} W/m²K on both faces of the belt; belt, contact and ice as "
+            "in the thermal model's defaults; constant speed from the start",
+        ),
         pictures=(_draw(rises),),
         place="§3.3.1, table 3.5",
         rests="what rise matters, which the study does not say, and the heat transfer to the air",
@@ -145,8 +162,12 @@ def judge_length() -> Claim:
 def _other_limits(rise: float) -> list[Turn]:
     """The same rise against what the camera was found to see, and not to see."""
     return [
-        Turn(f"the limit {limit:g} K, {name}, instead of the data sheet's {SENSITIVITY:g} K",
-             f"rise {rise:.2f} K", rise < limit, OPEN)
+        Turn(
+            f"the limit {limit:g} K, {name}, instead of the data sheet's {SENSITIVITY:g} K",
+            f"rise {rise:.2f} K",
+            rise < limit,
+            OPEN,
+        )
         for limit, name in ((SEEN, "which it told when tried"), (UNSEEN, "which it did not tell"))
     ]
 
@@ -172,29 +193,54 @@ def judge_table() -> Claim:
     for length, printed in TABLE.items():
         ours = PRINTED.temperature_degC(length)
         mended = FROM_FACTORS.temperature_degC(length)
-        rows.append(Row(f"belt after one pass, {length:.0f} m", "degC", TEMPERATURES[length],
-                        ours, mended, digits=6))
+        rows.append(
+            Row(
+                f"belt after one pass, {length:.0f} m",
+                "degC",
+                TEMPERATURES[length],
+                ours,
+                mended,
+                digits=6,
+            )
+        )
         checks.append((abs(ours - printed) < DIGIT, abs(mended - printed) < DIGIT))
-    rows.append(Row("friction force", "N", STUDY["friction_force"], PRINTED.friction_force,
-                    FROM_FACTORS.friction_force, digits=5))
-    rows.append(Row("rise in the pass", "K", STUDY["rise_in_a_pass"], PRINTED.rise,
-                    FROM_FACTORS.rise))
+    rows.append(
+        Row(
+            "friction force",
+            "N",
+            STUDY["friction_force"],
+            PRINTED.friction_force,
+            FROM_FACTORS.friction_force,
+            digits=5,
+        )
+    )
+    rows.append(
+        Row("rise in the pass", "K", STUDY["rise_in_a_pass"], PRINTED.rise, FROM_FACTORS.rise)
+    )
     off = max(abs(FROM_FACTORS.temperature_degC(length) - t) for length, t in TABLE.items())
     passes = {length: repeated(FROM_FACTORS, length) for length in TABLE}
     return Claim(
-        "C15", "the table of belt temperatures after one pass", tuple(rows),
+        "C15",
+        "the table of belt temperatures after one pass",
+        tuple(rows),
         (
-            Check("the four temperatures to 1e-4 K", all(one for one, _ in checks),
-                  all(one for _, one in checks), None, faults=("F11",),
-                  margin=Margin("largest difference, force from its factors", off, DIGIT, "K"),
-                  turns=(_misprinted(),)),
+            Check(
+                "the four temperatures to 1e-4 K",
+                all(one for one, _ in checks),
+                all(one for _, one in checks),
+                None,
+                faults=("F11",),
+                margin=Margin("largest difference, force from its factors", off, DIGIT, "K"),
+                turns=(_misprinted(),),
+            ),
         ),
         place="§3.3.1, eq. 3.1 to 3.6, table 3.5",
         rests="the study's own factors",
         remarks=(
             "0.3 · 1.371 kg · 9.81 m/s² is 4.0349 N, not 4.1261 N; the table follows from the "
             "misprint. Repeated passes of a 20 s run, same check: "
-            + ", ".join(f"{length:.0f} m {t:.4f}" for length, t in passes.items()) + " degC.",
+            + ", ".join(f"{length:.0f} m {t:.4f}" for length, t in passes.items())
+            + " degC.",
         ),
     )
 
@@ -203,12 +249,16 @@ def _misprinted() -> Turn:
     off = max(abs(PRINTED.temperature_degC(length) - t) for length, t in TABLE.items())
     return Turn(
         f"the printed force {PRINTED.friction_force} N instead of what its factors give",
-        f"largest difference {off:.5f} K", off < DIGIT,
+        f"largest difference {off:.5f} K",
+        off < DIGIT,
     )
 
 
-@picture("C13_belt", "Rise of the belt where it meets the ice, over its length, after 20 s at "
-         "0.82 m/s. Study: table 3.5.")
+@picture(
+    "C13_belt",
+    "Rise of the belt where it meets the ice, over its length, after 20 s at "
+    "0.82 m/s. Study: table 3.5.",
+)
 def _draw(rises: dict[float, tuple[float | None, ...]]):
     figure, axes = panels(1, 1, height=2.8, width=5.5)
     ax = axes[0, 0]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.studies.drawing import GREY, panels, picture
+from cosim.report.drawing import GREY, panels, picture
 
 from ..cases import (
     DATASET_1,
@@ -63,11 +63,24 @@ class Observation:
 OBSERVATIONS = (
     Observation("oscillations in 20 s", "1", STUDY["oscillations_measured"], 1.0, "oscillations"),
     Observation("mean of x", "m", STUDY["mean_x_measured"], 0.005, "mean_x"),
-    Observation("share of time in slip", "1", STUDY["percent_in_slip"], 0.025, "slip_share", 0.925,
-                "the middle of the range"),
+    Observation(
+        "share of time in slip",
+        "1",
+        STUDY["percent_in_slip"],
+        0.025,
+        "slip_share",
+        0.925,
+        "the middle of the range",
+    ),
     Observation("largest rotation", "deg", STUDY["rotation_measured"], 10.0, "max_rotation"),
-    Observation(f"mean of y, k {Y_STIFFNESS:.2f} N/m", "m", STUDY["mean_y_measured"], 0.005,
-                "mean_y", mirrored=True),
+    Observation(
+        f"mean of y, k {Y_STIFFNESS:.2f} N/m",
+        "m",
+        STUDY["mean_y_measured"],
+        0.005,
+        "mean_y",
+        mirrored=True,
+    ),
 )
 ROTATION = OBSERVATIONS[3]
 EVEN = (1.0,) * len(OBSERVATIONS)
@@ -165,26 +178,52 @@ def judge() -> Claim:
     """All observations against every variant; the claim holds where a quarter of mu fits better."""
     all_of_them = variants()
     rows = [_row(i, all_of_them) for i in range(len(OBSERVATIONS))]
-    rows.append(Row("misfit, µ full", "spreads", None, all_of_them["printed_full"].misfit,
-                    all_of_them["mended_full"].misfit, all_of_them["exact_full"].misfit))
-    rows.append(Row("misfit, µ quarter", "spreads", None, all_of_them["printed_cut"].misfit,
-                    all_of_them["mended_cut"].misfit, all_of_them["exact_cut"].misfit))
+    rows.append(
+        Row(
+            "misfit, µ full",
+            "spreads",
+            None,
+            all_of_them["printed_full"].misfit,
+            all_of_them["mended_full"].misfit,
+            all_of_them["exact_full"].misfit,
+        )
+    )
+    rows.append(
+        Row(
+            "misfit, µ quarter",
+            "spreads",
+            None,
+            all_of_them["printed_cut"].misfit,
+            all_of_them["mended_cut"].misfit,
+            all_of_them["exact_cut"].misfit,
+        )
+    )
     faults = responsible(_dataset_2_wins)
     better = [
         all_of_them[f"{model}_cut"].misfit < all_of_them[f"{model}_full"].misfit
         for model in ("printed", "mended", "exact")
     ]
     return Claim(
-        "C6", "the published friction coefficients are four times too large", tuple(rows),
-        (Check("a quarter of µ fits the five observations better than all of it", *better,
-               faults=faults,
-               margin=Margin("misfit with µ quarter by that with µ full, exact",
-                             all_of_them["exact_cut"].misfit / all_of_them["exact_full"].misfit,
-                             1.0),
-               turns=tuple(_turns(all_of_them))),),
+        "C6",
+        "the published friction coefficients are four times too large",
+        tuple(rows),
+        (
+            Check(
+                "a quarter of µ fits the five observations better than all of it",
+                *better,
+                faults=faults,
+                margin=Margin(
+                    "misfit with µ quarter by that with µ full, exact",
+                    all_of_them["exact_cut"].misfit / all_of_them["exact_full"].misfit,
+                    1.0,
+                ),
+                turns=tuple(_turns(all_of_them)),
+            ),
+        ),
         remarks=_remarks(all_of_them, faults),
         assumed=(
-            SCATTER_ASSUMED, RIG_ASSUMED,
+            SCATTER_ASSUMED,
+            RIG_ASSUMED,
             "the window of the 34 oscillations: 20 s; spreads of the observations: "
             + ", ".join(f"{o.name} {o.value:g} ± {o.spread:g}" for o in OBSERVATIONS),
         ),
@@ -199,7 +238,7 @@ def _turns(of: dict[str, Variant]) -> list[Turn]:
     turns = []
     for word, weight in (("left out", 0.0), ("its spread doubled", 0.5)):
         for i, o in enumerate(OBSERVATIONS):
-            weights = EVEN[:i] + (weight,) + EVEN[i + 1:]
+            weights = EVEN[:i] + (weight,) + EVEN[i + 1 :]
             full, cut = (of[name].weighed(weights) for name in ("exact_full", "exact_cut"))
             turns.append(_turn(f"exact: {o.name} {word}", full, cut))
     fitted, cut = of["exact_fitted"], of["exact_fitted_cut"]
@@ -248,8 +287,11 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     )
 
 
-@picture("C6_observations", "Every variant beside the five known observations; grey: as close as "
-         "the wording of the observation tells.")
+@picture(
+    "C6_observations",
+    "Every variant beside the five known observations; grey: as close as "
+    "the wording of the observation tells.",
+)
 def _draw_observations(of: dict[str, Variant]):
     figure, axes = panels(1, len(OBSERVATIONS), height=3.9, sharey=True)
     names = [variant.name for variant in of.values()]
@@ -259,8 +301,11 @@ def _draw_observations(of: dict[str, Variant]):
         ax.axvline(o.value, color=GREY, lw=1.0)
         for place, variant in zip(places, of.values(), strict=True):
             ax.plot(variant.values[i], place, "o", color=_colour(variant.name))
-        ax.set_title(o.name.replace(", k ", ",\nk ").replace("share of time", "share of\ntime")
-                     + f"{'' if o.unit == '1' else ', ' + o.unit}", fontsize=8.5)
+        ax.set_title(
+            o.name.replace(", k ", ",\nk ").replace("share of time", "share of\ntime")
+            + f"{'' if o.unit == '1' else ', ' + o.unit}",
+            fontsize=8.5,
+        )
         ax.locator_params(axis="x", nbins=4)
     axes[0, 0].set_yticks(list(places), names)
     axes[0, 0].invert_yaxis()
@@ -273,8 +318,11 @@ def _colour(name: str) -> str:
     return COLOURS["mended"] if name.startswith("all mended") else COLOURS["printed"]
 
 
-@picture("C6_displacements", "x(t), steady, m 0.67 kg, k 20.17 N/m, v 0.15 m/s. Dashed: the "
-         "measured mean of x. Study: figures 4.18a and b.")
+@picture(
+    "C6_displacements",
+    "x(t), steady, m 0.67 kg, k 20.17 N/m, v 0.15 m/s. Dashed: the "
+    "measured mean of x. Study: figures 4.18a and b.",
+)
 def _draw_motion():
     shown = (
         ("#1: as printed, µ full", scheme_motion(DATASET_1, PRINTED), COLOURS["printed"]),

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED
 
-from cosim.studies.drawing import panels, picture
+from cosim.report.drawing import panels, picture
 
 from ..cases import (
     DATASET_2,
@@ -72,15 +72,22 @@ def judge() -> Claim:
         for model in ("printed", "mended", "exact")
     }
     rows = [
-        Row(f"oscillations in 20 s, µ_k/µ_s = {ratio:g}", "1",
+        Row(
+            f"oscillations in 20 s, µ_k/µ_s = {ratio:g}",
+            "1",
             None if ratio in DERIVED else STUDY["oscillations_at_1"],
             *(counts[model][ratio] for model in counts),
-            **_source(ratio))
+            **_source(ratio),
+        )
         for ratio in RATIOS
     ]
     rows += [
-        Row(f"half the range of x, µ_k/µ_s = {ratio:g}", "m", None,
-            *(by_ratio[ratio][model].half_range_x for model in counts))
+        Row(
+            f"half the range of x, µ_k/µ_s = {ratio:g}",
+            "m",
+            None,
+            *(by_ratio[ratio][model].half_range_x for model in counts),
+        )
         for ratio in RATIOS
     ]
     nearest = min(
@@ -88,25 +95,35 @@ def judge() -> Claim:
         key=lambda key: abs(counts[key[0]][key[1]] - MEASURED),
     )
     return Claim(
-        "C11", "µ_k/µ_s = 0.77 counts one or two oscillations more than 0.5 and 1.0", tuple(rows),
+        "C11",
+        "µ_k/µ_s = 0.77 counts one or two oscillations more than 0.5 and 1.0",
+        tuple(rows),
         (
-            Check("0.77 counts one or two more than 0.5 and than 1.0",
-                  *(_more(counts[model]) for model in counts),
-                  margin=Margin("smaller of the two gaps, exact", _gap(counts["exact"]), MORE[0]),
-                  turns=tuple(_turns(_more))),
-            Check(f"1.0 counts {COUNTED}",
-                  *(_as_counted(counts[model]) for model in counts),
-                  margin=Margin("count at 1.0 off by, exact",
-                                abs(counts["exact"][1.0] - COUNTED), NEAR),
-                  turns=tuple(_turns(_as_counted))),
+            Check(
+                "0.77 counts one or two more than 0.5 and than 1.0",
+                *(_more(counts[model]) for model in counts),
+                margin=Margin("smaller of the two gaps, exact", _gap(counts["exact"]), MORE[0]),
+                turns=tuple(_turns(_more)),
+            ),
+            Check(
+                f"1.0 counts {COUNTED}",
+                *(_as_counted(counts[model]) for model in counts),
+                margin=Margin(
+                    "count at 1.0 off by, exact", abs(counts["exact"][1.0] - COUNTED), NEAR
+                ),
+                turns=tuple(_turns(_as_counted)),
+            ),
         ),
         remarks=(
             _with_four_springs(),
             f"Measured: {MEASURED}. Nearest: {LABELS[nearest[0]]} at {nearest[1]:g} with "
             f"{counts[nearest[0]][nearest[1]]:.1f}.",
         ),
-        assumed=("constant µ_s = 0.065; µ_k = ratio × 0.065; window 20 s", SCATTER_ASSUMED,
-                 RIG_ASSUMED),
+        assumed=(
+            "constant µ_s = 0.065; µ_k = ratio × 0.065; window 20 s",
+            SCATTER_ASSUMED,
+            RIG_ASSUMED,
+        ),
         pictures=(_draw(),),
         place="§5.4, fig. 5.11",
         rests="a count in a window that is taken for 20 s, and the readings of the scheme",
@@ -142,15 +159,15 @@ def _read_otherwise(reading: Reading, holds: Callable[[dict[float, float]], bool
         ratio: many(lambda seed, r=ratio: _single_count(reading, r, seed), SINGLE_RUNS)
         for ratio in RATIOS
     }
-    compared = [
-        holds(dict(zip(RATIOS, one, strict=True))) for one in product(*counts.values())
-    ]
+    compared = [holds(dict(zip(RATIOS, one, strict=True))) for one in product(*counts.values())]
     share = sum(compared) / len(compared)
     means = {ratio: float(np.mean(values)) for ratio, values in counts.items()}
     return Turn(
         f"the scheme read otherwise: {reading.name}",
         f"{_told(means)} in the mean of {len(SINGLE_RUNS)} runs, so in {100 * share:.1f} % of "
-        "single runs compared", share >= ALLOWED, OPEN if reading.place else FAR,
+        "single runs compared",
+        share >= ALLOWED,
+        OPEN if reading.place else FAR,
     )
 
 
@@ -159,14 +176,19 @@ def _turns(holds: Callable[[dict[float, float]], bool]) -> list[Turn]:
     turns = [_read_otherwise(reading, holds) for reading in _standing()]
     for pretension in OTHER_PRETENSIONS:
         counts = {r: exact_figures(_case(r), pretension=pretension).oscillations for r in RATIOS}
-        turns.append(Turn(f"exact: {1e3 * pretension:.0f} mm of pretension", _told(counts),
-                          holds(counts), OPEN))
+        turns.append(
+            Turn(
+                f"exact: {1e3 * pretension:.0f} mm of pretension",
+                _told(counts),
+                holds(counts),
+                OPEN,
+            )
+        )
     for name in ("F2", "F1"):
-        counts = {
-            r: scheme_figures(_case(r), PRINTED.without(name)).oscillations for r in RATIOS
-        }
-        turns.append(Turn(f"the printed scheme with {name} mended", _told(counts), holds(counts),
-                          FAR))
+        counts = {r: scheme_figures(_case(r), PRINTED.without(name)).oscillations for r in RATIOS}
+        turns.append(
+            Turn(f"the printed scheme with {name} mended", _told(counts), holds(counts), FAR)
+        )
     return turns
 
 
@@ -186,21 +208,30 @@ def _told(counts: dict[float, float]) -> str:
     return "counts " + ", ".join(f"{counts[ratio]:.1f} at {ratio:g}" for ratio in RATIOS)
 
 
-@picture("C11_ratio", "x(t), steady, for µ_k/µ_s = 0.5, 0.77, 1.0 (m 0.67 kg, k 20.17 N/m, v 0.15 "
-         "m/s). Study: figure 5.11.")
+@picture(
+    "C11_ratio",
+    "x(t), steady, for µ_k/µ_s = 0.5, 0.77, 1.0 (m 0.67 kg, k 20.17 N/m, v 0.15 "
+    "m/s). Study: figure 5.11.",
+)
 def _draw():
     figure, axes = panels(len(RATIOS), 1, height=1.7, sharex=True, sharey=True)
     for ax, ratio in zip(axes[:, 0], RATIOS, strict=True):
         case = _case(ratio)
         runs = {
-            "printed": scheme_motion(case, PRINTED), "mended": scheme_motion(case, MENDED),
+            "printed": scheme_motion(case, PRINTED),
+            "mended": scheme_motion(case, MENDED),
             "exact": exact_motion(exact_parameters(case)),
         }
         for model, run in runs.items():
             start = 0.4 * run.time[-1]
             keep = run.time >= start
-            ax.plot(run.time[keep] - start, 100 * run.x[keep], color=COLOURS[model],
-                    label=LABELS[model], lw=1.0)
+            ax.plot(
+                run.time[keep] - start,
+                100 * run.x[keep],
+                color=COLOURS[model],
+                label=LABELS[model],
+                lw=1.0,
+            )
         ax.set_title(f"µ_k/µ_s = {ratio:g}")
         ax.set_ylabel("x, cm")
         ax.set_xlim(0.0, 12.0)

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.studies.drawing import INK, panels, picture
+from cosim.report.drawing import INK, panels, picture
 
 from ..cases import CYCLES, Case, exact_motion, exact_parameters, longest, many, scheme
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible
@@ -48,30 +48,60 @@ def judge() -> Claim:
     )
     exact = _exact_jump()
     rows = [
-        Row(f"jumps to stick in 25 cycles, v {case.speed:.2f} m/s", "1", None,
-            float(_jumps(case, PRINTED)), float(_jumps(case, MENDED)), float(exact),
-            derived="1 or more", how="a run is named for its jump, §5.1")
+        Row(
+            f"jumps to stick in 25 cycles, v {case.speed:.2f} m/s",
+            "1",
+            None,
+            float(_jumps(case, PRINTED)),
+            float(_jumps(case, MENDED)),
+            float(exact),
+            derived="1 or more",
+            how="a run is named for its jump, §5.1",
+        )
         for case in NAMED
     ]
-    rows.append(Row(f"runs with a jump, of {len(plan)}", "1", STUDY["runs_with_a_jump"],
-                    float(len(jumping)), float(mended)))
+    rows.append(
+        Row(
+            f"runs with a jump, of {len(plan)}",
+            "1",
+            STUDY["runs_with_a_jump"],
+            float(len(jumping)),
+            float(mended),
+        )
+    )
     before = sum(_jumps(case, PRINTED) for case in witnesses)
     left = {f: sum(many(_jumps, witnesses, PRINTED.without(f))) for f in ("F6", "F14")}
     return Claim(
-        "C14", "jumps to stick in mid-slip (k 68.22, m 2.03, v ≥ 0.50) are an anomaly of the model",
+        "C14",
+        "jumps to stick in mid-slip (k 68.22, m 2.03, v ≥ 0.50) are an anomaly of the model",
         tuple(rows),
         (
-            Check("the jumps are an anomaly of the model: the scheme has some, a sound model none",
-                  bool(jumping), mended == 0 and bool(jumping), exact == 0 and bool(jumping),
-                  margin=Margin("jumps, exact, in the named runs", exact, 0.0)),
-            *(Check(f"the run at {case.speed:.2f} m/s is one that jumps",
-                    _jumps(case, PRINTED) > 0, None, None,
+            Check(
+                "the jumps are an anomaly of the model: the scheme has some, a sound model none",
+                bool(jumping),
+                mended == 0 and bool(jumping),
+                exact == 0 and bool(jumping),
+                margin=Margin("jumps, exact, in the named runs", exact, 0.0),
+            ),
+            *(
+                Check(
+                    f"the run at {case.speed:.2f} m/s is one that jumps",
+                    _jumps(case, PRINTED) > 0,
+                    None,
+                    None,
                     margin=Margin(f"jumps at {case.speed:.2f} m/s", _jumps(case, PRINTED), 1.0),
-                    turns=(*_other_laws(case), _located(case))) for case in NAMED),
-            Check(f"no more than {RARE} of the {len(plan)} runs jump",
-                  len(jumping) <= RARE, None, None,
-                  margin=Margin("runs with a jump", len(jumping), RARE),
-                  turns=(_no_rotation(plan), *_plan_under_other_laws(plan))),
+                    turns=(*_other_laws(case), _located(case)),
+                )
+                for case in NAMED
+            ),
+            Check(
+                f"no more than {RARE} of the {len(plan)} runs jump",
+                len(jumping) <= RARE,
+                None,
+                None,
+                margin=Margin("runs with a jump", len(jumping), RARE),
+                turns=(_no_rotation(plan), *_plan_under_other_laws(plan)),
+            ),
         ),
         remarks=(
             f"Faults whose mending alone ends the jumps of {len(witnesses)} runs that have them: "
@@ -128,8 +158,11 @@ def _exact_jump() -> int:
 
 def _located(case: Case) -> Turn:
     count = _jumps(case, PRINTED.without("F6"))
-    return Turn(f"v {case.speed:.2f} m/s: re-sticks of the printed scheme located (F6 mended)",
-                f"{count} jumps", count > 0)
+    return Turn(
+        f"v {case.speed:.2f} m/s: re-sticks of the printed scheme located (F6 mended)",
+        f"{count} jumps",
+        count > 0,
+    )
 
 
 def _no_rotation(plan: list[Case]) -> Turn:
@@ -137,13 +170,20 @@ def _no_rotation(plan: list[Case]) -> Turn:
     counts = many(_jumps, plan, PRINTED.without("F2"))
     runs = [case for case, n in zip(plan, counts, strict=True) if n]
     named = sum(case in NAMED for case in runs)
-    return Turn("r in the rise, as in eq. 4.6 (F2 mended)",
-                f"{len(runs)} runs with a jump, {named} of them named", len(runs) <= RARE, OPEN)
+    return Turn(
+        "r in the rise, as in eq. 4.6 (F2 mended)",
+        f"{len(runs)} runs with a jump, {named} of them named",
+        len(runs) <= RARE,
+        OPEN,
+    )
 
 
-@picture("C14_jump", "x' in a run with jumps, as printed and mended; crosses: slips that "
-         "end in a jump to the surface's speed; dotted: the run is over with its 25th slip. "
-         "Study: figure 5.5.")
+@picture(
+    "C14_jump",
+    "x' in a run with jumps, as printed and mended; crosses: slips that "
+    "end in a jump to the surface's speed; dotted: the run is over with its 25th slip. "
+    "Study: figure 5.5.",
+)
 def _draw(case: Case):
     figure, axes = panels(2, 1, height=1.9, sharex=True, sharey=True)
     for ax, name, faults in ((axes[0, 0], "printed", PRINTED), (axes[1, 0], "mended", MENDED)):
@@ -151,8 +191,13 @@ def _draw(case: Case):
         ax.plot(run.time, run.velocity[:, 0], color=COLOURS[name], lw=0.8)
         if run.slips >= CYCLES:
             ax.axvline(run.time[-1], color=INK, ls=":", lw=1.0)
-            ax.annotate(f"run over:\n{CYCLES} slips", (run.time[-1], -0.9 * case.speed),
-                        xytext=(4, 0), textcoords="offset points", fontsize=8.0)
+            ax.annotate(
+                f"run over:\n{CYCLES} slips",
+                (run.time[-1], -0.9 * case.speed),
+                xytext=(4, 0),
+                textcoords="offset points",
+                fontsize=8.0,
+            )
         ends = run.slip_phases[np.abs(run.slip_phases[:, 4]) > _threshold(case), 1]
         ax.plot(ends, np.full(len(ends), case.speed), "x", color=INK, ms=7)
         ax.set_title(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from stickslip.reference.faults import PRINTED
 
-from cosim.studies.drawing import SERIES, panels, picture
+from cosim.report.drawing import SERIES, panels, picture
 
 from ..cases import (
     EXTRA_STIFFNESS,
@@ -68,40 +68,65 @@ def judge() -> Claim:
     strays = [_strays(mu[model]) for model in MODELS]
     changes = [_change_over_mass(mu[model]) for model in MODELS]
     rows = [
-        Row("smallest mean µ_k", "1", STUDY["least_mu_k"],
-            *(float(mu[m].min()) for m in MODELS)),
-        Row("largest mean µ_k", "1", STUDY["largest_mu_k"],
-            *(float(mu[m].max()) for m in MODELS)),
+        Row("smallest mean µ_k", "1", STUDY["least_mu_k"], *(float(mu[m].min()) for m in MODELS)),
+        Row("largest mean µ_k", "1", STUDY["largest_mu_k"], *(float(mu[m].max()) for m in MODELS)),
         Row("largest spread over mass, part of the mean", "1", None, *strays),
-        Row("not counted here, linear in mass: change of a line from 0.67 to 2.03 kg, part of the "
-            "mean", "1", None, *changes),
+        Row(
+            "not counted here, linear in mass: change of a line from 0.67 to 2.03 kg, part of the "
+            "mean",
+            "1",
+            None,
+            *changes,
+        ),
     ]
     rows += [
-        Row(f"spread over speed at k {k:.2f} N/m", "1", None,
-            *(float(spreads[model][i]) for model in MODELS))
+        Row(
+            f"spread over speed at k {k:.2f} N/m",
+            "1",
+            None,
+            *(float(spreads[model][i]) for model in MODELS),
+        )
         for i, k in enumerate(ALL_STIFFNESSES)
     ]
     return Claim(
-        "C10", "mean µ_k is 0.05 to 0.11, constant in mass, falls with speed, and its spread "
-        "shrinks with stiffness", tuple(rows),
+        "C10",
+        "mean µ_k is 0.05 to 0.11, constant in mass, falls with speed, and its spread "
+        "shrinks with stiffness",
+        tuple(rows),
         (
-            Check("lies in 0.05 to 0.11: the friction data behind it are not printed",
-                  None, None, None),
-            Check(f"constant in mass within {100 * HORIZONTAL:.0f} %",
-                  *(value < HORIZONTAL for value in strays),
-                  margin=Margin("largest spread over mass, exact", strays[-1], HORIZONTAL),
-                  turns=(_load_dependent(),)),
-            Check("falls with speed",
-                  *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS),
-                  margin=Margin("smallest step from one speed to the next, exact",
-                                float(np.diff(by_speed["exact"]).max()), 0.0),
-                  turns=(_constant(),)),
-            Check(f"spread over speed shrinks from the softest to the stiffest springs, by more "
-                  f"than {100 * FLAT:.0f} %",
-                  *(_shrinks(spreads[model]) for model in MODELS),
-                  margin=Margin("spread at the stiffest by that at the softest, exact",
-                                _ratio(spreads["exact"]), 1.0 - FLAT),
-                  turns=(*map(_weakened, OTHER_WEAKENINGS), *_bent(), *_free())),
+            Check(
+                "lies in 0.05 to 0.11: the friction data behind it are not printed",
+                None,
+                None,
+                None,
+            ),
+            Check(
+                f"constant in mass within {100 * HORIZONTAL:.0f} %",
+                *(value < HORIZONTAL for value in strays),
+                margin=Margin("largest spread over mass, exact", strays[-1], HORIZONTAL),
+                turns=(_load_dependent(),),
+            ),
+            Check(
+                "falls with speed",
+                *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS),
+                margin=Margin(
+                    "smallest step from one speed to the next, exact",
+                    float(np.diff(by_speed["exact"]).max()),
+                    0.0,
+                ),
+                turns=(_constant(),),
+            ),
+            Check(
+                f"spread over speed shrinks from the softest to the stiffest springs, by more "
+                f"than {100 * FLAT:.0f} %",
+                *(_shrinks(spreads[model]) for model in MODELS),
+                margin=Margin(
+                    "spread at the stiffest by that at the softest, exact",
+                    _ratio(spreads["exact"]),
+                    1.0 - FLAT,
+                ),
+                turns=(*map(_weakened, OTHER_WEAKENINGS), *_bent(), *_free()),
+            ),
         ),
         remarks=(
             "The study says both: its summary, that friction coefficients depend linearly on "
@@ -136,25 +161,34 @@ def _load_dependent() -> Turn:
     """What a mu_k that falls with the load would show."""
     mu = (np.array(MASSES) / MASSES[0]) ** LOAD_POWER
     spread = float(np.ptp(mu) / mu.mean())
-    return Turn("µ_k falling with the load's power −1/3 instead of constant in mass",
-                f"spread over mass {spread:.2f}", spread < HORIZONTAL, PUT_IN)
+    return Turn(
+        "µ_k falling with the load's power −1/3 instead of constant in mass",
+        f"spread over mass {spread:.2f}",
+        spread < HORIZONTAL,
+        PUT_IN,
+    )
 
 
 def _means(weakening: float, speeds: Sequence[float], stiffness: float) -> np.ndarray:
     """Mean mu_k of the exact model at the least mass, over the speeds."""
-    return np.array([
-        exact_figures(case, rig=GUIDED).mean_friction / case.weight
-        for case in (
-            CASE.changed(weakening=weakening, speed=v, stiffness=stiffness) for v in speeds
-        )
-    ])
+    return np.array(
+        [
+            exact_figures(case, rig=GUIDED).mean_friction / case.weight
+            for case in (
+                CASE.changed(weakening=weakening, speed=v, stiffness=stiffness) for v in speeds
+            )
+        ]
+    )
 
 
 def _constant() -> Turn:
     mu = _means(0.0, SPEEDS, STIFFNESSES[0])
-    return Turn("µ_k constant instead of falling with speed",
-                f"{mu[0]:.5f} at {SPEEDS[0]:.2f} m/s, {mu[-1]:.5f} at {SPEEDS[-1]:.2f} m/s",
-                bool(np.all(np.diff(mu) < -LEVEL * mu[:-1])), PUT_IN)
+    return Turn(
+        "µ_k constant instead of falling with speed",
+        f"{mu[0]:.5f} at {SPEEDS[0]:.2f} m/s, {mu[-1]:.5f} at {SPEEDS[-1]:.2f} m/s",
+        bool(np.all(np.diff(mu) < -LEVEL * mu[:-1])),
+        PUT_IN,
+    )
 
 
 def _weakened(part: float) -> Turn:
@@ -178,10 +212,19 @@ def _bent() -> list[Turn]:
     return [
         _spread_turn(
             f"µ_k falling as much along {name} instead of a straight line",
-            [_spread_of(CASE.changed(weakening=0.0), k, rig=GUIDED, velocity_weakening=law,
-                        friction={"mu_s": max(CASE.mu_s, CASE.mu_k * at_rest),
-                                  "mu_k": CASE.mu_k * at_rest})
-             for k in ENDS],
+            [
+                _spread_of(
+                    CASE.changed(weakening=0.0),
+                    k,
+                    rig=GUIDED,
+                    velocity_weakening=law,
+                    friction={
+                        "mu_s": max(CASE.mu_s, CASE.mu_k * at_rest),
+                        "mu_k": CASE.mu_k * at_rest,
+                    },
+                )
+                for k in ENDS
+            ],
         )
         for name, law, at_rest in laws
     ]
@@ -194,8 +237,10 @@ def _free() -> list[Turn]:
         _spread_turn(
             f"the block free, {1e3 * pretension:.0f} mm of pretension, µ_k falling by "
             f"{100 * part:.0f} %",
-            [_spread_of(CASE.changed(weakening=part), k, FREE_MASSES, pretension=pretension)
-             for k in ENDS],
+            [
+                _spread_of(CASE.changed(weakening=part), k, FREE_MASSES, pretension=pretension)
+                for k in ENDS
+            ],
         )
         for pretension, part in changes
     ]
@@ -209,24 +254,33 @@ def _spread_of(case: Case, stiffness: float, masses=MASSES[:1], **model) -> floa
 
 
 def _spread_turn(change: str, spreads: list[float]) -> Turn:
-    return Turn(change, f"spread {spreads[0]:.4f} at the softest, {spreads[-1]:.4f} at the "
-                f"stiffest, ratio {_ratio(spreads):.2f}", _shrinks(spreads), OPEN)
+    return Turn(
+        change,
+        f"spread {spreads[0]:.4f} at the softest, {spreads[-1]:.4f} at the "
+        f"stiffest, ratio {_ratio(spreads):.2f}",
+        _shrinks(spreads),
+        OPEN,
+    )
 
 
 def _without_rotation() -> float:
     """The ratio of the printed scheme with F2 mended."""
     spreads = []
     for stiffness in ENDS:
-        series = [CASE.changed(stiffness=stiffness, mass=m, speed=v)
-                  for m in MASSES for v in SPEEDS]
+        series = [
+            CASE.changed(stiffness=stiffness, mass=m, speed=v) for m in MASSES for v in SPEEDS
+        ]
         figures = many(scheme_figures, series, PRINTED.without("F2"), SEEDS[:1])
         mu = [one.mean_friction / case.weight for one, case in zip(figures, series, strict=True)]
         spreads.append(np.ptp(np.reshape(mu, (len(MASSES), len(SPEEDS))).mean(axis=0)))
     return _ratio(spreads)
 
 
-@picture("C10_mu_k", "Mean µ_k over mass for stiffnesses to 136.44 N/m (columns) and speeds "
-         "(lines), by model (rows). Study: figures 5.8 and 5.10.")
+@picture(
+    "C10_mu_k",
+    "Mean µ_k over mass for stiffnesses to 136.44 N/m (columns) and speeds "
+    "(lines), by model (rows). Study: figures 5.8 and 5.10.",
+)
 def _draw(mu: Grid):
     figure, axes = panels(
         len(MODELS), len(ALL_STIFFNESSES), height=2.1, width=10.0, sharex=True, sharey=True
@@ -235,8 +289,14 @@ def _draw(mu: Grid):
         for column, k in enumerate(ALL_STIFFNESSES):
             ax = axes[row, column]
             for i, v in enumerate(SPEEDS):
-                ax.plot(MASSES, mu[model][column, :, i], "o-", ms=2.5, color=SERIES[i],
-                        label=f"v {v:.2f} m/s")
+                ax.plot(
+                    MASSES,
+                    mu[model][column, :, i],
+                    "o-",
+                    ms=2.5,
+                    color=SERIES[i],
+                    label=f"v {v:.2f} m/s",
+                )
             if row == 0:
                 ax.set_title(f"k {k:.2f} N/m")
         axes[row, 0].set_ylabel(f"{LABELS[model]}\nmean µ_k")

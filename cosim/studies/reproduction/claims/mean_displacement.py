@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.studies.drawing import SERIES, panels, picture
+from cosim.report.drawing import SERIES, panels, picture
 
 from ..cases import (
     GUIDED,
@@ -26,6 +26,7 @@ STRAIGHT = 0.99
 # friction of single asperities that touch elastically grows with the load's power 2/3 (Hertz)
 LEVEL = 1e-3  # a fall by less than this part from one speed to the next is none
 LOAD_POWER = -1.0 / 3.0
+
 
 def straightness(x: np.ndarray, y: np.ndarray) -> float:
     """R2 of a straight line."""
@@ -49,24 +50,45 @@ def judge() -> Claim:
     by_speed = {model: means[model].mean(axis=(0, 1)) for model in MODELS}
     rows = [Row("R² of the line in mass, k 38.50, v 0.37", "1", None, *r2)]
     rows += [
-        Row(f"mean of x at k {k:.2f} N/m, all m and v", "m", None,
-            *(float(by_stiffness[model][i]) for model in MODELS))
+        Row(
+            f"mean of x at k {k:.2f} N/m, all m and v",
+            "m",
+            None,
+            *(float(by_stiffness[model][i]) for model in MODELS),
+        )
         for i, k in enumerate(STIFFNESSES)
     ]
     rows += [
-        Row(f"mean of x at v {v:.2f} m/s, all m and k", "m", None,
-            *(float(by_speed[model][i]) for model in MODELS))
+        Row(
+            f"mean of x at v {v:.2f} m/s, all m and k",
+            "m",
+            None,
+            *(float(by_speed[model][i]) for model in MODELS),
+        )
         for i, v in enumerate(SPEEDS)
     ]
     return Claim(
-        "C8", "the mean of x is linear in mass and falls with stiffness and speed", tuple(rows),
+        "C8",
+        "the mean of x is linear in mass and falls with stiffness and speed",
+        tuple(rows),
         (
-            Check(f"linear in mass, R² above {STRAIGHT}", *(value > STRAIGHT for value in r2),
-                  margin=Margin("R², exact", r2[-1], STRAIGHT), turns=(_load_dependent(),)),
-            Check("falls with stiffness", *(_falls(by_stiffness[model]) for model in MODELS),
-                  margin=_least_fall("stiffness", by_stiffness["exact"])),
-            Check("falls with speed", *(_falls(by_speed[model]) for model in MODELS),
-                  margin=_least_fall("speed", by_speed["exact"]), turns=(_no_weakening(),)),
+            Check(
+                f"linear in mass, R² above {STRAIGHT}",
+                *(value > STRAIGHT for value in r2),
+                margin=Margin("R², exact", r2[-1], STRAIGHT),
+                turns=(_load_dependent(),),
+            ),
+            Check(
+                "falls with stiffness",
+                *(_falls(by_stiffness[model]) for model in MODELS),
+                margin=_least_fall("stiffness", by_stiffness["exact"]),
+            ),
+            Check(
+                "falls with speed",
+                *(_falls(by_speed[model]) for model in MODELS),
+                margin=_least_fall("speed", by_speed["exact"]),
+                turns=(_no_weakening(),),
+            ),
         ),
         remarks=(
             f"The scheme as printed does not bear the study's own line (R² {r2[0]:.2f}): its "
@@ -92,30 +114,46 @@ def _load_dependent() -> Turn:
     """The line with a mu_k that falls with the load, which mean x = mu_k m g/(4k) passes on."""
     masses = np.array(LINE_MASSES)
     r2 = straightness(masses, masses * (masses / LINE.mass) ** LOAD_POWER)
-    return Turn("µ_k falling with the load's power −1/3 instead of constant in mass",
-                f"R² {r2:.3f}", r2 > STRAIGHT, PUT_IN)
+    return Turn(
+        "µ_k falling with the load's power −1/3 instead of constant in mass",
+        f"R² {r2:.3f}",
+        r2 > STRAIGHT,
+        PUT_IN,
+    )
 
 
 def _no_weakening() -> Turn:
     """Means over the speeds with a constant mu_k, at the line's stiffness and mass."""
-    x = np.array([
-        exact_figures(LINE.changed(speed=v, weakening=0.0), rig=GUIDED).mean_x for v in SPEEDS
-    ])
-    return Turn("µ_k constant instead of falling with speed",
-                f"mean x from {1e3 * x[0]:.3f} to {1e3 * x[-1]:.3f} mm",
-                bool(np.all(-np.diff(x) > LEVEL * x[:-1])), PUT_IN)
+    x = np.array(
+        [exact_figures(LINE.changed(speed=v, weakening=0.0), rig=GUIDED).mean_x for v in SPEEDS]
+    )
+    return Turn(
+        "µ_k constant instead of falling with speed",
+        f"mean x from {1e3 * x[0]:.3f} to {1e3 * x[-1]:.3f} mm",
+        bool(np.all(-np.diff(x) > LEVEL * x[:-1])),
+        PUT_IN,
+    )
 
 
-@picture("C8_mean_x", "Mean of x over mass for the study's stiffnesses (columns) and speeds "
-         "(lines), by model (rows). Study: figures 5.2a to d.")
+@picture(
+    "C8_mean_x",
+    "Mean of x over mass for the study's stiffnesses (columns) and speeds "
+    "(lines), by model (rows). Study: figures 5.2a to d.",
+)
 def _draw_grid(means: Grid):
     figure, axes = panels(len(MODELS), len(STIFFNESSES), height=2.2, sharex=True, sharey="row")
     for row, model in enumerate(MODELS):
         for column, k in enumerate(STIFFNESSES):
             ax = axes[row, column]
             for i, v in enumerate(SPEEDS):
-                ax.plot(MASSES, 100 * means[model][column, :, i], "o-", ms=2.5,
-                        color=SERIES[i], label=f"v {v:.2f} m/s")
+                ax.plot(
+                    MASSES,
+                    100 * means[model][column, :, i],
+                    "o-",
+                    ms=2.5,
+                    color=SERIES[i],
+                    label=f"v {v:.2f} m/s",
+                )
             if row == 0:
                 ax.set_title(f"k {k:.2f} N/m")
         axes[row, 0].set_ylabel(f"{LABELS[model]}\nmean x, cm")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.studies.drawing import panels, picture
+from cosim.report.drawing import panels, picture
 
 from ..cases import (
     DATASET_1,
@@ -57,31 +57,66 @@ def judge() -> Claim:
         exact = figures(exact_motion(exact_parameters(case)))
         found[name] = (_largest(case, PRINTED), _largest(case, MENDED), exact)
         angle, rate = (STUDY[f"{what}_dataset_{name[1:]}"] for what in ("rotation", "swing"))
-        rows.append(Row(f"largest rotation, dataset {name}, of {len(SEEDS)} runs{EXACT_START}",
-                        "deg", angle,
-                        *(one.max_rotation for one in found[name])))
-        rows.append(Row(f"angle by duration of the fastest swing, dataset {name}", "deg/s", rate,
-                        *(one.swing_rate for one in found[name])))
+        rows.append(
+            Row(
+                f"largest rotation, dataset {name}, of {len(SEEDS)} runs{EXACT_START}",
+                "deg",
+                angle,
+                *(one.max_rotation for one in found[name]),
+            )
+        )
+        rows.append(
+            Row(
+                f"angle by duration of the fastest swing, dataset {name}",
+                "deg/s",
+                rate,
+                *(one.swing_rate for one in found[name]),
+            )
+        )
     far = [one.max_rotation > FAR_TURN / FACTOR for one in found["#1"]]
     near = [_stays(one) for one in found["#2"]]
     both = [one and other for one, other in zip(far, near, strict=True)]
-    loose = {name: figures(exact_motion(exact_parameters(case, pretension=0.0)))
-             for name, case in (("#1", DATASET_1), ("#2", DATASET_2))}
+    loose = {
+        name: figures(exact_motion(exact_parameters(case, pretension=0.0)))
+        for name, case in (("#1", DATASET_1), ("#2", DATASET_2))
+    }
     smaller = found["#2"][0].max_rotation < found["#1"][0].max_rotation
     return Claim(
-        "C7", "dataset #1 rotates up to 150°, dataset #2 stays within 20°", tuple(rows),
+        "C7",
+        "dataset #1 rotates up to 150°, dataset #2 stays within 20°",
+        tuple(rows),
         (
-            Check(f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°", *far,
-                  faults=responsible(_turns_still),
-                  margin=Margin("largest rotation #1, exact, its start",
-                                found["#1"][2].max_rotation, FAR_TURN / FACTOR, "°")),
-            Check(f"dataset #2 stays within {FACTOR * MEASURED:.0f}°", *near,
-                  margin=Margin("largest rotation #2, exact, its start",
-                                found["#2"][2].max_rotation, FACTOR * MEASURED, "°")),
-            Check("one and the same model does both", *both,
-                  margin=Margin("marks of the two datasets met by the best reading",
-                                max(sum(one.met) for one in outcomes()), len(MARKS)),
-                  turns=(_without_pretension(loose), *_readings())),
+            Check(
+                f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°",
+                *far,
+                faults=responsible(_turns_still),
+                margin=Margin(
+                    "largest rotation #1, exact, its start",
+                    found["#1"][2].max_rotation,
+                    FAR_TURN / FACTOR,
+                    "°",
+                ),
+            ),
+            Check(
+                f"dataset #2 stays within {FACTOR * MEASURED:.0f}°",
+                *near,
+                margin=Margin(
+                    "largest rotation #2, exact, its start",
+                    found["#2"][2].max_rotation,
+                    FACTOR * MEASURED,
+                    "°",
+                ),
+            ),
+            Check(
+                "one and the same model does both",
+                *both,
+                margin=Margin(
+                    "marks of the two datasets met by the best reading",
+                    max(sum(one.met) for one in outcomes()),
+                    len(MARKS),
+                ),
+                turns=(_without_pretension(loose), *_readings()),
+            ),
         ),
         remarks=(
             f"As printed, dataset #2 turns {'less' if smaller else 'no less'} than dataset #1, by "
@@ -96,8 +131,10 @@ def judge() -> Claim:
         place="§4.6.4, fig. 4.21, eq. 4.26",
         rests="the readings of the scheme, of which none gives both datasets",
         assumed=(
-            SCATTER_ASSUMED.replace("mean of three seeds, last 60 % of 25 cycles",
-                                    f"largest of {len(SEEDS)} seeds, 25 cycles"),
+            SCATTER_ASSUMED.replace(
+                "mean of three seeds, last 60 % of 25 cycles",
+                f"largest of {len(SEEDS)} seeds, 25 cycles",
+            ),
             RIG_ASSUMED,
         ),
         pictures=(_draw(),),
@@ -112,7 +149,8 @@ def _without_pretension(loose: dict[str, MotionFigures]) -> Turn:
     return Turn(
         "exact: no pretension",
         f"#1 {loose['#1'].max_rotation:.1f}°, #2 {loose['#2'].max_rotation:.1f}°",
-        _both(loose["#1"], loose["#2"]), OPEN,
+        _both(loose["#1"], loose["#2"]),
+        OPEN,
     )
 
 
@@ -121,21 +159,28 @@ def _readings() -> list[Turn]:
     turns = []
     for reading in READINGS:
         pair = reading_figures(reading, 1), reading_figures(reading, 2)
-        turns.append(Turn(
-            f"the scheme read otherwise: {reading.name}",
-            f"#1 {pair[0].max_rotation:.0f}°, #2 {pair[1].max_rotation:.0f}°", _both(*pair),
-            OPEN if reading.place else FAR,
-        ))
+        turns.append(
+            Turn(
+                f"the scheme read otherwise: {reading.name}",
+                f"#1 {pair[0].max_rotation:.0f}°, #2 {pair[1].max_rotation:.0f}°",
+                _both(*pair),
+                OPEN if reading.place else FAR,
+            )
+        )
     return turns
 
 
-@picture("C7_rotation", "φ(t) of datasets #1 and #2 as printed and mended (of eight runs each the "
-         "one that turns farthest) and in the exact model. Study: figure 4.21.")
+@picture(
+    "C7_rotation",
+    "φ(t) of datasets #1 and #2 as printed and mended (of eight runs each the "
+    "one that turns farthest) and in the exact model. Study: figure 4.21.",
+)
 def _draw():
     figure, axes = panels(1, 2, height=2.7)
     for ax, name, case in ((axes[0, 0], "#1", DATASET_1), (axes[0, 1], "#2", DATASET_2)):
         runs: dict[str, Motion] = {
-            "printed": _farthest(case, PRINTED), "mended": _farthest(case, MENDED),
+            "printed": _farthest(case, PRINTED),
+            "mended": _farthest(case, MENDED),
             "exact": exact_motion(exact_parameters(case)),
         }
         for model, run in runs.items():

@@ -55,29 +55,62 @@ def judge() -> Claim:
     per_second = python[0] / DURATION * WHOLE
     others = {"strips in numpy": numpy[0] / numpy[1], "compiled": compiled[0] / compiled[1]}
     return Claim(
-        "C12", "updating the spring angles takes 5 to 8 min, other treatments 20 to 30 s",
+        "C12",
+        "updating the spring angles takes 5 to 8 min, other treatments 20 to 30 s",
         (
-            Row(f"run time of {CYCLES} cycles, updated, strips in Python", "min",
-                PRINTED_TIMES["minutes_updated"], CYCLES * python[0] / 60.0, digits=3),
-            Row(f"run time of {CYCLES} cycles, zero, strips in Python", "s",
-                PRINTED_TIMES["seconds_others"], CYCLES * python[1], digits=3),
-            Row("run time, updated / zero, strips in Python", "1", None, ratio,
-                derived=f"{STUDY[0]:.0f} to {STUDY[1]:.0f}", how="5 min/30 s to 8 min/20 s"),
+            Row(
+                f"run time of {CYCLES} cycles, updated, strips in Python",
+                "min",
+                PRINTED_TIMES["minutes_updated"],
+                CYCLES * python[0] / 60.0,
+                digits=3,
+            ),
+            Row(
+                f"run time of {CYCLES} cycles, zero, strips in Python",
+                "s",
+                PRINTED_TIMES["seconds_others"],
+                CYCLES * python[1],
+                digits=3,
+            ),
+            Row(
+                "run time, updated / zero, strips in Python",
+                "1",
+                None,
+                ratio,
+                derived=f"{STUDY[0]:.0f} to {STUDY[1]:.0f}",
+                how="5 min/30 s to 8 min/20 s",
+            ),
             Row("run time, updated / zero, strips in numpy", "1", None, numpy[0] / numpy[1]),
             Row("run time, updated / zero, compiled", "1", None, None, compiled[0] / compiled[1]),
-            Row("script (strips in Python) / compiled scheme, 20 s, updated", "1", None,
-                None, per_second / compiled[0]),
-            Row("script (strips in Python) / exact model, 20 s", "1", None, None, None,
-                per_second / exact),
+            Row(
+                "script (strips in Python) / compiled scheme, 20 s, updated",
+                "1",
+                None,
+                None,
+                per_second / compiled[0],
+            ),
+            Row(
+                "script (strips in Python) / exact model, 20 s",
+                "1",
+                None,
+                None,
+                None,
+                per_second / exact,
+            ),
         ),
         (
-            Check("`updated` takes 10 to 24 times as long as the others, within a factor of "
-                  f"{LEEWAY:.0f}", _as_told(ratio), None, None,
-                  margin=Margin("ratio", ratio, STUDY[0] / LEEWAY),
-                  turns=tuple(
-                      Turn(f"{name} instead of in Python", f"ratio {value:.1f}", _as_told(value))
-                      for name, value in others.items()
-                  )),
+            Check(
+                "`updated` takes 10 to 24 times as long as the others, within a factor of "
+                f"{LEEWAY:.0f}",
+                _as_told(ratio),
+                None,
+                None,
+                margin=Margin("ratio", ratio, STUDY[0] / LEEWAY),
+                turns=tuple(
+                    Turn(f"{name} instead of in Python", f"ratio {value:.1f}", _as_told(value))
+                    for name, value in others.items()
+                ),
+            ),
         ),
         remarks=(
             "The cost is not the stiffness matrix: `updated` samples friction a hundred times in "

@@ -6,15 +6,32 @@ import numpy as np
 from scipy.stats import spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
-from cosim.studies.drawing import INK, panels, picture
+from cosim.report.drawing import INK, panels, picture
 
 from ..cases import GUIDED, GUIDED_ASSUMED, LAW_ASSUMED, exact_figures, three_models
 from ..claim import FAR, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import MODELS, by_model
 from ..series import CASE
 
-SPEEDS = (0.01, 0.02, 0.04, 0.07, 0.10, 0.15, 0.20, 0.25, 0.31, 0.37, 0.44, 0.50, 0.57, 0.63,
-          0.70, 0.76, 0.82)
+SPEEDS = (
+    0.01,
+    0.02,
+    0.04,
+    0.07,
+    0.10,
+    0.15,
+    0.20,
+    0.25,
+    0.31,
+    0.37,
+    0.44,
+    0.50,
+    0.57,
+    0.63,
+    0.70,
+    0.76,
+    0.82,
+)
 # a trend: at least this rank correlation with the speed
 TREND = 0.8
 # and a growth by as much over all speeds: equal slip times have ranks too
@@ -37,17 +54,29 @@ def judge() -> Claim:
     ranks = [_rank(times[model]) for model in MODELS]
     rows = [Row("rank correlation of slip time with speed", "1", None, *ranks)]
     rows += [
-        Row(f"mean slip time at v {v:.2f} m/s", "s", None,
-            *(float(times[model][SPEEDS.index(v)]) for model in MODELS))
+        Row(
+            f"mean slip time at v {v:.2f} m/s",
+            "s",
+            None,
+            *(float(times[model][SPEEDS.index(v)]) for model in MODELS),
+        )
         for v in (0.01, 0.15, 0.37, 0.82)
     ]
     return Claim(
-        "C9", "slips last longer the faster the surface", tuple(rows),
-        (Check(f"slip time grows with speed, rank correlation above {TREND}",
-               *(_grows(times[model]) for model in MODELS),
-               margin=Margin("rank correlation, exact", ranks[-1], TREND),
-               turns=(_varied("µ_k constant instead of falling with speed", PUT_IN, weakening=0.0),
-                      _varied("µ_s no more than µ_k", mu_s=CASE.mu_k, weakening=0.0))),),
+        "C9",
+        "slips last longer the faster the surface",
+        tuple(rows),
+        (
+            Check(
+                f"slip time grows with speed, rank correlation above {TREND}",
+                *(_grows(times[model]) for model in MODELS),
+                margin=Margin("rank correlation, exact", ranks[-1], TREND),
+                turns=(
+                    _varied("µ_k constant instead of falling with speed", PUT_IN, weakening=0.0),
+                    _varied("µ_s no more than µ_k", mu_s=CASE.mu_k, weakening=0.0),
+                ),
+            ),
+        ),
         remarks=(
             "Closed form with constant µ: from "
             f"{_closed_form(SPEEDS[0]):.3f} s at {SPEEDS[0]:.2f} m/s to "
@@ -62,15 +91,15 @@ def judge() -> Claim:
         scope=_scope(times["exact"]),
         place="§5.2, fig. 5.6",
         rests=f"the speeds at which the exact model sticks: {np.isfinite(times['exact']).sum()} of "
-              f"{len(SPEEDS)}",
+        f"{len(SPEEDS)}",
     )
 
 
 def _varied(change: str, weight: str = FAR, **numbers: float) -> Turn:
     """The trend of the exact model with another friction."""
-    times = np.array([
-        exact_figures(CASE.changed(speed=v, **numbers), rig=GUIDED).slip_time for v in SPEEDS
-    ])
+    times = np.array(
+        [exact_figures(CASE.changed(speed=v, **numbers), rig=GUIDED).slip_time for v in SPEEDS]
+    )
     known = times[np.isfinite(times)]
     figure = f"from {known[0]:.3f} to {known[-1]:.3f} s, stick at {len(known)} of {len(SPEEDS)}"
     return Turn(change, f"{figure} speeds", _grows(times), weight)
@@ -111,14 +140,23 @@ def _rank(times: np.ndarray) -> float:
     return float(spearmanr(np.array(SPEEDS)[known], times[known]).statistic)
 
 
-@picture("C9_slip_time", "Mean slip time over the speed of the surface, m 0.67 kg, k 20.17 N/m; "
-         "line: closed form with constant µ. Study: figure 5.6.")
+@picture(
+    "C9_slip_time",
+    "Mean slip time over the speed of the surface, m 0.67 kg, k 20.17 N/m; "
+    "line: closed form with constant µ. Study: figure 5.6.",
+)
 def _draw(times: dict[str, np.ndarray]):
     figure, axes = panels(1, 1, height=3.0, width=6.0)
     ax = axes[0, 0]
     by_model(ax, SPEEDS, times)
-    ax.plot(SPEEDS, [_closed_form(v) for v in SPEEDS], color=INK, lw=0.9, ls=":",
-            label="closed form, constant µ")
+    ax.plot(
+        SPEEDS,
+        [_closed_form(v) for v in SPEEDS],
+        color=INK,
+        lw=0.9,
+        ls=":",
+        label="closed form, constant µ",
+    )
     ax.set_xlabel("surface speed, m/s")
     ax.set_ylabel("mean slip time, s")
     ax.legend()

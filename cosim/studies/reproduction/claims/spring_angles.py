@@ -6,7 +6,7 @@ import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
-from cosim.studies.drawing import SERIES, panels, picture
+from cosim.report.drawing import SERIES, panels, picture
 
 from ..cases import (
     DATASET_1,
@@ -96,14 +96,36 @@ def judge() -> Claim:
     for name in TREATMENTS:
         updated = name == "updated"
         derived = {"derived": 60.0, "how": "three times 20°, §4.3.1"} if updated else {}
-        rows.append(Row(f"largest rotation, {name}" + (EXACT_START if updated else ""), "deg", None,
-                        _rotation(printed[name]), _rotation(mended[name]),
-                        _rotation(exact) if updated else None, **derived))
-        rows.append(Row(f"largest |y|, {name}", "m", None, float(np.abs(printed[name].y).max()),
-                        float(np.abs(mended[name].y).max()),
-                        float(np.abs(exact.y).max()) if updated else None))
-    rows.append(Row("rotation sets in (1°), updated", "s", STUDY["rotation_sets_in"],
-                    _sets_in(printed["updated"]), _sets_in(mended["updated"])))
+        rows.append(
+            Row(
+                f"largest rotation, {name}" + (EXACT_START if updated else ""),
+                "deg",
+                None,
+                _rotation(printed[name]),
+                _rotation(mended[name]),
+                _rotation(exact) if updated else None,
+                **derived,
+            )
+        )
+        rows.append(
+            Row(
+                f"largest |y|, {name}",
+                "m",
+                None,
+                float(np.abs(printed[name].y).max()),
+                float(np.abs(mended[name].y).max()),
+                float(np.abs(exact.y).max()) if updated else None,
+            )
+        )
+    rows.append(
+        Row(
+            "rotation sets in (1°), updated",
+            "s",
+            STUDY["rotation_sets_in"],
+            _sets_in(printed["updated"]),
+            _sets_in(mended["updated"]),
+        )
+    )
     apart = [_disagreement(runs) for runs in (printed, mended)]
     rows.append(Row("treatments apart in x at break-away, before rotation", "m", None, *apart))
     back = _put_back()
@@ -112,27 +134,41 @@ def judge() -> Claim:
     bounded = [_only_updated_bounded(runs) for runs in (printed, mended)]
     alone = responsible(_bounded)
     checks = (
-        Check("all treatments agree in x until rotation sets in",
-              *(value < AGREE for value in apart), None,
-              margin=Margin("apart in x, mended", 1e3 * apart[1], 1e3 * AGREE, "mm")),
-        Check(f"only the updated angles rotate, by more than {ROTATES:.0f}°",
-              *rotates, free > ROTATES,
-              faults=responsible(lambda faults: _only_updated_rotates(_runs(faults))),
-              margin=Margin("largest rotation, exact, with or without pretension", free, ROTATES,
-                            "°"),
-              turns=(*_freer(), back)),
-        Check("y moves away for good with constant angles, comes back with updated ones",
-              *bounded, None,
-              faults=alone,
-              together=() if alone else responsible_pairs(_bounded),
-              margin=Margin(
-                  "changes of side in y with constant angles, mended, at most",
-                  max(_sides(mended[name]) for name in ("constant", "opposed")), CYCLES // 10,
-              ),
-              turns=(_bounded_by_scatter(),)),
+        Check(
+            "all treatments agree in x until rotation sets in",
+            *(value < AGREE for value in apart),
+            None,
+            margin=Margin("apart in x, mended", 1e3 * apart[1], 1e3 * AGREE, "mm"),
+        ),
+        Check(
+            f"only the updated angles rotate, by more than {ROTATES:.0f}°",
+            *rotates,
+            free > ROTATES,
+            faults=responsible(lambda faults: _only_updated_rotates(_runs(faults))),
+            margin=Margin(
+                "largest rotation, exact, with or without pretension", free, ROTATES, "°"
+            ),
+            turns=(*_freer(), back),
+        ),
+        Check(
+            "y moves away for good with constant angles, comes back with updated ones",
+            *bounded,
+            None,
+            faults=alone,
+            together=() if alone else responsible_pairs(_bounded),
+            margin=Margin(
+                "changes of side in y with constant angles, mended, at most",
+                max(_sides(mended[name]) for name in ("constant", "opposed")),
+                CYCLES // 10,
+            ),
+            turns=(_bounded_by_scatter(),),
+        ),
     )
     return Claim(
-        "C5", "the treatments agree in x until `updated` begins to rotate", tuple(rows), checks,
+        "C5",
+        "the treatments agree in x until `updated` begins to rotate",
+        tuple(rows),
+        checks,
         remarks=(
             "F2 makes the printed scheme rotate, and is not needed for it: "
             f"{back.change} gives a {back.figure}.",
@@ -140,8 +176,12 @@ def judge() -> Claim:
             f"{100 * np.abs(loose.y).max():.1f} cm within {EXACT_DURATION:.0f} s, from a start "
             "turned by 1°.",
         ),
-        assumed=(SCATTER_ASSUMED.replace("mean of three seeds, last 60 % of 25 cycles",
-                                         f"seed {SEED}, {CYCLES} cycles"), RIG_ASSUMED),
+        assumed=(
+            SCATTER_ASSUMED.replace(
+                "mean of three seeds, last 60 % of 25 cycles", f"seed {SEED}, {CYCLES} cycles"
+            ),
+            RIG_ASSUMED,
+        ),
         pictures=(_draw(printed, mended),),
         leading=2 * TREATMENTS.index("updated"),
         place="§4.3.1 to 4.3.3, fig. 4.6 and 4.7",
@@ -162,11 +202,15 @@ def _freer() -> list[Turn]:
             exact_parameters(DATASET_1, pretension=pretension, initial={"phi": start}),
             EXACT_DURATION,
         )
-        turns.append(Turn(
-            f"exact: {1e3 * pretension:.0f} mm of pretension, start turned by "
-            f"{np.degrees(start):.0f}°",
-            f"largest rotation {_rotation(run):.1f}°", _rotation(run) > ROTATES, OPEN,
-        ))
+        turns.append(
+            Turn(
+                f"exact: {1e3 * pretension:.0f} mm of pretension, start turned by "
+                f"{np.degrees(start):.0f}°",
+                f"largest rotation {_rotation(run):.1f}°",
+                _rotation(run) > ROTATES,
+                OPEN,
+            )
+        )
     return turns
 
 
@@ -187,12 +231,16 @@ def _bounded_by_scatter() -> Turn:
     return Turn(
         "mended: scatter of 0.2 instead of 0.02",
         f"{_sides(runs['updated'])} changes of side in y with updated angles",
-        _only_updated_bounded(runs), OPEN,
+        _only_updated_bounded(runs),
+        OPEN,
     )
 
 
-@picture("C5_spring_angles", "x, φ and y of the four spring-angle treatments (m 0.67 kg, k 20.17 "
-         "N/m, v 0.15 m/s); left as printed, right mended. Study: figures 4.6 and 4.7.")
+@picture(
+    "C5_spring_angles",
+    "x, φ and y of the four spring-angle treatments (m 0.67 kg, k 20.17 "
+    "N/m, v 0.15 m/s); left as printed, right mended. Study: figures 4.6 and 4.7.",
+)
 def _draw(printed: dict[str, Motion], mended: dict[str, Motion]):
     figure, axes = panels(3, 2, height=2.0, sharex="col", sharey="row")
     for column, (title, runs) in enumerate((("as printed", printed), ("mended", mended))):

@@ -27,25 +27,40 @@ def judge() -> Claim:
         expected = np.zeros((3, 3))
         for (i, j), value in entries.items():
             expected[i, j] = expected[j, i] = value.value
-            rows.append(Row(
-                f"K_{NAMES[i]}{NAMES[j]}/k, {treatment}", UNITS[(i == 2) + (j == 2)], value,
-                float(ours[i, j]), float(ours[i, j]), digits=6,
-            ))
+            rows.append(
+                Row(
+                    f"K_{NAMES[i]}{NAMES[j]}/k, {treatment}",
+                    UNITS[(i == 2) + (j == 2)],
+                    value,
+                    float(ours[i, j]),
+                    float(ours[i, j]),
+                    digits=6,
+                )
+            )
         same = bool(np.array_equal(np.round(ours, DIGITS), expected))
         says = f"{treatment}: all nine entries to {DIGITS} decimals"
         apart = float(np.abs(ours - expected).max())
-        checks.append(Check(
-            says, same, same, None,
-            margin=Margin(f"{treatment}: largest difference", apart, 0.5 * 10.0**-DIGITS),
-            turns=(_other_radius(treatment, expected),),
-        ))
+        checks.append(
+            Check(
+                says,
+                same,
+                same,
+                None,
+                margin=Margin(f"{treatment}: largest difference", apart, 0.5 * 10.0**-DIGITS),
+                turns=(_other_radius(treatment, expected),),
+            )
+        )
     return Claim(
-        "C1", "the stiffness matrices of the spring-angle treatments", tuple(rows), tuple(checks),
+        "C1",
+        "the stiffness matrices of the spring-angle treatments",
+        tuple(rows),
+        tuple(checks),
         remarks=(
             "The fourth treatment starts from the matrix of the first. The exact model needs no "
             "stiffness matrix; its small vibrations are checked in C4.",
         ),
-        place="§4.2.2, eq. 4.16 to 4.18", rests="the printed r, β and α alone",
+        place="§4.2.2, eq. 4.16 to 4.18",
+        rests="the printed r, β and α alone",
     )
 
 
@@ -59,5 +74,6 @@ def _other_radius(treatment: str, expected: np.ndarray) -> Turn:
             break
     return Turn(
         f"{treatment}: r of {1e3 * radius:.2f} instead of {1e3 * ATTACHMENT_RADIUS:.0f} mm",
-        f"K_φφ/k {matrix[2, 2]:.6f} m²", False,
+        f"K_φφ/k {matrix[2, 2]:.6f} m²",
+        False,
     )

@@ -45,20 +45,30 @@ def judge_no_stiffness() -> Claim:
     sprung = _exact_ways(case.changed(stiffness=WEAK_SPRING))
     meets = DATASET_1.speed / (case.mu_k * GRAVITY)
     return Claim(
-        "C2", "without springs the block drifts without bound",
+        "C2",
+        "without springs the block drifts without bound",
         (
-            Row("x after 20 s", "m", None, *(way[1] for way in ways.values()),
-                derived=0.5 * case.mu_k * GRAVITY * DURATION**2, how="½ µ_k g t²"),
+            Row(
+                "x after 20 s",
+                "m",
+                None,
+                *(way[1] for way in ways.values()),
+                derived=0.5 * case.mu_k * GRAVITY * DURATION**2,
+                how="½ µ_k g t²",
+            ),
         ),
         (
             Check(
                 "x grows without bound, in proportion to time or faster",
                 *(_drifts(way) for way in ways.values()),
                 margin=Margin("x(20 s)/x(10 s)", ways["exact"][1] / ways["exact"][0], TWICE),
-                turns=(Turn(
-                    f"springs of {WEAK_SPRING:g} N/m instead of none",
-                    f"x(20 s)/x(10 s) {sprung[1] / sprung[0]:.2f}", _drifts(sprung),
-                ),),
+                turns=(
+                    Turn(
+                        f"springs of {WEAK_SPRING:g} N/m instead of none",
+                        f"x(20 s)/x(10 s) {sprung[1] / sprung[0]:.2f}",
+                        _drifts(sprung),
+                    ),
+                ),
             ),
         ),
         first=(
@@ -68,7 +78,8 @@ def judge_no_stiffness() -> Claim:
             f"has its speed after {meets:.2f} s, sticks, and rides along: "
             f"{ways['exact'][1]:.1f} m in {DURATION:.0f} s."
         ),
-        place="§4.5, fig. 4.13", rests="the equation of motion alone",
+        place="§4.5, fig. 4.13",
+        rests="the equation of motion alone",
     )
 
 
@@ -98,18 +109,29 @@ def judge_stiff() -> Claim:
     largest.append(float(np.abs(released["x"]).max()))
     ridden = float(np.abs(riding["x"]).max())
     return Claim(
-        "C3", "stiff springs hold the block in place",
+        "C3",
+        "stiff springs hold the block in place",
         (Row("largest |x|", "m", STUDY["stiff_displacement"], *largest),),
         (
-            Check(f"|x| stays below a camera pixel, {1e3 * PIXEL:.2f} mm",
-                  *(value < PIXEL for value in largest),
-                  margin=Margin("largest |x|", 1e3 * largest[-1], 1e3 * PIXEL, "mm"),
-                  turns=(Turn("a start riding on the surface instead of at rest",
-                              f"largest |x| {1e3 * ridden:.2f} mm", ridden < PIXEL),)),
+            Check(
+                f"|x| stays below a camera pixel, {1e3 * PIXEL:.2f} mm",
+                *(value < PIXEL for value in largest),
+                margin=Margin("largest |x|", 1e3 * largest[-1], 1e3 * PIXEL, "mm"),
+                turns=(
+                    Turn(
+                        "a start riding on the surface instead of at rest",
+                        f"largest |x| {1e3 * ridden:.2f} mm",
+                        ridden < PIXEL,
+                    ),
+                ),
+            ),
         ),
-        remarks=("Slip from rest, as in the study. A block that starts riding on the surface "
-                 "swings by v √(m/4k).",),
-        place="§4.5, fig. 4.14", rests="what counts as no displacement: a pixel of the camera",
+        remarks=(
+            "Slip from rest, as in the study. A block that starts riding on the surface "
+            "swings by v √(m/4k).",
+        ),
+        place="§4.5, fig. 4.14",
+        rests="what counts as no displacement: a pixel of the camera",
     )
 
 
@@ -123,7 +145,8 @@ def judge_no_friction() -> Claim:
     exact = simulate(exact_parameters(case, initial={"x": OFFSET} | at_rest), DURATION, 1e-3)
     large = simulate(
         exact_parameters(case, pretension=0.0, initial={"x": LARGE_OFFSET} | at_rest),
-        3 * DURATION, 1e-2,
+        3 * DURATION,
+        1e-2,
     )
     motions.append((exact.time, exact["x"]))
     rates = [oscillation_rate(time, x) for time, x in motions]
@@ -131,18 +154,31 @@ def judge_no_friction() -> Claim:
     near = [abs(rate / expected - 1.0) < CLOSE for rate in rates]
     kept = [abs(value / OFFSET - 1.0) < CLOSE for value in last]
     return Claim(
-        "C4", "without friction it vibrates freely at √(4k/m)",
+        "C4",
+        "without friction it vibrates freely at √(4k/m)",
         (
             Row("frequency", "Hz", None, *rates, derived=expected, how="√(4k/m)/2π"),
-            Row("amplitude in the last second", "m", None, *last, derived=OFFSET,
-                how="the offset, kept"),
+            Row(
+                "amplitude in the last second",
+                "m",
+                None,
+                *last,
+                derived=OFFSET,
+                how="the offset, kept",
+            ),
         ),
         (
-            Check("the frequency is √(4k/m)/2π", *near,
-                  margin=Margin("frequency off by", abs(rates[-1] / expected - 1.0), CLOSE),
-                  turns=(_hardened(case, expected),)),
-            Check("the vibration goes on undamped", *kept,
-                  margin=Margin("amplitude off by", abs(last[-1] / OFFSET - 1.0), CLOSE)),
+            Check(
+                "the frequency is √(4k/m)/2π",
+                *near,
+                margin=Margin("frequency off by", abs(rates[-1] / expected - 1.0), CLOSE),
+                turns=(_hardened(case, expected),),
+            ),
+            Check(
+                "the vibration goes on undamped",
+                *kept,
+                margin=Margin("amplitude off by", abs(last[-1] / OFFSET - 1.0), CLOSE),
+            ),
         ),
         remarks=(
             f"Exact geometry, no pretension, offset {100 * LARGE_OFFSET:.0f} cm: the largest "
@@ -150,7 +186,8 @@ def judge_no_friction() -> Claim:
             f"{np.degrees(np.abs(large['phi']).max()):.2g}°.",
         ),
         assumed=(f"the initial offset: {100 * OFFSET:.0f} cm (not printed)",),
-        place="§4.5, fig. 4.15", rests="the springs' linearity over the offset",
+        place="§4.5, fig. 4.15",
+        rests="the springs' linearity over the offset",
     )
 
 
@@ -158,14 +195,14 @@ def _hardened(case: Case, expected: float) -> Turn:
     """A wider vibration, on springs whose force is k e (1 + h e²)."""
     start = {"x": FAR_OFFSET, "vx": 0.0, "phi": 0.0}
     hardened = {
-        "cubic": HARDENING * case.stiffness, "neutral_extension": PRETENSION,
+        "cubic": HARDENING * case.stiffness,
+        "neutral_extension": PRETENSION,
     }
-    run = simulate(
-        exact_parameters(case, initial=start, spring_hardening=hardened), DURATION, 1e-3
-    )
+    run = simulate(exact_parameters(case, initial=start, spring_hardening=hardened), DURATION, 1e-3)
     rate = oscillation_rate(run.time, run["x"])
     return Turn(
         f"an offset of {100 * FAR_OFFSET:.0f} cm on springs that harden by "
         f"{HARDENING * FAR_OFFSET**2:.0%} there",
-        f"frequency off by {rate / expected - 1.0:.1%}", abs(rate / expected - 1.0) < CLOSE,
+        f"frequency off by {rate / expected - 1.0:.1%}",
+        abs(rate / expected - 1.0) < CLOSE,
     )

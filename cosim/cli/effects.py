@@ -1,0 +1,77 @@
+"""`stickslip effects`: the catalogue, printed, and as a page with figures."""
+
+from __future__ import annotations
+
+import json
+import sys
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from cosim.atomic import write_bytes, write_text
+from cosim.folders import OutputRefused, writable
+from cosim.interrupts import held_interrupts
+from cosim.report.drawing import Picture
+from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page
+
+DONE, FAILED = 0, 1
+REFUSED = (UnknownEffect, OutputRefused)
+RESULT, PAGE = "effects.json", "effects.html"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("effects", metavar="EFFECT", nargs="*", help="ids (default: all)")
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help=f"also write {PAGE}, {RESULT} and the figures there"
+    )
+
+
+def execute(arguments: Namespace) -> int:
+    """Print the entries; write page, JSON and figures where asked to."""
+    entries = [described(entry) for entry in chosen(arguments.effects)]
+    if arguments.output is not None and not _write(entries, Path(arguments.output)):
+        return FAILED
+    if arguments.json:
+        print(json.dumps(entries, indent=1))
+    else:
+        for entry in entries:
+            _print(entry)
+    return DONE
+
+
+def _print(entry: dict[str, Any]) -> None:
+    print(f"{entry['id']}: {entry['sentence']}")
+    print(f"    enters {entry['enters']}; {entry['source']}")
+    for parameter in entry["parameters"]:
+        typical = parameter["typical"]
+        usual = f", typical {typical[0]:g} to {typical[1]:g}" if typical else ""
+        print(
+            f"    {parameter['key']} [{parameter['unit']}] = {parameter['default']:g}, allowed "
+            f"{allowed(parameter)}{usual}"
+        )
+        print(f"        {parameter['description']}")
+
+
+def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
+    """Figures, then the page of all of them; whether it got so far."""
+    writable(folder, (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries)))
+    pictures: dict[str, Picture] = {}
+    try:
+        for entry in tqdm(entries, disable=None, unit="figure", leave=False):
+            name = entry["id"]
+            with held_interrupts():
+                pictures[name] = effect_figure(name)
+                write_bytes(pictures[name].png, folder / f"{name}.png")
+        write_text(json.dumps(entries, indent=1), folder / RESULT)
+        write_text(page(entries, pictures), folder / PAGE)
+    except KeyboardInterrupt:
+        print(
+            f"error: interrupted; {len(pictures)} of {len(entries)} figures are in {folder}",
+            file=sys.stderr,
+        )
+        return False
+    return True

@@ -1,0 +1,129 @@
+"""`stickslip friction-map`: its arguments, what it runs, what it leaves behind.
+
+What `execute` raises of `REFUSED` is bad input, in one line.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import time
+from argparse import ArgumentParser, Namespace
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from cosim.atomic import write_atomically
+from cosim.coupling import CouplingError
+from cosim.report.drawing import DPI, OutputRefused, writable
+from cosim.scenario import read_scenario
+from cosim.scenario.faults import ScenarioError
+from cosim.studies.friction_map import FrictionMap, NotSteady, draw_map, friction_map
+
+DONE = 0
+REFUSED = (NotSteady, ScenarioError, OutputRefused, CouplingError)
+RESULT, TABLE, FIGURE = "friction_map.json", "friction_map.csv", "friction_map.png"
+#: Three speeds a decade, m/s, up to those of skates and sleds.
+SPEEDS = tuple(float(f"{speed:.3g}") for speed in np.geomspace(3e-3, 30.0, 13))
+AMBIENTS = (-16.0, -8.0, -1.0)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "scenario",
+        nargs="?",
+        default="melting_friction",
+        help="TOML file, or the name of a packaged scenario (default: melting_friction)",
+    )
+    parser.add_argument(
+        "--speed",
+        metavar="V",
+        type=float,
+        nargs="+",
+        default=SPEEDS,
+        help="speeds of sliding, m/s (default: 13 from 0.003 to 30)",
+    )
+    parser.add_argument(
+        "--ambient",
+        metavar="T",
+        type=float,
+        nargs="+",
+        default=AMBIENTS,
+        help="temperatures of the air, degC (default: -16 -8 -1)",
+    )
+    parser.add_argument(
+        "--duration",
+        metavar="S",
+        type=float,
+        default=2.0,
+        help="length of each coupled run, s (default: 2)",
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        default="results/friction-map",
+        help="folder of table, numbers and figure (default: results/friction-map)",
+    )
+
+
+def execute(arguments: Namespace) -> int:
+    """Run, write, print a line a temperature; 0. Raises what is in `REFUSED`."""
+    began = time.perf_counter()
+    scenario = read_scenario(arguments.scenario)
+    folder = Path(arguments.output)
+    writable(folder)
+    total = len(set(arguments.speed)) * len(set(arguments.ambient))
+    with tqdm(total=total, disable=None, unit="run", leave=False) as bar:
+        found = friction_map(
+            scenario, arguments.speed, arguments.ambient, arguments.duration, bar.update
+        )
+    _write(found, folder)
+    if arguments.json:
+        print(json.dumps(found.as_json(), indent=1))
+        return DONE
+    for ambient in found.ambients:
+        _print(found.regimes(ambient))
+    wall_time = time.perf_counter() - began
+    print(f"{total} coupled runs in {wall_time:.1f} s; {folder / FIGURE}, {folder / RESULT}")
+    return DONE
+
+
+def _print(regimes: dict[str, Any]) -> None:
+    print(f"{regimes['ambient_degC']:g} degC")
+    for key, name in (
+        ("steepest_fall", "steepest fall"),
+        ("steepest_fall_over_warming", "  over T_m - T"),
+        ("steepest_rise", "steepest rise"),
+    ):
+        slope = regimes[key]
+        if slope is not None:
+            print(
+                f"    {name}: slope {slope['slope']:+.4f} "
+                f"from {slope['low']:.3g} to {slope['high']:.3g} m/s"
+            )
+    lowest = regimes["minimum"]
+    if lowest is not None:
+        print(f"    minimum: {lowest['friction']:.4f} at {lowest['speed']:.3g} m/s")
+
+
+def _write(found: FrictionMap, folder: Path) -> None:
+    """Numbers first, then the figure."""
+    text = json.dumps(found.as_json(), indent=1)
+    write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
+    write_atomically(folder / TABLE, lambda path: _write_table(found, path))
+    figure = draw_map(found)
+    write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=DPI))
+
+
+def _write_table(found: FrictionMap, path: Path) -> None:
+    rows = [asdict(point) for point in found.points]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)

@@ -1,0 +1,161 @@
+"""`stickslip gap`: its arguments, what it asks, what it leaves behind.
+
+What `execute` raises of `REFUSED` is bad input, in one line.
+"""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+
+from tqdm import tqdm
+
+from cosim.atomic import write_text
+from cosim.folders import OutputRefused, writable
+from cosim.gap import Campaign, CampaignError, read_campaign
+from cosim.gap.example import write_example
+from cosim.interrupts import held_interrupts
+
+DONE, FAILED = 0, 1
+RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
+STDOUT = "-"
+CAMPAIGNS = Path(__file__).parents[1] / "gap" / "campaigns"
+REFUSED = (CampaignError, OutputRefused)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "campaign",
+        nargs="?",
+        help="TOML file, a folder with campaign.toml, or a packaged campaign: "
+        f"{', '.join(packaged_campaigns())}",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        help=f"folder of {PAGE}, figures, {MODEL} and {RESULT} (default: results/NAME OF THE "
+        "CAMPAIGN-gap)",
+    )
+    parser.add_argument(
+        "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
+    )
+    parser.add_argument(
+        "--write-example",
+        metavar="DIR",
+        help="write a small campaign there to try this command on, and do nothing else",
+    )
+    parser.add_argument(
+        "--no-page", action="store_true", help=f"only {RESULT} and {MODEL}: no figures, no FMU"
+    )
+    parser.add_argument(
+        "--jobs", metavar="N", type=_count, default=2, help="processes (default: 2)"
+    )
+    parser.add_argument(
+        "--seed",
+        metavar="N",
+        type=_whole,
+        default=0,
+        help="of everything that is drawn; the same seed gives the same answer (default: 0)",
+    )
+
+
+def execute(arguments: Namespace) -> int:
+    """Read, find, write, report; 0, or 1 when stopped. Raises what is in `REFUSED`."""
+    if arguments.write_example is not None:
+        print(write_example(Path(arguments.write_example)))
+        return DONE
+    if arguments.campaign is None:
+        raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
+    with held_interrupts():
+        files = import_module("cosim.gap.show.files")
+    campaign = read_campaign(_source(arguments.campaign))
+    folder = Path(arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap")
+    writable(folder, (RESULT, MODEL, PAGE))
+    copy = Path(arguments.json) if arguments.json not in (None, STDOUT) else None
+    if copy is not None:
+        writable(copy.parent, (copy.name,))
+    for remark in campaign.remarks:
+        print(f"note: {remark}", file=sys.stderr)
+    with _bar() as step:
+        gap = _find(campaign, arguments.seed, arguments.jobs, step)
+    with held_interrupts():
+        text = files.write_data(gap, folder / RESULT, folder / MODEL)
+        if copy is not None:
+            write_text(text, copy)
+    if arguments.json == STDOUT:
+        print(text, end="")
+    return _shown(files, gap, folder, arguments)
+
+
+def _shown(files, gap, folder: Path, arguments: Namespace) -> int:
+    """Figures and page where they are wanted, then the closing lines."""
+    flown = []
+    try:
+        if not arguments.no_page:
+            flown = _drawn(files, gap, folder)
+    except KeyboardInterrupt:
+        print(
+            f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
+            file=sys.stderr,
+        )
+        return FAILED
+    names = [str(folder / name) for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
+    lines = [*files.closing_lines(gap, flown), f"  files      {', '.join(names)}"]
+    print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
+    return DONE
+
+
+def packaged_campaigns() -> list[str]:
+    """Names of the campaigns that ship with the package."""
+    return sorted(file.stem for file in CAMPAIGNS.glob("*.toml"))
+
+
+def _source(given: str) -> Path:
+    """A file or folder; the name of a packaged campaign where there is none."""
+    if not Path(given).exists() and given in packaged_campaigns():
+        return CAMPAIGNS / f"{given}.toml"
+    return Path(given)
+
+
+def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[[int], object]):
+    """Runs of which figures alone are known, and the study's own scheme, have their own way."""
+    tracks = any(run.track is not None for run in campaign.runs)
+    if campaign.scheme == "study" or not tracks:
+        from cosim.studies.reproduction.summary import find_summary_gap
+
+        return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
+    from cosim.gap.naming import find_gap
+
+    return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
+
+
+def _drawn(files, gap, folder: Path) -> list:
+    """Figures and page; what the FMU did."""
+    with tqdm(disable=None, unit="figure", leave=False) as bar:
+        return files.write_page(gap, folder, folder / PAGE, bar.update)
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[[int], object]]:
+    """A count of models tried on stderr, none when that is no terminal."""
+    with tqdm(disable=None, unit="model", leave=False) as bar:
+        yield lambda count=1: bar.update(count)
+
+
+def _count(text: str) -> int:
+    number = _whole(text)
+    if number < 1:
+        raise ArgumentTypeError(f"{text} is not allowed, allowed is 1 or more")
+    return number
+
+
+def _whole(text: str) -> int:
+    if not text.isdecimal():
+        raise ArgumentTypeError(f"{text!r} is not allowed, allowed is a whole number from 0")
+    return int(text)

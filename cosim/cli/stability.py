@@ -1,0 +1,123 @@
+"""`stickslip stability`: its arguments, what it runs, what it leaves behind.
+
+What `execute` raises of `REFUSED` is bad input, in one line.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from cosim.atomic import write_bytes, write_text
+from cosim.report.drawing import OutputRefused, Picture, writable
+from cosim.report.motion_words import regime_sentence, stability_sentence
+from cosim.scenario import read_scenario
+from cosim.scenario.faults import ScenarioError
+from cosim.studies.stability import Case, NotAMotion, case_of, pretension_map, regime_map
+from cosim.studies.stability.page import page
+from cosim.studies.stability.result import as_json
+
+DONE, FAILED = 0, 1
+REFUSED = (NotAMotion, ScenarioError, OutputRefused)
+RESULT, PAGE = "stability.json", "report.html"
+#: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
+#: mu_s/mu_k.
+SPEEDS, PRETENSIONS, RATIOS = (0.2, 4.0), (0.0, 0.2), (1.02, 2.0)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "scenario",
+        nargs="?",
+        default="reference",
+        help="TOML file, or the name of a packaged scenario (default: reference)",
+    )
+    parser.add_argument(
+        "--grid",
+        metavar="N",
+        type=int,
+        default=20,
+        help="points a side of each map, 0 for none (default: 20)",
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        default="results/stability",
+        help="folder of page, numbers and figures (default: results/stability)",
+    )
+
+
+def execute(arguments: Namespace) -> int:
+    """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
+    began = time.perf_counter()
+    if arguments.grid < 0 or arguments.grid == 1:
+        raise NotAMotion(f"--grid = {arguments.grid}: must be at least 2, or 0 for none")
+    scenario = read_scenario(arguments.scenario)
+    folder = Path(arguments.output)
+    writable(folder, (RESULT, PAGE))
+    case, status, maps = case_of(scenario), DONE, {}
+    try:
+        if arguments.grid:
+            _fill(maps, case, arguments.grid)
+    except KeyboardInterrupt:
+        print(f"error: interrupted; what was computed is in {folder}", file=sys.stderr)
+        status = FAILED
+    numbers = as_json(case, maps.get("pretension"), maps.get("regimes"))
+    sentences = [stability_sentence(numbers), regime_sentence(numbers)]
+    _write(numbers, sentences, _pictures(maps, case), folder)
+    if arguments.json:
+        print(json.dumps(numbers, indent=1))
+    else:
+        _print(numbers, sentences, folder, time.perf_counter() - began)
+    return status
+
+
+def _fill(maps: dict[str, Any], case: Case, grid: int) -> None:
+    """Both maps, the second only once the first is whole."""
+    speed = abs(case.parameters.surface.speed)
+    speeds = speed * np.linspace(*SPEEDS, grid)
+    with tqdm(total=2 * grid**2, disable=None, unit="cell", leave=False) as bar:
+        if case.parameters.rig.degrees_of_freedom != ("x",):
+            stretched = case.parameters.rig.spring_length * np.linspace(*PRETENSIONS, grid)
+            maps["pretension"] = pretension_map(case, stretched, speeds, bar.update)
+        maps["regimes"] = regime_map(case, np.linspace(*RATIOS, grid), speeds, bar.update)
+
+
+def _pictures(maps: dict[str, Any], case: Case) -> list[Picture]:
+    from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
+
+    drawn = {"pretension": draw_pretension_map, "regimes": draw_regime_map}
+    return [drawn[name](found, case) for name, found in maps.items()]
+
+
+def _write(
+    numbers: dict[str, Any], sentences: list[str], pictures: list[Picture], folder: Path
+) -> None:
+    write_text(json.dumps(numbers, indent=1), folder / RESULT)
+    for picture in pictures:
+        write_bytes(picture.png, folder / f"{picture.name}.png")
+    write_text(page(numbers, sentences, pictures), folder / PAGE)
+
+
+def _print(numbers: dict[str, Any], sentences: list[str], folder: Path, wall_time: float) -> None:
+    print(f"{numbers['name']}: {sentences[0]}")
+    print(sentences[1])
+    found = numbers["regime_map"]
+    if found is not None and found["cells_that_differ"] is not None:
+        cells = 3 * len(found["ratios"]) * len(found["speeds"])
+        differ, fastest = found["cells_that_differ"], found["fastest_from_rest"]
+        print(
+            f"closed form of the Coulomb oscillator: {differ} of {cells} runs differ; from rest "
+            f"it sticks up to {fastest:.4f} m/s"
+        )
+    print(f"{wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")

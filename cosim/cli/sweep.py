@@ -1,0 +1,143 @@
+"""`stickslip sweep`: its arguments, what it runs, what it leaves behind.
+
+What `execute` raises of `REFUSED` is bad input, in one line.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import xarray as xr
+from tqdm import tqdm
+
+from cosim.atomic import write_atomically
+from cosim.folders import OutputRefused, not_taken
+from cosim.scenario import Scenario, read_scenario
+from cosim.scenario.faults import ScenarioError
+from cosim.studies.sweep import (
+    Grid,
+    Run,
+    SweepError,
+    SweepStopped,
+    product_grid,
+    run_grid,
+    write_sweep,
+)
+from cosim.studies.sweep.arguments import parse_vary
+from cosim.studies.sweep.combination import COMPLETE
+from cosim.studies.sweep.figure import draw_sweep
+from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
+
+REFUSED = (SweepError, ScenarioError, OutputRefused)
+DONE, FAILED = 0, 1
+RESULT, FIGURE = "sweep.nc", "sweep.png"
+#: Group of the result file that holds the test plan's repeats.
+REPEATS = "repeats"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("scenario", help="TOML file, or the name of a packaged scenario")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument(
+        "--vary",
+        metavar="KEY=V1,V2,...",
+        action="append",
+        help="values of a key of the mechanics; given more than once, all combinations are run. "
+        "Keys that go together: mu_s and mu_k as friction.mu_s+friction.mu_k=0.28:0.21,0.07:0.05",
+    )
+    what.add_argument(
+        "--test-plan",
+        action="store_true",
+        help="the 1306 combinations of the published test plan (its belts' friction is assumed)",
+    )
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--jobs", metavar="N", type=int, help="processes on this machine (default: all cores)"
+    )
+    where.add_argument(
+        "--dask", metavar="ADDRESS", help="run on the Dask cluster whose scheduler is there"
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        help="folder of the results (default: results/NAME OF THE SCENARIO-sweep); combinations "
+        "that are finished there are not run again",
+    )
+
+
+def execute(arguments: Namespace) -> int:
+    """Sweep, write, report; 0, or 1 when nothing came out or the sweep was stopped."""
+    began = time.perf_counter()
+    scenario = read_scenario(arguments.scenario)
+    grids = _grids(arguments, scenario)
+    run = Run(scenario.run.duration, scenario.run.output_interval)
+    folder = Path(arguments.output or Path("results") / f"{scenario.name}-sweep")
+    not_taken(folder, (RESULT, FIGURE))
+    datasets = {}
+    try:
+        for group, grid in grids.items():
+            with _bar(len(grid)) as progress:
+                datasets[group] = run_grid(
+                    grid,
+                    run,
+                    jobs=arguments.jobs,
+                    dask=arguments.dask,
+                    folder=folder,
+                    progress=progress,
+                )
+            datasets[group].attrs["scenario"] = scenario.to_toml()
+    except (KeyboardInterrupt, SweepStopped) as stop:
+        said = str(stop) or "interrupted"
+        print(
+            f"error: {said}; what is finished is kept in {folder}, the same command goes on",
+            file=sys.stderr,
+        )
+        return FAILED
+    _write(datasets, folder)
+    return _report(datasets, folder, time.perf_counter() - began)
+
+
+def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
+    """Group of the result file -> combinations."""
+    if arguments.test_plan:
+        return {"": plan_grid(scenario), REPEATS: repeats_grid(scenario)}
+    return {"": product_grid(scenario, parse_vary(arguments.vary))}
+
+
+@contextmanager
+def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
+    """A bar over combinations on stderr, none when that is no terminal."""
+    with tqdm(total=total, disable=None, unit="run", leave=False) as bar:
+
+        def show(done: int, of: int) -> None:
+            bar.total = of
+            bar.update(done - bar.n)
+
+        yield show
+
+
+def _write(datasets: dict[str, xr.Dataset], folder: Path) -> None:
+    write_sweep(datasets, folder / RESULT)
+    figure = draw_sweep(datasets[""])
+    write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=130))
+
+
+def _report(datasets: dict[str, xr.Dataset], folder: Path, wall_time: float) -> int:
+    """Some lines on what came out."""
+    statuses = [dataset["status"] for dataset in datasets.values()]
+    total = sum(status.size for status in statuses)
+    complete = sum(int((status == COMPLETE).sum()) for status in statuses)
+    print(f"{total} combinations in {wall_time:.1f} s, {complete} of them complete")
+    for dataset in datasets.values():
+        reasons = [reason for reason in dataset["reason"].values.ravel() if reason]
+        if reasons:
+            print(f"  failed     {len(reasons)}, the first: {reasons[0]}")
+    print(f"  results    {folder / RESULT}, {folder / FIGURE}")
+    return DONE if complete else FAILED

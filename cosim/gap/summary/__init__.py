@@ -1,8 +1,0 @@
-"""Runs of which only figures are known: the same question, from a handful of numbers."""
-
-from cosim.gap.summary.find import find_summary_gap
-from cosim.gap.summary.residuals import summary_residuals
-from cosim.gap.summary.result import SummaryGap
-from cosim.gap.summary.table_of_figures import draw_figures, rows
-
-__all__ = ["SummaryGap", "draw_figures", "find_summary_gap", "rows", "summary_residuals"]
