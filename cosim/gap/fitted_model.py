@@ -11,7 +11,7 @@ from cosim.gap.atlas.from_fit import tracks_of
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.result import FittedModel, FittedRun
 from cosim.gap.shooting.fitted import Fitted
-from cosim.gap.shooting.knob import OFFSETS
+from cosim.gap.shooting.free_parameter import OFFSETS
 from cosim.gap.shooting.problem import Problem
 
 _STATE = (layout.O_X, layout.O_Y, layout.O_PHI, layout.O_VX, layout.O_VY, layout.O_OMEGA)

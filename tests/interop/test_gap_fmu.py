@@ -10,7 +10,7 @@ import pytest
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.show.model_file import model_text, scenario_of, shown_run
 from cosim.gap.show.reproduction import reproduce, reproduced_runs
 
@@ -53,8 +53,10 @@ def creeping(gap, tmp_path_factory):
     folder = tmp_path_factory.mktemp("creeping")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
     plain = fitted(campaign, PLAIN)
-    knob = Knob("friction.stick_creep", 0.9 * CREEP, 0.1 * CREEP, 0.0, 1.0)
-    return replace(gap, campaign=campaign, plain=plain, extended=fitted(campaign, (*PLAIN, knob)))
+    free_parameter = FreeParameter("friction.stick_creep", 0.9 * CREEP, 0.1 * CREEP, 0.0, 1.0)
+    return replace(
+        gap, campaign=campaign, plain=plain, extended=fitted(campaign, (*PLAIN, free_parameter))
+    )
 
 
 def test_a_creep_is_the_fmu_s_too(creeping, fmu):

@@ -12,17 +12,17 @@ from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import Gap, Ranked
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
 PLAIN = (
-    Knob("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
-    Knob("friction.mu_k", 0.19, 0.01, 0.0, 2.0),
-    Knob("offset.x", 0.0, 4e-4, prior=4e-4),
+    FreeParameter("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
+    FreeParameter("friction.mu_k", 0.19, 0.01, 0.0, 2.0),
+    FreeParameter("offset.x", 0.0, 4e-4, prior=4e-4),
 )
-ADDED = Knob("velocity_weakening.linear", 0.7, 0.1, 0.0, 5.0)
+ADDED = FreeParameter("velocity_weakening.linear", 0.7, 0.1, 0.0, 5.0)
 SPEEDS = (0.06, 0.12, 0.2)
 
 
@@ -92,11 +92,11 @@ def write(folder):
     return write_campaign(folder, runs, name="cold room, week 3", noise={"x": NOISE})
 
 
-def fitted(campaign, knobs):
+def fitted(campaign, free_parameters):
     """Fitted to the runs for fitting, their states to those held out."""
-    problem = Problem(prepare(campaign, campaign.fit_runs, False), knobs)
-    at = fit(problem, start(problem.flights, knobs))
-    held = Problem(prepare(campaign, campaign.held_out_runs, False), knobs)
-    first = start(held.flights, knobs)
+    problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
+    at = fit(problem, start(problem.flights, free_parameters))
+    held = Problem(prepare(campaign, campaign.held_out_runs, False), free_parameters)
+    first = start(held.flights, free_parameters)
     other = fit(held, Point(at.point.shared, first.own, first.states), fixed=True)
     return fitted_model(campaign, [(problem, at), (held, other)])

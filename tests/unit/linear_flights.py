@@ -50,7 +50,7 @@ class LinearFlight:
         return np.repeat(np.arange(len(sizes)), sizes)
 
 
-def linear_flight(random, knobs, data, windows=3):
+def linear_flight(random, free_parameters, data, windows=3):
     """With derivatives that are drawn, and data: (rows,), or a noise of one at so many rows."""
     data = random.standard_normal(data) if isinstance(data, int) else data
     ends = np.linspace(0, data.size, windows + 1).astype(int)
@@ -58,7 +58,9 @@ def linear_flight(random, knobs, data, windows=3):
         Window(int(first), int(last), np.zeros(6), FREE, np.nan)
         for first, last in zip(ends[:-1], ends[1:], strict=True)
     )
-    by_key = {knob.key: random.standard_normal(data.size) for knob in knobs}
+    by_key = {
+        free_parameter.key: random.standard_normal(data.size) for free_parameter in free_parameters
+    }
     by_state = FELT * random.standard_normal((data.size, len(FREE)))
     return LinearFlight(by_key, by_state, data, cuts)
 
@@ -66,7 +68,7 @@ def linear_flight(random, knobs, data, windows=3):
 def joint(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """Matrix and right-hand side of everything at once, priors as rows.
 
-    Unknowns, unscaled: the campaign's knobs, then of every run its own and its windows' states.
+    Unknowns, unscaled: the campaign's free parameters, then of every run its own and its windows' states.
     """
     shared, own = problem.shared, problem.own
     per_run = [len(own) + len(FREE) * len(flight.windows) for flight in problem.flights]
@@ -74,10 +76,10 @@ def joint(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     rows, right = [], []
     for flight, first in zip(problem.flights, before, strict=False):
         block = np.zeros((flight.data.size, before[-1]))
-        for column, knob in enumerate(shared):
-            block[:, column] = flight.by_key[knob.key]
-        for column, knob in enumerate(own, first):
-            block[:, column] = flight.by_key[knob.key]
+        for column, free_parameter in enumerate(shared):
+            block[:, column] = flight.by_key[free_parameter.key]
+        for column, free_parameter in enumerate(own, first):
+            block[:, column] = flight.by_key[free_parameter.key]
         for row, window in enumerate(flight.window_of_rows()):
             at = first + len(own) + len(FREE) * window
             block[row, at : at + len(FREE)] = flight.by_state[row]
@@ -90,21 +92,21 @@ def joint(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(rows), np.concatenate(right)
 
 
-def _known(knobs, first, width):
-    rows = np.zeros((len(knobs), width))
-    for number, knob in enumerate(knobs):
-        if knob.prior is not None:
-            rows[number, first + number] = 1.0 / knob.prior
+def _known(free_parameters, first, width):
+    rows = np.zeros((len(free_parameters), width))
+    for number, free_parameter in enumerate(free_parameters):
+        if free_parameter.prior is not None:
+            rows[number, first + number] = 1.0 / free_parameter.prior
     return rows
 
 
-def _wanted(knobs):
-    return np.array([0.0 if k.prior is None else k.start / k.prior for k in knobs])
+def _wanted(free_parameters):
+    return np.array([0.0 if k.prior is None else k.start / k.prior for k in free_parameters])
 
 
 def trial_of(problem, fitted):
     """A fit as a trial of a campaign that holds no run out."""
     squares = np.array([r @ r for r in fitted.residuals])
     rows = np.array([r.size for r in fitted.residuals])
-    model = Model(problem.knobs, problem.settings)
+    model = Model(problem.free_parameters, problem.settings)
     return Trial(model, with_columns(problem, fitted), replace(fitted, residuals=()), squares, rows)

@@ -12,7 +12,7 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.naming.other_starts import other_starts
-from cosim.gap.naming.plain import plain_knobs
+from cosim.gap.naming.plain import plain_free_parameters
 from cosim.gap.naming.scales import scales
 from cosim.gap.naming.search import Search
 from cosim.gap.naming.tried import ACROSS, Tried
@@ -20,7 +20,7 @@ from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Fitted, Point, start
-from cosim.gap.shooting.knob import OFFSETS, Knob
+from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, Trial, finished, try_model
@@ -68,19 +68,21 @@ def test_effects_across_the_motion_are_known_as_such():
 
 
 def test_no_law_is_offered_twice_from_the_same_place():
-    seen = [(c.effect, c.form, c.knobs, tuple(c.settings.items())) for c in OFFERED]
+    seen = [(c.effect, c.form, c.free_parameters, tuple(c.settings.items())) for c in OFFERED]
     assert len(set(seen)) == len(seen)
 
 
 @pytest.mark.parametrize("candidate", EVERY)
 def test_a_candidate_speaks_the_model_s_language(candidate):
-    keys = [knob.key for knob in candidate.knobs]
+    keys = [free_parameter.key for free_parameter in candidate.free_parameters]
     said = model_parameters(SCALES.speed, {**candidate.settings, **dict.fromkeys(keys, 1.0)})
     assert set(said) <= KEYS | {SPEED_OFFSET}
     # friction across is set for all that need it, and one fits how much of it there is
     assert len(set(keys)) == len(keys) and set(keys) & set(candidate.settings) <= {ACROSS}
     assert any(key.startswith(f"{candidate.effect}.") for key in [*keys, *candidate.settings])
-    assert candidate.size == sum(not knob.per_run for knob in candidate.knobs)
+    assert candidate.size == sum(
+        not free_parameter.per_run for free_parameter in candidate.free_parameters
+    )
 
 
 def parameters(values):
@@ -94,31 +96,38 @@ def parameters(values):
 
 @pytest.mark.parametrize("candidate", EVERY)
 def test_starts_lie_inside_ranges_that_the_model_allows(candidate):
-    starts = {knob.key: knob.start for knob in candidate.knobs}
+    starts = {
+        free_parameter.key: free_parameter.start for free_parameter in candidate.free_parameters
+    }
     values = {**candidate.settings, **starts}
     given, flat = model_parameters(SCALES.speed, values), parameters(values).flat()
     assert {key: flat[key] for key in given} == pytest.approx(given)
-    for knob in candidate.knobs:
-        assert knob.step > 0.0 and knob.low < knob.start < knob.high
-        assert knob.inside(knob.scaled(knob.start)) == knob.scaled(knob.start)
-        assert knob.low > 0.0 or not knob.log
-        for end in (knob.low, knob.high):
+    for free_parameter in candidate.free_parameters:
+        assert (
+            free_parameter.step > 0.0
+            and free_parameter.low < free_parameter.start < free_parameter.high
+        )
+        assert free_parameter.inside(
+            free_parameter.scaled(free_parameter.start)
+        ) == free_parameter.scaled(free_parameter.start)
+        assert free_parameter.low > 0.0 or not free_parameter.log
+        for end in (free_parameter.low, free_parameter.high):
             if np.isfinite(end):
-                parameters({**candidate.settings, **starts, knob.key: end})
+                parameters({**candidate.settings, **starts, free_parameter.key: end})
 
 
 @pytest.mark.parametrize("candidate", EVERY)
 def test_a_candidate_changes_the_model_at_its_start(candidate, flight):
-    """It can be flown, and is felt: a step of each of its knobs moves the block."""
-    started = {**candidate.settings, **{k.key: k.start for k in candidate.knobs}}
+    """It can be flown, and is felt: a step of each of its free parameters moves the block."""
+    started = {**candidate.settings, **{k.key: k.start for k in candidate.free_parameters}}
     plain = flight.fly(FRICTION, flight.starts)
     with_it = flight.fly({**FRICTION, **started}, flight.starts)
     assert np.isfinite(with_it).all()
     seen = slice(0, 6)
     assert np.abs(with_it[:, seen] - plain[:, seen]).max() > 1e-6
-    for knob in candidate.knobs:
-        near = knob.value(knob.scaled(knob.start) + 0.1)
-        stepped = flight.fly({**FRICTION, **started, knob.key: near}, flight.starts)
+    for free_parameter in candidate.free_parameters:
+        near = free_parameter.value(free_parameter.scaled(free_parameter.start) + 0.1)
+        stepped = flight.fly({**FRICTION, **started, free_parameter.key: near}, flight.starts)
         assert np.abs(stepped[:, seen] - with_it[:, seen]).max() > 1e-9
 
 
@@ -150,32 +159,48 @@ def test_scales_are_those_of_the_runs(campaign):
 
 
 def test_what_grows_in_a_hold_starts_in_place_of_a_part_of_mu_s():
-    base = Model((Knob("friction.mu_s", 0.3, 0.01), Knob("friction.mu_k", 0.2, 0.01)), {})
+    base = Model(
+        (FreeParameter("friction.mu_s", 0.3, 0.01), FreeParameter("friction.mu_k", 0.2, 0.01)), {}
+    )
     fitted = {"friction.mu_s": 0.4, "friction.mu_k": 0.2}
     growing = [c for c in OFFERED if c.grows]
     assert {c.effect for c in growing} == {"static_strengthening"}
     for candidate in growing:
-        mu_s, mu_k, first, *_ = extended(base, candidate, fitted).knobs
+        mu_s, mu_k, first, *_ = extended(base, candidate, fitted).free_parameters
         assert mu_k.start == 0.2 < mu_s.start < 0.4
         # after a usual hold break-away is where it was
         assert mu_s.start + candidate.grows * first.start == pytest.approx(0.4)
-        faint = extended(base, candidate.faint(), fitted).knobs
-        assert (faint[0].start, faint[2].start) == (0.4, candidate.faint().knobs[0].start)
-    stated = replace(base, knobs=(replace(base.knobs[0], prior=0.01), base.knobs[1]))
-    assert extended(stated, growing[0], fitted).knobs[2] == growing[0].knobs[0]
+        faint = extended(base, candidate.faint(), fitted).free_parameters
+        assert (faint[0].start, faint[2].start) == (0.4, candidate.faint().free_parameters[0].start)
+    stated = replace(
+        base,
+        free_parameters=(replace(base.free_parameters[0], prior=0.01), base.free_parameters[1]),
+    )
+    assert extended(stated, growing[0], fitted).free_parameters[2] == growing[0].free_parameters[0]
 
 
 @pytest.mark.parametrize("candidate", EVERY)
 def test_faint_is_the_same_law_with_less_of_it(candidate):
     faint = candidate.faint()
-    assert replace(faint, knobs=candidate.knobs, grows=candidate.grows) == candidate
-    for knob, fainter in zip(candidate.knobs, faint.knobs, strict=True):
-        assert replace(fainter, start=knob.start) == knob
-        if knob.log or knob.per_run or not knob.low <= 0.0 <= knob.high:
-            assert fainter.start == knob.start
+    assert (
+        replace(faint, free_parameters=candidate.free_parameters, grows=candidate.grows)
+        == candidate
+    )
+    for free_parameter, fainter in zip(
+        candidate.free_parameters, faint.free_parameters, strict=True
+    ):
+        assert replace(fainter, start=free_parameter.start) == free_parameter
+        if (
+            free_parameter.log
+            or free_parameter.per_run
+            or not free_parameter.low <= 0.0 <= free_parameter.high
+        ):
+            assert fainter.start == free_parameter.start
         else:
-            assert abs(fainter.start) < 0.5 * abs(knob.start) or knob.start == 0.0
-            assert fainter.start * knob.start >= 0.0
+            assert (
+                abs(fainter.start) < 0.5 * abs(free_parameter.start) or free_parameter.start == 0.0
+            )
+            assert fainter.start * free_parameter.start >= 0.0
     assert candidate.can_be_faint == (faint != candidate and not candidate.periodic)
 
 
@@ -189,22 +214,24 @@ def test_a_periodic_candidate_starts_at_a_period():
     periodic = [c for c in OFFERED if c.periodic]
     assert {c.effect for c in periodic} == {"speed_ripple", "surface_pattern"}
     for c in periodic:
-        at = {k.key: k.start for k in c.at(3.5, 0.3, 0.01).knobs}
-        before = {k.key: k.start for k in c.knobs}
+        at = {k.key: k.start for k in c.at(3.5, 0.3, 0.01).free_parameters}
+        before = {k.key: k.start for k in c.free_parameters}
         amplitude = f"{c.effect}.amplitude"
         assert at == {**before, c.periodic: 3.5, amplitude: 0.3} and {*at} == {*before}
-        assert [k.step for k in c.at(3.5, 0.3, 0.01).knobs if k.key == c.periodic] == [0.01]
-        assert any(k.per_run and k.key.endswith("phase_deg") for k in c.knobs)
+        assert [k.step for k in c.at(3.5, 0.3, 0.01).free_parameters if k.key == c.periodic] == [
+            0.01
+        ]
+        assert any(k.per_run and k.key.endswith("phase_deg") for k in c.free_parameters)
 
 
 # A model with a candidate added to it.
 
 BASE = Model(
     (
-        Knob("friction.mu_s", 0.3, 0.01, 0.1, 20.0),
-        Knob("friction.mu_k", 0.2, 0.01, 0.0, 20.0),
-        Knob("offset.x", 0.0, 4e-4, prior=4e-4),
-        Knob("film_drag.coefficient", 0.5, 0.5, 0.0, 500.0),
+        FreeParameter("friction.mu_s", 0.3, 0.01, 0.1, 20.0),
+        FreeParameter("friction.mu_k", 0.2, 0.01, 0.0, 20.0),
+        FreeParameter("offset.x", 0.0, 4e-4, prior=4e-4),
+        FreeParameter("film_drag.coefficient", 0.5, 0.5, 0.0, 500.0),
     ),
     {"load_dependence.reference_force": 8.0},
 )
@@ -217,13 +244,13 @@ FITTED = {
 RATE = Candidate(
     "static_strengthening",
     "logarithmic",
-    (Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0),),
+    (FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0),),
     {"static_strengthening.hold_time": 0.01},
 )
 
 
 def starts(model):
-    return {knob.key: knob.start for knob in model.knobs}
+    return {free_parameter.key: free_parameter.start for free_parameter in model.free_parameters}
 
 
 def test_an_extended_model_starts_where_the_base_was_fitted():
@@ -231,21 +258,23 @@ def test_an_extended_model_starts_where_the_base_was_fitted():
     # what is known beforehand stays centred on what is known
     assert starts(model) == {**FITTED, "offset.x": 0.0, "static_strengthening.rate": 0.03}
     assert model.settings == {**BASE.settings, **RATE.settings}
-    assert model.knobs[-1] is RATE.knobs[0]  # after those of the base
-    for knob, before in zip(model.knobs, BASE.knobs, strict=False):
-        assert replace(knob, start=before.start) == before
+    assert model.free_parameters[-1] is RATE.free_parameters[0]  # after those of the base
+    for free_parameter, before in zip(model.free_parameters, BASE.free_parameters, strict=False):
+        assert replace(free_parameter, start=before.start) == before
 
 
-def test_a_candidate_s_own_knobs_replace_the_base_s():
-    again = Candidate("film_drag", "linear", (replace(BASE.knobs[3], start=7.0),))
+def test_a_candidate_s_own_free_parameters_replace_the_base_s():
+    again = Candidate("film_drag", "linear", (replace(BASE.free_parameters[3], start=7.0),))
     model = extended(BASE, again, FITTED)
-    assert [k.key for k in model.knobs].count("film_drag.coefficient") == 1
+    assert [k.key for k in model.free_parameters].count("film_drag.coefficient") == 1
     assert starts(model)["film_drag.coefficient"] == 7.0
 
 
 @pytest.mark.parametrize("value", [0.0, 500.0])
 def test_a_fit_that_ran_into_a_bound_starts_anew(value):
-    assert moved(BASE.knobs[3], {"film_drag.coefficient": value}) == BASE.knobs[3]
+    assert (
+        moved(BASE.free_parameters[3], {"film_drag.coefficient": value}) == BASE.free_parameters[3]
+    )
 
 
 def test_a_mu_s_that_is_not_felt_starts_where_it_is():
@@ -263,8 +292,8 @@ def test_other_starts_differ_in_mu_s_alone():
     for model in models:
         rest = {**starts(model), "friction.mu_s": 0.0}
         assert rest == {**FITTED, "offset.x": 0.0, "friction.mu_s": 0.0}
-    known = replace(BASE.knobs[0], prior=0.01)
-    for model in other_starts(Model((known, *BASE.knobs[1:]), {}), FITTED):
+    known = replace(BASE.free_parameters[0], prior=0.01)
+    for model in other_starts(Model((known, *BASE.free_parameters[1:]), {}), FITTED):
         assert starts(model)["friction.mu_s"] == known.start
 
 
@@ -272,9 +301,11 @@ def test_other_starts_differ_in_mu_s_alone():
 
 
 def fake_trial(model, values):
-    knobs = model.knobs
-    shared = np.array([k.scaled(values.get(k.key, k.start)) for k in knobs if not k.per_run])
-    fitted = Fitted(knobs, Point(shared, (), ()), (np.ones(9),))
+    free_parameters = model.free_parameters
+    shared = np.array(
+        [k.scaled(values.get(k.key, k.start)) for k in free_parameters if not k.per_run]
+    )
+    fitted = Fitted(free_parameters, Point(shared, (), ()), (np.ones(9),))
     return Trial(model, fitted, fitted, np.array([9.0]), np.array([9]))
 
 
@@ -292,7 +323,7 @@ def second_look(candidate, values):
                 asked.append(each[1])
                 yield each[1]
 
-    model = extended(Model(BASE.knobs[:3], {}), candidate, FITTED)
+    model = extended(Model(BASE.free_parameters[:3], {}), candidate, FITTED)
     trial = fake_trial(model, values)
     first = Tried(candidate, model, trial.fitted, trial)
     Search(Data((), (), (), ()), mapped).polished([first], OFFERED)
@@ -301,14 +332,14 @@ def second_look(candidate, values):
 
 def test_other_laws_are_those_of_the_same_effect():
     simple = next(c for c in OFFERED if c.form == "linear" and c.effect == "velocity_weakening")
-    values = {**FITTED, simple.knobs[0].key: 1.5}
+    values = {**FITTED, simple.free_parameters[0].key: 1.5}
     asked = [t for t in second_look(simple, values) if t.candidate.form != "linear"]
     forms = {c.form for c in OFFERED if c.effect == "velocity_weakening"}
     assert {t.candidate.effect for t in asked} == {"velocity_weakening"}
     assert {t.candidate.form for t in asked} == forms - {"linear"}
     for t in asked:
-        keys = [knob.key for knob in t.model.knobs]
-        assert simple.knobs[0].key not in keys and len(set(keys)) == len(keys)
+        keys = [free_parameter.key for free_parameter in t.model.free_parameters]
+        assert simple.free_parameters[0].key not in keys and len(set(keys)) == len(keys)
         assert starts(t.model)["friction.mu_k"] == FITTED["friction.mu_k"]
 
 
@@ -324,13 +355,14 @@ def test_a_law_with_one_number_more_starts_where_the_simpler_one_ended():
     assert "static_strengthening.hold_time" not in again.model.settings
 
 
-def test_plain_knobs_start_inside_their_ranges_and_fit(campaign):
+def test_plain_free_parameters_start_inside_their_ranges_and_fit(campaign):
     """On top of them every candidate stands: the keys do not meet."""
-    knobs = plain_knobs(campaign, True)
-    plain = {knob.key for knob in knobs}
+    free_parameters = plain_free_parameters(campaign, True)
+    plain = {free_parameter.key for free_parameter in free_parameters}
     assert plain <= KEYS | set(OFFSETS) | {SPEED_OFFSET}
-    assert not plain & {knob.key for c in OFFERED for knob in c.knobs}
+    assert not plain & {free_parameter.key for c in OFFERED for free_parameter in c.free_parameters}
     problem = Problem(
-        prepare(campaign, campaign.runs, False), [knob for knob in knobs if knob.key != "offset.y"]
+        prepare(campaign, campaign.runs, False),
+        [free_parameter for free_parameter in free_parameters if free_parameter.key != "offset.y"],
     )
-    assert fit(problem, start(problem.flights, problem.knobs)).gap() < 1.2
+    assert fit(problem, start(problem.flights, problem.free_parameters)).gap() < 1.2

@@ -11,19 +11,19 @@ from cosim.gap.naming.chance import DRAWS, chance
 from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, try_model
 
-PLAIN = (Knob("a.a", 0.0, 0.1), Knob("a.b", 0.0, 0.1))
-OWN = Knob("a.own", 0.0, 0.1, per_run=True)
+PLAIN = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 0.1))
+OWN = FreeParameter("a.own", 0.0, 0.1, per_run=True)
 #: Three laws, the second with two numbers.
 LAWS = (
-    (Knob("b.one", 0.0, 0.1),),
-    (Knob("c.one", 0.0, 0.1), Knob("c.two", 0.0, 0.1)),
-    (Knob("d.one", 0.0, 0.1),),
+    (FreeParameter("b.one", 0.0, 0.1),),
+    (FreeParameter("c.one", 0.0, 0.1), FreeParameter("c.two", 0.0, 0.1)),
+    (FreeParameter("d.one", 0.0, 0.1),),
 )
-EVERY = (*PLAIN, *(knob for law in LAWS for knob in law))
+EVERY = (*PLAIN, *(free_parameter for law in LAWS for free_parameter in law))
 ROWS, CAMPAIGNS = 60, 60
 
 
@@ -39,9 +39,11 @@ def campaign(seed, held_out=2, strength=0.0):
     return Data(fit, fit, held, held)
 
 
-def tried(data, knobs):
-    problem = Problem(data.fit, knobs)
-    return try_model(data, Model(knobs, {}), fit(problem, start(data.fit, knobs)))
+def tried(data, free_parameters):
+    problem = Problem(data.fit, free_parameters)
+    return try_model(
+        data, Model(free_parameters, {}), fit(problem, start(data.fit, free_parameters))
+    )
 
 
 def p_of(data, laws=LAWS, seed=0, plain=PLAIN):
@@ -102,6 +104,6 @@ def test_noise_alone_where_no_run_is_held_out():
     check_uniform([p_of(campaign(seed, held_out=0), seed=seed) for seed in range(CAMPAIGNS)])
 
 
-def test_noise_alone_where_the_plain_model_has_a_knob_in_every_run():
+def test_noise_alone_where_the_plain_model_has_a_free_parameter_in_every_run():
     plain = (*PLAIN, OWN)
     check_uniform([p_of(campaign(seed), LAWS[:1], seed, plain) for seed in range(CAMPAIGNS)])

@@ -11,7 +11,13 @@ from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.gap import MeasuredRun, Stick, Track, read_campaign
 from cosim.gap.naming.intervals import intervals
-from cosim.gap.naming.plain import CREEP, common_creep, drive_knobs, first_guess, plain_knobs
+from cosim.gap.naming.plain import (
+    CREEP,
+    common_creep,
+    drive_free_parameters,
+    first_guess,
+    plain_free_parameters,
+)
 from cosim.gap.read.stick_remarks import SPEED_PART
 from cosim.gap.shooting.drive import (
     RIPPLE_LENGTH,
@@ -21,7 +27,7 @@ from cosim.gap.shooting.drive import (
 )
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 
@@ -118,7 +124,7 @@ def test_a_surface_that_runs_the_other_way_creeps_alike():
 
 def test_nothing_lags_no_creep():
     assert common_creep(creeping(0.0)) is None
-    assert drive_knobs(creeping(0.0)) == ()
+    assert drive_free_parameters(creeping(0.0)) == ()
 
 
 def test_runs_that_disagree_have_no_common_creep():
@@ -131,33 +137,42 @@ def test_blocks_ahead_of_their_surface_do_not_creep():
     assert common_creep(running_slow(-0.1)) is None
 
 
-def test_creep_has_one_knob_as_it_was_measured():
-    (knob,) = drive_knobs(creeping(2e-3))
+def test_creep_has_one_free_parameter_as_it_was_measured():
+    (free_parameter,) = drive_free_parameters(creeping(2e-3))
     value, error = common_creep(creeping(2e-3))
-    assert (knob.key, knob.per_run, knob.start, knob.prior) == (CREEP, False, value, error)
-    assert knob.low < value < knob.high
+    assert (
+        free_parameter.key,
+        free_parameter.per_run,
+        free_parameter.start,
+        free_parameter.prior,
+    ) == (CREEP, False, value, error)
+    assert free_parameter.low < value < free_parameter.high
 
 
-def test_a_speed_that_is_off_has_a_knob_in_every_run():
-    (knob,) = drive_knobs(running_slow(0.1, (0.01, 0.04, 0.16)))
-    assert (knob.key, knob.per_run, knob.start) == (SPEED_OFFSET, True, 0.0)
-    assert knob.prior > 0.0
+def test_a_speed_that_is_off_has_a_free_parameter_in_every_run():
+    (free_parameter,) = drive_free_parameters(running_slow(0.1, (0.01, 0.04, 0.16)))
+    assert (free_parameter.key, free_parameter.per_run, free_parameter.start) == (
+        SPEED_OFFSET,
+        True,
+        0.0,
+    )
+    assert free_parameter.prior > 0.0
 
 
 def test_speeds_that_are_as_they_were_set_have_none():
-    assert drive_knobs(creeping(0.0)) == ()
-    assert drive_knobs(running_slow(0.5 * SPEED_PART)) == ()  # as good as a set-point is
-    assert drive_knobs([]) == ()
+    assert drive_free_parameters(creeping(0.0)) == ()
+    assert drive_free_parameters(running_slow(0.5 * SPEED_PART)) == ()  # as good as a set-point is
+    assert drive_free_parameters([]) == ()
 
 
 def test_one_run_of_many_that_is_off_is_another_matter():
     ahead = [running_slow(0.0)[0], running_slow(0.0)[1], running_slow(-0.1)[2]]
-    assert drive_knobs(ahead) == ()
+    assert drive_free_parameters(ahead) == ()
 
 
 def test_runs_with_few_sticks_are_not_asked():
     few = [replace(run, sticks=run.sticks[:2]) for run in creeping(2e-3)]
-    assert drive_knobs(few) == ()
+    assert drive_free_parameters(few) == ()
 
 
 # The same by the kernel, through files.
@@ -193,32 +208,35 @@ def kernel_campaign(folder, offsets=(0.0, 0.0, 0.0), creep=0.0):
 
 
 def by_key(campaign):
-    return {knob.key: knob for knob in plain_knobs(campaign, False)}
+    return {
+        free_parameter.key: free_parameter
+        for free_parameter in plain_free_parameters(campaign, False)
+    }
 
 
-def test_plain_knobs_of_a_creeping_contact(tmp_path):
-    knobs = by_key(kernel_campaign(tmp_path, creep=CREEPING))
-    assert set(knobs) == {"friction.mu_s", "friction.mu_k", "offset.x", CREEP}
-    knob = knobs[CREEP]
-    assert abs(knob.start - CREEPING) < 4.0 * knob.prior < 0.5 * CREEPING
+def test_plain_free_parameters_of_a_creeping_contact(tmp_path):
+    free_parameters = by_key(kernel_campaign(tmp_path, creep=CREEPING))
+    assert set(free_parameters) == {"friction.mu_s", "friction.mu_k", "offset.x", CREEP}
+    free_parameter = free_parameters[CREEP]
+    assert abs(free_parameter.start - CREEPING) < 4.0 * free_parameter.prior < 0.5 * CREEPING
 
 
-def test_plain_knobs_of_a_surface_as_it_was_set(tmp_path):
-    knobs = by_key(kernel_campaign(tmp_path))
-    assert set(knobs) == {"friction.mu_s", "friction.mu_k", "offset.x"}
+def test_plain_free_parameters_of_a_surface_as_it_was_set(tmp_path):
+    free_parameters = by_key(kernel_campaign(tmp_path))
+    assert set(free_parameters) == {"friction.mu_s", "friction.mu_k", "offset.x"}
 
 
-def test_plain_knobs_of_surfaces_each_at_a_speed_of_its_own(tmp_path):
-    knobs = by_key(kernel_campaign(tmp_path, offsets=(0.05, 0.0, -0.06)))
-    assert knobs[SPEED_OFFSET].per_run and CREEP not in knobs
+def test_plain_free_parameters_of_surfaces_each_at_a_speed_of_its_own(tmp_path):
+    free_parameters = by_key(kernel_campaign(tmp_path, offsets=(0.05, 0.0, -0.06)))
+    assert free_parameters[SPEED_OFFSET].per_run and CREEP not in free_parameters
 
 
 def test_speed_of_every_run_is_found(tmp_path):
     offsets = (0.05, 0.0, -0.06)
     campaign = kernel_campaign(tmp_path, offsets=offsets)
-    knobs = plain_knobs(campaign, False)
-    problem = Problem(prepare(campaign, campaign.fit_runs, False), knobs)
-    found = fit(problem, start(problem.flights, knobs))
+    free_parameters = plain_free_parameters(campaign, False)
+    problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
+    found = fit(problem, start(problem.flights, free_parameters))
     assert found.gap() == pytest.approx(1.0, abs=0.1)  # of 1600 samples: 0.02, and the fit's
     for run, offset in enumerate((offsets[0], offsets[2])):
         # a stick of half a second in 0.2 mm of noise: a part in a hundred of 0.03 m/s
@@ -235,12 +253,12 @@ def check_within(problem, found, values):
 
 def test_creep_is_found_again_by_the_fit(tmp_path):
     campaign = kernel_campaign(tmp_path, creep=CREEPING)
-    knobs = plain_knobs(campaign, False)
-    problem = Problem(prepare(campaign, campaign.fit_runs, False), knobs)
-    found = fit(problem, start(problem.flights, knobs))
+    free_parameters = plain_free_parameters(campaign, False)
+    problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
+    found = fit(problem, start(problem.flights, free_parameters))
     assert found.gap() == pytest.approx(1.0, abs=0.1)
     assert found.values[CREEP] == pytest.approx(CREEPING, rel=0.15)
-    rigid = [knob for knob in knobs if knob.key != CREEP]
+    rigid = [free_parameter for free_parameter in free_parameters if free_parameter.key != CREEP]
     without = Problem(problem.flights, rigid)
     assert fit(without, start(problem.flights, rigid)).gap() > 1.2 * found.gap()
 
@@ -256,13 +274,13 @@ def test_a_flight_with_an_offset_is_one_on_a_faster_surface(tmp_path):
 
 def test_the_tracker_s_zero_moves_with_the_data(tmp_path):
     campaign = kernel_campaign(tmp_path)
-    knobs = (Knob("offset.x", 0.0, NOISE),)
+    free_parameters = (FreeParameter("offset.x", 0.0, NOISE),)
     flights = prepare(campaign, campaign.fit_runs, False)
     moved = [replace(f, channels={"x": f.channels["x"] + 5.0 * NOISE}) for f in flights]
     found = []
     for flown in (flights, moved):
-        problem = Problem(flown, knobs, {"friction.mu_s": 0.3, "friction.mu_k": 0.2})
-        found.append(fit(problem, start(flown, knobs)))
+        problem = Problem(flown, free_parameters, {"friction.mu_s": 0.3, "friction.mu_k": 0.2})
+        found.append(fit(problem, start(flown, free_parameters)))
     before, after = (fitted.values["offset.x"] for fitted in found)
     assert after - before == pytest.approx(5.0 * NOISE, rel=0.01)
     assert found[1].cost == pytest.approx(found[0].cost, abs=0.05)  # each stops within 0.02

@@ -20,7 +20,7 @@ from cosim.gap.empirical.features import FRICTION, Moment  # noqa: E402
 from cosim.gap.empirical.regression import formulas  # noqa: E402
 from cosim.gap.empirical.stretches import holding, rows_of, slips_of  # noqa: E402
 from cosim.gap.empirical.term import forced, formula, key, moment_of  # noqa: E402
-from cosim.gap.naming.plain import plain_knobs  # noqa: E402
+from cosim.gap.naming.plain import plain_free_parameters  # noqa: E402
 from cosim.gap.read import read_campaign  # noqa: E402
 from cosim.gap.shooting.data import prepared  # noqa: E402
 from cosim.gap.shooting.preparation import prepare  # noqa: E402
@@ -66,7 +66,7 @@ def first_window(campaign):
 
 def fitted(campaign):
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
-    base = Model(plain_knobs(campaign, False), {})
+    base = Model(plain_free_parameters(campaign, False), {})
     return data, try_model(data, base, sketch(data, base, 8))
 
 

@@ -12,11 +12,11 @@ from cosim.gap.experiment.separation import separation
 from cosim.gap.read import read_campaign
 from cosim.gap.shooting.fit import with_columns
 from cosim.gap.shooting.fitted import Fitted, start
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 
-DRAG = Knob("structural_damping.coefficient", 0.4, 0.2, 0.0)
+DRAG = FreeParameter("structural_damping.coefficient", 0.4, 0.2, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -30,13 +30,13 @@ def campaign(tmp_path_factory):
     return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
 
 
-def member(campaign, effect, *knobs, **settings):
-    """The true friction, as if it had been fitted, with other knobs."""
-    plain = (Knob("friction.mu_s", 0.3, 0.015), Knob("friction.mu_k", 0.2, 0.01))
-    problem = Problem(prepare(campaign, campaign.runs, False), (*plain, *knobs), settings)
-    point = start(problem.flights, problem.knobs)
-    fitted = Fitted(problem.knobs, point, problem.all_residuals(point))
-    return Member(effect, problem.knobs, settings, with_columns(problem, fitted))
+def member(campaign, effect, *free_parameters, **settings):
+    """The true friction, as if it had been fitted, with other free parameters."""
+    plain = (FreeParameter("friction.mu_s", 0.3, 0.015), FreeParameter("friction.mu_k", 0.2, 0.01))
+    problem = Problem(prepare(campaign, campaign.runs, False), (*plain, *free_parameters), settings)
+    point = start(problem.flights, problem.free_parameters)
+    fitted = Fitted(problem.free_parameters, point, problem.all_residuals(point))
+    return Member(effect, problem.free_parameters, settings, with_columns(problem, fitted))
 
 
 def test_range_is_that_of_the_campaign_widened(campaign):
@@ -92,7 +92,7 @@ def test_rehearsed_run_is_sampled_as_the_campaign(campaign):
     assert flight.time[-1] == pytest.approx(6.0)
     assert np.diff(flight.time) == pytest.approx(0.01)
     own = problem_of(flight, one)
-    point = start([flight], one.knobs)
+    point = start([flight], one.free_parameters)
     assert np.abs(own.residuals(0, point.shared, point.own[0], point.states[0])).max() < 1.0
 
 
@@ -117,4 +117,4 @@ def test_nothing_is_proposed_for_a_single_model(campaign):
 def test_a_fit_without_derivatives_is_refused(campaign):
     one = member(campaign, "structural_damping", DRAG)
     with pytest.raises(ValueError, match="derivatives"):
-        Member("structural_damping", one.knobs, {}, replace(one.fitted, columns=None))
+        Member("structural_damping", one.free_parameters, {}, replace(one.fitted, columns=None))

@@ -14,7 +14,7 @@ from cosim.gap.naming.intervals import determined, intervals
 from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.fit import fit, with_columns
 from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.phases import with_phases
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
@@ -22,10 +22,10 @@ from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 MU_S, MU_K, LINEAR = 0.3, 0.2, 0.8
-KNOBS = (
-    Knob("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
-    Knob("friction.mu_k", 0.21, 0.01, 0.0, 2.0),
-    Knob("velocity_weakening.linear", 0.7, 0.1, 0.0, 5.0),
+FREE_PARAMETERS = (
+    FreeParameter("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
+    FreeParameter("friction.mu_k", 0.21, 0.01, 0.0, 2.0),
+    FreeParameter("velocity_weakening.linear", 0.7, 0.1, 0.0, 5.0),
 )
 TRUE = (MU_S, MU_K, LINEAR)
 
@@ -57,12 +57,12 @@ def campaign_of(folder, motions, seed, speeds=SPEEDS):
 @pytest.fixture(scope="module")
 def problem(clean, tmp_path_factory):
     campaign = campaign_of(tmp_path_factory.mktemp("campaign"), clean, 1)
-    return Problem(prepare(campaign, campaign.fit_runs, False), KNOBS)
+    return Problem(prepare(campaign, campaign.fit_runs, False), FREE_PARAMETERS)
 
 
 @pytest.fixture(scope="module")
 def fitted(problem):
-    return fit(problem, start(problem.flights, KNOBS))
+    return fit(problem, start(problem.flights, FREE_PARAMETERS))
 
 
 SEEDS = 12
@@ -75,14 +75,14 @@ def trials(clean, tmp_path_factory):
     for seed in range(SEEDS):
         campaign = campaign_of(tmp_path_factory.mktemp("campaign"), clean, seed)
         data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
-        model = Model(KNOBS, {})
+        model = Model(FREE_PARAMETERS, {})
         found.append((data, try_model(data, model, sketch(data, model, 2))))
     return found
 
 
-@pytest.mark.parametrize("number", range(len(KNOBS)))
+@pytest.mark.parametrize("number", range(len(FREE_PARAMETERS)))
 def test_errors_are_as_large_as_the_intervals_say(trials, number):
-    key, true = KNOBS[number].key, TRUE[number]
+    key, true = FREE_PARAMETERS[number].key, TRUE[number]
     deviations = []
     for _, trial in trials:
         low, high = intervals(trial)[key]
@@ -100,7 +100,7 @@ def test_what_is_left_is_noise(trials):
         rows = sum(r.size for r in trial.fitted.residuals)
         states = sum(by_state.shape[1] for c in trial.fitted.columns for _, by_state in c.states)
         # the sum of squares of noise is chi squared; one trial of all beyond: once in 500 times
-        least, most = chi2.interval(1.0 - 0.002 / SEEDS, rows - len(KNOBS) - states)
+        least, most = chi2.interval(1.0 - 0.002 / SEEDS, rows - len(FREE_PARAMETERS) - states)
         assert least < trial.fitted.cost < most
         assert trial.fitted.gap() == pytest.approx(np.sqrt(trial.fitted.cost / rows))
 
@@ -109,7 +109,7 @@ def test_a_run_that_was_held_out_is_foretold(trials):
     """Its squares are its noise and what the errors of the fitted numbers make of it."""
     squares = expected = variance = 0.0
     for data, trial in trials:
-        held_out = with_columns(Problem(data.held_out, KNOBS), trial.held_out).columns[0]
+        held_out = with_columns(Problem(data.held_out, FREE_PARAMETERS), trial.held_out).columns[0]
         left = [columns.left(columns.shared) for columns in trial.fitted.columns]
         scatter = np.linalg.inv(sum(a.T @ a for a in left))
         wrong = held_out.left(held_out.shared)
@@ -133,22 +133,22 @@ def test_a_trial_counts_every_run_once(trials):
 
 def test_only_what_the_data_determine_is_stated(trials, problem):
     _, trial = trials[0]
-    assert set(determined(trial)) == {knob.key for knob in KNOBS}
+    assert set(determined(trial)) == {free_parameter.key for free_parameter in FREE_PARAMETERS}
     # a law that hardly differs from the one that is there: neither is known to half its value
-    both = (*KNOBS, Knob("velocity_weakening.hyperbolic", 0.2, 0.1, 0.0, 50.0))
+    both = (*FREE_PARAMETERS, FreeParameter("velocity_weakening.hyperbolic", 0.2, 0.1, 0.0, 50.0))
     fitted = fit(Problem(problem.flights, both), start(problem.flights, both))
     columns = with_columns(Problem(problem.flights, both), fitted)
     vague = replace(trial, model=Model(both, {}), fitted=columns)
     assert "velocity_weakening.hyperbolic" not in determined(vague)
-    assert set(intervals(vague)) == {knob.key for knob in both}
+    assert set(intervals(vague)) == {free_parameter.key for free_parameter in both}
 
 
 def test_derivatives_are_those_of_a_finer_difference(problem, fitted):
     for run in range(len(problem.flights)):
         point = fitted.point
         at = point.shared, point.own[run], point.states[run]
-        columns = problem.columns(run, point, fitted.residuals[run], range(len(KNOBS)))
-        for j in range(len(KNOBS)):
+        columns = problem.columns(run, point, fitted.residuals[run], range(len(FREE_PARAMETERS)))
+        for j in range(len(FREE_PARAMETERS)):
             fine = central(
                 lambda s, at=at, j=j, run=run: problem.residuals(
                     run, moved(at[0], j, s), at[1], at[2]
@@ -185,49 +185,54 @@ def central(function, step):
 
 
 def test_brute_force_finds_nothing_better(problem, fitted):
-    """All at once, by scipy: knobs and the states of all windows as they come."""
+    """All at once, by scipy: free parameters and the states of all windows as they come."""
     free = [
         (i, n, axis)
         for i, flight in enumerate(problem.flights)
         for n, window in enumerate(flight.windows)
         for axis in window.free
     ]
-    first = start(problem.flights, KNOBS)
+    first = start(problem.flights, FREE_PARAMETERS)
     scale = np.array([1e-4, 0, 0, 1e-3, 0, 0])
 
     def residuals(steps):  # one more than they are: scipy's differences are parts of them
         unknown = steps - 1.0
         states = [s.copy() for s in first.states]
-        for (i, n, axis), step in zip(free, unknown[len(KNOBS) :], strict=True):
+        for (i, n, axis), step in zip(free, unknown[len(FREE_PARAMETERS) :], strict=True):
             states[i][n, axis] += step * scale[axis]
-        point = Point(first.shared + unknown[: len(KNOBS)], first.own, tuple(states))
+        point = Point(first.shared + unknown[: len(FREE_PARAMETERS)], first.own, tuple(states))
         return np.concatenate(problem.all_residuals(point))
 
     # differences as long as the fit's own: shorter ones see the integrator's error
-    brute = least_squares(residuals, np.ones(len(KNOBS) + len(free)), diff_step=1e-2, xtol=1e-10)
+    brute = least_squares(
+        residuals, np.ones(len(FREE_PARAMETERS) + len(free)), diff_step=1e-2, xtol=1e-10
+    )
     assert brute.success
     # a fit stops where a step gains less than 0.02, of a sum of squares of about 1200
     assert fitted.cost == pytest.approx(2.0 * brute.cost, abs=0.05)
     values = [
-        knob.value(s) for knob, s in zip(KNOBS, first.shared + brute.x[:3] - 1.0, strict=True)
+        free_parameter.value(s)
+        for free_parameter, s in zip(FREE_PARAMETERS, first.shared + brute.x[:3] - 1.0, strict=True)
     ]
     reach = [high - low for low, high in intervals(trial_of(problem, fitted)).values()]
     # the root of 0.02 is a seventh of a standard deviation, a 28th of an interval
     assert np.abs((np.array(values) - list(fitted.values.values())) / reach).max() < 0.04
 
 
-def test_a_knob_that_would_leave_its_range_stays_at_its_end(problem, fitted):
+def test_a_free_parameter_that_would_leave_its_range_stays_at_its_end(problem, fitted):
     """The others then go where they are best with it there."""
     most = 0.98 * fitted.values["friction.mu_s"]
-    knobs = (replace(KNOBS[0], high=most), *KNOBS[1:])
-    held = fit(Problem(problem.flights, knobs), start(problem.flights, knobs))
-    given = Problem(problem.flights, KNOBS[1:], {"friction.mu_s": most})
-    others = fit(given, start(given.flights, given.knobs))
+    free_parameters = (replace(FREE_PARAMETERS[0], high=most), *FREE_PARAMETERS[1:])
+    held = fit(Problem(problem.flights, free_parameters), start(problem.flights, free_parameters))
+    given = Problem(problem.flights, FREE_PARAMETERS[1:], {"friction.mu_s": most})
+    others = fit(given, start(given.flights, given.free_parameters))
     assert held.values["friction.mu_s"] == pytest.approx(most, rel=1e-12)
     assert held.cost == pytest.approx(others.cost, abs=0.05)  # each stops within 0.02
     assert held.cost > fitted.cost + 10.0  # it does matter
-    for knob in KNOBS[1:]:
-        assert held.values[knob.key] == pytest.approx(others.values[knob.key], rel=2e-3)
+    for free_parameter in FREE_PARAMETERS[1:]:
+        assert held.values[free_parameter.key] == pytest.approx(
+            others.values[free_parameter.key], rel=2e-3
+        )
 
 
 @pytest.mark.parametrize(
@@ -237,8 +242,10 @@ def test_a_knob_that_would_leave_its_range_stays_at_its_end(problem, fitted):
 def test_poor_starts_end_in_the_same_place(trials, mu_s, mu_k, linear):
     data, trial = trials[0]
     starts = (mu_s, mu_k, linear)
-    knobs = tuple(replace(k, start=at) for k, at in zip(KNOBS, starts, strict=True))
-    model = Model(knobs, {})
+    free_parameters = tuple(
+        replace(k, start=at) for k, at in zip(FREE_PARAMETERS, starts, strict=True)
+    )
+    model = Model(free_parameters, {})
     again = try_model(data, model, sketch(data, model, 25))
     assert again.fitted.cost == pytest.approx(trial.fitted.cost, abs=0.05)
 
@@ -246,11 +253,11 @@ def test_poor_starts_end_in_the_same_place(trials, mu_s, mu_k, linear):
 #: Phases of a surface that is not the same everywhere, degrees, one for each run.
 PHASES = (200.0, 75.0)
 PATTERN = (
-    Knob("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
-    Knob("friction.mu_k", 0.21, 0.01, 0.0, 2.0),
-    Knob("surface_pattern.amplitude", 0.15, 0.05, 0.0, 1.0),
-    Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
-    Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True),
+    FreeParameter("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
+    FreeParameter("friction.mu_k", 0.21, 0.01, 0.0, 2.0),
+    FreeParameter("surface_pattern.amplitude", 0.15, 0.05, 0.0, 1.0),
+    FreeParameter("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True),
+    FreeParameter("surface_pattern.phase_deg", 0.0, 30.0, per_run=True),
 )
 
 
@@ -290,12 +297,12 @@ def test_phases_that_are_best_stay_where_they_are(patterned):
 
 
 def test_without_phases_nothing_is_tried(problem):
-    point = start(problem.flights, KNOBS)
+    point = start(problem.flights, FREE_PARAMETERS)
     assert with_phases(problem, point) is point
 
 
 def test_only_what_belongs_to_the_runs_moves_where_the_rest_is_fixed(problem):
-    first = start(problem.flights, KNOBS)
+    first = start(problem.flights, FREE_PARAMETERS)
     found = fit(problem, first, fixed=True)
     assert found.point.shared.tolist() == first.shared.tolist()
     assert found.cost < sum(r @ r for r in problem.all_residuals(first))

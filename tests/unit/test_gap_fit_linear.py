@@ -13,26 +13,28 @@ from scipy.optimize import lsq_linear
 from cosim.gap.naming.intervals import intervals
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.problem import Problem
 
-SHARED = (Knob("a.a", 0.0, 0.1), Knob("a.b", 0.0, 3.0))
-OWN = Knob("a.own", 0.0, 0.2, per_run=True)
+SHARED = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 3.0))
+OWN = FreeParameter("a.own", 0.0, 0.2, per_run=True)
 
 
-def linear(knobs, runs=3, rows=60, seed=3):
+def linear(free_parameters, runs=3, rows=60, seed=3):
     random = np.random.default_rng(seed)
-    return Problem([linear_flight(random, knobs, rows) for _ in range(runs)], knobs)
+    return Problem(
+        [linear_flight(random, free_parameters, rows) for _ in range(runs)], free_parameters
+    )
 
 
 def check_joint(problem):
     """The fit of a linear problem beside all unknowns at once, within the same bounds."""
-    found = fit(problem, start(problem.flights, problem.knobs))
+    found = fit(problem, start(problem.flights, problem.free_parameters))
     matrix, right = joint(problem)
     count = len(problem.shared)
     low, high = np.full(matrix.shape[1], -np.inf), np.full(matrix.shape[1], np.inf)
-    low[:count] = [knob.low for knob in problem.shared]
-    high[:count] = [knob.high for knob in problem.shared]
+    low[:count] = [free_parameter.low for free_parameter in problem.shared]
+    high[:count] = [free_parameter.high for free_parameter in problem.shared]
     best = lsq_linear(matrix, right, (low, high), tol=1e-12, lsq_solver="exact", method="bvls").x
     # a round leaves of a distance what its damping is, 1e-3 at first, and less in the next ones
     assert list(found.values.values()) == pytest.approx(best[:count], abs=1e-4)
@@ -52,7 +54,7 @@ def test_elimination_is_the_joint_least_squares():
     check_joint(linear(SHARED))
 
 
-def test_elimination_with_knobs_of_the_runs_is_the_joint_least_squares():
+def test_elimination_with_free_parameters_of_the_runs_is_the_joint_least_squares():
     check_joint(linear((*SHARED, OWN)))
     check_joint(linear((*SHARED, OWN, replace(OWN, key="a.second"))))
 
@@ -79,11 +81,11 @@ def test_two_bounds_at_once():
     check_joint(linear((low, high, replace(SHARED[0], key="a.c"))))
 
 
-def test_a_knob_that_nothing_feels_stays_where_it_is():
-    problem = linear((*SHARED, Knob("a.silent", 7.0, 1.0)))
+def test_a_free_parameter_that_nothing_feels_stays_where_it_is():
+    problem = linear((*SHARED, FreeParameter("a.silent", 7.0, 1.0)))
     for flight in problem.flights:
         flight.by_key["a.silent"][:] = 0.0
-    found = fit(problem, start(problem.flights, problem.knobs))
+    found = fit(problem, start(problem.flights, problem.free_parameters))
     without = Problem(problem.flights, SHARED)
     assert found.values["a.silent"] == pytest.approx(7.0, abs=1e-6)
     assert found.cost == pytest.approx(fit(without, start(without.flights, SHARED)).cost)
@@ -110,13 +112,13 @@ def half_widths(problem, found):
 def test_intervals_of_a_linear_model_are_those_of_its_joint_least_squares():
     known = replace(SHARED[0], start=0.3, prior=0.2)
     problem = linear((known, SHARED[1], OWN))
-    found = fit(problem, start(problem.flights, problem.knobs))
+    found = fit(problem, start(problem.flights, problem.free_parameters))
     white, windows = deviations(problem, found)
     assert half_widths(problem, found) == pytest.approx(np.maximum(white, windows), rel=1e-4)
 
 
 def deviations(problem, found):
-    """Standard deviations of the campaign's knobs, from the matrix of all unknowns at once.
+    """Standard deviations of the campaign's free parameters, from the matrix of all unknowns at once.
 
     With white noise of the gap's size, and with noise that is independent between windows only.
     """
@@ -163,15 +165,17 @@ def test_intervals_cover_what_noise_that_lingers_does_to_a_fit():
 @pytest.mark.parametrize(
     "knob",
     [
-        Knob("a.a", 0.3, 0.02, 0.1, 2.0),
-        Knob("a.a", 0.3, 0.5, 1e-3, 10.0, log=True),
-        Knob("a.a", 0.3, 0.5),
+        FreeParameter("a.a", 0.3, 0.02, 0.1, 2.0),
+        FreeParameter("a.a", 0.3, 0.5, 1e-3, 10.0, log=True),
+        FreeParameter("a.a", 0.3, 0.5),
     ],
 )
-def test_scale_of_a_knob(knob):
-    assert knob.value(knob.scaled(0.3)) == pytest.approx(0.3, rel=1e-14)
-    assert knob.inside(knob.scaled(0.3)) == knob.scaled(0.3)
-    for end in (knob.low, knob.high):
+def test_scale_of_a_free_parameter(free_parameter):
+    assert free_parameter.value(free_parameter.scaled(0.3)) == pytest.approx(0.3, rel=1e-14)
+    assert free_parameter.inside(free_parameter.scaled(0.3)) == free_parameter.scaled(0.3)
+    for end in (free_parameter.low, free_parameter.high):
         if np.isfinite(end):
-            beyond = knob.scaled(end) + (100.0 if end == knob.high else -100.0)
-            assert knob.value(knob.inside(beyond)) == pytest.approx(end, rel=1e-12)
+            beyond = free_parameter.scaled(end) + (100.0 if end == free_parameter.high else -100.0)
+            assert free_parameter.value(free_parameter.inside(beyond)) == pytest.approx(
+                end, rel=1e-12
+            )

@@ -10,7 +10,7 @@ from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.flight import LOST
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.phases import with_phases, with_phases_followed
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.problem import Problem
@@ -18,10 +18,10 @@ from cosim.gap.shooting.rescue import with_lost_windows_found
 from cosim.gap.shooting.velocities import with_velocities
 
 SPEED, PHASE = 0.1, 130.0
-KNOBS = (
-    Knob("friction.mu_s", 0.3, 0.01, 0.0, 2.0),
-    Knob("friction.mu_k", 0.2, 0.01, 0.0, 2.0),
-    Knob("surface_pattern.phase_deg", 0.0, 30.0, per_run=True),
+FREE_PARAMETERS = (
+    FreeParameter("friction.mu_s", 0.3, 0.01, 0.0, 2.0),
+    FreeParameter("friction.mu_k", 0.2, 0.01, 0.0, 2.0),
+    FreeParameter("surface_pattern.phase_deg", 0.0, 30.0, per_run=True),
 )
 PATTERN = {"surface_pattern.amplitude": 0.1, "surface_pattern.wavelength": 0.05}
 
@@ -38,12 +38,12 @@ def patterned(tmp_path_factory):
     )
     runs = [{"columns": {"t": run.time, "x": noisy(run["x"], 1)}, "surface_speed": SPEED}]
     campaign = read_campaign(write_campaign(tmp_path_factory.mktemp("p"), runs, noise={"x": 2e-4}))
-    return Problem(prepare(campaign, campaign.runs, False, SHORT_CYCLES), KNOBS, PATTERN)
+    return Problem(prepare(campaign, campaign.runs, False, SHORT_CYCLES), FREE_PARAMETERS, PATTERN)
 
 
 @pytest.fixture(scope="module")
 def fitted(patterned):
-    return fit(patterned, with_phases(patterned, start(patterned.flights, KNOBS)))
+    return fit(patterned, with_phases(patterned, start(patterned.flights, FREE_PARAMETERS)))
 
 
 def moving(problem):
@@ -123,12 +123,12 @@ def test_a_lost_window_is_found_again(patterned, fitted):
 
 def test_a_phase_is_found_by_following_it(patterned, fitted):
     """States fitted for half a turn off do not hide the true phase, and a good one stays."""
-    knobs = len(patterned.shared)
+    free_parameters = len(patterned.shared)
     turned = Point(fitted.point.shared, (fitted.point.own[0] + 6.0,), fitted.point.states)
     settled = fit(patterned, turned, 6, fixed=True).point
     found = with_phases_followed(patterned, settled)
     off = found.own[0][0] * 30.0 - PHASE
-    assert abs((off + 180.0) % 360.0 - 180.0) <= 5.0 and len(found.shared) == knobs
+    assert abs((off + 180.0) % 360.0 - 180.0) <= 5.0 and len(found.shared) == free_parameters
     assert with_phases_followed(patterned, fitted.point) is fitted.point
 
 

@@ -11,22 +11,30 @@ from cosim.gap.candidates.extend import extended
 from cosim.gap.naming.search import Search
 from cosim.gap.naming.tried import Tried
 from cosim.gap.shooting.data import prepared
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.glance import glance, ground
-from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 PLAIN = Model(
-    (Knob("friction.mu_s", 0.29, 0.015, 0.0, 2.0), Knob("friction.mu_k", 0.21, 0.01, 0.0, 2.0)), {}
+    (
+        FreeParameter("friction.mu_s", 0.29, 0.015, 0.0, 2.0),
+        FreeParameter("friction.mu_k", 0.21, 0.01, 0.0, 2.0),
+    ),
+    {},
 )
 RATE = Candidate(
     "static_strengthening",
     "logarithmic",
-    (Knob("static_strengthening.rate", 0.003, 0.02, 0.0, 2.0),),
+    (FreeParameter("static_strengthening.rate", 0.003, 0.02, 0.0, 2.0),),
     {"static_strengthening.hold_time": 0.01},
 )
-DRAG = Candidate("film_drag", "linear", (Knob("film_drag.coefficient", 0.01, 0.1, 0.0, 50.0),))
-CUBIC = Candidate("spring_hardening", "cubic", (Knob("spring_hardening.cubic", 10.0, 1e3, 0.0),))
+DRAG = Candidate(
+    "film_drag", "linear", (FreeParameter("film_drag.coefficient", 0.01, 0.1, 0.0, 50.0),)
+)
+CUBIC = Candidate(
+    "spring_hardening", "cubic", (FreeParameter("spring_hardening.cubic", 10.0, 1e3, 0.0),)
+)
 
 
 def measured(folder, hidden):
@@ -107,9 +115,9 @@ def test_a_pair_repairs_what_neither_does_alone(both, search):
     assert both.trial.gap < 1.1
     for dropped, kept in ((RATE, DRAG), (DRAG, RATE)):
         less = search.less(both, dropped, tuple(kept.settings))
-        keys = {knob.key for knob in less.model.knobs}
-        assert not keys & {knob.key for knob in dropped.knobs}
-        assert keys >= {knob.key for knob in kept.knobs}
+        keys = {free_parameter.key for free_parameter in less.model.free_parameters}
+        assert not keys & {free_parameter.key for free_parameter in dropped.free_parameters}
+        assert keys >= {free_parameter.key for free_parameter in kept.free_parameters}
         assert less.trial.gap > 1.5 * both.trial.gap
     assert RATE.settings.items() <= search.less(both, DRAG, ()).model.settings.items()
 
@@ -139,9 +147,16 @@ def test_another_effect_may_take_the_place_of_either_of_a_pair(
     pair = pair_of(data, plain, first, second)
     kept = second if wrong is first else first
     found, *others = search.instead(pair, wrong, [right], tuple(kept.settings))
-    keys = {knob.key for knob in found.model.knobs}
+    keys = {free_parameter.key for free_parameter in found.model.free_parameters}
     assert not others and found.candidate.effect == right.effect
-    assert keys == {knob.key for knob in (*PLAIN.knobs, *kept.knobs, *right.knobs)}
+    assert keys == {
+        free_parameter.key
+        for free_parameter in (
+            *PLAIN.free_parameters,
+            *kept.free_parameters,
+            *right.free_parameters,
+        )
+    }
     assert found.trial.gap < 1.1 < pair.trial.gap
 
 

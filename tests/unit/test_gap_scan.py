@@ -11,14 +11,18 @@ from cosim.gap.naming.scan import periodogram, scan
 from cosim.gap.naming.wave_answer import sums, wave_answer
 from cosim.gap.read import read_campaign
 from cosim.gap.shooting.data import Data
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.glance import ground
-from cosim.gap.shooting.knob import Knob
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.trial import Model, sketch
 
 SPEEDS, AMPLITUDE, PHASES = (0.04, 0.07), 0.08, (40.0, 190.0)
 PLAIN = Model(
-    (Knob("friction.mu_s", 0.3, 0.01, 0.0, 2.0), Knob("friction.mu_k", 0.2, 0.01, 0.0, 2.0)), {}
+    (
+        FreeParameter("friction.mu_s", 0.3, 0.01, 0.0, 2.0),
+        FreeParameter("friction.mu_k", 0.2, 0.01, 0.0, 2.0),
+    ),
+    {},
 )
 LAWS = {
     (c.effect, c.form): c for c in candidates(Scales(0.05, 0.5, 1.0, 10.0, 38.5, 0.05, 0.87, 8.5))

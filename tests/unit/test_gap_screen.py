@@ -5,13 +5,13 @@ import pytest
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.naming.screen import Screen
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 
 ROWS = 400
 
 
 def law(effect, start=0.1, low=0.0, high=1.0):
-    return Candidate(effect, "law", (Knob(f"{effect}.strength", start, 0.1, low, high),))
+    return Candidate(effect, "law", (FreeParameter(f"{effect}.strength", start, 0.1, low, high),))
 
 
 def screen(residuals, answers, laws):
@@ -43,15 +43,15 @@ def test_two_laws_that_hide_one_another_are_found_with_their_strengths(random):
     assert found.gains().max() < 0.1
     first, second = found.concealed()
     assert (first.effect, second.effect) == ("a", "b")
-    assert first.knobs[0].start == pytest.approx(0.2, rel=0.05)
-    assert second.knobs[0].start == pytest.approx(0.4, rel=0.05)
+    assert first.free_parameters[0].start == pytest.approx(0.2, rel=0.05)
+    assert second.free_parameters[0].start == pytest.approx(0.4, rel=0.05)
 
 
 def test_a_strength_stays_in_its_range(random):
     common, rest = random.standard_normal((2, ROWS))
     one, other = common + 0.1 * rest, 0.1 * rest - common
     found = screen(-20.0 * (one + other), [one, other], [law("a"), law("b", 0.01)]).concealed()
-    assert found[0].knobs[0].start == 1.0
+    assert found[0].free_parameters[0].start == 1.0
 
 
 def test_what_one_does_alone_is_not_concealed(random):

@@ -28,7 +28,7 @@ from cosim.gap.naming.tried import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, SEEN, WAVE, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.flight import TILT
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Model, Trial
 
 ROWS = 1000
@@ -87,7 +87,9 @@ class MadeUp:
         return self.hidden
 
     def on(self, base, fitted, candidates):
-        if any(TILT in {knob.key for knob in c.knobs} for c in candidates):
+        if any(
+            TILT in {free_parameter.key for free_parameter in c.free_parameters} for c in candidates
+        ):
             return [replace(tried("", self.lookalike), candidate=candidates[0])]
         done = [t for t in self.first if t.trial is not None]
         rest = [t for t in self.first if t.trial is None]
@@ -386,11 +388,15 @@ def test_a_pair_that_fits_in_short_windows_is_fitted_more_closely():
 
 def ended(at, time):
     """A trial whose law has a time that ended here; at 0.03 s it is a plain number."""
-    knob = Knob(
+    free_parameter = FreeParameter(
         "static_strengthening.saturation_time", 0.1, 0.5, 0.03, 30.0, log=True, plain_below=True
     )
-    fitted = Fitted((knob,), Point(np.array([knob.scaled(time)]), (), ()), (np.full(ROWS, at),))
-    return replace(trial(at), model=Model((knob,), {}), fitted=fitted)
+    fitted = Fitted(
+        (free_parameter,),
+        Point(np.array([free_parameter.scaled(time)]), (), ()),
+        (np.full(ROWS, at),),
+    )
+    return replace(trial(at), model=Model((free_parameter,), {}), fitted=fitted)
 
 
 @pytest.mark.parametrize("time, verdict", [(0.03, "unknown"), (0.1, "named")])

@@ -8,7 +8,7 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
 from cosim.gap.naming.across import moves_across
-from cosim.gap.naming.plain import plain_knobs
+from cosim.gap.naming.plain import plain_free_parameters
 from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.preparation import period, prepare
 from cosim.gap.shooting.trial import Model, sketch, try_model
@@ -42,7 +42,7 @@ def test_a_block_that_sticks_along_x_may_swing_across(aside, tmp_path):
 def test_the_plain_model_fits_a_plain_block_that_swings_across(aside, tmp_path):
     campaign = campaign_of(tmp_path, aside)
     data = prepared(campaign, campaign.fit_runs, (), True)
-    model = Model(plain_knobs(campaign, True), {})
+    model = Model(plain_free_parameters(campaign, True), {})
     trial = try_model(data, model, sketch(data, model, 4))
     # 4000 rows: their noise alone has a root mean square of 1 +- 0.011
     assert trial.gap == pytest.approx(1.0, abs=0.05)

@@ -20,7 +20,7 @@ from gap_campaigns import NOISE, noisy, write_campaign  # noqa: E402
 from cosim.gap.candidates.catalogue import candidates  # noqa: E402
 from cosim.gap.candidates.extend import extended  # noqa: E402
 from cosim.gap.experiment import Member, next_experiment  # noqa: E402
-from cosim.gap.naming.plain import plain_knobs  # noqa: E402
+from cosim.gap.naming.plain import plain_free_parameters  # noqa: E402
 from cosim.gap.naming.scales import scales  # noqa: E402
 from cosim.gap.naming.tried import Tried  # noqa: E402
 from cosim.gap.naming.verdict import FITS, alike  # noqa: E402
@@ -55,7 +55,7 @@ def fitted(folder, runs):
     path = write_campaign(folder, runs, noise={"x": NOISE})
     campaign = read_campaign(path)
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
-    base = Model(plain_knobs(campaign, False), {})
+    base = Model(plain_free_parameters(campaign, False), {})
     plain = sketch(data, base, 8)
     done = {}
     for law in candidates(scales(list(campaign.runs), plain.values["friction.mu_k"], 0.0)):
@@ -70,7 +70,8 @@ def fitted(folder, runs):
 
 def proposed_for(campaign, done):
     members = [
-        Member(t.candidate.effect, t.model.knobs, t.model.settings, t.trial.fitted) for t in done
+        Member(t.candidate.effect, t.model.free_parameters, t.model.settings, t.trial.fitted)
+        for t in done
     ]
     return next_experiment(campaign, members, planar=False)
 

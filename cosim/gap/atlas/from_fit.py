@@ -10,7 +10,7 @@ from stickslip.kernel import layout
 from cosim.gap.atlas.model_track import ModelTrack
 from cosim.gap.read import MeasuredRun
 from cosim.gap.shooting.fitted import Fitted
-from cosim.gap.shooting.knob import OFFSETS
+from cosim.gap.shooting.free_parameter import OFFSETS
 from cosim.gap.shooting.problem import Problem
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import log10
 
 from cosim.gap.shooting.drive import SECOND
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 
 from .candidate import Candidate
 
@@ -63,16 +63,16 @@ _LEAST_ACROSS = 0.05
 def _lateral_friction(s: Scales):
     yield Candidate("lateral_friction", "isotropic", (), _ACROSS, lateral=True)
     for share in (0.8, 0.5):
-        ratio = Knob("lateral_friction.ratio", share, 0.1, _LEAST_ACROSS, 1.0)
+        ratio = FreeParameter("lateral_friction.ratio", share, 0.1, _LEAST_ACROSS, 1.0)
         yield Candidate("lateral_friction", "less than along the motion", (ratio,), _ACROSS, True)
 
 
 def _turning_surface(s: Scales):
     for across in (_ACROSS, {}):
         for sign in (0.5, -0.5):
-            knob = Knob("turning_surface.curvature", sign, 0.2, -20.0, 20.0)
+            free_parameter = FreeParameter("turning_surface.curvature", sign, 0.2, -20.0, 20.0)
             form = "disc friction" if across else "friction along x"
-            yield Candidate("turning_surface", form, (knob,), across, lateral=True)
+            yield Candidate("turning_surface", form, (free_parameter,), across, lateral=True)
 
 
 #: A usual hold, s.
@@ -80,7 +80,7 @@ _HOLD = 0.5
 
 
 def _static_strengthening(s: Scales):
-    rate = Knob("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
+    rate = FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
     yield Candidate(
         "static_strengthening",
         "logarithmic",
@@ -89,7 +89,7 @@ def _static_strengthening(s: Scales):
         grows=2.0,
     )
     for time in (0.03, 0.5):
-        onset = Knob("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
+        onset = FreeParameter("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
         yield Candidate(
             "static_strengthening",
             "logarithmic after an onset",
@@ -101,9 +101,9 @@ def _static_strengthening(s: Scales):
             "static_strengthening",
             "saturating",
             (
-                Knob("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
+                FreeParameter("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
                 # over a much shorter time it would be another mu_s, not a law of the hold
-                Knob(
+                FreeParameter(
                     "static_strengthening.saturation_time",
                     time,
                     0.5,
@@ -120,18 +120,18 @@ def _static_strengthening(s: Scales):
 def _velocity_weakening(s: Scales):
     part = 0.15
     for name in ("linear", "hyperbolic", "inverse_root"):
-        knob = Knob(
+        free_parameter = FreeParameter(
             f"velocity_weakening.{name}",
             part / s.speed,
             0.1 / s.speed,
             0.0,
             {"linear": 10.0 / s.speed}.get(name, 1e3 / s.speed),
         )
-        yield Candidate("velocity_weakening", name, (knob,))
-    peak = Knob("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
+        yield Candidate("velocity_weakening", name, (free_parameter,))
+    peak = FreeParameter("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
     for share in (0.3, 1.0):
         # over a much smaller speed it would be another mu_s, not a law of the sliding speed
-        speed = Knob(
+        speed = FreeParameter(
             "velocity_weakening.stribeck_speed",
             share * s.speed,
             0.4,
@@ -146,11 +146,15 @@ def _velocity_weakening(s: Scales):
 def _film_drag(s: Scales):
     drag = 0.02 * s.force / s.speed
     yield Candidate(
-        "film_drag", "linear", (Knob("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag),)
+        "film_drag",
+        "linear",
+        (FreeParameter("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag),),
     )
     root = 0.02 * s.force / s.speed**0.5
     yield Candidate(
-        "film_drag", "root", (Knob("film_drag.root_coefficient", root, root, 0.0, 1e3 * root),)
+        "film_drag",
+        "root",
+        (FreeParameter("film_drag.root_coefficient", root, root, 0.0, 1e3 * root),),
     )
 
 
@@ -158,10 +162,10 @@ def _thermal_weakening(s: Scales):
     for time in (0.5, 5.0, 50.0):
         # the heat that is remembered, of what a run makes
         heat = s.heat * min(1.0, time / s.duration)
-        weak = Knob("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
-        memory = Knob("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True)
+        weak = FreeParameter("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
+        memory = FreeParameter("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True)
         yield Candidate("thermal_weakening", "relaxing", (weak, memory))
-    bend = Knob("thermal_weakening.curvature", 0.0, 0.3, -1.0, 1.0)
+    bend = FreeParameter("thermal_weakening.curvature", 0.0, 0.3, -1.0, 1.0)
     yield Candidate("thermal_weakening", "relaxing, bent", (weak, memory, bend))
 
 
@@ -172,8 +176,8 @@ def _run_in(s: Scales):
                 "run_in",
                 "exponential",
                 (
-                    Knob("run_in.change", change, 0.1, -0.95, 5.0),
-                    Knob(
+                    FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
+                    FreeParameter(
                         "run_in.distance",
                         share * s.distance,
                         0.5,
@@ -187,7 +191,7 @@ def _run_in(s: Scales):
 
 def _spring_hardening(s: Scales):
     cubic = 0.1 * s.stiffness / s.travel**2
-    hardening = Knob("spring_hardening.cubic", cubic, cubic, 0.0, 1e4 * cubic)
+    hardening = FreeParameter("spring_hardening.cubic", cubic, cubic, 0.0, 1e4 * cubic)
     yield Candidate("spring_hardening", "cubic", (hardening,))
     if s.extension != 0.0:  # as found by pulling at the block in its place
         yield Candidate(
@@ -204,37 +208,44 @@ def _structural_damping(s: Scales):
         yield Candidate(
             "structural_damping",
             "viscous",
-            (Knob("structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag),),
+            (
+                FreeParameter(
+                    "structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag
+                ),
+            ),
         )
 
 
 def _second(effect: str):
     """What is periodic is seldom a sine: its second harmonic, relative to the first."""
-    return tuple(Knob(f"{effect}.{part}", 0.0, 0.1, -0.7, 0.7) for part in SECOND)
+    return tuple(FreeParameter(f"{effect}.{part}", 0.0, 0.1, -0.7, 0.7) for part in SECOND)
 
 
-def _periodic(effect: str, period: Knob, form: str):
+def _periodic(effect: str, period: FreeParameter, form: str):
     """A sine, and one with its second harmonic; a scan says where they start."""
-    knobs = (
-        Knob(f"{effect}.amplitude", 0.1, 0.05, 0.0, 1.0),
+    free_parameters = (
+        FreeParameter(f"{effect}.amplitude", 0.1, 0.05, 0.0, 1.0),
         period,
-        Knob(f"{effect}.phase_deg", 0.0, 30.0, per_run=True),
+        FreeParameter(f"{effect}.phase_deg", 0.0, 30.0, per_run=True),
     )
-    yield Candidate(effect, form, knobs, periodic=period.key)
+    yield Candidate(effect, form, free_parameters, periodic=period.key)
     yield Candidate(
-        effect, f"{form} and second harmonic", knobs + _second(effect), periodic=period.key
+        effect,
+        f"{form} and second harmonic",
+        free_parameters + _second(effect),
+        periodic=period.key,
     )
 
 
 def _speed_ripple(s: Scales):
-    frequency = Knob("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
+    frequency = FreeParameter("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
     yield from _periodic("speed_ripple", frequency, "sine")
-    way = Knob("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    way = FreeParameter("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
     yield from _periodic("speed_ripple", way, "sine of a roller")
 
 
 def _surface_pattern(s: Scales):
-    length = Knob("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    length = FreeParameter("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
     yield from _periodic("surface_pattern", length, "sine")
 
 
@@ -243,7 +254,7 @@ def _load_dependence(s: Scales):
         yield Candidate(
             "load_dependence",
             "power law",
-            (Knob("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
+            (FreeParameter("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
             {"load_dependence.reference_force": s.force},
         )
 
@@ -254,7 +265,7 @@ def _spring_misalignment(s: Scales):
             yield Candidate(
                 "spring_misalignment",
                 "angle",
-                (Knob("spring_misalignment.angle_deg", sign, 2.0, -60.0, 60.0),),
+                (FreeParameter("spring_misalignment.angle_deg", sign, 2.0, -60.0, 60.0),),
                 across,
                 True,
             )
@@ -262,7 +273,7 @@ def _spring_misalignment(s: Scales):
             yield Candidate(
                 "spring_misalignment",
                 "offset",
-                (Knob("spring_misalignment.lateral_offset", sign, 0.003, -1.0, 1.0),),
+                (FreeParameter("spring_misalignment.lateral_offset", sign, 0.003, -1.0, 1.0),),
                 across,
                 True,
             )
@@ -273,5 +284,5 @@ def _stick_stiffness(s: Scales):
         yield Candidate(
             "stick_stiffness",
             "part of the springs",
-            (Knob("stick_stiffness.ratio", part, 0.15, 0.05, 1.0),),
+            (FreeParameter("stick_stiffness.ratio", part, 0.15, 0.05, 1.0),),
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Model
 
 from .candidate import Candidate
@@ -19,11 +19,17 @@ _GROWN = 0.3
 
 
 def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Model:
-    """The base, starting where it was fitted, with the candidate's knobs."""
+    """The base, starting where it was fitted, with the candidate's free parameters."""
     candidate, fitted = _in_place_of_mu_s(base, candidate, _holding(fitted))
-    taken = {knob.key for knob in candidate.knobs}
-    kept = tuple(moved(knob, fitted) for knob in base.knobs if knob.key not in taken)
-    return Model(kept + candidate.knobs, {**base.settings, **candidate.settings}, base.added + 1)
+    taken = {free_parameter.key for free_parameter in candidate.free_parameters}
+    kept = tuple(
+        moved(free_parameter, fitted)
+        for free_parameter in base.free_parameters
+        if free_parameter.key not in taken
+    )
+    return Model(
+        kept + candidate.free_parameters, {**base.settings, **candidate.settings}, base.added + 1
+    )
 
 
 def reduced(
@@ -33,14 +39,18 @@ def reduced(
 
     keep : settings of it that others need
     """
-    gone = {knob.key for knob in candidate.knobs}
-    knobs = tuple(moved(knob, fitted) for knob in model.knobs if knob.key not in gone)
+    gone = {free_parameter.key for free_parameter in candidate.free_parameters}
+    free_parameters = tuple(
+        moved(free_parameter, fitted)
+        for free_parameter in model.free_parameters
+        if free_parameter.key not in gone
+    )
     settings = {
         key: value
         for key, value in model.settings.items()
         if key not in candidate.settings or key in keep
     }
-    return Model(knobs, settings, model.added - 1)
+    return Model(free_parameters, settings, model.added - 1)
 
 
 def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float]):
@@ -48,13 +58,16 @@ def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float
 
     On top of all of it, the first breaks-away would come late, and the fit look elsewhere.
     """
-    stated = any(knob.key == "friction.mu_s" and knob.prior is not None for knob in base.knobs)
+    stated = any(
+        free_parameter.key == "friction.mu_s" and free_parameter.prior is not None
+        for free_parameter in base.free_parameters
+    )
     over = fitted.get("friction.mu_s", 0.0) - fitted.get("friction.mu_k", 0.0)
     if not candidate.grows or stated or over <= 0.0:
         return candidate, fitted
-    first = replace(candidate.knobs[0], start=_GROWN * over / candidate.grows)
+    first = replace(candidate.free_parameters[0], start=_GROWN * over / candidate.grows)
     moved_over = {**fitted, "friction.mu_s": fitted["friction.mu_s"] - _GROWN * over}
-    return replace(candidate, knobs=(first, *candidate.knobs[1:])), moved_over
+    return replace(candidate, free_parameters=(first, *candidate.free_parameters[1:])), moved_over
 
 
 def _holding(fitted: dict[str, float]) -> dict[str, float]:
@@ -65,13 +78,20 @@ def _holding(fitted: dict[str, float]) -> dict[str, float]:
     return {**fitted, "friction.mu_s": _USUAL * mu_k}
 
 
-def moved(knob: Knob, fitted: dict[str, float]) -> Knob:
-    """The knob starting where it was fitted, if that is inside its range.
+def moved(free_parameter: FreeParameter, fitted: dict[str, float]) -> FreeParameter:
+    """The free parameter starting where it was fitted, if that is inside its range.
 
     One with a prior stays centred on it.
     """
-    if knob.prior is not None or knob.key not in fitted:
-        return knob
-    if not knob.low * _INSIDE < fitted[knob.key] < knob.high / _INSIDE:
-        return knob
-    return replace(knob, start=min(max(fitted[knob.key], knob.low), knob.high))
+    if free_parameter.prior is not None or free_parameter.key not in fitted:
+        return free_parameter
+    if (
+        not free_parameter.low * _INSIDE
+        < fitted[free_parameter.key]
+        < free_parameter.high / _INSIDE
+    ):
+        return free_parameter
+    return replace(
+        free_parameter,
+        start=min(max(fitted[free_parameter.key], free_parameter.low), free_parameter.high),
+    )

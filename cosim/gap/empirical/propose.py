@@ -13,7 +13,7 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Trial, sketch, try_model
 from cosim.processes import Map
 
@@ -134,11 +134,12 @@ def _closed_loop(
         tuple(forced(flight, best.features) for flight in part)
         for part in (data.fit, data.short, data.held_out, data.held_out_short)
     ]
-    knobs = tuple(
-        Knob(key(i), float(c), _STEP * abs(float(c))) for i, c in enumerate(best.coefficients)
+    free_parameters = tuple(
+        FreeParameter(key(i), float(c), _STEP * abs(float(c)))
+        for i, c in enumerate(best.coefficients)
     )
     acting = Data(*flights)
-    model = extended(base.model, Candidate("empirical", "formula", knobs), friction)
+    model = extended(base.model, Candidate("empirical", "formula", free_parameters), friction)
     trial = try_model(acting, model, sketch(acting, model, _ROUNDS), rounds=0)
     return trial, best.features
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cosim.gap.shooting.fitted import Fitted, Point
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.problem import Problem
 
 
@@ -19,12 +19,12 @@ class Member:
     Attributes
     ----------
     effect : id in the catalogue, or several joined by " + "
-    knobs, settings : what is turned and what is set
+    free parameters, settings : what is turned and what is set
     fitted : the fit to the campaign, with its derivatives
     """
 
     effect: str
-    knobs: tuple[Knob, ...]
+    free_parameters: tuple[FreeParameter, ...]
     settings: Mapping[str, float]
     fitted: Fitted = field(repr=False)
 
@@ -39,15 +39,17 @@ class Member:
 
     @property
     def point(self) -> Point:
-        """The fit's, with the first run's own knobs; no states."""
+        """The fit's, with the first run's own free parameters; no states."""
         return Point(self.fitted.point.shared, (self.fitted.point.own[0],), ())
 
     def information(self) -> np.ndarray:
-        """(g, g) what the campaign knows of the shared knobs: inverse of their covariance.
+        """(g, g) what the campaign knows of the shared free parameters: inverse of their covariance.
 
         On the scale of the fit. States and phases are eliminated; prior knowledge counts.
         """
-        weight = Problem((), self.knobs, dict(self.settings)).prior(self.fitted.point.shared)[1]
+        weight = Problem((), self.free_parameters, dict(self.settings)).prior(
+            self.fitted.point.shared
+        )[1]
         known = np.diag(weight**2)
         for columns in self.fitted.columns:
             left = columns.left(columns.shared)

@@ -24,7 +24,7 @@ _ROUNDS = 3
 _NEARLY = 0.8
 #: More members than this are not compared: the ones that fit best stand for the class.
 _MEMBERS = 4
-#: A coefficient that the campaign knows no better than this many steps of its knob is not known.
+#: A coefficient that the campaign knows no better than this many steps of its free parameter is not known.
 _VAGUE = 20.0
 #: What a break-away takes, over kinetic friction, where no break-away was seen.
 _UNSEEN_RATIO = 1.3
@@ -83,8 +83,10 @@ def _most_telling(scored: Sequence[tuple[float, Experiment]]) -> list[tuple[floa
 def _side(member: Member) -> _Side:
     """A static friction that no run has felt is set to what is usual."""
     information = member.information()
-    shared = [knob for knob in member.knobs if not knob.per_run]
-    keys = [knob.key for knob in shared]
+    shared = [
+        free_parameter for free_parameter in member.free_parameters if not free_parameter.per_run
+    ]
+    keys = [free_parameter.key for free_parameter in shared]
     if {"friction.mu_s", "friction.mu_k"} <= set(keys):
         at = keys.index("friction.mu_s")
         if information[at, at] < _VAGUE**-2:

@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.gap.read import Campaign, MeasuredRun, Track, find_sticks
 from cosim.gap.shooting.flight import COLUMN, Flight
-from cosim.gap.shooting.knob import OFFSETS
+from cosim.gap.shooting.free_parameter import OFFSETS
 from cosim.gap.shooting.preparation import known_parameters, prepare
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.windows import Window
@@ -88,4 +88,4 @@ def _fly(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> 
 
 def problem_of(flight: Flight, member: Member) -> Problem:
     """A member's fit to somebody else's motion."""
-    return Problem([flight], member.knobs, dict(member.settings))
+    return Problem([flight], member.free_parameters, dict(member.settings))

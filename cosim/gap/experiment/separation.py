@@ -57,7 +57,7 @@ def _columns(problem: Problem, point: Point, residuals: np.ndarray) -> Columns:
 def _step(
     columns: Columns, information: np.ndarray, moved: np.ndarray, damping: float = 0.0
 ) -> np.ndarray:
-    """Of the shared knobs, which have moved from where the campaign alone wants them."""
+    """Of the shared free parameters, which have moved from where the campaign alone wants them."""
     left = columns.left(columns.shared)
     matrix = left.T @ left + information
     matrix = matrix + damping * np.diag(np.diag(matrix))

@@ -23,7 +23,7 @@ DRAWS = 199
 
 @dataclass(frozen=True)
 class _Law:
-    """Derivatives by all knobs, runs on end, without what the runs' own states take up."""
+    """Derivatives by all free parameters, runs on end, without what the runs' own states take up."""
 
     fit: np.ndarray
     held_out: np.ndarray
@@ -33,7 +33,7 @@ class _Law:
 
 def chance(data: Data, plain: Trial, trials: Sequence[Trial], seed: int) -> dict[str, float]:
     """p of the best law's gain on the held-out runs, and the draws that it rests on."""
-    shared = sum(not knob.per_run for knob in plain.model.knobs)
+    shared = sum(not free_parameter.per_run for free_parameter in plain.model.free_parameters)
     laws = [_law(data, trial, shared) for trial in trials]
     random = np.random.default_rng(seed)
     gains = [_best_gain(laws, random) for _ in range(DRAWS)]
@@ -48,17 +48,21 @@ def _gain(plain: Trial, trial: Trial) -> float:
     return plain.held_out.cost - trial.held_out.cost
 
 
-def _law(data: Data, trial: Trial, plain_knobs: int) -> _Law:
-    problem = Problem(data.held_out, trial.model.knobs, trial.model.settings)
+def _law(data: Data, trial: Trial, plain_free_parameters: int) -> _Law:
+    problem = Problem(data.held_out, trial.model.free_parameters, trial.model.settings)
     held_out = with_columns(problem, trial.held_out)
-    shared = [knob for knob in trial.model.knobs if not knob.per_run]
-    plain = np.arange(len(shared)) < plain_knobs
+    shared = [
+        free_parameter
+        for free_parameter in trial.model.free_parameters
+        if not free_parameter.per_run
+    ]
+    plain = np.arange(len(shared)) < plain_free_parameters
     weight = np.array([k.step / k.prior if k.prior else 0.0 for k in shared])
     return _Law(_stacked(trial.fitted), _stacked(held_out), plain, weight)
 
 
 def _stacked(fitted: Fitted) -> np.ndarray:
-    shared = sum(not knob.per_run for knob in fitted.knobs)
+    shared = sum(not free_parameter.per_run for free_parameter in fitted.free_parameters)
     none = np.empty((0, shared))
     return np.concatenate([none, *(c.left(c.shared) for c in fitted.columns)])
 
@@ -74,7 +78,7 @@ def _best_gain(laws: Sequence[_Law], random: np.random.Generator) -> float:
 
 
 def _cost(law: _Law, turned: np.ndarray, noise: np.ndarray, kept_back: np.ndarray) -> float:
-    """Sum of squares on the held-out runs after a fit of the knobs ``turned`` to the others."""
+    """Sum of squares on the held-out runs after a fit of the free parameters ``turned`` to the others."""
     left = law.fit[:, turned]
     normal = left.T @ left + np.diag(law.weight[turned] ** 2)
     step = -np.linalg.lstsq(normal, left.T @ noise, rcond=1e-12)[0]

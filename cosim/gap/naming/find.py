@@ -27,7 +27,7 @@ from .across import moves_across
 from .chance import chance
 from .intervals import determined, intervals
 from .other_starts import other_starts
-from .plain import plain_knobs
+from .plain import plain_free_parameters
 from .scales import scales
 from .search import SKETCH, Search
 from .tried import Tried
@@ -57,7 +57,7 @@ def find_gap(
     data = prepared(campaign, fit_runs, held_out, planar)
     with processes(jobs) as mapped:
         mapped(_woken, [(data.short[0],)] * jobs)  # they start while the plain model is fitted
-        base = Model(plain_knobs(campaign, planar), {})
+        base = Model(plain_free_parameters(campaign, planar), {})
         sketched = _sketched(data, base)
         plain = try_model(data, base, sketched)
         search = Search(data, mapped, progress)
@@ -138,7 +138,7 @@ def _separating(campaign: Campaign, finding: Finding, planar: bool) -> dict | No
     if finding.verdict != "class":
         return None
     members = [
-        Member(t.candidate.effect, t.model.knobs, t.model.settings, t.trial.fitted)
+        Member(t.candidate.effect, t.model.free_parameters, t.model.settings, t.trial.fitted)
         for t in finding.ranking
         if t.trial is not None and t.candidate.effect in finding.effects
     ]
@@ -146,10 +146,10 @@ def _separating(campaign: Campaign, finding: Finding, planar: bool) -> dict | No
 
 
 def _fitted_model(campaign: Campaign, data: Data, trial: Trial) -> FittedModel:
-    knobs, settings = trial.model.knobs, trial.model.settings
-    parts = [(Problem(data.fit, knobs, settings), trial.fitted)]
+    free_parameters, settings = trial.model.free_parameters, trial.model.settings
+    parts = [(Problem(data.fit, free_parameters, settings), trial.fitted)]
     if data.held_out:
-        parts.append((Problem(data.held_out, knobs, settings), trial.held_out))
+        parts.append((Problem(data.held_out, free_parameters, settings), trial.held_out))
     return fitted_model(campaign, parts, intervals(trial))
 
 
@@ -158,7 +158,11 @@ def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
     trial = tried.trial
     rows = float(plain.rows.sum())
     gained = (plain.squares.sum() - trial.squares.sum()) / max(noise, 1.0) ** 2
-    added = {knob.key for knob in tried.candidate.knobs if not knob.per_run}
+    added = {
+        free_parameter.key
+        for free_parameter in tried.candidate.free_parameters
+        if not free_parameter.per_run
+    }
     values = {key: float(value) for key, value in trial.fitted.values.items() if key in added}
     wide = intervals(trial) if trial.fitted.columns else {}
     return Ranked(

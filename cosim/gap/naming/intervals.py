@@ -22,7 +22,11 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     have the gap's scatter (its square divides it), and the covariance of estimates whose residuals
     are independent from window to window only (Liang & Zeger 1986).
     """
-    shared = [knob for knob in trial.model.knobs if not knob.per_run]
+    shared = [
+        free_parameter
+        for free_parameter in trial.model.free_parameters
+        if not free_parameter.per_run
+    ]
     weight = np.array([k.step / k.prior if k.prior else 0.0 for k in shared])
     information, scatter = _information(trial)
     known = np.diag(weight**2)
@@ -37,15 +41,18 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     )
     reach[np.diag(scarce) <= _UNFELT] = np.inf
     result = {}
-    for knob, at, wide in zip(shared, trial.fitted.point.shared, reach, strict=True):
-        ends = (knob.value(knob.inside(at - wide)), knob.value(knob.inside(at + wide)))
-        result[knob.key] = (float(min(ends)), float(max(ends)))
+    for free_parameter, at, wide in zip(shared, trial.fitted.point.shared, reach, strict=True):
+        ends = (
+            free_parameter.value(free_parameter.inside(at - wide)),
+            free_parameter.value(free_parameter.inside(at + wide)),
+        )
+        result[free_parameter.key] = (float(min(ends)), float(max(ends)))
     return result
 
 
 def _information(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
     """(g, g) Fisher information of white noise, and what the windows' scores scatter by instead."""
-    shared = sum(not knob.per_run for knob in trial.model.knobs)
+    shared = sum(not free_parameter.per_run for free_parameter in trial.model.free_parameters)
     information, scores = np.zeros((shared, shared)), []
     for columns in trial.fitted.columns:
         left, residuals = columns.left(columns.shared), columns.left(columns.residuals)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.flight import TILT
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Trial
 
 from .measures import as_good, excess
@@ -22,7 +22,7 @@ _LOOKALIKES = {
         Candidate(
             "a rig tilted sideways",
             "tilt",
-            (Knob(TILT, sine, 0.005, -0.3, 0.3),),
+            (FreeParameter(TILT, sine, 0.005, -0.3, 0.3),),
             across,
             lateral=True,
         )

@@ -67,7 +67,9 @@ def stands(trial: Trial) -> bool:
 def is_plain(trial: Trial) -> bool:
     """Whether a number of the effect has run to where it is a plain one by another name."""
     values = trial.fitted.values
-    return any(values[k.key] <= AT_AN_END * k.low for k in trial.model.knobs if k.plain_below)
+    return any(
+        values[k.key] <= AT_AN_END * k.low for k in trial.model.free_parameters if k.plain_below
+    )
 
 
 def in_reach(done: Sequence[Tried]) -> list[Tried]:

@@ -14,20 +14,22 @@ from .tried import Tried
 def other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
     """The effect's other laws, as far as they can be said with the numbers fitted."""
     values = {**tried.model.settings, **tried.trial.fitted.values}
-    own = {knob.key for knob in tried.candidate.knobs}
+    own = {free_parameter.key for free_parameter in tried.candidate.free_parameters}
     base = reduced(tried.model, tried.candidate, values, ())
     laws: dict[tuple, Tried] = {}
     for law in candidates:
         if law.effect == tried.candidate.effect and law.form != tried.candidate.form:
             if law.periodic and law.periodic not in own:
                 continue
-            told = any(knob.key in values for knob in law.knobs[:1])
+            told = any(free_parameter.key in values for free_parameter in law.free_parameters[:1])
             law = replace(
                 law,
-                knobs=tuple(moved(knob, values) for knob in law.knobs),
+                free_parameters=tuple(
+                    moved(free_parameter, values) for free_parameter in law.free_parameters
+                ),
                 grows=0.0 if told else law.grows,
             )
             model = extended(base, law, values)
-            key = (law.knobs, *law.settings.items())
+            key = (law.free_parameters, *law.settings.items())
             laws.setdefault(key, replace(tried, candidate=law, model=model))
     return list(laws.values())

@@ -18,10 +18,12 @@ def other_starts(model: Model, values: Mapping[str, float]) -> list[Model]:
 
 
 def _from(model: Model, values: Mapping[str, float], mu_s: float) -> Model:
-    knobs = []
-    for knob in model.knobs:
-        if knob.key == "friction.mu_s" and knob.prior is None:
-            knobs.append(replace(knob, start=mu_s))
+    free_parameters = []
+    for free_parameter in model.free_parameters:
+        if free_parameter.key == "friction.mu_s" and free_parameter.prior is None:
+            free_parameters.append(replace(free_parameter, start=mu_s))
         else:
-            knobs.append(knob if knob.per_run else moved(knob, values))
-    return replace(model, knobs=tuple(knobs))
+            free_parameters.append(
+                free_parameter if free_parameter.per_run else moved(free_parameter, values)
+            )
+    return replace(model, free_parameters=tuple(free_parameters))

@@ -10,7 +10,7 @@ from stickslip.packing import GRAVITY
 from cosim.gap.read import Campaign, MeasuredRun, cycle_features
 from cosim.gap.read.stick_remarks import SPEED_ERRORS, SPEED_PART, never_slips
 from cosim.gap.shooting.drive import SPEED_OFFSET
-from cosim.gap.shooting.knob import Knob
+from cosim.gap.shooting.free_parameter import FreeParameter
 
 #: Speed at which the surface leaves a block behind that sticks and is about to break away, m/s.
 CREEP = "friction.stick_creep"
@@ -30,38 +30,46 @@ _SPEED = 0.03
 _SET_POINT, _ALIKE = 0.003, 0.5
 
 
-def plain_knobs(campaign: Campaign, planar: bool) -> tuple[Knob, ...]:
+def plain_free_parameters(campaign: Campaign, planar: bool) -> tuple[FreeParameter, ...]:
     """mu_s, mu_k, the tracker's zero and, where sticks tell of it, how the surface runs.
 
     They start where the data put them, or as they are known.
     """
     runs = [run for run in campaign.fit_runs if run.track is not None]
     everywhere = [run for run in campaign.runs if run.track is not None]
-    knobs = []
+    free_parameters = []
     for name, guess in zip(("mu_s", "mu_k"), first_guess(runs, everywhere), strict=True):
         value, deviation = campaign.friction.get(name, (guess, None))
         low, high = (0.3 * guess if name == "mu_s" else 0.0), 20.0
         if deviation is not None:  # what is known stays known
             low, high = max(value - _KNOWN * deviation, 0.0), value + _KNOWN * deviation
-        knobs.append(Knob(f"friction.{name}", value, 0.05 * guess, low, high, prior=deviation))
+        free_parameters.append(
+            FreeParameter(f"friction.{name}", value, 0.05 * guess, low, high, prior=deviation)
+        )
     for channel in ("x", "y") if planar else ("x",):
         if channel in campaign.noise:
             zero = _ZERO * campaign.noise[channel]
             most = _ZERO_MOST[channel] * campaign.noise[channel]
-            knobs.append(Knob(f"offset.{channel}", 0.0, zero, -most, most, prior=zero))
-    return (*knobs, *drive_knobs(runs))
+            free_parameters.append(
+                FreeParameter(f"offset.{channel}", 0.0, zero, -most, most, prior=zero)
+            )
+    return (*free_parameters, *drive_free_parameters(runs))
 
 
-def drive_knobs(runs: Sequence[MeasuredRun]) -> tuple[Knob, ...]:
+def drive_free_parameters(runs: Sequence[MeasuredRun]) -> tuple[FreeParameter, ...]:
     """What sticks tell of the surface's speed: nothing, one creep for all, or each run its own."""
     sticking = [run for run in runs if len(run.sticks) >= _STICKS]
     off = sum(_speed_is_off(run) for run in sticking)
     creep = common_creep(sticking) if off else None
     if creep is not None:
         value, error = creep  # as measured: what a model lacks would be put down to it
-        return (Knob(CREEP, value, error, value - 3.0 * error, value + 3.0 * error, prior=error),)
+        return (
+            FreeParameter(
+                CREEP, value, error, value - 3.0 * error, value + 3.0 * error, prior=error
+            ),
+        )
     if 2 * off > len(sticking):
-        return (Knob(SPEED_OFFSET, 0.0, 0.02, per_run=True, prior=_SPEED),)
+        return (FreeParameter(SPEED_OFFSET, 0.0, 0.02, per_run=True, prior=_SPEED),)
     return ()
 
 

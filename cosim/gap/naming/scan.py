@@ -36,10 +36,10 @@ _STARTS = (0.02, 0.5)
 
 @dataclass(frozen=True)
 class Peak:
-    """A period, as the knob of the candidate has it (Hz or m), its amplitude, what it explains.
+    """A period, as the free parameter of the candidate has it (Hz or m), its amplitude, what it explains.
 
     power : of the sum of squares
-    step : of the period on the scale of its knob (Hz, or relative), small against what is resolved
+    step : of the period on the scale of its free parameter (Hz, or relative), small against what is resolved
     """
 
     period: float

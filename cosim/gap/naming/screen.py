@@ -1,6 +1,6 @@
 """A first sieve: what each law could take away from the misfit if its answer were linear.
 
-The law is put into the fitted model as next to nothing; its answer, less what the model's own knobs
+The law is put into the fitted model as next to nothing; its answer, less what the model's own free parameters
 and the runs' states can take up, is laid along the residuals (a score test, Rao 1948).
 """
 
@@ -32,7 +32,7 @@ class Screen:
     ----------
     laws : the laws
     left : (1 + laws, 1 + laws) products of the residuals and of the laws' answers with one another,
-        less what the model's own knobs and the runs' states take up
+        less what the model's own free parameters and the runs' states take up
     """
 
     laws: tuple[Candidate, ...]
@@ -85,9 +85,9 @@ def screened(
 def answers(
     flight: Flight, base: Model, fitted: Fitted, run: int, laws: Sequence[Candidate]
 ) -> np.ndarray:
-    """Products, over one run, of the knobs' columns, the residuals and the laws' answers.
+    """Products, over one run, of the free parameters' columns, the residuals and the laws' answers.
 
-    (g + 1 + l, g + 1 + l) among g knobs, the residuals and l laws.
+    (g + 1 + l, g + 1 + l) among g free parameters, the residuals and l laws.
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
     residuals, columns = fitted.residuals[run], fitted.columns[run]
@@ -98,12 +98,14 @@ def answers(
 
 def _answer(flight: Flight, base: Model, law: Candidate, at) -> np.ndarray:
     """Residuals with the law, which is a faint one, in the model."""
-    faint = {knob.key: knob.start for knob in law.knobs}
+    faint = {free_parameter.key: free_parameter.start for free_parameter in law.free_parameters}
     settings = {**base.settings, **law.settings, **faint}
-    knobs = tuple(knob for knob in base.knobs if knob.key not in faint)
+    free_parameters = tuple(
+        free_parameter for free_parameter in base.free_parameters if free_parameter.key not in faint
+    )
     kept = [
         s
-        for k, s in zip([k for k in base.knobs if not k.per_run], at[0], strict=True)
+        for k, s in zip([k for k in base.free_parameters if not k.per_run], at[0], strict=True)
         if k.key not in faint
     ]
-    return Problem([flight], knobs, settings).residuals(0, np.array(kept), *at[1:])
+    return Problem([flight], free_parameters, settings).residuals(0, np.array(kept), *at[1:])

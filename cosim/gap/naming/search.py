@@ -67,7 +67,7 @@ class Search:
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
     ) -> tuple[Candidate, Tried] | None:
         """Two laws that do much together and little alone: one, and the other on top of it."""
-        laws = [c for c in candidates if c.knobs and not c.periodic]
+        laws = [c for c in candidates if c.free_parameters and not c.periodic]
         with_derivatives = self._grounds(base, fitted, ())[()]
         two = screened(self.data.short, base, with_derivatives, laws, self.mapped).concealed()
         if two is None:
@@ -265,11 +265,19 @@ def _sketched(data: Data, tried: Tried) -> Tried:
 
 
 def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
-    """A model where one with more knobs was fitted; the windows' states alone make up for them."""
-    kept = {knob.key for knob in model.knobs}
-    shared = [knob.key in kept for knob in fitted.knobs if not knob.per_run]
-    own = [knob.key in kept for knob in fitted.knobs if knob.per_run]
+    """A model where one with more free parameters was fitted; the windows' states alone make up for them."""
+    kept = {free_parameter.key for free_parameter in model.free_parameters}
+    shared = [
+        free_parameter.key in kept
+        for free_parameter in fitted.free_parameters
+        if not free_parameter.per_run
+    ]
+    own = [
+        free_parameter.key in kept
+        for free_parameter in fitted.free_parameters
+        if free_parameter.per_run
+    ]
     point = Point(
         fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own), fitted.point.states
     )
-    return fit(Problem(data.short, model.knobs, model.settings), point, LOOK, fixed=True)
+    return fit(Problem(data.short, model.free_parameters, model.settings), point, LOOK, fixed=True)

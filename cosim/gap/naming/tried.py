@@ -28,9 +28,9 @@ class Tried:
 
 
 def penalised(fitted: Fitted) -> float:
-    """Sum of squares and the BIC's penalty for the campaign's knobs."""
+    """Sum of squares and the BIC's penalty for the campaign's free parameters."""
     rows = sum(r.size for r in fitted.residuals)
-    count = sum(not knob.per_run for knob in fitted.knobs)
+    count = sum(not free_parameter.per_run for free_parameter in fitted.free_parameters)
     return fitted.cost + count * float(np.log(max(rows, 2)))
 
 

@@ -123,7 +123,7 @@ def _with_friction_across(
     A turning surface drags a block aside by that friction: it is part of the effect.
     """
     effect = best.candidate.effect
-    across = [c for c in candidates if c.effect == PART_OF_OTHERS and not c.knobs]
+    across = [c for c in candidates if c.effect == PART_OF_OTHERS and not c.free_parameters]
     if effect == PART_OF_OTHERS or ACROSS not in best.candidate.settings or not across:
         return single
     simpler = across_alone(search, best, best.candidate)

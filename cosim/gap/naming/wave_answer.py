@@ -43,7 +43,7 @@ _SEEN = 2.0
 class WaveAnswer:
     """The answer of one run; its coordinate is the time (s) or the way of the surface (m).
 
-    What the windows' states, the model's knobs and the run's own can take up is left out. A window
+    What the windows' states, the model's free parameters and the run's own can take up is left out. A window
     counts the less, the worse the model fits in it, as one thrown off course answers nothing
     linearly, and the more violently it answers: else a few would outweigh all others.
 
@@ -53,7 +53,7 @@ class WaveAnswer:
     length : of the run in its coordinate
     step : of the rates flown: 0, step, 2 step ..., periods per unit of the coordinate
     centres : (w,) of the windows
-    products : (rates, w, c + 1) answer (complex: e^(i angle)) times columns of the knobs, times the
+    products : (rates, w, c + 1) answer (complex: e^(i angle)) times columns of the free parameters, times the
         residuals
     squares, turned : (rates, w) sum of squares of the answer's modulus, and of the answer
     misfit : sum of squares of the residuals, as they count here
@@ -138,7 +138,7 @@ def wave_answer(
     fitted : with derivatives
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
-    problem = Problem([flight], model.knobs, model.settings)
+    problem = Problem([flight], model.free_parameters, model.settings)
     residuals, columns = fitted.residuals[run], fitted.columns[run]
     windows = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
@@ -206,19 +206,19 @@ def _wave(candidate: Candidate, model: Model, flight: Flight, at, rate: float) -
     parts = []
     for degrees in (0.0, 90.0):
         wave = {f"{effect}.amplitude": _SMALL, period: value, f"{effect}.phase_deg": degrees}
-        problem = Problem([flight], model.knobs, {**model.settings, **wave})
+        problem = Problem([flight], model.free_parameters, {**model.settings, **wave})
         parts.append(problem.residuals(0, *at))
     # the sine of the time's angle and its cosine, or the cosine of the place's and its sine
     return parts[1] + 1j * parts[0] if _in_time(candidate) else parts[0] + 1j * parts[1]
 
 
 def _weight_and_basis(columns: Columns, windows) -> tuple[np.ndarray, np.ndarray]:
-    """(rows,) weight by window, and what the knobs take up, orthonormal, with the residuals."""
+    """(rows,) weight by window, and what the free parameters take up, orthonormal, with the residuals."""
     left = columns.without_states(columns.residuals)
     weight = np.empty(left.size)
     for rows in windows:
         weight[rows] = 1.0 / np.sqrt(1.0 + np.mean(left[rows] ** 2))
-    knobs = columns.without_states(np.column_stack([columns.shared, columns.own]))
-    basis = np.linalg.qr(knobs * weight[:, None])[0]
+    free_parameters = columns.without_states(np.column_stack([columns.shared, columns.own]))
+    basis = np.linalg.qr(free_parameters * weight[:, None])[0]
     left = left * weight
     return weight, np.column_stack([basis, left - basis @ (basis.T @ left)])

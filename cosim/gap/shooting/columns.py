@@ -1,4 +1,4 @@
-"""Derivatives of one run's residuals, and what its own knobs and states take up of them.
+"""Derivatives of one run's residuals, and what its own free parameters and states take up of them.
 
 What belongs to one run alone is linear enough near its guess: its part of every step follows from
 the rest by a QR factorisation of that run's own columns (variable projection, Golub & Pereyra
@@ -14,7 +14,7 @@ import numpy as np
 
 #: Steps of a window's state that are as unlikely as a residual of one.
 _FAR = 50.0
-#: Longest step of what belongs to one run, in steps of a knob: its motion may hardly feel it.
+#: Longest step of what belongs to one run, in steps of a free parameter: its motion may hardly feel it.
 _LONGEST_OWN = 1.0
 
 
@@ -25,8 +25,8 @@ class Columns:
     Attributes
     ----------
     residuals : (r,) where they were taken
-    shared : (r, g) by the campaign's knobs
-    own : (r, k) by the run's own knobs
+    shared : (r, g) by the campaign's free parameters
+    own : (r, k) by the run's own free parameters
     states : of each window: rows, derivatives (rows, free) by the free numbers of its state
     """
 
@@ -51,14 +51,14 @@ class Columns:
         return rest
 
     def left(self, a: np.ndarray) -> np.ndarray:
-        """What of (r, ...) the run's own knobs and states cannot take up."""
+        """What of (r, ...) the run's own free parameters and states cannot take up."""
         rest = self.without_states(a)
         if self.own.shape[1]:
             rest = rest - self._own_left @ (np.linalg.pinv(self._own_left) @ rest)
         return rest
 
     def local_step(self, shared: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
-        """Own knobs' step (k,) and each window's, that go best with a step of the shared ones."""
+        """Own free parameters' step (k,) and each window's, that go best with a step of the shared ones."""
         rest = self.residuals + self.shared @ shared
         own = np.zeros(0)
         if self.own.shape[1]:

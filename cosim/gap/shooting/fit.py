@@ -24,7 +24,7 @@ MOST_ROUNDS = 25
 MOST_TRIES = 12
 #: Most further steps by the derivatives of a round.
 _CHORDS = 2
-#: Longest step of a round, in steps of a knob: a parameter that is thrown to where the motion does
+#: Longest step of a round, in steps of a free parameter: a parameter that is thrown to where the motion does
 #: not feel it any more never comes back.
 _LONGEST = 4.0
 
@@ -61,7 +61,7 @@ def fit(
             again = [replace(c, residuals=r) for c, r in zip(columns, way.residuals, strict=True)]
             if fixed or derivatives or not way.gains(again, 1):
                 break
-    return Fitted(problem.knobs, way.point, way.residuals)
+    return Fitted(problem.free_parameters, way.point, way.residuals)
 
 
 class _Descent:
@@ -102,7 +102,7 @@ def _cost(problem: Problem, point: Point, residuals) -> float:
 
 
 def _step(problem: Problem, point: Point, columns: Sequence[Columns], damping: float):
-    """Of the campaign's knobs: normal equations of what the runs' own columns leave."""
+    """Of the campaign's free parameters: normal equations of what the runs' own columns leave."""
     known, weight = problem.prior(point.shared)
     matrix, right = np.diag(weight**2), -weight * known
     for c in columns:
@@ -116,7 +116,7 @@ def _step(problem: Problem, point: Point, columns: Sequence[Columns], damping: f
 
 
 def _inside(problem: Problem, shared: np.ndarray, matrix: np.ndarray, right: np.ndarray):
-    """Solution of the normal equations; a knob that would leave its range by it stays at its end.
+    """Solution of the normal equations; a free parameter that would leave its range by it stays at its end.
 
     The others then make the best of it, which a step cut off afterwards would not.
     """
@@ -126,7 +126,10 @@ def _inside(problem: Problem, shared: np.ndarray, matrix: np.ndarray, right: np.
         step[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], right[free] - held, rcond=None)[0]
         reach = (
             np.array(
-                [knob.inside(s) for knob, s in zip(problem.shared, shared + step, strict=True)]
+                [
+                    free_parameter.inside(s)
+                    for free_parameter, s in zip(problem.shared, shared + step, strict=True)
+                ]
             )
             - shared
         )

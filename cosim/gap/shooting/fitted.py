@@ -9,7 +9,7 @@ import numpy as np
 
 from .columns import Columns
 from .flight import Flight
-from .knob import Knob
+from .free_parameter import FreeParameter
 
 
 @dataclass(frozen=True)
@@ -18,8 +18,8 @@ class Point:
 
     Attributes
     ----------
-    shared : (g,) knobs of the campaign, scaled
-    own : per run (k,) knobs of the run, scaled
+    shared : (g,) free parameters of the campaign, scaled
+    own : per run (k,) free parameters of the run, scaled
     states : per run (windows, 6)
     """
 
@@ -28,10 +28,10 @@ class Point:
     states: tuple[np.ndarray, ...]
 
 
-def start(flights: Sequence[Flight], knobs: Sequence[Knob]) -> Point:
-    """All knobs at their starts, all windows at the states read off the data."""
-    shared = np.array([k.scaled(k.start) for k in knobs if not k.per_run])
-    own = np.array([k.scaled(k.start) for k in knobs if k.per_run])
+def start(flights: Sequence[Flight], free_parameters: Sequence[FreeParameter]) -> Point:
+    """All free parameters at their starts, all windows at the states read off the data."""
+    shared = np.array([k.scaled(k.start) for k in free_parameters if not k.per_run])
+    own = np.array([k.scaled(k.start) for k in free_parameters if k.per_run])
     return Point(shared, tuple(own.copy() for _ in flights), tuple(f.starts for f in flights))
 
 
@@ -41,13 +41,13 @@ class Fitted:
 
     Attributes
     ----------
-    knobs : what was turned
+    free parameters : what was turned
     point : where it ended
     residuals : per run (rows,) in units of the noise
     columns : per run, derivatives at the end (None unless asked for)
     """
 
-    knobs: tuple[Knob, ...]
+    free_parameters: tuple[FreeParameter, ...]
     point: Point
     residuals: tuple[np.ndarray, ...]
     columns: tuple[Columns, ...] | None = None
@@ -55,11 +55,11 @@ class Fitted:
     @property
     def values(self) -> dict[str, float]:
         """Fitted parameters of the campaign."""
-        return _named(self.knobs, self.point.shared, per_run=False)
+        return _named(self.free_parameters, self.point.shared, per_run=False)
 
     def own_values(self, run: int) -> dict[str, float]:
         """Fitted parameters of one run."""
-        return _named(self.knobs, self.point.own[run], per_run=True)
+        return _named(self.free_parameters, self.point.own[run], per_run=True)
 
     @property
     def cost(self) -> float:
@@ -72,6 +72,13 @@ class Fitted:
         return float(np.sqrt(sum(r @ r for r in chosen) / max(1, sum(r.size for r in chosen))))
 
 
-def _named(knobs: Sequence[Knob], scaled: np.ndarray, per_run: bool) -> dict[str, float]:
-    chosen = [knob for knob in knobs if knob.per_run == per_run]
-    return {knob.key: knob.value(s) for knob, s in zip(chosen, scaled, strict=True)}
+def _named(
+    free_parameters: Sequence[FreeParameter], scaled: np.ndarray, per_run: bool
+) -> dict[str, float]:
+    chosen = [
+        free_parameter for free_parameter in free_parameters if free_parameter.per_run == per_run
+    ]
+    return {
+        free_parameter.key: free_parameter.value(s)
+        for free_parameter, s in zip(chosen, scaled, strict=True)
+    }

@@ -28,8 +28,8 @@ def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = N
     """
     turned = [
         j
-        for j, knob in enumerate(problem.own)
-        if knob.key.endswith("phase_deg") and (keys is None or knob.key in keys)
+        for j, free_parameter in enumerate(problem.own)
+        if free_parameter.key.endswith("phase_deg") and (keys is None or free_parameter.key in keys)
     ]
     if not turned:
         return point
@@ -76,7 +76,11 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
 
     What states read off the data leave may hide a phase: some fifty flights a run tell more.
     """
-    turned = [j for j, knob in enumerate(problem.own) if knob.key.endswith("phase_deg")]
+    turned = [
+        j
+        for j, free_parameter in enumerate(problem.own)
+        if free_parameter.key.endswith("phase_deg")
+    ]
     if not turned:
         return point
     ended = [_followed(problem, run, point, turned) for run in range(len(problem.flights))]
@@ -94,7 +98,7 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
 
 def _followed(problem: Problem, run: int, point: Point, turned: list[int]) -> Fitted | None:
     """One run fitted from its most promising phases, or None if none leads anywhere."""
-    alone = Problem([problem.flights[run]], problem.knobs, problem.settings)
+    alone = Problem([problem.flights[run]], problem.free_parameters, problem.settings)
     now = point.own[run]
     residuals = alone.residuals(0, point.shared, now, point.states[run])
     best, least = None, _CLEARLY * float(residuals @ residuals)

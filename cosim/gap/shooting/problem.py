@@ -1,4 +1,4 @@
-"""Residuals of some runs as a function of the knobs to turn and of the windows' states."""
+"""Residuals of some runs as a function of the free parameters to turn and of the windows' states."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 from .columns import Columns
 from .fitted import Point
 from .flight import Flight
-from .knob import OFFSETS, Knob
+from .free_parameter import OFFSETS, FreeParameter
 
-#: Differences are taken over this part of a knob's step.
+#: Differences are taken over this part of a free parameter's step.
 _PART = 1e-2
 #: Steps of the windows' states: positions m (and rad), velocities m/s (and rad/s).
 _STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
@@ -20,18 +20,20 @@ _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 
 
 class Problem:
-    """Some runs, the knobs to turn and what else is set."""
+    """Some runs, the free parameters to turn and what else is set."""
 
     def __init__(
         self,
         flights: Sequence[Flight],
-        knobs: Sequence[Knob],
+        free_parameters: Sequence[FreeParameter],
         settings: dict[str, float] | None = None,
     ):
-        self.flights, self.knobs = tuple(flights), tuple(knobs)
+        self.flights, self.free_parameters = tuple(flights), tuple(free_parameters)
         self.settings = dict(settings or {})
-        self.shared = [knob for knob in knobs if not knob.per_run]
-        self.own = [knob for knob in knobs if knob.per_run]
+        self.shared = [
+            free_parameter for free_parameter in free_parameters if not free_parameter.per_run
+        ]
+        self.own = [free_parameter for free_parameter in free_parameters if free_parameter.per_run]
 
     def residuals(self, run: int, shared, own, states) -> np.ndarray:
         """(rows,) of one run."""
@@ -57,7 +59,7 @@ class Problem:
         return values, states, offsets
 
     def _known_of_own(self, own) -> np.ndarray:
-        """Rows for what is known beforehand of a run's own knobs."""
+        """Rows for what is known beforehand of a run's own free parameters."""
         known = [(k, s) for k, s in zip(self.own, own, strict=True) if k.prior is not None]
         return np.array([(k.value(s) - k.start) / k.prior for k, s in known])
 
@@ -93,10 +95,14 @@ class Problem:
         own = np.array(own).reshape(len(own), residuals.size).T
         return Columns(residuals, shared, own, self._by_state(run, at, residuals))
 
-    def difference(self, run, at, which, j, knob: Knob, residuals) -> np.ndarray:
+    def difference(self, run, at, which, j, free_parameter: FreeParameter, residuals) -> np.ndarray:
         """(rows,) derivative of one run by number j of its point's part ``which``."""
         moved = [a.copy() for a in at]
-        step = _PART if moved[which][j] + _PART <= knob.scaled(knob.high) else -_PART
+        step = (
+            _PART
+            if moved[which][j] + _PART <= free_parameter.scaled(free_parameter.high)
+            else -_PART
+        )
         moved[which][j] += step
         return (self.residuals(run, *moved) - residuals) / step
 
@@ -118,7 +124,7 @@ class Problem:
     def tried(
         self, point: Point, step: np.ndarray, columns: Sequence[Columns]
     ) -> tuple[Point, tuple[np.ndarray, ...]]:
-        """The point after a step of the campaign's knobs, the runs following, and its residuals."""
+        """The point after a step of the campaign's free parameters, the runs following, and its residuals."""
         shared = np.array(
             [k.inside(s) for k, s in zip(self.shared, point.shared + step, strict=True)]
         )
@@ -171,7 +177,7 @@ class Problem:
         return move
 
     def prior(self, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residuals and weights (1 per step) of what is known of the knobs beforehand."""
+        """Residuals and weights (1 per step) of what is known of the free parameters beforehand."""
         weight = np.array([k.step / k.prior if k.prior else 0.0 for k in self.shared])
         centre = np.array([k.scaled(k.start) for k in self.shared])
         return weight * (shared - centre), weight

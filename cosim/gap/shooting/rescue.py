@@ -33,7 +33,7 @@ def _found(problem: Problem, run: int, point: Point) -> np.ndarray:
     lost = _lost(problem, run, least)
     if not lost.any():
         return best
-    alone = Problem([problem.flights[run]], problem.knobs, problem.settings)
+    alone = Problem([problem.flights[run]], problem.free_parameters, problem.settings)
     for axis, value in _places(problem, run):
         tried = best.copy()
         here = lost & [axis in window.free for window in problem.flights[run].windows]

@@ -11,7 +11,7 @@ from .data import Data
 from .fit import MOST_ROUNDS, fit, with_columns
 from .fitted import Fitted, Point, start
 from .flight import Flight
-from .knob import Knob
+from .free_parameter import FreeParameter
 from .phases import best_states, with_phases, with_phases_followed
 from .problem import Problem
 from .rescue import with_lost_windows_found
@@ -29,7 +29,7 @@ _LEADS_ON = 0.98
 class Model:
     """What is turned and what is set."""
 
-    knobs: tuple[Knob, ...]
+    free_parameters: tuple[FreeParameter, ...]
     settings: dict[str, float]
     added: int = 0  # effects on top of the plain model
 
@@ -71,14 +71,14 @@ def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) 
 
     before : the same model's, to go on from
     """
-    problem = Problem(data.short, model.knobs, model.settings)
-    point = before.point if before else start(data.short, model.knobs)
+    problem = Problem(data.short, model.free_parameters, model.settings)
+    point = before.point if before else start(data.short, model.free_parameters)
     return fit(problem, with_phases(problem, point), rounds)
 
 
 def try_model(data: Data, model: Model, sketched: Fitted, rounds: int = MOST_ROUNDS) -> Trial:
     """Fit in long windows from a sketch, and judge; in no ``rounds`` the sketch is judged."""
-    problem = Problem(data.fit, model.knobs, model.settings)
+    problem = Problem(data.fit, model.free_parameters, model.settings)
     point = _carried_over(problem, data.short, sketched.point)
     if rounds:  # states first: parameters would make up for those that are not of this model
         point = with_velocities(problem, point)
@@ -91,7 +91,7 @@ def try_model(data: Data, model: Model, sketched: Fitted, rounds: int = MOST_ROU
 
 def finished(data: Data, trial: Trial) -> Trial:
     """A trial whose fit is carried on to its end."""
-    problem = Problem(data.fit, trial.model.knobs, trial.model.settings)
+    problem = Problem(data.fit, trial.model.free_parameters, trial.model.settings)
     return _judged(data, trial.model, with_columns(problem, _fit(problem, trial.fitted.point)))
 
 
@@ -103,16 +103,16 @@ def _judged(data: Data, model: Model, fitted: Fitted, closely: bool = True) -> T
 
 
 def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted:
-    """The held-out runs with the campaign's knobs as fitted; their states and phases are free.
+    """The held-out runs with the campaign's free parameters as fitted; their states and phases are free.
 
     closely : phases are followed, and lost windows looked for
     """
-    short = Problem(data.held_out_short, model.knobs, model.settings)
-    point = start(short.flights, model.knobs)
+    short = Problem(data.held_out_short, model.free_parameters, model.settings)
+    point = start(short.flights, model.free_parameters)
     own = tuple(np.array([k.scaled(k.start) for k in short.own]) for _ in short.flights)
     point = with_phases(short, Point(fitted.point.shared, own, point.states))
     point = fit(short, with_velocities(short, point), _ROUNDS_SHORT, fixed=True).point
-    problem = Problem(data.held_out, model.knobs, model.settings)
+    problem = Problem(data.held_out, model.free_parameters, model.settings)
     point = with_velocities(problem, _carried_over(problem, short.flights, point))
     if not closely:
         return fit(problem, point, fixed=True)

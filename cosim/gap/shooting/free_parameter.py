@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-#: Knobs of the tracker, not of the model: where its zero lies.
+#: Free parameters of the tracker, not of the model: where its zero lies.
 OFFSETS = ("offset.x", "offset.y")
 
 
 @dataclass(frozen=True)
-class Knob:
+class FreeParameter:
     """A number to be fitted.
 
     Attributes
