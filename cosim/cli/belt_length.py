@@ -17,7 +17,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from cosim.atomic import write_atomically
-from cosim.report.drawing import OutputRefused, Picture, writable
+from cosim.folders import OutputRefused, writable
+from cosim.report.page import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.belt_length import (
@@ -35,7 +36,7 @@ from cosim.studies.belt_length import (
     verdict,
     work_off,
 )
-from cosim.studies.belt_length.checks import check_case, check_options
+from cosim.studies.belt_length.study import check_case, check_options
 from thermal import MeshError, ParameterError
 from thermal.air import NotLaminar
 from thermal.steady import NoSteadyState

@@ -16,7 +16,7 @@ from stickslip.steady_motion.stability import UNSTABLE
 from cosim.cli.patience import Patience
 from cosim.cli.progress import progress_over_files
 from cosim.report import Views, summary, write_results
-from cosim.report.motion_words import regime_sentence, run_up_sentence, unstable_line
+from cosim.report.assessment import regime_sentence, run_up_sentence, unstable_line
 
 COMPLETE = "complete"
 #: Written after all other data and before the figures.

@@ -18,7 +18,8 @@ from tqdm import tqdm
 
 from cosim.atomic import write_atomically
 from cosim.coupling import CouplingError
-from cosim.report.drawing import DPI, OutputRefused, writable
+from cosim.folders import OutputRefused, writable
+from cosim.report.page import DPI
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.friction_map import FrictionMap, NotSteady, draw_map, friction_map

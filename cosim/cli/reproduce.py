@@ -108,8 +108,7 @@ def _write(
     """Numbers first, then figures, then the page."""
     from stickslip.reference.faults import DESCRIPTIONS
 
-    from cosim.studies.reproduction.page import page
-    from cosim.studies.reproduction.result import as_json
+    from cosim.studies.reproduction.result import as_json, page
 
     write_text(as_json(claims, wall_time, datasets), result)
     for claim in claims:

@@ -28,7 +28,7 @@ from cosim.studies.sweep import (
     run_grid,
     write_sweep,
 )
-from cosim.studies.sweep.arguments import parse_vary
+from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
 from cosim.studies.sweep.figure import draw_sweep
 from cosim.studies.sweep.test_plan import plan_grid, repeats_grid

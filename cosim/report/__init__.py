@@ -5,9 +5,8 @@
 
 from cosim.atomic import OutputError
 
-from .animation import Views
 from .dataset import run_dataset, trajectory_dataset
-from .results import write_data, write_results
+from .results import Views, write_data, write_results
 from .summary import summary
 
 __all__ = [

@@ -1,15 +1,46 @@
-"""The data of a run as files."""
+"""Results as files: NetCDF, CSV and JSON, and the versions of what made them."""
 
 from __future__ import annotations
 
 import json
+import platform
 from collections.abc import Mapping
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from cosim.atomic import write_atomically, write_text
+
+PACKAGES = (
+    "stickslip",
+    "numpy",
+    "numba",
+    "scipy",
+    "scikit-fem",
+    "fmpy",
+    "pythonfmu",
+    "xarray",
+    "h5netcdf",
+    "matplotlib",
+    "pydantic",
+)
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Package -> version, Python and the platform first."""
+    found = {"python": platform.python_version(), "platform": platform.platform()}
+    return found | {name: _version(name) for name in PACKAGES}
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "not installed"
 
 
 def write_netcdf(dataset: xr.Dataset, path: Path) -> Path:

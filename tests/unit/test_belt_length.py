@@ -27,8 +27,8 @@ from cosim.studies.belt_length import (
     verdict,
     work_off,
 )
-from cosim.studies.belt_length.friction_effect import linear_sensitivity
-from cosim.studies.belt_length.length_speed_map import LENGTHS, SPEEDS
+from cosim.studies.belt_length.changes import linear_sensitivity
+from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
 from thermal.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 

@@ -10,7 +10,7 @@ from cosim.cli import effects as effects_command
 from cosim.cli import main
 from cosim.studies.effects import effect_figure
 from cosim.studies.effects.cases import CASES
-from cosim.studies.effects.figure import WATER
+from cosim.studies.effects.page import WATER
 
 IDS = [entry.id for entry in CATALOGUE]
 FELT_ONLY_WHEN_WARM = "temperature_dependence"

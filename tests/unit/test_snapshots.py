@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from cosim.coupling.snapshots import MOST_VIEWS, Snapshots
-from cosim.report.animation import LASTS, animation
+from cosim.report.figures.animation import LASTS, animation
 from thermal import Belt, BeltIceModel, ThermalParameters
 
 

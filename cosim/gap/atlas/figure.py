@@ -11,7 +11,7 @@ from cosim.gap.atlas.atlas import Atlas, Region
 from cosim.gap.atlas.dependence import Dependence
 from cosim.gap.atlas.variables import VARIABLES
 from cosim.gap.atlas.where import CHANCE
-from cosim.report.drawing import BLUE, GREY, RED, panels, picture
+from cosim.report.style import BLUE, GREY, RED, panels, picture
 
 #: Variables shown of each region, the most certain ones.
 SHOWN = 3

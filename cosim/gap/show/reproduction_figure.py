@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.report.drawing import INK, RED, panels, picture
+from cosim.report.style import INK, RED, panels, picture
 
 from .flown import Reproduced
 from .run_figures import SCALES, channels

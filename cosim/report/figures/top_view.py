@@ -11,10 +11,12 @@ from matplotlib.patches import Arc, Circle, Rectangle
 from stickslip import Parameters
 from stickslip.kernel.layout import P_CURVATURE
 
-from ..blocks import mechanics_of, value_of
-from ..style import BLUE, GREY, INK, RED, plain_ticks, styled, title
+from cosim.report.contents import mechanics_of, value_of
+from cosim.report.style import BLUE, GREY, INK, RED, plain_ticks, styled
+
 from .geometry import REST, Pose, anchors, attachments, coil
 from .motion import SMALLEST_ANGLE_DEG
+from .over_time import title
 
 MARGIN = 0.03  # m around everything drawn
 FARTHEST_CENTRE = 1.0  # m; a slab's centre beyond it would shrink the rig to a dot

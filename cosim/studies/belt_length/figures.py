@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from cosim.report.drawing import BLUE, GREY, INK, RED, SERIES, panels, picture
+from cosim.report.style import BLUE, GREY, INK, RED, SERIES, panels, picture
 
 from .case import Case
 from .drift import never_comes_round, steady_drift
-from .length_speed_map import DriftMap
-from .study import Row, Study
+from .lengths import DriftMap
+from .result import Row, Study
 
 #: Points along a curve.
 _CURVE = 40

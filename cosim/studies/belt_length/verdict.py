@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from .drift import CAMERA
-from .shortest import LONGEST
-from .study import Row, Study
+from .lengths import LONGEST
+from .result import Row, Study
 
 ONE_METRE = 1.0
 

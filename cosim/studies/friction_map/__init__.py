@@ -5,8 +5,7 @@ sheared), as the effects temperature_dependence, asperity_melting and melt_film 
 """
 
 from .figure import draw_map
-from .map import FrictionMap, friction_map
-from .slopes import DecadeSlope, decade_slopes, lowest_friction
+from .map import DecadeSlope, FrictionMap, decade_slopes, friction_map, lowest_friction
 from .steady import NotSteady, SteadySliding, steady_scenario, steady_sliding
 
 __all__ = [

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from stickslip import friction_coefficient
 
-from cosim.report.drawing import GREY, INK, RC, SERIES
+from cosim.report.style import GREY, INK, RC, SERIES
 
 from .map import FrictionMap
 from .steady import steady_scenario

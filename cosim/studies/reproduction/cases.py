@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import product
 
+import numpy as np
 from stickslip import Parameters, simulate
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.linearised import GRAVITY, Scheme
@@ -195,4 +198,31 @@ def three_models(cases: list[Case]) -> dict[str, list[MotionFigures]]:
         PRINTED_MODEL: many(scheme_figures, cases, PRINTED, SEEDS[:1]),
         MENDED_MODEL: many(scheme_figures, cases, MENDED, SEEDS[:1]),
         EXACT_MODEL: [exact_figures(case, rig=GUIDED) for case in cases],
+    }
+
+
+#: All of the series have the second set's friction, falling with the sliding speed.
+CASE = DATASET_2.changed(weakening=WEAKENING)
+ASSUMED = (LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED)
+
+Grid = dict[str, np.ndarray]  # model -> number (stiffness, mass, speed)
+
+
+def cases(stiffnesses: Sequence[float] = STIFFNESSES) -> list[Case]:
+    """The combinations, the speed running fastest."""
+    return [
+        CASE.changed(stiffness=k, mass=m, speed=v)
+        for k, m, v in product(stiffnesses, MASSES, SPEEDS)
+    ]
+
+
+def grid(
+    number: Callable[[Case, MotionFigures], float], stiffnesses: Sequence[float] = STIFFNESSES
+) -> Grid:
+    """A number of every combination's steady motion, as each of the three models has it."""
+    every = cases(stiffnesses)
+    shape = len(stiffnesses), len(MASSES), len(SPEEDS)
+    return {
+        model: np.reshape([number(*pair) for pair in zip(every, figures, strict=True)], shape)
+        for model, figures in three_models(every).items()
     }

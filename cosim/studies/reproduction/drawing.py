@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from cosim.report.drawing import BLUE, GREEN, INK, RED
+from cosim.report.style import BLUE, GREEN, INK, RED
 
 from .cases import EXACT_MODEL, MENDED_MODEL, PRINTED_MODEL
 

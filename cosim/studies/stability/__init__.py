@@ -1,8 +1,7 @@
 """Which steady motions a rig has, and which of them it can keep to: two maps and a page."""
 
 from .case import Case, NotAMotion, case_of
-from .pretension_map import PretensionMap, pretension_map
-from .regime_map import RegimeMap, regime_map
+from .maps import PretensionMap, RegimeMap, pretension_map, regime_map
 
 __all__ = [
     "Case",

@@ -8,11 +8,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_SLIP
 
-from cosim.report.drawing import BLUE, INK, RED, panels, picture
+from cosim.report.style import BLUE, INK, RED, panels, picture
 
 from .case import Case
-from .pretension_map import PretensionMap
-from .regime_map import STARTS, RegimeMap
+from .maps import STARTS, PretensionMap, RegimeMap
 
 TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a run-up"}
 KINDS = {STICK_SLIP: BLUE, SLIDING: "#F3D9A4"}

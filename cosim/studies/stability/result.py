@@ -1,17 +1,19 @@
-"""The study's numbers, as JSON has them."""
+"""The study's numbers, as JSON has them and as a page shows them."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from stickslip.steady_motion.regimes import STARTS
 
+from cosim.report.page import Picture, render
+
 from .case import Case
-from .pretension_map import PretensionMap
-from .regime_map import STARTS as MAPPED
-from .regime_map import RegimeMap
+from .maps import STARTS as MAPPED
+from .maps import PretensionMap, RegimeMap
 
 
 def as_json(
@@ -43,6 +45,17 @@ def as_json(
             "fastest_from_rest": regimes.fastest_from_rest,
         },
     }
+
+
+def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
+    """HTML of the numbers of `as_json`, what they say, and the maps."""
+    return render(
+        "stability.html.j2",
+        "cosim.studies.stability",
+        numbers=numbers,
+        sentences=sentences,
+        pictures=pictures,
+    )
 
 
 def _plain(table: np.ndarray) -> list[list[float | None]]:

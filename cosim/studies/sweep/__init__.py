@@ -7,11 +7,11 @@
 """
 
 from .combination import Run
-from .dataset import write_sweep
 from .errors import SweepError, SweepStopped
 from .features import FEATURES, features
 from .grid import Grid, product_grid
 from .run import run_grid, sweep
+from .store import write_sweep
 
 __all__ = [
     "FEATURES",

@@ -7,8 +7,7 @@ from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
-from .chunk import Task, Work, compute_chunk
-from .combination import Row
+from .combination import Row, Task, Work, compute_chunk
 from .errors import SweepError, SweepStopped, WorkersLost
 
 #: A scheduler that does not answer in this time (s) is not there; a far one needs a few.

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosim.report.drawing import BLUE, RC
+from cosim.report.style import BLUE, RC
 
 Array = NDArray[np.float64]
 

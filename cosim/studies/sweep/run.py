@@ -12,14 +12,12 @@ from typing import Any, Protocol
 import xarray as xr
 from stickslip import Parameters
 
-from .chunk import Task, Work, compute_chunk
 from .cluster import DaskWorkers
-from .combination import Row, Run, model_version
-from .dataset import sweep_dataset
+from .combination import Row, Run, Task, Work, compute_chunk, model_version
 from .errors import SweepError, SweepStopped, WorkersLost
 from .grid import Grid, product_grid
 from .local import LocalWorkers
-from .store import Store
+from .store import Store, sweep_dataset
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
 CHUNK_SECONDS = 0.5

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import cache
 
-from cosim.report.drawing import panels, picture
+from cosim.report.style import panels, picture
 from thermal import Belt, BeltIceModel, ThermalParameters
 from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.drawing import GREY, panels, picture
+from cosim.report.style import GREY, panels, picture
 
 from ..cases import (
     DATASET_1,

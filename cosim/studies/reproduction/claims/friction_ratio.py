@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED
 
-from cosim.report.drawing import panels, picture
+from cosim.report.style import panels, picture
 
 from ..cases import (
     DATASET_2,

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from stickslip.reference.faults import PRINTED
 
-from cosim.report.drawing import SERIES, panels, picture
+from cosim.report.style import SERIES, panels, picture
+from cosim.studies.reproduction.cases import ASSUMED, CASE, Grid, grid
 
 from ..cases import (
     EXTRA_STIFFNESS,
@@ -27,7 +28,6 @@ from ..cases import (
 from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS
 from ..printed import STUDY
-from ..series import ASSUMED, CASE, Grid, grid
 from .mean_displacement import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)

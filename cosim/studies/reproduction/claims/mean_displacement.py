@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cosim.report.drawing import SERIES, panels, picture
+from cosim.report.style import SERIES, panels, picture
+from cosim.studies.reproduction.cases import ASSUMED, CASE, Grid, grid
 
 from ..cases import (
     GUIDED,
@@ -17,7 +18,6 @@ from ..cases import (
 )
 from ..claim import PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS, by_model
-from ..series import ASSUMED, CASE, Grid, grid
 
 LINE = CASE.changed(stiffness=38.50, speed=0.37)
 LINE_MASSES = tuple(0.1 + 0.2 * i for i in range(16))

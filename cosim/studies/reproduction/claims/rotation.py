@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.drawing import panels, picture
+from cosim.report.style import panels, picture
 
 from ..cases import (
     DATASET_1,

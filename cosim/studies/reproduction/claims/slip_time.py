@@ -6,12 +6,12 @@ import numpy as np
 from scipy.stats import spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
-from cosim.report.drawing import INK, panels, picture
+from cosim.report.style import INK, panels, picture
+from cosim.studies.reproduction.cases import CASE
 
 from ..cases import GUIDED, GUIDED_ASSUMED, LAW_ASSUMED, exact_figures, three_models
 from ..claim import FAR, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import MODELS, by_model
-from ..series import CASE
 
 SPEEDS = (
     0.01,

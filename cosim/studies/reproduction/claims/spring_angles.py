@@ -6,7 +6,7 @@ import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
-from cosim.report.drawing import SERIES, panels, picture
+from cosim.report.style import SERIES, panels, picture
 
 from ..cases import (
     DATASET_1,

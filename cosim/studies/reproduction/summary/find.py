@@ -9,11 +9,10 @@ import numpy as np
 
 from cosim.gap.read import Campaign
 
-from .chance import BOOTSTRAPS, p_of_the_best
+from .candidates import Way, free_way, not_felt, plain_way, ways
+from .draws import Bench, Draw, Target, draw, gap, misfit, scatter_of_kin, without_effect
 from .observations import Observation, observations
-from .report import open_figures, ranked, remarks, where
-from .result import SummaryGap
-from .score import Target, gap, misfit, scatter_of_kin
+from .result import SummaryGap, open_figures, ranked, remarks, where
 from .search import (
     FIRST,
     SEEDS,
@@ -26,9 +25,7 @@ from .search import (
     refined,
     widen,
 )
-from .table import Bench, Draw, draw, without_effect
-from .trial import WITHIN, Trial, fitted
-from .ways import Way, free_way, not_felt, plain_way, ways
+from .trial import BOOTSTRAPS, WITHIN, Trial, fitted, p_of_the_best
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32

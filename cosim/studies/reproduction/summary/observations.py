@@ -10,9 +10,7 @@ import numpy as np
 from cosim.gap.errors import CampaignError
 from cosim.gap.read import Campaign, MeasuredRun
 
-from .exact_model import exact_motion
-from .motion import Motion, figures
-from .study_model import study_motion
+from .models import Motion, exact_motion, figures, study_motion
 
 # which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
 MIRRORED = ("mean_y",)

@@ -12,9 +12,8 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import qmc
 
-from .score import ENOUGH_SEEDS, Target, distances, misfit, scatter_of_kin
-from .table import Bench, Draw, draw
-from .ways import Way
+from .candidates import Way
+from .draws import ENOUGH_SEEDS, Bench, Draw, Target, distances, draw, misfit, scatter_of_kin
 
 SEEDS = 6  # rows of a draw that is looked at closely
 FIRST, MORE = 12, 40  # draws of a model: to begin with, and where it is in the running

@@ -1,21 +1,43 @@
-"""A model that has been searched: its table, its best draw, and what both say."""
+"""A model that has been searched: its table, its best draw, and whether chance does as well.
+
+Chance: parametric bootstrap of the best of all. Figures are drawn from the plain model (its own
+scatter and the observations' standard deviations), and the whole catalogue is fitted to them again,
+from the tables of draws, so that choosing the best of many is part of what chance may do.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.stats import chi2
 
-from .result import FittedSummary
-from .score import Target, best, chi_square, distances, gap, misfit, scatter
-from .table import Draw
-from .ways import Span, Way
+from .candidates import Span, Way
+from .draws import Draw, Target, best, chi_square, distances, gap, misfit, scatter, spread
 
 #: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
 WITHIN = 3.84
+
+
+@dataclass(frozen=True)
+class FittedSummary:
+    """A model beside the observed figures.
+
+    values: block.parameter -> number. shown, scatter (n,): mean of each figure over the seeds and
+    its standard deviation from seed to seed. residuals (n,): distance in the observations'
+    standard deviations. gap: their root mean square. lack_of_fit: probability of figures this far
+    off or farther, were the model (its scatter included) true.
+    """
+
+    values: Mapping[str, float]
+    shown: np.ndarray
+    scatter: np.ndarray
+    residuals: np.ndarray
+    gap: float
+    held_out_gap: float
+    lack_of_fit: float
 
 
 @dataclass(frozen=True)
@@ -117,3 +139,49 @@ def fitted(one: Draw, trial: Trial) -> FittedSummary:
         held_out_gap=trial.held_out_gap,
         lack_of_fit=trial.lack_of_fit,
     )
+
+
+BOOTSTRAPS = 999
+
+
+@dataclass(frozen=True)
+class Table:
+    """Draws as arrays: means (d, n), variances of a realisation (d, n), prices (d,)."""
+
+    means: np.ndarray
+    variances: np.ndarray
+    prices: np.ndarray
+
+    @classmethod
+    def of(cls, trials: Sequence[Trial]) -> Table:
+        """All draws of all trials; a price is the surprise and that of the numbers added."""
+        means, variances, prices = [], [], []
+        for trial in trials:
+            for one in trial.draws:
+                means.append(one.mean)
+                variances.append(spread(one, trial.kin))
+                prices.append(one.surprise + trial.price)
+        return cls(np.array(means), np.array(variances), np.array(prices))
+
+    def least(self, sizes: np.ndarray, sds: np.ndarray) -> float:
+        """The least BIC of all draws for the figures ``sizes``."""
+        wider = 1.0 + self.variances / sds**2
+        terms = ((self.means - sizes) / sds) ** 2 / wider + np.log(wider)
+        return float((terms.sum(axis=1) + self.prices).min())
+
+
+def p_of_the_best(plain: Trial, others: Sequence[Trial], seed: int) -> float:
+    """Probability, under the plain model, of an improvement like that of the best of ``others``."""
+    rng = np.random.default_rng(seed)
+    target, rows = plain.target, plain.best.shown
+    before, after = Table.of([plain]), Table.of(others)
+
+    def gained(sizes: np.ndarray) -> float:
+        return before.least(sizes, target.sds) - after.least(sizes, target.sds)
+
+    found = gained(target.sizes)
+    as_good = 0
+    for _ in range(BOOTSTRAPS):
+        row = rows[rng.integers(len(rows))]
+        as_good += gained(row + target.sds * rng.standard_normal(len(row))) >= found
+    return (1 + as_good) / (1 + BOOTSTRAPS)

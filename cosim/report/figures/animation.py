@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
 
 import matplotlib
 import numpy as np
@@ -14,12 +13,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
+from cosim.report.results import Views
+from cosim.report.style import GREY, INK, RC, SKY, plain_ticks, readable
 from thermal import RigView
 
-from .style import GREY, INK, RC, SKY, plain_ticks, readable
-
 Array = NDArray[np.float64]
-Views = Sequence[tuple[float, RigView]]
 
 #: s: how long an animation lasts, within what the eye follows (frames per second).
 LASTS = 12.0

@@ -15,7 +15,7 @@ from stickslip.effects import CATALOGUE
 
 from cosim.gap.read import Campaign
 
-from .study_model import PRINTED_RATIO, has_meaning
+from .models import PRINTED_RATIO, has_meaning
 
 # the study's coefficients, the four figures that it prints; how well they are known it does not
 # say, a tenth is what its scatter is taken to be
