@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from functools import wraps
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -15,6 +15,9 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
 from .page import DPI, Picture
+
+if TYPE_CHECKING:
+    from matplotlib.typing import RcKeyType
 
 Array = NDArray[np.float64]
 
@@ -29,7 +32,7 @@ BLUE, RED, GREEN, PURPLE, ORANGE, SKY = SERIES = (
 )
 INK, GREY, SLIP = "#222222", "#7A7A7A", "#F8EAD0"
 
-RC = {
+RC: dict[RcKeyType, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 10.0,
     "axes.labelsize": 10.0,

@@ -133,7 +133,7 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) ->
         parameters[name] = parameters.get(name, {}) | values
     if parameters["rig"].get("degrees_of_freedom") == ("x",):
         parameters["initial"] = parameters["initial"] | {"phi": 0.0}
-    return Parameters(**parameters)
+    return Parameters.model_validate(parameters)
 
 
 def longest(case: Case) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from itertools import combinations
 
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
@@ -63,6 +63,7 @@ class Row:
     printed: float | None = None
     mended: float | None = None
     exact: float | None = None
+    _: KW_ONLY
     digits: int = 4
     derived: float | str | None = None
     how: str = ""
@@ -114,6 +115,7 @@ class Check:
     printed: bool | None
     mended: bool | None
     exact: bool | None
+    _: KW_ONLY
     faults: tuple[str, ...] = ()
     margin: Margin | None = None
     turns: tuple[Turn, ...] = ()

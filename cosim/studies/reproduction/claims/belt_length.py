@@ -14,7 +14,7 @@ from ..drawing import COLOURS, LABELS, study_line
 from ..printed import STUDY, TEMPERATURES
 
 #: Temperature of the belt after one pass, degC, as printed; length in m
-TABLE = {length: one.value for length, one in TEMPERATURES.items()}
+TABLE = {length: one.number for length, one in TEMPERATURES.items()}
 DIGIT = 1e-4
 RUN = 20.0  # s at constant speed
 SPEED = 0.82
@@ -57,8 +57,8 @@ def finite_elements(
     force = FROM_FACTORS.friction_force
     for step in range(round((ramp + RUN) / MACRO_STEP)):
         middle = (step + 0.5) * MACRO_STEP
-        way = speed * MACRO_STEP * (min(middle / ramp, 1.0) if ramp else 1.0)
-        model.step(MACRO_STEP, force * way, way)
+        travel = speed * MACRO_STEP * (min(middle / ramp, 1.0) if ramp else 1.0)
+        model.step(MACRO_STEP, force * travel, travel)
     outputs = model.outputs()
     rise = outputs["belt_entry_temperature"] - parameters.ambient.temperature_degC
     return rise, outputs["belt_share"]
@@ -85,18 +85,19 @@ def cooling_rate() -> float:
     return 2.0 * HEAT_TRANSFER / (BELT.density * BELT.thickness * BELT.heat_capacity)
 
 
+def _rises(length: float) -> tuple[float, ...]:
+    """Where the belt meets the ice, K: as printed and, where it is computed, mended and exact."""
+    printed = PRINTED.temperature_degC(length) - PRINTED.ambient_degC
+    if length not in EXACT_LENGTHS:
+        return (printed,)
+    return printed, all_mended(length), finite_elements(length)[0]
+
+
 def judge_length() -> Claim:
     """C13: whether the rise on a belt of 1 m goes unseen."""
     ambient = PRINTED.ambient_degC
-    rises = {
-        length: (
-            PRINTED.temperature_degC(length) - ambient,
-            all_mended(length) if length in EXACT_LENGTHS else None,
-            finite_elements(length)[0] if length in EXACT_LENGTHS else None,
-        )
-        for length in TABLE
-    }
-    exact = rises[1.0][2]
+    rises = {length: _rises(length) for length in TABLE}
+    exact = finite_elements(1.0)[0]
     told = round(TABLE[1.0] - ambient, 4)
     passes = repeated(FROM_FACTORS, 1.0) - ambient
     return Claim(

@@ -241,8 +241,8 @@ def _turns(of: dict[str, Variant]) -> list[Turn]:
             weights = EVEN[:i] + (weight,) + EVEN[i + 1 :]
             full, cut = (of[name].weighed(weights) for name in ("exact_full", "exact_cut"))
             turns.append(_turn(f"exact: {o.name} {word}", full, cut))
-    fitted, cut = of["exact_fitted"], of["exact_fitted_cut"]
-    turns.append(_turn("exact: pretension fitted to each", fitted.misfit, cut.misfit))
+    fitted = [of[name].misfit for name in ("exact_fitted", "exact_fitted_cut")]
+    turns.append(_turn("exact: pretension fitted to each", *fitted))
     return turns
 
 
@@ -254,8 +254,8 @@ def _turn(change: str, full: float, cut: float) -> Turn:
 def _row(i: int, of: dict[str, Variant]) -> Row:
     o = OBSERVATIONS[i]
     models = (of[f"{model}_full"].values[i] for model in ("printed", "mended", "exact"))
-    derived = {"derived": o.value, "how": o.how} if o.how else {}
-    return Row(f"{o.name}, µ full", o.unit, o.study, *models, **derived)
+    derived = o.value if o.how else None
+    return Row(f"{o.name}, µ full", o.unit, o.study, *models, derived=derived, how=o.how)
 
 
 def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]:

@@ -25,8 +25,8 @@ from ..printed import STUDY
 from ..readings import AS_PRINTED, MARKS, READINGS, outcomes, reading_figures
 
 SEEDS = tuple(range(8))
-FAR_TURN = STUDY["rotation_dataset_1"].value
-MEASURED = STUDY["rotation_measured"].value
+FAR_TURN = STUDY["rotation_dataset_1"].number
+MEASURED = STUDY["rotation_measured"].number
 # the motion is chaotic: the largest angle of one run and of another differ by as much
 FACTOR = 1.5
 
@@ -187,7 +187,7 @@ def _draw():
             style = {"color": COLOURS[model], "label": LABELS[model], "lw": 1.0}
             ax.plot(run.time, np.degrees(run.phi), **style)
         for sign in (1, -1):
-            study = STUDY[f"rotation_dataset_{name[1:]}"].value
+            study = STUDY[f"rotation_dataset_{name[1:]}"].number
             study_line(ax, sign * study, "study's largest" if sign == 1 else "_")
         largest = np.degrees(np.abs(runs["printed"].phi).max())
         ax.set_title(f"dataset {name}: as printed up to {largest:.0f}°")

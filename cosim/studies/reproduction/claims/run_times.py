@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable
+from functools import partial
 
 from stickslip import simulate
 from stickslip.reference.faults import PRINTED
@@ -39,18 +40,15 @@ def _as_told(ratio: float) -> bool:
 
 def judge() -> Claim:
     """Script with strips in Python, script with strips in numpy, compiled scheme, exact model."""
-    python = [
-        seconds(lambda kind=kind: interpreted_run(DURATION, treatment=kind), 1)
-        for kind in ("updated", "zero")
-    ]
+    script = partial(interpreted_run, DURATION)
+    python = [seconds(partial(script, treatment=kind), 1) for kind in ("updated", "zero")]
     numpy = [
-        seconds(lambda kind=kind: interpreted_run(DURATION, treatment=kind, together=True), 3)
-        for kind in ("updated", "zero")
+        seconds(partial(script, treatment=kind, together=True), 3) for kind in ("updated", "zero")
     ]
     schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in ("updated", "zero")]
-    compiled = [seconds(lambda one=one: one.run(duration=WHOLE), 5) for one in schemes]
+    compiled = [seconds(partial(one.run, duration=WHOLE), 5) for one in schemes]
     parameters = exact_parameters(DATASET_1)
-    exact = seconds(lambda: simulate(parameters, WHOLE), 5)
+    exact = seconds(partial(simulate, parameters, WHOLE), 5)
     ratio = python[0] / python[1]
     per_second = python[0] / DURATION * WHOLE
     others = {"strips in numpy": numpy[0] / numpy[1], "compiled": compiled[0] / compiled[1]}

@@ -95,7 +95,6 @@ def judge() -> Claim:
     rows = []
     for name in TREATMENTS:
         updated = name == "updated"
-        derived = {"derived": 60.0, "how": "three times 20°, §4.3.1"} if updated else {}
         rows.append(
             Row(
                 f"largest rotation, {name}" + (EXACT_START if updated else ""),
@@ -104,7 +103,8 @@ def judge() -> Claim:
                 _rotation(printed[name]),
                 _rotation(mended[name]),
                 _rotation(exact) if updated else None,
-                **derived,
+                derived=60.0 if updated else None,
+                how="three times 20°, §4.3.1" if updated else "",
             )
         )
         rows.append(
@@ -126,17 +126,18 @@ def judge() -> Claim:
             _sets_in(mended["updated"]),
         )
     )
-    apart = [_disagreement(runs) for runs in (printed, mended)]
+    apart = _disagreement(printed), _disagreement(mended)
     rows.append(Row("treatments apart in x at break-away, before rotation", "m", None, *apart))
     back = _put_back()
     free = max(_rotation(exact), _rotation(loose))
-    rotates = [_only_updated_rotates(runs) for runs in (printed, mended)]
-    bounded = [_only_updated_bounded(runs) for runs in (printed, mended)]
+    rotates = _only_updated_rotates(printed), _only_updated_rotates(mended)
+    bounded = _only_updated_bounded(printed), _only_updated_bounded(mended)
     alone = responsible(_bounded)
     checks = (
         Check(
             "all treatments agree in x until rotation sets in",
-            *(value < AGREE for value in apart),
+            apart[0] < AGREE,
+            apart[1] < AGREE,
             None,
             margin=Margin("apart in x, mended", 1e3 * apart[1], 1e3 * AGREE, "mm"),
         ),

@@ -26,7 +26,7 @@ def judge() -> Claim:
         ours = stiffness_matrix(fixed_angles(treatment))
         expected = np.zeros((3, 3))
         for (i, j), value in entries.items():
-            expected[i, j] = expected[j, i] = value.value
+            expected[i, j] = expected[j, i] = value.number
             rows.append(
                 Row(
                     f"K_{NAMES[i]}{NAMES[j]}/k, {treatment}",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from scipy.stats import norm
 from stickslip.effects import CATALOGUE
@@ -101,9 +102,10 @@ def plain_way(campaign: Campaign) -> Way:
     return Way((), "", friction_spans(campaign), settings)
 
 
+Form = tuple[tuple[str, ...], dict[str, float]]
 #: effect -> forms: what is searched (log: evenly over decades), what is set
 _ACROSS = {"lateral_friction.ratio": 1.0}
-_FORMS = {
+_FORMS: dict[str, dict[str, Form]] = {
     "lateral_friction": {"isotropic": ((), _ACROSS)},
     "turning_surface": {"disc friction": (("curvature",), _ACROSS)},
     "static_strengthening": {"logarithmic": (("rate log",), {})},
@@ -176,5 +178,6 @@ def _span(effect: str, number: str) -> Span:
     if key in _RANGES:
         return Span(key, *_RANGES[key], log=scale == "log")
     blocks = {entry.id: entry.block for entry in CATALOGUE}
-    low, high = blocks[effect].model_fields[name].json_schema_extra["typical"]
+    declared: Any = blocks[effect].model_fields[name].json_schema_extra
+    low, high = declared["typical"]
     return Span(key, low, high, log=scale == "log")
