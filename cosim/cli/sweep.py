@@ -17,6 +17,7 @@ from tqdm import tqdm
 
 from cosim.atomic import write_atomically
 from cosim.folders import OutputRefused, not_taken
+from cosim.report.files import write_netcdf
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.sweep import (
@@ -26,7 +27,6 @@ from cosim.studies.sweep import (
     SweepStopped,
     product_grid,
     run_grid,
-    write_sweep,
 )
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
@@ -124,7 +124,7 @@ def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
 
 
 def _write(datasets: dict[str, xr.Dataset], folder: Path) -> None:
-    write_sweep(datasets, folder / RESULT)
+    write_netcdf(datasets, folder / RESULT)
     figure = draw_sweep(datasets[""])
     write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=130))
 

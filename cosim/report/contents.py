@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -14,7 +14,8 @@ from pydantic import BaseModel
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
 
-from thermal import ThermalParameters
+if TYPE_CHECKING:
+    from thermal import ThermalParameters
 
 Blocks = dict[str, dict[str, dict[str, Any]]]
 
@@ -73,6 +74,8 @@ def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
 
     A scenario states the contact's radius and the block's mass once, with the rig.
     """
+    from thermal import ThermalParameters  # finite elements: only for who asks for them
+
     blocks = _selected(dataset, ThermalParameters)
     radius, mass = (value_of(dataset, "rig", key) for key in ("contact_radius", "mass"))
     if radius is not None:

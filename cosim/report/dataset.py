@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from datetime import UTC, datetime
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import xarray as xr
@@ -14,10 +13,8 @@ from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
 from stickslip.ports import OUTPUTS
 
-from cosim.coupling import CoupledResult
-
 from .contents import blocks_of
-from .files import versions
+from .files import provenance
 
 # name -> (unit, long name); the mechanical ones as the model itself describes them
 MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUTS}
@@ -64,6 +61,9 @@ def attributes(name: str, unit: str | None = None) -> dict[str, object]:
     attrs: dict[str, object] = {"units": unit or known_unit, "long_name": text}
     return attrs | (MODE if name == "mode" else {})
 
+
+if TYPE_CHECKING:
+    from cosim.coupling import CoupledResult
 
 Array = NDArray[np.float64]
 
@@ -177,8 +177,7 @@ def _describe(
         status=status,
         reason=reason,
         scenario=toml,
-        versions=json.dumps(versions()),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        **provenance(),
     )
     if wall_time is not None:
         dataset.attrs["wall_time"] = float(wall_time)

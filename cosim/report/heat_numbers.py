@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_COUETTE, P_FLOODED, P_NORMAL_FORCE, P_RADIUS, P_ROUGHNESS
 
-from thermal.melt_film import WATER_DENSITY
-
 from .contents import SLIP, mechanics_of, value_of
 from .quantities import Quantity, ratio
 
@@ -65,7 +63,7 @@ def heat_shares(dataset: xr.Dataset) -> dict[str, Quantity]:
     from_contact_to_belt: share of the contact's that entered the belt there, part of which went on
     to the air.
     """
-    received = _last(dataset, "heat_received") + float(sum(other_heat(dataset).values())[-1])
+    received = _last(dataset, "heat_received") + float(all_other_heat(dataset)[-1])
     shares = {
         sink: Quantity(ratio(float(held(dataset, name)[-1]), received), "1")
         for sink, name in SINKS.items()
@@ -85,6 +83,12 @@ def other_heat(dataset: xr.Dataset) -> dict[str, np.ndarray]:
     railing = dataset["railing_heat"].values if "railing_heat" in dataset else none
     supports = dataset["support_heat"].values if "support_heat" in dataset else none
     return {"railing": railing, "supports": np.maximum(-supports, 0.0)}
+
+
+def all_other_heat(dataset: xr.Dataset) -> np.ndarray:
+    """What entered the belt beside the contact's heat, J: (times,)."""
+    other = other_heat(dataset)
+    return other["railing"] + other["supports"]
 
 
 def held(dataset: xr.Dataset, name: str) -> np.ndarray:
@@ -213,6 +217,8 @@ def film_of(dataset: xr.Dataset) -> Film:
 
 def _fed(dataset: xr.Dataset) -> Array:
     """Melt rate times residence: what a film is that no water comes back to, m."""
+    from thermal.melt_film import WATER_DENSITY
+
     lane = min(2.0 * value_of(dataset, "rig", "contact_radius"), value_of(dataset, "belt", "width"))
     if value_of(dataset, "ice", "mesh"):
         lane = np.nan  # the breadth is the mesh's

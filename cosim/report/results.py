@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import xarray as xr
 
 from cosim.atomic import write_bytes, write_text
-from thermal import RigView
+
+if TYPE_CHECKING:
+    from thermal import RigView
 
 from .assessment import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
 from .contents import stored_blocks
@@ -22,7 +24,7 @@ from .summary import summary
 
 Progress = Callable[[str], None]
 #: Times (s) and what is seen of belt and ice.
-Views = Sequence[tuple[float, RigView]]
+Views = Sequence[tuple[float, "RigView"]]
 
 ANIMATION = "temperature.gif"
 OWN_FILES = {

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
@@ -96,7 +97,7 @@ def png(figure: Figure) -> bytes:
 
 def panels(
     rows: int, columns: int, *, height: float = 2.6, width: float = 9.0, **options: Any
-) -> tuple[Figure, NDArray[np.object_]]:
+) -> tuple[Figure, NDArray[Any]]:
     """A figure and its axes (rows, columns), laid out without overlaps; inches, height of a row."""
     figure = Figure(figsize=(width, height * rows), layout="constrained")
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
@@ -132,9 +133,14 @@ def readable(values: Array, unit: str, floor: float = 0.0) -> Scaled:
 def plain_ticks(axes: Axes) -> None:
     """Digits in full: no offset and no power of ten beside the axis."""
     for axis in (axes.xaxis, axes.yaxis):
-        formatter = ScalarFormatter(useOffset=False)
-        formatter.set_scientific(False)
-        axis.set_major_formatter(formatter)
+        in_full(axis)
+
+
+def in_full(axis: Axis) -> None:
+    """The same of one axis."""
+    formatter = ScalarFormatter(useOffset=False)
+    formatter.set_scientific(False)
+    axis.set_major_formatter(formatter)
 
 
 def at_least(axes: Axes, span: float) -> None:

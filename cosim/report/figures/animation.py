@@ -75,8 +75,8 @@ class _Picture:
             - ambient
         )
         self._scaled = readable(rises, "K", SMALLEST_RISE)
-        top = max(self._scaled(rises.max()), self._scaled.factor * SMALLEST_RISE)
-        self._norm = Normalize(0.0, float(top))
+        top = self._scaled.factor * max(float(rises.max()), SMALLEST_RISE)
+        self._norm = Normalize(0.0, top)
         first = views[0][1]
         figure = Figure(figsize=(9.0, 5.6), dpi=DPI, layout="constrained")
         self._canvas = FigureCanvasAgg(figure)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from cosim.report.contents import mechanics_of
-from cosim.report.heat_numbers import SINKS, Film, film_of, floods, held, other_heat
+from cosim.report.heat_numbers import SINKS, Film, all_other_heat, film_of, floods, held
 from cosim.report.style import (
     BLUE,
     GREEN,
@@ -47,7 +48,7 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
     figure, axes = time_panels(dataset, rows=3 if sinks else 2)
     time = dataset["time"].values
     flow = readable(dataset["heat_flow"].values, "W")
-    beside = sum(other_heat(dataset).values())
+    beside = all_other_heat(dataset)
     heat = readable(dataset["heat"].values + beside, "J")
     for column in range(axes.shape[1]):
         line(axes[0, column], time, flow(dataset["heat_flow"].values), color=RED)
@@ -72,7 +73,7 @@ def draw_heat(dataset: xr.Dataset) -> Figure:
         axes[2, 0].set_ylim(0.0, 100.0)
     figure.align_ylabels(axes[:, 0])
     title(figure, "Friction heat", dataset)
-    handles = [Line2D([], [], color=INK, label="friction heat")]
+    handles: list[Artist] = [Line2D([], [], color=INK, label="friction heat")]
     if beside.any():
         handles += [Line2D([], [], color=INK, linestyle="--", label="with railing's, rollers'")]
     handles += [Patch(facecolor=COLOURS[sink], alpha=0.75, label=LABELS[sink]) for sink in sinks]
@@ -102,7 +103,7 @@ def _stack(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str], heat: Scaled)
 
 
 def _shares(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str]) -> None:
-    received = dataset["heat_received"].values + sum(other_heat(dataset).values())
+    received = dataset["heat_received"].values + all_other_heat(dataset)
     known = received > 0.0
     for sink, name in sinks.items():
         share = 100.0 * held(dataset, name)[known] / received[known]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -81,7 +81,7 @@ def shade_slip(axes: Axes, intervals: Array) -> None:
     corners = np.stack([begin, end, end, begin], axis=1)
     heights = np.broadcast_to([0.0, 0.0, 1.0, 1.0], corners.shape)
     bars = PolyCollection(
-        np.stack([corners, heights], axis=2),
+        list(np.stack([corners, heights], axis=2)),
         facecolor=SLIP,
         edgecolor="none",
         transform=axes.get_xaxis_transform(),
@@ -99,7 +99,7 @@ def slip_patch() -> Patch:
 
 def time_panels(
     dataset: xr.Dataset, rows: int, height: float = 2.0, share_y: bool = True
-) -> tuple[Figure, NDArray[np.object_]]:
+) -> tuple[Figure, NDArray[Any]]:
     """Panels (rows, columns) over time: the whole run and, if it is long, a part enlarged.
 
     Slip is shaded, the end of the run-up dotted. height: of a row, inches.
@@ -123,7 +123,7 @@ def time_panels(
     return figure, axes
 
 
-def _limits(dataset: xr.Dataset, axes: NDArray[np.object_], zoom: Zoom | None) -> None:
+def _limits(dataset: xr.Dataset, axes: NDArray[Any], zoom: Zoom | None) -> None:
     time = dataset["time"].values
     begin, end = (time[0], time[-1]) if time.size else (0.0, 0.0)
     margin = 0.0 if end > begin else 0.5

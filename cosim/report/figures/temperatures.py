@@ -19,6 +19,7 @@ from cosim.report.style import (
     RED,
     Scaled,
     at_least,
+    in_full,
     line,
     plain_ticks,
     readable,
@@ -80,11 +81,11 @@ def _thermometer(axes: Axes, ambient: float, scaled: Scaled) -> None:
     right = axes.secondary_yaxis(
         "right",
         functions=(
-            lambda rise: ambient + rise / scaled.factor,
-            lambda degC: (degC - ambient) * scaled.factor,
+            lambda rise: ambient + np.asarray(rise) / scaled.factor,
+            lambda degC: (np.asarray(degC) - ambient) * scaled.factor,
         ),
     )
-    plain_ticks(right)
+    in_full(right.yaxis)
     right.set_ylabel("temperature [°C]")
     right.spines["right"].set_visible(True)
 

@@ -54,7 +54,8 @@ def draw_top_view(dataset: xr.Dataset) -> Figure:
 def extreme_poses(dataset: xr.Dataset) -> list[tuple[str, Pose]]:
     """At rest, furthest along +-x, and the largest rotation where the block turns."""
     poses = [("at rest", REST)]
-    known = dataset.isel(time=np.isfinite(dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    finite = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    known = dataset.isel(time=finite)
     if known.sizes["time"] == 0:
         return poses
     row = known.isel(time=int(np.abs(known["x"].values).argmax()))
@@ -207,7 +208,7 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
     axes.add_collection(LineCollection(arms, colors=BLUE, linewidths=2.2, zorder=1))
     axes.add_patch(
         Circle(
-            middle,
+            (pose.x, pose.y),
             parameters.rig.contact_radius,
             facecolor="#CFE3F1",
             edgecolor=BLUE,

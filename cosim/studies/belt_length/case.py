@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
 from thermal.air import convection, laminar_span, moving_belt, radiation
@@ -163,7 +164,9 @@ class Case:
 
     def changed(self, keys: Mapping[str, float]) -> Case:
         """The same with other numbers of the thermal model, `block.key` -> value."""
-        own = {OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS}
+        own: dict[str, Any] = {
+            OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS
+        }
         rig = self.rig.model_dump()
         rig["belt"]["length"] = self.length  # railing and rollers must find room on this belt
         for key in keys.keys() - OWN_KEYS.keys():

@@ -169,7 +169,7 @@ def wait(case: Case, limit: float) -> Wait:
         runs,
         belt,
         ice,
-        None if None in (belt, ice) else max(belt, ice),
+        None if belt is None or ice is None else max(belt, ice),
         through,
         _reason(belt, ice, through, first, limit),
     )

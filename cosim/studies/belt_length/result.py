@@ -46,7 +46,7 @@ class Row:
     uncertainty: Uncertainty | None
 
     @property
-    def used(self) -> dict[str, float]:
+    def used(self) -> dict[str, float | None]:
         """The numbers of the case, those of the rig where the case has none of its own."""
         thermal, layered = self.case.thermal(), bool(self.case.rig.belt.layers)
         own = {

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
+from typing import Any
 
 from joblib import Parallel, delayed
 
@@ -129,16 +130,13 @@ def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
     h may be AIR: each case then has that of its speed and of half its loop.
     """
     names = [name for name in choices if name != "length"] + ["length"]
-    return [
-        replace(
-            base,
-            **{
-                name: None if value == AIR else value
-                for name, value in zip(names, values, strict=True)
-            },
-        )
-        for values in product(*(choices[name] for name in names))
-    ]
+    combinations = product(*(choices[name] for name in names))
+    return [_chosen(base, dict(zip(names, values, strict=True))) for values in combinations]
+
+
+def _chosen(base: Case, values: dict[str, Any]) -> Case:
+    said: dict[str, Any] = {name: None if v == AIR else v for name, v in values.items()}
+    return replace(base, **said)
 
 
 def scenario_case(scenario: Scenario) -> Case:

@@ -229,11 +229,10 @@ def _study_number(study: Study) -> list[str]:
 
 def _influence(study: Study) -> list[str]:
     """Which unknown matters most, in the case that drifts most."""
-    known = [row for row in study.rows if row.uncertainty is not None]
+    known = [(row, row.uncertainty) for row in study.rows if row.uncertainty is not None]
     if not known:
         return []
-    row = max(known, key=lambda one: one.drift.run)
-    doubt = row.uncertainty
+    row, doubt = max(known, key=lambda one: one[0].drift.run)
     words = {one.key: one.says for one in doubt.single_changes}
     shares = ", ".join(f"{words[one.key]} {one.total:.0%}" for one in doubt.influences[:4])
     return [

@@ -7,11 +7,13 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from cosim.scenario import Scenario
 
 from .steady import NotSteady, SteadySliding, steady_sliding
+
+Array = NDArray[np.float64]
 
 #: Points that a slope over a decade needs at least.
 FEWEST = 4
@@ -46,7 +48,7 @@ def decade_slopes(speed: ArrayLike, value: ArrayLike) -> list[DecadeSlope]:
     return slopes
 
 
-def lowest_friction(speed: Sequence[float], value: Sequence[float]) -> tuple[float, float] | None:
+def lowest_friction(speed: Array, value: Array) -> tuple[float, float] | None:
     """Speed and value of a minimum inside the range: a parabola through three points, log-log.
 
     None where the lowest value stands at an end.

@@ -55,7 +55,9 @@ def draw_pretension_map(found: PretensionMap, case: Case):
         title=f"Growth of small disturbances: {case.name}",
     )
     bar = figure.colorbar(mesh, ax=ax, label="multiplier of a cycle")
-    bar.set_ticks(np.log2([0.5, 0.7, 1.0, 1.4, 2.0]), labels=["≤ 0.5", "0.7", "1", "1.4", "≥ 2"])
+    bar.set_ticks(
+        np.log2([0.5, 0.7, 1.0, 1.4, 2.0]).tolist(), labels=["≤ 0.5", "0.7", "1", "1.4", "≥ 2"]
+    )
     return figure
 
 

@@ -11,7 +11,6 @@ from .errors import SweepError, SweepStopped
 from .features import FEATURES, features
 from .grid import Grid, product_grid
 from .run import run_grid, sweep
-from .store import write_sweep
 
 __all__ = [
     "FEATURES",
@@ -23,5 +22,4 @@ __all__ = [
     "product_grid",
     "run_grid",
     "sweep",
-    "write_sweep",
 ]

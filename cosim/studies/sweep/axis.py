@@ -113,15 +113,15 @@ def _plain(value: Any) -> Any:
 
 
 def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
-    coordinates = {}
+    coordinates: dict[str, Any] = {}
     if len(columns) > 1:
         rows = zip(*columns.values(), strict=True)
         labels = [":".join(_label(value) for value in row) for row in rows]
         coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
     for key, values in columns.items():
         field = KEYS[key]
-        unit = (field.json_schema_extra or {}).get("unit", "1")
-        attributes = {"units": unit, "long_name": field.description or key}
+        declared: Any = field.json_schema_extra or {}
+        attributes = {"units": declared.get("unit", "1"), "long_name": field.description or key}
         kind = int if field.annotation is int else float
         coordinates[key] = (_column(values, kind), attributes)
     return coordinates

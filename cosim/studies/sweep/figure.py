@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any, Literal
 
 import matplotlib
 import numpy as np
@@ -62,12 +63,12 @@ def draw_sweep(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def _panels(dims: list[str]) -> tuple[Figure, NDArray[np.object_]]:
+def _panels(dims: list[str]) -> tuple[Figure, NDArray[Any]]:
     """A figure and its panels (features, dims)."""
     rows, columns = (len(SHOWN), len(dims)) if len(dims) > 1 else (math.ceil(len(SHOWN) / 2), 2)
     width, height = PANEL
     figure = Figure((1.0 + width * columns, 1.2 + height * rows), layout="constrained")
-    share_y = "row" if len(dims) > 1 else False
+    share_y: Literal["row", "none"] = "row" if len(dims) > 1 else "none"
     panels = figure.subplots(rows, columns, sharex="col", sharey=share_y, squeeze=False)
     return figure, panels.reshape(len(SHOWN), len(dims))
 
@@ -85,10 +86,10 @@ def _draw(axes: Axes, values: xr.DataArray, dim: str) -> None:
     places = _places(values[dim])
     table = values.transpose(..., dim).values.reshape(-1, places.size)
     numeric = _is_numeric(values[dim])
-    style = {"marker": "o", "markersize": 3.0, "linewidth": 1.3 if numeric else 0.4}
+    width = 1.3 if numeric else 0.4
     if len(table) <= MOST_LINES:
         for line, colour in zip(table, _colours(len(table)), strict=True):
-            axes.plot(places, line, color=colour, **style)
+            axes.plot(places, line, color=colour, marker="o", markersize=3.0, linewidth=width)
         return
     known = np.isfinite(table).any(axis=0)
     if known.any():
@@ -127,7 +128,8 @@ def _places(coordinate: xr.DataArray) -> Array:
 def _name_axis(axes: Axes, dataset: xr.Dataset, dim: str) -> None:
     coordinate = dataset[dim]
     unit = coordinate.attrs["units"].replace("degC", "°C")
-    if axes.get_subplotspec().is_last_row():
+    place = axes.get_subplotspec()
+    if place is not None and place.is_last_row():
         axes.set_xlabel(dim if unit == "1" else f"{dim} [{unit}]")
     if not _is_numeric(coordinate):
         labels = [str(label) for label in coordinate.values]

@@ -71,7 +71,8 @@ class Grid:
 
     def keys(self, run: Run) -> list[str]:
         """The content key of every combination; SweepError, in one line, for one that cannot be."""
-        keys, warned = [], Counter()
+        keys: list[str] = []
+        warned: Counter[str] = Counter()
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)
             for changes in self.changes:

@@ -36,7 +36,8 @@ Progress = Callable[[int, int], None]
 class Workers(Protocol):
     """Whoever computes chunks."""
 
-    count: int
+    @property
+    def count(self) -> int: ...
 
     def run(
         self, work: Work, chunks: Sequence[Sequence[Task]]

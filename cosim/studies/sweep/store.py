@@ -12,16 +12,16 @@ import json
 import math
 import warnings
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from importlib.metadata import version
-from itertools import chain, repeat
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from cosim.atomic import OutputError, write_atomically, write_text
+from cosim.atomic import OutputError, write_text
 from cosim.folders import OutputRefused, writable
+from cosim.report.files import provenance
 
 from .combination import COMPLETE, ERROR, STATUS_MEANINGS, Row, Run, model_version
 from .errors import SweepError, SweepStopped
@@ -87,7 +87,7 @@ CODES = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
 def sweep_dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
     """``rows``, in the grid's order, as variables over the grid's dimensions."""
     table = np.array([row.values for row in rows])
-    variables = {
+    variables: dict[str, Any] = {
         name: (grid.dims, table[:, i].reshape(grid.shape), {"units": unit, "long_name": text})
         for i, (name, (unit, text)) in enumerate(FEATURES.items())
     }
@@ -129,15 +129,5 @@ def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
         "parameters": json.dumps(grid.base.model_dump(mode="json")),
         "model_version": model_version(),
         "stickslip": version("stickslip"),
-        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        **provenance(),
     }
-
-
-def write_sweep(datasets: dict[str, xr.Dataset], path: Path) -> None:
-    """netCDF 4; each dataset in the group it is named by ("" is the root)."""
-
-    def write(partial: Path) -> None:
-        for mode, (group, dataset) in zip(chain("w", repeat("a")), datasets.items(), strict=False):
-            dataset.to_netcdf(partial, mode=mode, group=group or None, engine="h5netcdf")
-
-    write_atomically(path, write)
