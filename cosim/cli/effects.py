@@ -14,7 +14,7 @@ from cosim.atomic import write_bytes, write_text
 from cosim.folders import OutputRefused, writable
 from cosim.interrupts import held_interrupts
 from cosim.report.page import Picture
-from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page
+from cosim.studies.effects import UnknownEffect, allowed, chosen, described
 
 DONE, FAILED = 0, 1
 REFUSED = (UnknownEffect, OutputRefused)
@@ -58,6 +58,8 @@ def _print(entry: dict[str, Any]) -> None:
 
 def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
     """Figures, then the page of all of them; whether it got so far."""
+    from cosim.studies.effects.page import effect_figure, page
+
     writable(folder, (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries)))
     pictures: dict[str, Picture] = {}
     try:

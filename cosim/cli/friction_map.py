@@ -16,13 +16,12 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
+from cosim.atomic import write_atomically, write_bytes
 from cosim.coupling import CouplingError
 from cosim.folders import OutputRefused, writable
-from cosim.report.page import DPI
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
-from cosim.studies.friction_map import FrictionMap, NotSteady, draw_map, friction_map
+from cosim.studies.friction_map import FrictionMap, NotSteady, friction_map
 
 DONE = 0
 REFUSED = (NotSteady, ScenarioError, OutputRefused, CouplingError)
@@ -115,11 +114,12 @@ def _print(regimes: dict[str, Any]) -> None:
 
 def _write(found: FrictionMap, folder: Path) -> None:
     """Numbers first, then the figure."""
+    from cosim.studies.friction_map.figure import draw_map
+
     text = json.dumps(found.as_json(), indent=1)
     write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
     write_atomically(folder / TABLE, lambda path: _write_table(found, path))
-    figure = draw_map(found)
-    write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=DPI))
+    write_bytes(draw_map(found).png, folder / FIGURE)
 
 
 def _write_table(found: FrictionMap, path: Path) -> None:

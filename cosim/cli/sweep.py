@@ -15,7 +15,7 @@ from pathlib import Path
 import xarray as xr
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
+from cosim.atomic import write_bytes
 from cosim.folders import OutputRefused, not_taken
 from cosim.report.files import write_netcdf
 from cosim.scenario import Scenario, read_scenario
@@ -30,7 +30,6 @@ from cosim.studies.sweep import (
 )
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
-from cosim.studies.sweep.figure import draw_sweep
 from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
 
 REFUSED = (SweepError, ScenarioError, OutputRefused)
@@ -124,9 +123,10 @@ def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
 
 
 def _write(datasets: dict[str, xr.Dataset], folder: Path) -> None:
+    from cosim.studies.sweep.figure import draw_sweep
+
     write_netcdf(datasets, folder / RESULT)
-    figure = draw_sweep(datasets[""])
-    write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=130))
+    write_bytes(draw_sweep(datasets[""]).png, folder / FIGURE)
 
 
 def _report(datasets: dict[str, xr.Dataset], folder: Path, wall_time: float) -> int:

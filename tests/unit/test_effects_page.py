@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from stickslip import CATALOGUE, simulate
 
-from cosim.cli import effects as effects_command
 from cosim.cli import main
-from cosim.studies.effects import effect_figure
+from cosim.studies.effects import page as effects_page
 from cosim.studies.effects.cases import CASES
-from cosim.studies.effects.page import WATER
 
 IDS = [entry.id for entry in CATALOGUE]
 FELT_ONLY_WHEN_WARM = "temperature_dependence"
@@ -25,7 +23,7 @@ def test_the_case_shows(effect):
     """The motion differs by more than a tenth of its swing: the figure has something to say."""
     end = CASES[effect].window[1]
     plain, shown = (
-        simulate(CASES[effect].parameters(name), end, film_thickness=WATER)
+        simulate(CASES[effect].parameters(name), end, film_thickness=effects_page.WATER)
         for name in (None, effect)
     )
     assert plain.complete and shown.complete
@@ -47,12 +45,14 @@ def test_command(tmp_path, capsys):
 
 @pytest.mark.parametrize("drawn", [0, 1])
 def test_what_was_drawn_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, drawn):
+    effect_figure = effects_page.effect_figure
+
     def interrupted(effect_id):
         if effect_id == "run_in" or not drawn:
             raise KeyboardInterrupt
         return effect_figure(effect_id)
 
-    monkeypatch.setattr(effects_command, "effect_figure", interrupted)
+    monkeypatch.setattr(effects_page, "effect_figure", interrupted)
     assert main(["effects", "run_in", "film_drag", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert (out, err) == ("", f"error: interrupted; {drawn} of 2 figures are in {tmp_path}\n")

@@ -4,7 +4,6 @@ Dry, boundary (asperities melt in passing), mixed and hydrodynamic friction (a f
 sheared), as the effects temperature_dependence, asperity_melting and melt_film make them.
 """
 
-from .figure import draw_map
 from .map import DecadeSlope, FrictionMap, decade_slopes, friction_map, lowest_friction
 from .steady import NotSteady, SteadySliding, steady_scenario, steady_sliding
 
@@ -14,7 +13,6 @@ __all__ = [
     "NotSteady",
     "SteadySliding",
     "decade_slopes",
-    "draw_map",
     "friction_map",
     "lowest_friction",
     "steady_scenario",

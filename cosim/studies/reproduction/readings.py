@@ -90,7 +90,7 @@ MARKS = (
         "s",
         1,
         "onset",
-        SETS_IN.number,
+        SETS_IN.value,
         SETS_IN_AFTER / FACTOR,
         SETS_IN_AFTER * FACTOR,
         SETS_IN.place,

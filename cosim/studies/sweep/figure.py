@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosim.report.style import BLUE, RC
+from cosim.report.style import BLUE, picture
 
 Array = NDArray[np.float64]
 
@@ -35,6 +35,10 @@ PANEL = (2.9, 1.75)  # inches
 SMALLEST_SPAN = 0.05
 
 
+@picture(
+    "sweep",
+    "Features of the motion over the varied keys; runs that failed are left out.",
+)
 def draw_sweep(dataset: xr.Dataset) -> Figure:
     """One row for each feature, one column for each varied dimension (two columns for one).
 
@@ -42,24 +46,22 @@ def draw_sweep(dataset: xr.Dataset) -> Figure:
     their median, the middle half of them (darker) and their range. Runs that failed are left out.
     """
     dims = [str(name) for name in dataset["status"].dims]
-    with matplotlib.rc_context(RC):
-        figure, panels = _panels(dims)
-        for row, (feature, (label, factor)) in zip(panels, SHOWN.items(), strict=True):
-            for axes, dim in zip(row, dims, strict=True):
-                _draw(axes, factor * dataset[feature], dim)
-            _widen(row[0])
-            row[0].set_ylabel(label)
-        for column, dim in enumerate(dims):
-            for axes in panels[:, column]:
-                _name_axis(axes, dataset, dim)
-            _explain(panels[0, column], dataset, dim, dims)
-        complete = int(np.count_nonzero(dataset["status"] == 0))
-        figure.suptitle(
-            f"Sweep over {dataset.attrs['title']}: {complete} of {dataset['status'].size} "
-            "combinations",
-            x=0.01,
-            ha="left",
-        )
+    figure, panels = _panels(dims)
+    for row, (feature, (label, factor)) in zip(panels, SHOWN.items(), strict=True):
+        for axes, dim in zip(row, dims, strict=True):
+            _draw(axes, factor * dataset[feature], dim)
+        _widen(row[0])
+        row[0].set_ylabel(label)
+    for column, dim in enumerate(dims):
+        for axes in panels[:, column]:
+            _name_axis(axes, dataset, dim)
+        _explain(panels[0, column], dataset, dim, dims)
+    complete = int(np.count_nonzero(dataset["status"] == 0))
+    figure.suptitle(
+        f"Sweep over {dataset.attrs['title']}: {complete} of {dataset['status'].size} combinations",
+        x=0.01,
+        ha="left",
+    )
     return figure
 
 
