@@ -30,7 +30,7 @@ from cosim.studies.sweep import (
 )
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
-from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
+from cosim.studies.sweep.grid import plan_grid, repeats_grid
 
 REFUSED = (SweepError, ScenarioError, OutputRefused)
 DONE, FAILED = 0, 1

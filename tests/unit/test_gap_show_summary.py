@@ -12,7 +12,7 @@ from cosim.gap.show.files import write_page
 from cosim.gap.show.model_file import model_text
 from cosim.gap.show.numbers import as_json
 from cosim.gap.show.words import closing_lines
-from cosim.studies.reproduction.summary.observations import observations
+from cosim.studies.reproduction.summary.draws import observations
 from cosim.studies.reproduction.summary.result import Ranked, SummaryGap, Where
 from cosim.studies.reproduction.summary.trial import FittedSummary
 

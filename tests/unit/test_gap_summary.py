@@ -13,9 +13,16 @@ from cosim.gap.read import Campaign, MeasuredRun, read_campaign
 from cosim.gap.read.tables import Rig
 from cosim.studies.reproduction.summary import find, find_summary_gap
 from cosim.studies.reproduction.summary.candidates import Span, not_felt, plain_way, ways
-from cosim.studies.reproduction.summary.draws import Draw, Target, distances, gap, misfit
+from cosim.studies.reproduction.summary.draws import (
+    Draw,
+    Target,
+    distances,
+    gap,
+    misfit,
+    observations,
+    predict,
+)
 from cosim.studies.reproduction.summary.models import Motion, exact_motion, figures
-from cosim.studies.reproduction.summary.observations import observations, predict
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
@@ -37,7 +44,10 @@ def swing(amplitude=0.01, mean=0.02, frequency=1.3) -> Motion:
     time = np.linspace(0.0, 20.0, 4001)
     x = mean + amplitude * np.sin(2.0 * np.pi * frequency * time)
     phases = np.array([[0.0, 5.0, 0], [5.0, 12.0, 1], [12.0, 13.0, 0], [13.0, 20.0, 1]])
-    return Motion(time, x, 0.0 * time - 0.003, np.radians(-7.0) * np.ones_like(time), phases)
+    none = np.zeros_like(time)
+    turned = np.radians(-7.0) * np.ones_like(time)
+    jumps = np.zeros(len(phases))
+    return Motion(time, x, none - 0.003, turned, none, none, none, phases, jumps)
 
 
 def test_figures_of_a_swing():

@@ -265,11 +265,11 @@ def test_matrices_and_simple_runs_hold(quick):
 
 def test_verdict_changes_with_the_numbers(monkeypatch):
     """C1 with a wrong printed digit does not hold: no verdict is written down beforehand."""
-    from cosim.studies.reproduction.claims import stiffness_matrices
+    from cosim.studies.reproduction.claims import verification
 
     entries = {"zero": {(0, 0): Printed(4.0, "here"), (2, 2): Printed(0.00118, "here")}}
-    monkeypatch.setattr(stiffness_matrices, "MATRICES", entries)
-    assert stiffness_matrices.judge().verdict == "does not hold"
+    monkeypatch.setattr(verification, "MATRICES", entries)
+    assert verification.judge_matrices().verdict == "does not hold"
 
 
 def test_json(quick):

@@ -9,8 +9,7 @@ from stickslip import friction_coefficient
 
 from cosim.report.style import GREY, INK, SERIES, panels, picture
 
-from .map import FrictionMap
-from .steady import steady_scenario
+from .map import FrictionMap, steady_scenario
 
 #: The law is drawn this far beyond the slowest and the fastest run.
 BELOW, ABOVE = 300.0, 5.0

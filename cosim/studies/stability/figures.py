@@ -10,8 +10,7 @@ from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_S
 
 from cosim.report.style import BLUE, INK, RED, panels, picture
 
-from .case import Case
-from .maps import STARTS, PretensionMap, RegimeMap
+from .maps import STARTS, Case, PretensionMap, RegimeMap
 
 TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a run-up"}
 KINDS = {STICK_SLIP: BLUE, SLIDING: "#F3D9A4"}

@@ -11,9 +11,8 @@ from stickslip.steady_motion.regimes import STARTS
 
 from cosim.report.page import Picture, render
 
-from .case import Case
 from .maps import STARTS as MAPPED
-from .maps import PretensionMap, RegimeMap
+from .maps import Case, PretensionMap, RegimeMap
 
 
 def as_json(

@@ -6,8 +6,7 @@
 >>> sweep(read_scenario(), vary, folder="results/sweep").x_mean      # doctest: +SKIP
 """
 
-from .combination import Run
-from .errors import SweepError, SweepStopped
+from .combination import Run, SweepError, SweepStopped
 from .features import FEATURES, features
 from .grid import Grid, product_grid
 from .run import run_grid, sweep

@@ -12,7 +12,7 @@ from stickslip import Parameters
 
 from cosim.scenario.faults import known_keys, nearest
 
-from .errors import SweepError
+from .combination import SweepError
 
 LINK = "+"
 KEYS = {key: entry for key, entry in known_keys(Parameters).items() if "." in key}

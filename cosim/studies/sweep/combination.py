@@ -22,8 +22,20 @@ from stickslip.compiled import compiled_kernel, kernel_source
 from cosim.interrupts import held_interrupts
 
 from . import features as feature_module
-from .errors import SweepStopped
 from .features import FEATURES, features
+
+
+class SweepError(ValueError):
+    """A sweep that cannot be started; one line: key, what is wrong, what is allowed."""
+
+
+class SweepStopped(RuntimeError):
+    """A sweep that could not be finished; one line, with what is kept and how to go on."""
+
+
+class WorkersLost(RuntimeError):
+    """Worker processes ended in mid-work; what they had not returned is to be done again."""
+
 
 COMPLETE, FAILED, ERROR = 0, 1, 2
 STATUS_MEANINGS = "complete failed error"

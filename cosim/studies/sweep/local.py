@@ -15,8 +15,7 @@ from joblib.externals.loky import BrokenProcessPool
 from cosim.interrupts import held_interrupts, unheard_by_children
 from cosim.processes import is_stopped, pool
 
-from .combination import Row, Task, Work, compute_chunk
-from .errors import SweepError, WorkersLost
+from .combination import Row, SweepError, Task, Work, WorkersLost, compute_chunk
 
 
 class LocalWorkers:

@@ -13,8 +13,17 @@ import xarray as xr
 from stickslip import Parameters
 
 from .cluster import DaskWorkers
-from .combination import Row, Run, Task, Work, compute_chunk, model_version
-from .errors import SweepError, SweepStopped, WorkersLost
+from .combination import (
+    Row,
+    Run,
+    SweepError,
+    SweepStopped,
+    Task,
+    Work,
+    WorkersLost,
+    compute_chunk,
+    model_version,
+)
 from .grid import Grid, product_grid
 from .local import LocalWorkers
 from .store import Store, sweep_dataset

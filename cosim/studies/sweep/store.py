@@ -23,8 +23,16 @@ from cosim.atomic import OutputError, write_text
 from cosim.folders import OutputRefused, writable
 from cosim.report.files import provenance
 
-from .combination import COMPLETE, ERROR, STATUS_MEANINGS, Row, Run, model_version
-from .errors import SweepError, SweepStopped
+from .combination import (
+    COMPLETE,
+    ERROR,
+    STATUS_MEANINGS,
+    Row,
+    Run,
+    SweepError,
+    SweepStopped,
+    model_version,
+)
 from .features import FEATURES
 from .grid import Grid
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from functools import cache
 
+from matplotlib.figure import Figure
+
 from cosim.report.style import panels, picture
 from thermal import Belt, BeltIceModel, ThermalParameters
 from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
@@ -260,12 +262,12 @@ def _misprinted() -> Turn:
     "Rise of the belt where it meets the ice, over its length, after 20 s at "
     "0.82 m/s. Study: table 3.5.",
 )
-def _draw(rises: dict[float, tuple[float | None, ...]]):
+def _draw(rises: dict[float, tuple[float, ...]]) -> Figure:
     figure, axes = panels(1, 1, height=2.8, width=5.5)
     ax = axes[0, 0]
     names = ("one pass, as printed", "mended check", "finite elements")
     for i, (model, name) in enumerate(zip(LABELS, names, strict=True)):
-        known = {length: one[i] for length, one in rises.items() if one[i] is not None}
+        known = {length: one[i] for length, one in rises.items() if i < len(one)}
         style = "o-" if len(known) == len(rises) else "o"  # no line over lengths not computed
         ax.plot(list(known), list(known.values()), style, color=COLOURS[model], label=name)
     study_line(ax, SENSITIVITY, "camera's sensitivity")

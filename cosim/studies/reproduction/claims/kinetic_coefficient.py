@@ -28,7 +28,7 @@ from ..cases import (
 from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS
 from ..printed import STUDY
-from .mean_displacement import LEVEL, LOAD_POWER
+from .trends import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)
 # lines over mass count as horizontal where mu_k strays by less than this part of its mean

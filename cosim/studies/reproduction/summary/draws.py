@@ -1,4 +1,4 @@
-"""Draws of a model, and how far their figures are from the observed ones.
+"""Draws of a model: the observed figures, what a draw shows of them, and how far off it is.
 
 Two measures. The *gap* is the root mean square distance of the model's mean figures from the
 observed ones, in the observations' standard deviations: what is drawn and reported. The
@@ -15,10 +15,70 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.errors import CampaignError
+from cosim.gap.read import Campaign, MeasuredRun
 
 from .candidates import Way
-from .observations import Observation, predict
+from .models import Motion, exact_motion, figures, study_motion
+
+# which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
+MIRRORED = ("mean_y",)
+
+
+@dataclass(frozen=True)
+class Observation:
+    """A published figure: of which run (place in the campaign), value and standard deviation."""
+
+    run: int
+    name: str
+    figure: str
+    value: float
+    sd: float
+
+    @property
+    def size(self) -> float:
+        """The value without a sign that says nothing."""
+        return abs(self.value) if self.figure in MIRRORED else self.value
+
+
+def observations(campaign: Campaign) -> tuple[Observation, ...]:
+    """All figures of all runs that have a ``summary``; CampaignError where there is none."""
+    found = tuple(
+        Observation(i, run.name, figure, value, sd)
+        for i, run in enumerate(campaign.runs)
+        if run.summary
+        for figure, (value, sd) in run.summary.items()
+    )
+    if not found:
+        raise CampaignError(f"{campaign.path}: run: no run has a summary, allowed is at least one")
+    return found
+
+
+def predict(
+    campaign: Campaign, seen: tuple[Observation, ...], values: Mapping[str, float], seed: int
+) -> np.ndarray:
+    """(n,) what a model with ``values`` (``block.parameter`` -> number) shows of each observation.
+
+    A figure that the motion has not counts as zero: as far away as nothing at all. ``seed`` is
+    that of the scheme's scatter, or of the exact model's start.
+    """
+    by_run = {
+        i: figures(motion_of(campaign, campaign.runs[i], values, seed))
+        for i in sorted({one.run for one in seen})
+    }
+    shown = np.array([by_run[one.run][one.figure] for one in seen])
+    mirrored = np.array([one.figure in MIRRORED for one in seen])
+    return np.nan_to_num(np.where(mirrored, np.abs(shown), shown))
+
+
+def motion_of(
+    campaign: Campaign, run: MeasuredRun, values: Mapping[str, float], seed: int
+) -> Motion:
+    """The steady part of a run of the campaign's model."""
+    known = campaign.parameters(run)
+    if campaign.scheme == "study":
+        return study_motion(known, values, seed)
+    return exact_motion(known, values, seed)
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,18 @@ import numpy as np
 from cosim.gap.read import Campaign
 
 from .candidates import Way, free_way, not_felt, plain_way, ways
-from .draws import Bench, Draw, Target, draw, gap, misfit, scatter_of_kin, without_effect
-from .observations import Observation, observations
+from .draws import (
+    Bench,
+    Draw,
+    Observation,
+    Target,
+    draw,
+    gap,
+    misfit,
+    observations,
+    scatter_of_kin,
+    without_effect,
+)
 from .result import SummaryGap, open_figures, ranked, remarks, where
 from .search import (
     FIRST,

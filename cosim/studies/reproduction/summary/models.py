@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from stickslip import Parameters, Trajectory, simulate
+from stickslip import Parameters, simulate
 from stickslip.packing import GRAVITY
 from stickslip.reference.faults import PRINTED
-from stickslip.reference.linearised import Scheme, SchemeRun
+from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_effects import SchemeEffects
+
+from cosim.studies.reproduction.motion import Motion
 
 Array = NDArray[np.float64]
 
@@ -25,38 +26,6 @@ Array = NDArray[np.float64]
 BAND = 0.1
 # half range below which nobody sees an oscillation in a plotted record, m
 VISIBLE = 5e-4
-
-
-@dataclass(frozen=True)
-class Motion:
-    """time s, x m, y m, phi rad: (n,) each. phases (k, 3): begin s, end s, mode (1 slip)."""
-
-    time: Array
-    x: Array
-    y: Array
-    phi: Array
-    phases: Array
-
-    @classmethod
-    def of_scheme(cls, run: SchemeRun) -> Motion:
-        """The motion of a run of the study's scheme."""
-        return cls(run.time, run.q[:, 0], run.q[:, 1], run.q[:, 2], run.phases[:, :3])
-
-    @classmethod
-    def of_trajectory(cls, run: Trajectory) -> Motion:
-        """The motion of a run of the exact model."""
-        times, modes = run.events[:, 0], run.events[:, 1]
-        edges = np.concatenate([[run.time[0]], times, [run.time[-1]]])
-        mode = np.concatenate([[run["mode"][0]], modes])
-        phases = np.stack([edges[:-1], edges[1:], mode], axis=1)
-        return cls(run.time, run["x"], run["y"], run["phi"], phases)
-
-    def since(self, start: float) -> Motion:
-        """From ``start`` (s) on; a phase that has begun before is cut there."""
-        keep = self.time >= start
-        phases = self.phases[self.phases[:, 1] > start].copy()
-        phases[:, 0] = np.maximum(phases[:, 0], start)
-        return Motion(self.time[keep], self.x[keep], self.y[keep], self.phi[keep], phases)
 
 
 def figures(motion: Motion) -> dict[str, float]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from cosim.gap.read import Campaign
 
-from .observations import Observation
+from .draws import Observation
 from .trial import FittedSummary, Trial
 
 
