@@ -68,7 +68,7 @@ SHORT = {
     DISTURBED: "disturbed",
     REST: "from rest",
     RIDING: "riding on the surface",
-    RAMP: "from a run-up",
+    RAMP: "from a speed ramp",
 }
 EXPLAINED_NOUN = {
     "stick-slip": "stick and slip",
@@ -135,12 +135,12 @@ def _remedy(found: Mapping[str, Any]) -> str:
 
 
 def run_up_sentence(numbers: Mapping[str, Any]) -> str:
-    """What the way to a stable motion makes of a disturbance, where that is much; else nothing."""
+    """What the ramp to a stable motion makes of a disturbance, where that is much; else nothing."""
     amplification = numbers["stability"]["amplification"] or 0.0
     if amplification < MUCH:
         return ""
     return (
-        f"On the way there, in the run-up, a disturbance grows up to {amplification:.2g} "
+        f"In the speed ramp before it a disturbance grows up to {amplification:.2g} "
         "times: a rig that is not as drawn may have swerved by then, and stay there."
     )
 

@@ -96,7 +96,7 @@ SLIP = 1.0
 
 
 def run_up_time(dataset: xr.Dataset) -> float:
-    """End of the surface's run-up, s; 0 without one."""
+    """End of the surface's speed ramp, s; 0 without one."""
     return float(value_of(dataset, "surface", "run_up_time") or 0.0)
 
 

@@ -165,9 +165,9 @@ def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
 
 
 def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """Motion after the run-up and over the whole run, the shares of the heat, melting."""
+    """Motion after the speed ramp and over the whole run, the shares of the heat, melting."""
     titles = {
-        "after_run_up": "After the run-up",
+        "after_run_up": "After the speed ramp",
         "whole_run": "Whole run",
         "heat_shares": "Where the heat is at the end",
         "melting": "Melting, and the balance of the film in the last second",

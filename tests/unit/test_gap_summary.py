@@ -11,8 +11,14 @@ import pytest
 from cosim.gap.errors import CampaignError
 from cosim.gap.read import Campaign, MeasuredRun, read_campaign
 from cosim.gap.read.tables import Rig
+from cosim.studies.reproduction.motion import Motion
 from cosim.studies.reproduction.summary import find, find_summary_gap
-from cosim.studies.reproduction.summary.candidates import Span, not_felt, plain_way, ways
+from cosim.studies.reproduction.summary.candidates import (
+    Span,
+    extensions,
+    not_felt,
+    plain_candidate,
+)
 from cosim.studies.reproduction.summary.draws import (
     Draw,
     Target,
@@ -22,7 +28,7 @@ from cosim.studies.reproduction.summary.draws import (
     observations,
     predict,
 )
-from cosim.studies.reproduction.summary.models import Motion, exact_motion, figures
+from cosim.studies.reproduction.summary.models import exact_motion, figures
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
@@ -86,7 +92,7 @@ def test_a_known_number_is_spread_as_it_is_known():
 
 def test_every_effect_of_the_catalogue_is_tried_or_left_out_for_a_reason():
     study = read_campaign(Path(__file__).parents[2] / "cosim/gap/campaigns/study.toml")
-    tried = {way.effects[-1] for way in ways(study, plain_way(study))}
+    tried = {candidate.effects[-1] for candidate in extensions(study, plain_candidate(study))}
     assert len(tried | set(not_felt(study))) == 14
     assert not tried & set(not_felt(study))
 
@@ -95,9 +101,11 @@ def test_an_effect_that_is_off_leaves_the_plain_model():
     one = campaign()
     seen = observations(one)
     bare = predict(one, seen, FRICTION, 0)
-    for way in ways(one, plain_way(one)):
-        off = way.off | FRICTION
-        np.testing.assert_allclose(predict(one, seen, off, 0), bare, atol=1e-12, err_msg=str(way))
+    for candidate in extensions(one, plain_candidate(one)):
+        off = candidate.off | FRICTION
+        np.testing.assert_allclose(
+            predict(one, seen, off, 0), bare, atol=1e-12, err_msg=str(candidate)
+        )
 
 
 def test_a_model_that_meets_everything_has_no_misfit():
@@ -144,7 +152,9 @@ def test_nothing_is_missing_where_nothing_is_and_the_same_seed_says_the_same():
 def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
     few = ("static_strengthening", "film_drag", "spring_hardening")  # all fourteen take long
     monkeypatch.setattr(
-        find, "ways", lambda *args: tuple(w for w in ways(*args) if w.effects[-1] in few)
+        find,
+        "extensions",
+        lambda *args: tuple(w for w in extensions(*args) if w.effects[-1] in few),
     )
     hidden = FRICTION | {"static_strengthening.rate": 0.08}
     one = campaign(hidden, points=[*POINTS, (0.15, 2.0, 68.0)])

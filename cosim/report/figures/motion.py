@@ -118,9 +118,9 @@ def _parts(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_], str, float
     run_up, zoom = run_up_time(dataset), zoom_of(dataset)
     rising = time <= run_up if run_up else np.zeros(time.size, bool)
     late = (time >= zoom.begin) & (time <= zoom.end) if zoom else np.zeros(time.size, bool)
-    rest = "after the run-up" if run_up else "run"
+    rest = "after the speed ramp" if run_up else "run"
     return [
-        ("run-up", rising & ~late, GREY, 0.7),
+        ("speed ramp", rising & ~late, GREY, 0.7),
         (rest, ~rising & ~late, BLUE, 0.9),
         (zoom.title if zoom else "", late, RED, 1.3),
     ]

@@ -102,7 +102,7 @@ def time_panels(
 ) -> tuple[Figure, NDArray[Any]]:
     """Panels (rows, columns) over time: the whole run and, if it is long, a part enlarged.
 
-    Slip is shaded, the end of the run-up dotted. height: of a row, inches.
+    Slip is shaded, the end of the speed ramp dotted. height: of a row, inches.
     """
     zoom = zoom_of(dataset)
     figure = Figure(figsize=(11.0, 0.9 + height * rows), layout="constrained")
@@ -136,7 +136,7 @@ def _limits(dataset: xr.Dataset, axes: NDArray[Any], zoom: Zoom | None) -> None:
         panel.set_xlabel("time [s]")
     if begin < run_up < end:
         axes[0, 0].annotate(
-            "run-up ends",
+            "speed ramp ends",
             (run_up, 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(0, 2),

@@ -162,7 +162,7 @@ def _frame(axes: Axes, text: str, box: tuple[float, float, float, float]) -> Non
 def _draw_surface(
     axes: Axes, dataset: xr.Dataset, parameters: Parameters, box: tuple[float, float, float, float]
 ) -> None:
-    """The belt as a band of its width (a slab fills the view) and the way that it moves."""
+    """The belt as a band of its width (a slab fills the view) and where it moves to."""
     speed = parameters.surface.speed
     centre = _centre(parameters)
     belt = parameters.pack()[P_CURVATURE] == 0.0

@@ -103,25 +103,25 @@ def never_comes_round(case: Case) -> bool:
     elsewhere = (belt.rollers > 0 and belt.roller_rise != 0.0) or (
         belt.railing_friction > 0.0 and belt.railing_length > CONTACT_LENGTH
     )
-    return case.length > _way(case) and not elsewhere
+    return case.length > _never_round(case) and not elsewhere
 
 
 def endless_belt(case: Case) -> Case:
     """The same on a belt that never comes round."""
-    return case.with_length(1.01 * _way(case))
+    return case.with_length(1.01 * _never_round(case))
 
 
-def _way(case: Case) -> float:
+def _never_round(case: Case) -> float:
     """Length that a belt must have never to come round, m."""
     heated = 2.0 * CONTACT_LENGTH + case.rig.belt.railing_length
     return case.protocol.runs * case.protocol.moving * case.speed + heated
 
 
-#: Shortest and longest pause that is looked at, s.
+#: Shortest and longest pause that is tried, s.
 SHORTEST_PAUSE, LONGEST_PAUSE = 1.0, 6.0 * 3600.0
 #: How well a pause is found, relative.
 _TOLERANCE = 1e-2
-#: Places at which the belt is looked at, for each length of the contact.
+#: Places at which the belt is read, for each length of the contact.
 _PLACES = 4
 
 
@@ -190,17 +190,17 @@ def _warmest(sliding: SteadySliding) -> float:
 def _least(rise: Callable[[float], float], limit: float) -> float | None:
     """Least pause (s) after which a rise (K) that falls with it is below the limit."""
 
-    def excess(log_pause: float) -> float:
+    def over_the_limit(log_pause: float) -> float:
         return math.log(max(rise(math.exp(log_pause)), 1e-9) / limit)
 
     if rise(0.0) <= limit:
         return 0.0
     low, high = math.log(SHORTEST_PAUSE), math.log(LONGEST_PAUSE)
-    if excess(low) <= 0.0:
+    if over_the_limit(low) <= 0.0:
         return SHORTEST_PAUSE
-    if excess(high) > 0.0:
+    if over_the_limit(high) > 0.0:
         return None
-    return math.exp(brentq(excess, low, high, xtol=_TOLERANCE))
+    return math.exp(brentq(over_the_limit, low, high, xtol=_TOLERANCE))
 
 
 def _reason(

@@ -18,7 +18,7 @@ from .case import Case
 from .drift import run_drift
 from .uncertainty import INTERVAL, Uncertainty
 
-#: Longest belt that is looked at, m.
+#: Longest belt that is tried, m.
 LONGEST = 50.0
 #: How well the length is found, relative; the drift is known to less.
 _TOLERANCE = 5e-3
@@ -48,15 +48,15 @@ def shortest_belt(
     drift: of a case, K; it falls with the length. limit: K, > 0.
     """
 
-    def excess(log_length: float) -> float:
+    def over_the_limit(log_length: float) -> float:
         return math.log(max(drift(case.with_length(math.exp(log_length))), 1e-9) / limit)
 
     low, high = math.log(case.shortest), math.log(max(longest, case.shortest))
-    if excess(low) <= 0.0:
+    if over_the_limit(low) <= 0.0:
         return case.shortest
-    if excess(high) > 0.0:
+    if over_the_limit(high) > 0.0:
         return None
-    return math.exp(brentq(excess, low, high, xtol=_TOLERANCE))
+    return math.exp(brentq(over_the_limit, low, high, xtol=_TOLERANCE))
 
 
 def shortest_in_doubt(

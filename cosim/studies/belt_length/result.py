@@ -183,16 +183,16 @@ class Study:
 
     def shortest_in_doubt(self) -> dict[Case, dict[str, dict[str, Length]]]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
-        alike: dict[Case, dict[float, Row]] = {}
+        by_belt: dict[Case, dict[float, Row]] = {}
         for row in self.rows:
-            alike.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
+            by_belt.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
         return {
             case: shortest_in_doubt(
                 sorted(rows),
                 [rows[length].uncertainty for length in sorted(rows)],
                 self.options.limit,
             )
-            for case, rows in alike.items()
+            for case, rows in by_belt.items()
         }
 
     def changes(self) -> pd.DataFrame:

@@ -43,8 +43,8 @@ BOUNDS = {
 }
 #: Strongest fall of friction with temperature, 1/K: nothing is left one kelvin warmer.
 _MOST_SENSITIVE = 1.0
-#: Way that a run may go, m: a belt that never comes round must be longer, and still be a belt.
-MOST_WAY = 0.95 * next(
+#: Travel of the belt in a run, m: a belt that never comes round must be longer, and still be a belt.
+MOST_TRAVEL = 0.95 * next(
     bound.le for bound in Belt.model_fields["length"].metadata if hasattr(bound, "le")
 )
 
@@ -82,8 +82,8 @@ def _within(name: str, value: float, unit: str, low: float, included: bool, high
 
 
 def check_case(case: Case, arguments: Namespace) -> None:
-    """What options and scenario come to together: way, air, room on the belt."""
-    _check_way(case, arguments)
+    """What options and scenario come to together: travel, air, room on the belt."""
+    _check_travel(case, arguments)
     if case.h == 0.0:
         said = _named("h", "belt.air_heat_transfer", arguments)
         raise NoSteadyState(
@@ -96,16 +96,16 @@ def check_case(case: Case, arguments: Namespace) -> None:
         raise ParameterError(_in_their_words(str(error), arguments)) from None
 
 
-def _check_way(case: Case, arguments: Namespace) -> None:
+def _check_travel(case: Case, arguments: Namespace) -> None:
     protocol = case.protocol
-    way = protocol.runs * protocol.moving * case.speed
-    if way <= MOST_WAY:
+    travel = protocol.runs * protocol.moving * case.speed
+    if travel <= MOST_TRAVEL:
         return
     file = f"{arguments.scenario}: " if arguments.scenario is not None else ""
     raise StudyError(
         f"{file}--ramp = {protocol.ramp:g} s, --run = {protocol.run:g} s, --runs = {protocol.runs}"
         f" at --speed = {case.speed:g} m/s (surface.run_up_time, run.duration, surface.speed of a"
-        f" scenario): the belt would go {way:.3g} m, allowed is at most {MOST_WAY:g} m"
+        f" scenario): the belt would go {travel:.3g} m, allowed is at most {MOST_TRAVEL:g} m"
     )
 
 

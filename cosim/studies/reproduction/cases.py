@@ -22,7 +22,7 @@ CYCLES = 25  # the study's run: 10 cycles to settle, 15 that count
 STEADY = 0.6
 LONGEST_SLIP = 1.0  # s, the study's; longer natural periods count as they are
 SEEDS = (0, 1, 2)
-# the exact model settles within its first seconds; the study's own run-up takes 10 s
+# the exact model settles within its first seconds; the study's own speed ramp takes 10 s
 SETTLING, WINDOW = 10.0, 20.0
 SAMPLE = 5e-3
 
@@ -139,7 +139,7 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) ->
 def longest(case: Case) -> float:
     """Time in which the study's cycles are over, s: ends a run that does not stick again.
 
-    A cycle slips for a period or a second, and sticks for at most twice the way to break-away
+    A cycle slips for a period or a second, and sticks for at most twice the travel to break-away
     with one spring.
     """
     period = 2.0 * math.pi * math.sqrt(case.mass / (4.0 * case.stiffness))

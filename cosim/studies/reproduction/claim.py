@@ -54,7 +54,7 @@ class Row:
 
     study: what the study prints, with its place. derived: computed from the study's numbers, not
     printed there; how: in what way. None: there is none. digits: significant ones that are shown
-    of ours. ValueError for a derived figure without its way.
+    of ours. ValueError for a derived figure without how.
     """
 
     quantity: str

@@ -12,7 +12,7 @@ from cosim.report.style import BLUE, INK, RED, panels, picture
 
 from .maps import STARTS, Case, PretensionMap, RegimeMap
 
-TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a run-up"}
+TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a speed ramp"}
 KINDS = {STICK_SLIP: BLUE, SLIDING: "#F3D9A4"}
 OTHER = "#CFCFCF"
 #: Growth of a cycle at which the colours of the map end.

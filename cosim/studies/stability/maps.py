@@ -35,7 +35,7 @@ SECONDS, PERIODS = 20.0, 40.0
 
 
 class NotAMotion(ValueError):
-    """A scenario that has no stick-slip motion to be looked at; one line: what, what is allowed."""
+    """A scenario that has no stick-slip motion to be studied; one line: what, what is allowed."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Case:
 
 
 def case_of(scenario: Scenario) -> Case:
-    """The scenario, looked at for itself. NotAMotion where there is nothing to look at."""
+    """The scenario with its own assessment. NotAMotion where there is nothing to assess."""
     parameters, interface = scenario.mechanics, Interface(scenario.ambient.temperature_degC)
     if fault := _fault(parameters):
         raise NotAMotion(f"{scenario.name}: {fault}")
@@ -81,7 +81,7 @@ def _fault(parameters: Parameters) -> str:
 
 
 def run_length(parameters: Parameters) -> float:
-    """Run-up and what follows it, s."""
+    """Speed ramp and what follows it, s."""
     return parameters.surface.run_up_time + max(SECONDS, PERIODS / parameters.natural_frequency)
 
 

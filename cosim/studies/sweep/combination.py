@@ -154,13 +154,13 @@ def compute_chunk(
 
 
 def _outcomes(work: Work, tasks: Sequence[Task], stopped: Callable[[], bool]) -> Iterator[Row]:
-    def look(time: float) -> None:
+    def stop_if_told(time: float) -> None:
         if stopped():
             raise _Stop
 
     try:
         for task in tasks:
-            yield _outcome(work, task, look)
+            yield _outcome(work, task, stop_if_told)
     except _Stop:
         return
 
@@ -169,9 +169,9 @@ class _Stop(BaseException):
     """Leaves a run in its middle; not one of the errors that are recorded."""
 
 
-def _outcome(work: Work, task: Task, look: Callable[[float], None]) -> Row:
+def _outcome(work: Work, task: Task, stop_if_told: Callable[[float], None]) -> Row:
     try:
         parameters = with_changes(work.base, task.changes)
     except ValidationError as error:  # checked before: only a worker's other pydantic refuses
         return without_values(task.key, ERROR, " ".join(str(error).split()))
-    return compute(task.key, parameters, work.run, look)
+    return compute(task.key, parameters, work.run, stop_if_told)

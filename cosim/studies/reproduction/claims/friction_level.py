@@ -267,7 +267,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     enough = alone.misfit < ENOUGH * min(with_12.misfit, with_2.misfit)
     answer = ("yes" if enough else "in part") if better else "no"
     loose, fitted = of["exact_full"], of["exact_fitted"]
-    alike = [f"{of[name].values[0]:.1f}" for name in ("exact_full", "exact_cut")]
+    counts = [f"{of[name].values[0]:.1f}" for name in ("exact_full", "exact_cut")]
     turned = f"{alone.values[OBSERVATIONS.index(ROTATION)]:.0f}"
     best = min(of.values(), key=lambda variant: variant.misfit)
     return (
@@ -275,7 +275,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
         f"misfit {share[0]} with µ cut to a quarter, {share[1]} "
         f"with µ full and F1 mended, {share[2]} with F12 mended too, {share[3]} with F2 too. With "
         f"F1 alone mended the block still turns by {turned}°.",
-        f"The number of oscillations cannot decide: {alike[0]} with µ full, {alike[1]} with a "
+        f"The number of oscillations cannot decide: {counts[0]} with µ full, {counts[1]} with a "
         "quarter in the exact model, for the block slides most of the time and swings at its own "
         "frequency.",
         f"Pretension is not printed: the exact model's misfit with µ full is {loose.misfit:.2f} "

@@ -94,7 +94,7 @@ PIXEL = 0.2 / 1024
 CLOSE = 1e-3  # crossings are read off samples 1 ms apart
 # §6.2 of the study: springs are linear for the first couple of centimetres only
 FAR_OFFSET, HARDENING = 0.05, 40.0  # m, 1/m2
-TWICE = 1.9  # a way in proportion to time is twice as long in twice the time
+TWICE = 1.9  # a travel in proportion to time is twice as long in twice the time
 WEAK_SPRING = 1.0  # N/m
 
 
@@ -109,12 +109,12 @@ def judge_no_stiffness() -> Claim:
     case = DATASET_1.changed(stiffness=0.0)
     runs = {faults: _slide(case, faults) for faults in (PRINTED, MENDED)}
     printed, mended = runs[PRINTED], runs[MENDED]
-    ways = {
-        "printed": _ways(printed.time, printed.q[:, 0]),
-        "mended": _ways(mended.time, mended.q[:, 0]),
-        "exact": _exact_ways(case),
+    travels = {
+        "printed": _travels(printed.time, printed.q[:, 0]),
+        "mended": _travels(mended.time, mended.q[:, 0]),
+        "exact": _exact_travels(case),
     }
-    sprung = _exact_ways(case.changed(stiffness=WEAK_SPRING))
+    sprung = _exact_travels(case.changed(stiffness=WEAK_SPRING))
     meets = DATASET_1.speed / (case.mu_k * GRAVITY)
     return Claim(
         "C2",
@@ -124,7 +124,7 @@ def judge_no_stiffness() -> Claim:
                 "x after 20 s",
                 "m",
                 None,
-                *(way[1] for way in ways.values()),
+                *(travel[1] for travel in travels.values()),
                 derived=0.5 * case.mu_k * GRAVITY * DURATION**2,
                 how="½ µ_k g t²",
             ),
@@ -132,8 +132,8 @@ def judge_no_stiffness() -> Claim:
         (
             Check(
                 "x grows without bound, in proportion to time or faster",
-                *(_drifts(way) for way in ways.values()),
-                margin=Margin("x(20 s)/x(10 s)", ways["exact"][1] / ways["exact"][0], TWICE),
+                *(_drifts(travel) for travel in travels.values()),
+                margin=Margin("x(20 s)/x(10 s)", travels["exact"][1] / travels["exact"][0], TWICE),
                 turns=(
                     Turn(
                         f"springs of {WEAK_SPRING:g} N/m instead of none",
@@ -148,25 +148,25 @@ def judge_no_stiffness() -> Claim:
             "study is slip alone: friction pushes the block for ever, past the speed of the "
             f"surface, so that x is ½ µ_k g t². A block on a surface at {DATASET_1.speed:g} m/s "
             f"has its speed after {meets:.2f} s, sticks, and rides along: "
-            f"{ways['exact'][1]:.1f} m in {DURATION:.0f} s."
+            f"{travels['exact'][1]:.1f} m in {DURATION:.0f} s."
         ),
         place="§4.5, fig. 4.13",
         rests="the equation of motion alone",
     )
 
 
-def _ways(time: np.ndarray, x: np.ndarray) -> tuple[float, float]:
+def _travels(time: np.ndarray, x: np.ndarray) -> tuple[float, float]:
     """x at half the run and at its end, m."""
     return float(np.interp(DURATION / 2, time, x)), float(np.interp(DURATION, time, x))
 
 
-def _exact_ways(case: Case) -> tuple[float, float]:
+def _exact_travels(case: Case) -> tuple[float, float]:
     run = simulate(exact_parameters(case, initial={"vx": 0.0}), DURATION)
-    return _ways(run.time, run["x"])
+    return _travels(run.time, run["x"])
 
 
-def _drifts(way: tuple[float, float]) -> bool:
-    return way[1] > TWICE * way[0] > 0.0
+def _drifts(travel: tuple[float, float]) -> bool:
+    return travel[1] > TWICE * travel[0] > 0.0
 
 
 def judge_stiff() -> Claim:

@@ -54,7 +54,7 @@ class Span:
 
 
 @dataclass(frozen=True)
-class Way:
+class Candidate:
     """A model to try: the effects in it, the law's form, what is searched and what is set."""
 
     effects: tuple[str, ...]
@@ -94,12 +94,12 @@ def friction_spans(campaign: Campaign) -> tuple[Span, ...]:
     return tuple(sorted(spans, key=lambda span: span.key, reverse=True))
 
 
-def plain_way(campaign: Campaign) -> Way:
+def plain_candidate(campaign: Campaign) -> Candidate:
     """The model as it is, friction refitted within what is known of it."""
     settings = {}
     if campaign.scheme == "study":
         settings["stick_stiffness.ratio"] = PRINTED_RATIO
-    return Way((), "", friction_spans(campaign), settings)
+    return Candidate((), "", friction_spans(campaign), settings)
 
 
 Form = tuple[tuple[str, ...], dict[str, float]]
@@ -132,7 +132,7 @@ _RANGES = {
 }
 
 
-def ways(campaign: Campaign, base: Way) -> tuple[Way, ...]:
+def extensions(campaign: Campaign, base: Candidate) -> tuple[Candidate, ...]:
     """``base`` with each effect that is not in it, in the catalogue's order, form by form."""
     found = []
     for effect in CATALOGUE:
@@ -148,7 +148,9 @@ def ways(campaign: Campaign, base: Way) -> tuple[Way, ...]:
             if effect.id == "turning_surface" and campaign.rig.surface == "slab":
                 continue  # known: the rig says how far its centre is
             kept = {key: value for key, value in base.settings.items() if key not in keys}
-            found.append(Way((*base.effects, effect.id), form, base.spans + spans, kept | settings))
+            found.append(
+                Candidate((*base.effects, effect.id), form, base.spans + spans, kept | settings)
+            )
     return tuple(found)
 
 
@@ -163,13 +165,13 @@ def not_felt(campaign: Campaign) -> dict[str, str]:
     return found
 
 
-def free_way(way: Way) -> Way:
+def free_candidate(candidate: Candidate) -> Candidate:
     """The same model, with friction that nothing is known of."""
     free = tuple(
         Span(s.key, *UNKNOWN_FRICTION, log=True) if s.key.startswith("friction.") else s
-        for s in way.spans
+        for s in candidate.spans
     )
-    return Way(way.effects, way.form, free, way.settings)
+    return Candidate(candidate.effects, candidate.form, free, candidate.settings)
 
 
 def _span(effect: str, number: str) -> Span:

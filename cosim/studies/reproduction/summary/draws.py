@@ -18,7 +18,7 @@ import numpy as np
 from cosim.gap.errors import CampaignError
 from cosim.gap.read import Campaign, MeasuredRun
 
-from .candidates import Way
+from .candidates import Candidate
 from .models import Motion, exact_motion, figures, study_motion
 
 # which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
@@ -85,7 +85,7 @@ def motion_of(
 class Draw:
     """Numbers tried and what came of them.
 
-    shares (d,): the numbers of the way's spans, as shares of their ranges. values: block.parameter
+    shares (d,): the numbers of the candidate's spans, as shares of their ranges. values: block.parameter
     -> number, settings included. surprise: squared distance of the known ones from what is known.
     shown (seeds, n): the observations' figures, one row a seed.
     """
@@ -106,21 +106,21 @@ class Draw:
         return self.shown.mean(axis=0)
 
 
-def draw(way: Way, shares: np.ndarray, n: int) -> Draw:
+def draw(candidate: Candidate, shares: np.ndarray, n: int) -> Draw:
     """A draw that has not been run yet."""
-    numbers = [float(span.at(share)) for span, share in zip(way.spans, shares, strict=True)]
-    values = dict(way.settings) | {
-        span.key: number for span, number in zip(way.spans, numbers, strict=True)
+    numbers = [float(span.at(share)) for span, share in zip(candidate.spans, shares, strict=True)]
+    values = dict(candidate.settings) | {
+        span.key: number for span, number in zip(candidate.spans, numbers, strict=True)
     }
     # a contact at rest holds at least what it holds in sliding
     values["friction.mu_k"] = min(values["friction.mu_k"], values["friction.mu_s"])
-    surprise = sum(span.surprise(values[span.key]) for span in way.spans)
+    surprise = sum(span.surprise(values[span.key]) for span in candidate.spans)
     return Draw(np.asarray(shares), values, surprise, np.empty((0, n)))
 
 
-def without_effect(way: Way, before: Draw) -> Draw:
-    """A draw of the model without the way's last effect, as one of the way: the effect is off."""
-    return replace(before, values=way.off | dict(before.values))
+def without_effect(candidate: Candidate, before: Draw) -> Draw:
+    """A draw of the model without the candidate's last effect, as one of the candidate: the effect is off."""
+    return replace(before, values=candidate.off | dict(before.values))
 
 
 @dataclass(frozen=True)

@@ -99,7 +99,7 @@ def _rate(upward: Array) -> float:
     return float((len(upward) - 1) / (upward[-1] - upward[0])) if len(upward) > 1 else 0.0
 
 
-# a published run: run-up and settling, then what is looked at (s), and the rows in between
+# a published run: speed ramp and settling, then what counts (s), and the rows in between
 SETTLING, WINDOW, INTERVAL = 10.0, 20.0, 5e-3
 # how far off its place a block is put down, standard deviation: m, rad
 MISPLACED, TURNED = 1e-3, math.radians(1.0)
@@ -221,7 +221,7 @@ def study_motion(known: Mapping[str, Mapping], values: Mapping[str, float], seed
 
     known: tables of a run (`Campaign.parameters`); the scheme takes of the rig what it has a place
     for. The seed is that of the scatter. A cycle slips for at most a second, where the scheme cuts
-    it, and sticks for at most twice the way to break-away with one spring: the run ends where 25
+    it, and sticks for at most twice the travel to break-away with one spring: the run ends where 25
     of those would.
     """
     mass, stiffness = known["rig"]["mass"], known["springs"]["stiffness"]

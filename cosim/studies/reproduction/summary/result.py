@@ -110,13 +110,13 @@ def ranked(tried: Sequence[Trial], plain: Trial) -> tuple[Ranked, ...]:
     """The best form of every effect, the least BIC first."""
     rows: dict[str, Ranked] = {}
     for trial in sorted(tried, key=lambda one: one.bic):
-        effect = trial.way.effects[-1]
+        effect = trial.candidate.effects[-1]
         if effect in rows:
             continue
         fit = trial.fitted()
         rows[effect] = Ranked(
             effect=effect,
-            form=trial.way.form,
+            form=trial.candidate.form,
             held_out_gap=fit.held_out_gap,
             fit_gap=fit.gap,
             delta_bic=plain.bic - trial.bic,
@@ -154,7 +154,7 @@ def remarks(campaign: Campaign, found: Sequence) -> tuple[str, ...]:
     for one in found:
         best = one.best
         lines.append(
-            f"{best.way.effects[-1]}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
+            f"{best.candidate.effects[-1]}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
             f"lack of fit afterwards {best.lack_of_fit:.2g}"
         )
     return tuple(lines)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.stats import chi2
 
-from .candidates import Span, Way
+from .candidates import Candidate, Span
 from .draws import Draw, Target, best, chi_square, distances, gap, misfit, scatter, spread
 
 #: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
@@ -42,21 +42,23 @@ class FittedSummary:
 
 @dataclass(frozen=True)
 class Trial:
-    """A way, everything that was tried of it, and the scatter of its kin (n,)."""
+    """A candidate, everything that was tried of it, and the scatter of its kin (n,)."""
 
-    way: Way
+    candidate: Candidate
     draws: tuple[Draw, ...] = field(repr=False)
     target: Target
     kin: np.ndarray = field(repr=False)
 
     @classmethod
-    def of(cls, way: Way, draws: Sequence[Draw], target: Target, kin: np.ndarray) -> Trial:
+    def of(
+        cls, candidate: Candidate, draws: Sequence[Draw], target: Target, kin: np.ndarray
+    ) -> Trial:
         """From a table in which at least one draw has several seeds."""
-        return cls(way, tuple(draws), target, kin)
+        return cls(candidate, tuple(draws), target, kin)
 
     @property
     def close(self) -> list[Draw]:
-        """Draws that were looked at with all seeds."""
+        """Draws that were run with all seeds."""
         return [one for one in self.draws if one.seeds > 1]
 
     @property
@@ -77,7 +79,7 @@ class Trial:
     @property
     def price(self) -> float:
         """ln n for each number that was added."""
-        return self.way.added * math.log(len(self.target.sizes))
+        return self.candidate.added * math.log(len(self.target.sizes))
 
     @property
     def held_out(self) -> np.ndarray:
@@ -96,20 +98,20 @@ class Trial:
     @property
     def lack_of_fit(self) -> float:
         """Probability of figures this far off, were the best draw's model true."""
-        freedom = len(self.target.sizes) - self.way.added - self._free_friction
+        freedom = len(self.target.sizes) - self.candidate.added - self._free_friction
         found = chi_square(self.best, self.target, self.kin)
         return float(chi2.sf(found, max(freedom, 1)))
 
     @property
     def _free_friction(self) -> int:
         """Coefficients that nothing is known of: a known one brings its own observation."""
-        spans = self.way.spans
+        spans = self.candidate.spans
         return sum(s.key.startswith("friction.") and s.prior is None for s in spans)
 
     @property
     def friction_spans(self) -> tuple[Span, ...]:
-        """What is searched of friction: the first spans of every way."""
-        return tuple(s for s in self.way.spans if s.key.startswith("friction."))
+        """What is searched of friction: the first spans of every candidate."""
+        return tuple(s for s in self.candidate.spans if s.key.startswith("friction."))
 
     def intervals(self) -> dict[str, tuple[float, float]]:
         """block.parameter -> range over the draws that are nearly as good as the best."""
@@ -120,7 +122,7 @@ class Trial:
                 min(one.values[span.key] for one in good),
                 max(one.values[span.key] for one in good),
             )
-            for span in self.way.spans
+            for span in self.candidate.spans
         }
 
     def fitted(self) -> FittedSummary:
@@ -129,7 +131,7 @@ class Trial:
 
 
 def fitted(one: Draw, trial: Trial) -> FittedSummary:
-    """A draw of the trial's way beside the observed figures."""
+    """A draw of the trial's candidate beside the observed figures."""
     return FittedSummary(
         values=dict(one.values),
         shown=one.mean,
