@@ -43,7 +43,7 @@ BOUNDS = {
 }
 #: Strongest fall of friction with temperature, 1/K: nothing is left one kelvin warmer.
 _MOST_SENSITIVE = 1.0
-#: Travel of the belt in a run, m: a belt that never comes round must be longer, and still be a belt.
+#: Travel of the belt in a run, m: one that never comes round is longer, and must be a belt still.
 MOST_TRAVEL = 0.95 * next(
     bound.le for bound in Belt.model_fields["length"].metadata if hasattr(bound, "le")
 )

@@ -85,9 +85,9 @@ def motion_of(
 class Draw:
     """Numbers tried and what came of them.
 
-    shares (d,): the numbers of the candidate's spans, as shares of their ranges. values: block.parameter
-    -> number, settings included. surprise: squared distance of the known ones from what is known.
-    shown (seeds, n): the observations' figures, one row a seed.
+    shares (d,): the numbers of the candidate's spans, as shares of their ranges. values:
+    block.parameter -> number, settings included. surprise: squared distance of the known ones from
+    what is known. shown (seeds, n): the observations' figures, one row a seed.
     """
 
     shares: np.ndarray
@@ -102,7 +102,7 @@ class Draw:
 
     @property
     def mean(self) -> np.ndarray:
-        """(n,)"""
+        """Mean of each figure over the seeds: (n,)."""
         return self.shown.mean(axis=0)
 
 
@@ -119,7 +119,7 @@ def draw(candidate: Candidate, shares: np.ndarray, n: int) -> Draw:
 
 
 def without_effect(candidate: Candidate, before: Draw) -> Draw:
-    """A draw of the model without the candidate's last effect, as one of the candidate: the effect is off."""
+    """A draw of the model without the candidate's last effect, as one of it: the effect is off."""
     return replace(before, values=candidate.off | dict(before.values))
 
 
