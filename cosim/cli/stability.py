@@ -18,11 +18,11 @@ from tqdm import tqdm
 from cosim.atomic import write_bytes, write_text
 from cosim.folders import OutputRefused, writable
 from cosim.report.assessment import regime_sentence, stability_sentence
-from cosim.report.page import Picture
+from cosim.report.output import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.stability import Case, NotAMotion, case_of, pretension_map, regime_map
-from cosim.studies.stability.result import as_json, page
+from cosim.studies.stability.maps import as_json, page
 
 DONE, FAILED = 0, 1
 REFUSED = (NotAMotion, ScenarioError, OutputRefused)

@@ -11,7 +11,7 @@ from cosim.coupling.coupled_case import own_fmu
 from cosim.gap.atlas import draw_atlas, residual_atlas
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
-from cosim.report.page import Picture
+from cosim.report.output import Picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .flown import Reproduced

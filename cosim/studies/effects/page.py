@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from stickslip import Parameters, simulate
 
-from cosim.report.page import Picture, render
+from cosim.report.output import Picture, render
 from cosim.report.style import BLUE, GREY, panels, picture
 
 from .cases import CASES

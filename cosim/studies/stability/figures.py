@@ -10,7 +10,7 @@ from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_S
 
 from cosim.report.style import BLUE, INK, RED, panels, picture
 
-from .maps import STARTS, Case, PretensionMap, RegimeMap
+from .maps import MAPPED, Case, PretensionMap, RegimeMap
 
 TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a speed ramp"}
 KINDS = {STICK_SLIP: BLUE, SLIDING: "#F3D9A4"}
@@ -74,11 +74,11 @@ def _pretension(case: Case) -> float:
 )
 def draw_regime_map(found: RegimeMap, case: Case):
     """A panel for each start."""
-    figure, axes = panels(1, len(STARTS), height=3.6, width=11.0, sharey=True)
+    figure, axes = panels(1, len(MAPPED), height=3.6, width=11.0, sharey=True)
     kinds = list(KINDS)
     colours = ListedColormap([*KINDS.values(), OTHER])
     norm = BoundaryNorm(np.arange(len(kinds) + 2) - 0.5, len(kinds) + 1)
-    for k, (ax, start) in enumerate(zip(axes[0], STARTS, strict=True)):
+    for k, (ax, start) in enumerate(zip(axes[0], MAPPED, strict=True)):
         numbers = _numbered(found.simulated[k], kinds)
         ax.grid(False)
         ax.pcolormesh(

@@ -7,8 +7,9 @@ is known in closed form.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from stickslip import Parameters
@@ -22,12 +23,14 @@ from stickslip.steady_motion.regimes import (
     REST,
     RIDING,
     SLIDING,
+    STARTS,
     STICK_SLIP,
     other_starts,
     regime_of,
 )
 from stickslip.steady_motion.stability import growth_in_a_cycle, guided
 
+from cosim.report.output import Picture, render
 from cosim.scenario import Scenario
 
 #: Length of a run after the surface has its speed, s, and in natural periods.
@@ -137,14 +140,14 @@ def _cell(parameters: Parameters, interface: Interface) -> tuple[float, float]:
         return np.nan, np.nan
 
 
-STARTS = (REST, RIDING, RAMP)
+MAPPED = (REST, RIDING, RAMP)
 #: Blocks with which the motion along the line is still that of a Coulomb oscillator.
 HARMLESS = {"lateral_friction", "structural_damping", "imperfections"}
 
 
 @dataclass(frozen=True)
 class RegimeMap:
-    """Names of regimes (3, n, m) from `STARTS`, at ratios mu_s/mu_k (n,) and speeds (m,) m/s.
+    """Names of regimes (3, n, m) from `MAPPED`, at ratios mu_s/mu_k (n,) and speeds (m,) m/s.
 
     simulated: by the model; an empty name is a run that ended early. closed_form: of the Coulomb
     oscillator with the same numbers; None where the scenario's motion is not that of one.
@@ -168,7 +171,7 @@ def regime_map(
     case: Case, ratios: np.ndarray, speeds: np.ndarray, done: Callable[[int], object]
 ) -> RegimeMap:
     """The map around a case, whose mu_k is kept; ``done`` is called with 1 after each cell."""
-    simulated = np.full((len(STARTS), len(ratios), len(speeds)), "", dtype=object)
+    simulated = np.full((len(MAPPED), len(ratios), len(speeds)), "", dtype=object)
     closed = simulated.copy()
     known = is_coulomb_oscillator(case.parameters)
     for i, ratio in enumerate(ratios):
@@ -193,7 +196,7 @@ def _with_ratio(parameters: Parameters, ratio: float) -> Parameters:
 def _simulated(parameters: Parameters, interface: Interface) -> list[str]:
     starts = other_starts(parameters)
     names = []
-    for start in STARTS:
+    for start in MAPPED:
         started = starts[start]
         try:
             names.append(regime_of(started, run_length(started), interface).name)
@@ -240,11 +243,58 @@ def belt_start(parameters: Parameters) -> BeltStart:
 
 
 def predicted(parameters: Parameters) -> list[str]:
-    """Names of the regimes from `STARTS` in closed form."""
+    """Names of the regimes from `MAPPED` in closed form."""
     start = belt_start(parameters)
     sticks = {
         REST: start.sticks_from_rest(),
         RIDING: start.sticks_riding(),
         RAMP: start.sticks_after_run_up(),
     }
-    return [STICK_SLIP if sticks[name] else SLIDING for name in STARTS]
+    return [STICK_SLIP if sticks[name] else SLIDING for name in MAPPED]
+
+
+def as_json(
+    case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
+) -> dict[str, Any]:
+    """Case and maps with plain numbers, SI; what was not computed is None."""
+    return {
+        "name": case.name,
+        **case.assessment.as_dict(),
+        "starts": STARTS,
+        "pretension_map": None
+        if stretched is None
+        else {
+            "pretensions": stretched.pretensions.tolist(),
+            "speeds": stretched.speeds.tolist(),
+            "growth": _plain(stretched.growth),
+            "sticks": _plain(stretched.sticks),
+        },
+        "regime_map": None
+        if regimes is None
+        else {
+            "ratios": regimes.ratios.tolist(),
+            "speeds": regimes.speeds.tolist(),
+            "simulated": dict(zip(MAPPED, regimes.simulated.tolist(), strict=True)),
+            "closed_form": None
+            if regimes.closed_form is None
+            else dict(zip(MAPPED, regimes.closed_form.tolist(), strict=True)),
+            "cells_that_differ": regimes.wrong,
+            "fastest_from_rest": regimes.fastest_from_rest,
+        },
+    }
+
+
+def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
+    """HTML of the numbers of `as_json`, what they say, and the maps."""
+    return render(
+        "stability.html.j2",
+        "cosim.studies.stability",
+        numbers=numbers,
+        sentences=sentences,
+        pictures=pictures,
+    )
+
+
+def _plain(table: np.ndarray) -> list[list[float | None]]:
+    """JSON has no NaN."""
+    return [[value if math.isfinite(value) else None for value in row] for row in table.tolist()]
