@@ -293,7 +293,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     "the wording of the observation tells.",
 )
 def _draw_observations(of: dict[str, Variant]):
-    figure, axes = panels(1, len(OBSERVATIONS), height=3.9, sharey=True)
+    figure, axes = panels(1, len(OBSERVATIONS), height=3.9, width=10.0, sharey=True)
     names = [variant.name for variant in of.values()]
     places = range(len(names))
     for i, (ax, o) in enumerate(zip(axes[0], OBSERVATIONS, strict=True)):
