@@ -7,23 +7,31 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 
-class Block(BaseModel):
-    """A table of parameters: unknown keys, NaN and infinities are refused."""
+class Table(BaseModel):
+    """A table of parameters: unknown keys, NaN and infinities are refused; nothing changes later.
+
+    A table that takes what TOML or JSON give for a tuple sets ``strict=False`` for itself.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
 
 def quantity(
-    default: float,
+    default: Any,
     unit: str,
     description: str,
     typical: tuple[float, float] | None = None,
     **bounds: Any,
 ) -> Any:
-    """A field with unit and description.
+    """A field with unit (`1` for none) and description.
 
-    ``bounds`` are pydantic's gt, ge, lt, le; ``typical`` is the range in which an effect shows in a
-    rig of this kind, for whoever looks for it.
+    Parameters
+    ----------
+    default : the value, or ``...`` where one must be given
+    unit : of the value, as the FMU spells it
+    description : what a reader of the schema is told
+    typical : range in which an effect shows in a rig of this kind, for whoever looks for it
+    bounds : pydantic's gt, ge, lt, le
     """
     extra: dict[str, Any] = {"unit": unit}
     if typical is not None:
