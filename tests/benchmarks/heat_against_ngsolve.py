@@ -21,9 +21,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from scipy.fft import rfft
 
-from thermal import Belt as BeltParameters
-from thermal.belt import CONTACT, Belt
-from thermal.footprint import Footprint
+from thermal import Belt
+from thermal.belt.material_frame import CONTACT, BeltField
+from thermal.contact.footprint import Footprint
 
 SPEED, DURATION, FLUX, LENGTH, H = 0.82, 2.0, 600.0, 1.0, 15.0
 ELEMENTS, CELL = 6, 1e-3
@@ -48,8 +48,8 @@ def nodal_loads(cell, cells, centre, way):
 
 
 def our_belt(elements, cell):
-    return Belt(
-        BeltParameters(length=LENGTH, cell_length=cell, elements=elements, air_heat_transfer=H),
+    return BeltField(
+        Belt(length=LENGTH, cell_length=cell, elements=elements, air_heat_transfer=H),
         FOOTPRINT.lane,
     )
 
@@ -81,7 +81,7 @@ def peer_setting(depth, cells):
     )
     space = ngs.Periodic(ngs.H1(mesh, order=1))
     u, v = space.TnT()
-    lane, parameters = FOOTPRINT.lane, BeltParameters()
+    lane, parameters = FOOTPRINT.lane, Belt()
     mass = ngs.BilinearForm(space, symmetric=True)
     mass += lane * parameters.density * parameters.heat_capacity * u * v * ngs.dx
     stiffness = ngs.BilinearForm(space, symmetric=True)

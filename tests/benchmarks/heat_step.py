@@ -15,7 +15,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.steady import settle
+from thermal.steady_state import settle
 
 FORCE, MACRO_STEP, REPEATS = 4.03, 0.01, 400
 #: Belt and ice that forget the start within 10 000 passes, and a step of whole cells.

@@ -24,9 +24,7 @@ from __future__ import annotations
 
 import math
 
-#: Water at 0 degC: density kg/m3, viscosity Pa s (IAPWS).
-WATER_DENSITY = 999.8
-VISCOSITY = 1.79e-3
+from thermal.materials import WATER_DENSITY, WATER_VISCOSITY
 
 
 class MeltFilm:
@@ -38,7 +36,7 @@ class MeltFilm:
     def __init__(self, area: float, length: float, pressure: float) -> None:
         self._area, self._length = area, length
         #: dh/dt = -squeeze h^3, 1/(m2 s); a^2 = area / pi.
-        self._squeeze = 2.0 * pressure * math.pi / (3.0 * VISCOSITY * area)
+        self._squeeze = 2.0 * pressure * math.pi / (3.0 * WATER_VISCOSITY * area)
         self.mass = 0.0
         self.squeezed = 0.0
 

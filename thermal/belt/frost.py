@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .constants import ZERO_DEGC
+from thermal.materials import ZERO_DEGC
 
 #: Of ice to vapour, J/kg; gas constant of vapour, J/(kg K).
 _SUBLIMATION, _VAPOUR = 2.834e6, 461.5

@@ -19,10 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import BilinearForm, CellBasis, ElementLineP2, FacetBasis, MeshLine
 
-from .eigenmodes import Medium, eigenmodes
-from .grading import graded
-from .parameters import Belt as BeltParameters
-from .parameters import Layer
+from thermal.eigenmodes import eigenmodes
+from thermal.grids import graded
+from thermal.materials import Medium
+
+from .parameters import Belt, Layer
 
 Array = NDArray[np.float64]
 
@@ -83,7 +84,7 @@ def _solved(layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> 
     return Thickness(layers, h, elements, lane)
 
 
-def thickness_of(belt: BeltParameters, lane: float, film: float | None = None) -> Thickness:
+def thickness_of(belt: Belt, lane: float, film: float | None = None) -> Thickness:
     """The modes of a belt; those of belts that differ in length alone are solved once.
 
     film: on its faces, W/m2K, when it is another than the belt's.

@@ -1,4 +1,4 @@
-"""Grids of quadrilaterals in the plane y = 0, as files for ParaView hold them."""
+"""Tensor grids: where their lines lie, and their quadrilaterals as files for ParaView hold them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+def graded(length: float, elements: int, stretch: float) -> Array:
+    """Element boundaries from 0 to length, m; a geometric row, last over first is `stretch`."""
+    sizes = stretch ** (np.arange(elements) / max(1, elements - 1))
+    return np.concatenate(([0.0], np.cumsum(sizes) * (length / sizes.sum())))
 
 
 def quadrilaterals(columns: int, rows: int) -> NDArray[np.int64]:

@@ -20,8 +20,9 @@ from scipy.fft import irfft, rfft
 from scipy.sparse import coo_matrix
 from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
-from .parameters import Belt as BeltParameters
-from .relaxation import LastDurations, decay, mean_decay, mean_response
+from thermal.relaxation import LastDurations, decay, mean_decay, mean_response
+
+from .parameters import Belt
 from .thickness import thickness_of
 
 Array = NDArray[np.float64]
@@ -48,7 +49,7 @@ def periodic_stiffness(cells: int, cell: float) -> Array:
     return symbol
 
 
-class Window(NamedTuple):
+class FluxPatch(NamedTuple):
     """Loads on consecutive nodes of one face: every row a place with a flux of its own.
 
     first: number of the first node, unwrapped; loads (rows, nodes), m2.
@@ -70,17 +71,17 @@ class Response(NamedTuple):
     loss_forced: Array  # (2,) J lost to the air per load of wave number 0 on a face
 
 
-class Belt:
+class BeltField:
     """Temperature field of the lane (width m) of a belt that runs under the ice.
 
     `rates` (modes, wave numbers), 1/s. `amplitudes` (modes, wave numbers), complex: real FFT
     along x of the nodes' modal amplitudes. A load is the real FFT of nodal loads in W on a face.
     """
 
-    def __init__(self, parameters: BeltParameters, lane: float) -> None:
+    def __init__(self, parameters: Belt, lane: float) -> None:
         self.cells = parameters.cells
         self.cell = parameters.length / self.cells
-        self.position = np.arange(self.cells) * self.cell
+        self.position = np.arange(self.cells, dtype=np.float64) * self.cell
         modes = thickness_of(parameters, lane)
         self.depth = modes.depth
         self._shapes, self._faces = modes.shapes, modes.faces
@@ -132,42 +133,42 @@ class Belt:
         return nodal
 
     def face_means(
-        self, duration: float, windows: Sequence[Window], response: Response | None = None
+        self, duration: float, patches: Sequence[FluxPatch], response: Response | None = None
     ) -> tuple[Array, Array]:
-        """Step-means of the faces under the windows, summed over the nodes with their loads.
+        """Step-means of the faces under the patches, summed over the nodes with their loads.
 
         Returns the means (rows,) without load, K m2, and their response (rows, rows), to fluxes
-        of 1 W/m2 on the rows; rows of all windows in a row. response: in place of the step's own.
+        of 1 W/m2 on the rows; rows of all patches in a row. response: in place of the step's own.
         """
         response = response or self.response(duration)
         free = {}
-        for face in {window.face for window in windows}:
+        for face in {patch.face for patch in patches}:
             weighted = np.einsum("mk,mk->k", response.free_mean[face], self.amplitudes)
             free[face] = irfft(weighted, self.cells)
-        nodes = [window.first + np.arange(window.loads.shape[1]) for window in windows]
+        nodes = [patch.first + np.arange(patch.loads.shape[1]) for patch in patches]
         means = [
-            window.loads @ free[window.face][node % self.cells]
-            for window, node in zip(windows, nodes, strict=True)
+            patch.loads @ free[patch.face][node % self.cells]
+            for patch, node in zip(patches, nodes, strict=True)
         ]
         blocks = [
             [
                 a.loads
                 @ response.kernels[a.face, b.face][(i[:, None] - j[None, :]) % self.cells]
                 @ b.loads.T
-                for b, j in zip(windows, nodes, strict=True)
+                for b, j in zip(patches, nodes, strict=True)
             ]
-            for a, i in zip(windows, nodes, strict=True)
+            for a, i in zip(patches, nodes, strict=True)
         ]
         return np.concatenate(means), np.block(blocks)
 
-    def load(self, windows: Sequence[Window], fluxes: Array) -> dict[int, Spectrum]:
-        """Load of each face under fluxes (rows,) W/m2 on the rows of the windows."""
+    def load(self, patches: Sequence[FluxPatch], fluxes: Array) -> dict[int, Spectrum]:
+        """Load of each face under fluxes (rows,) W/m2 on the rows of the patches."""
         nodal: dict[int, Array] = {}
         row = 0
-        for window in windows:
-            rows = len(window.loads)
-            loads = self.nodal(window.first, fluxes[row : row + rows] @ window.loads)
-            nodal[window.face] = nodal.get(window.face, 0.0) + loads
+        for patch in patches:
+            rows = len(patch.loads)
+            loads = self.nodal(patch.first, fluxes[row : row + rows] @ patch.loads)
+            nodal[patch.face] = nodal.get(patch.face, 0.0) + loads
             row += rows
         return {face: rfft(loads) for face, loads in nodal.items()}
 

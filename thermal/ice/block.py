@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from .footprint import Footprint
-from .ice import Ice
-from .ice_body import IceBody
-from .ice_mesh import MeshError
-from .parameters import ParameterError, ThermalParameters
+from thermal.contact.footprint import Footprint
+from thermal.parameters import ParameterError, ThermalParameters
+
+from .cylinder import Cylinder
+from .mesh_file import MeshError
 from .sample import Sample
 
 
-def standing_block(parameters: ThermalParameters) -> tuple[Footprint, IceBody]:
+def standing_block(parameters: ThermalParameters) -> tuple[Footprint, Cylinder | Sample]:
     """Contact and ice: a cylinder, or what a mesh file holds.
 
     A mesh's contact is taken as the rectangle of its area and breadth, as a disc's is. MeshError
@@ -19,7 +19,7 @@ def standing_block(parameters: ThermalParameters) -> tuple[Footprint, IceBody]:
     contact, belt = parameters.contact, parameters.belt
     if not parameters.ice.mesh:
         footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
-        return footprint, Ice(
+        return footprint, Cylinder(
             parameters.ice, contact.radius, footprint.arc_share, touching=footprint.touching
         )
     try:

@@ -2,7 +2,7 @@
 
 When the belt moves by whole cells in every step, a step maps temperatures onto temperatures in the
 same way each time, seen from the ice. Its fixed point follows coefficient by coefficient: with
-a' = decay a + forced p from one step, and a' = a exp(i k d) from the belt's way d, the fluxes p
+a' = decay a + forced p from one step, and a' = a exp(i k d) from the belt's travel d, the fluxes p
 that go with it solve the conditions of the contact as in any step.
 """
 
@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .constants import MELTING_POINT_DEGC
-from .contact import IceFace, exchange
+from .contact.exchange import IceFace, exchange
+from .materials import MELTING_POINT_DEGC
 from .model import BeltIceModel
 
 #: A step after which nothing changes any more, s: its mean differs from its end by the part of it
@@ -21,7 +21,7 @@ FOREVER = 1e13
 #: Rates below this are those of a belt that keeps its heat, 1/s: a year is 3e7 s.
 _KEEPS_HEAT = 1e-9
 
-#: A way is whole cells when it is so up to this part of a cell.
+#: A travel is whole cells when it is so up to this part of a cell.
 _ROUNDING = 1e-9
 
 
@@ -50,14 +50,16 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
             f"displacement = {displacement:g} m: the steady state needs whole cells of"
             f" {model.belt.cell:g} m in a step, at most {model.longest_movement:g} m"
         )
-    check_gives_heat(float(model.belt.rates[0, 0]), model.track.takes_heat)
+    check_gives_heat(float(model.belt.rates[0, 0]), model.supported_belt.takes_heat)
     parameters, area = model.parameters, model.footprint.area
     response = model.belt.periodic_response(duration, round(shift))
-    seen = model.track.see(duration, model.contact_position, -displacement, displacement, response)
+    found = model.supported_belt.step_response(
+        duration, model.contact_position, -displacement, displacement, response
+    )
     ice = model.ice.response(FOREVER)
     melting = MELTING_POINT_DEGC - parameters.ambient.temperature_degC
     fluxes = exchange(
-        seen.contact.face,
+        found.contact.face,
         IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),
         parameters.contact.conductance,
         parameters.belt.film,
@@ -69,7 +71,7 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
             f"heat = {heat:g} J in {duration:g} s: the ice face reaches the melting point and melts"
             " for ever; there is a steady state only for less friction heat"
         )
-    loads = model.belt.load(seen.windows, seen.contact.fluxes(fluxes.belt))
+    loads = model.belt.load(found.patches, found.contact.fluxes(fluxes.belt))
     model.belt.amplitudes[:] = sum(response.forced[face] * load for face, load in loads.items())
     model.ice.amplitudes[:] = ice.forced * (fluxes.ice * area)
     model.ledger.restore(np.zeros_like(model.ledger.array()))

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
-from .eigenmodes import Medium
-from .grading import graded
-from .grid import grid_points, quadrilaterals
-from .ice_body import IceBody
-from .ice_space import Body
-from .parameters import Ice as IceParameters
+from thermal.grids import graded, grid_points, quadrilaterals
+from thermal.materials import Medium
+
+from .body import IceBody
+from .parameters import Ice
+from .space import Body
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def _radii(radius: float, elements: int, touching: float | None) -> Array:
 
 
 def assembled(
-    parameters: IceParameters,
+    parameters: Ice,
     r: Array,
     z: Array,
     arc_share: Callable[[Array], Array] = np.ones_like,
@@ -79,7 +79,7 @@ def assembled(
     )
 
 
-class Ice(IceBody):
+class Cylinder(IceBody):
     """Temperature field of the cylinder; `amplitudes` (modes,).
 
     arc_share: share of the circle of radius r on which the ice touches the belt; `touching`: its
@@ -90,7 +90,7 @@ class Ice(IceBody):
 
     def __init__(
         self,
-        parameters: IceParameters,
+        parameters: Ice,
         radius: float,
         arc_share: Callable[[Array], Array] = np.ones_like,
         touching: float | None = None,
@@ -114,7 +114,7 @@ class Ice(IceBody):
     @property
     def z(self) -> Array:
         """Heights of the nodes above the face, m: (heights,)."""
-        return self._z * self.shrink
+        return self._z * self.height_ratio
 
     def field(self) -> Array:
         """Temperature rise at all nodes, K: (radii, heights) on the grid `r` x `z`."""

@@ -7,7 +7,7 @@ through the contact, and g the flux into the ice, all constant over the step and
     q_j = s f + h (T_ice - T_j),        mean(q) + g + m = f,
 
 m the flux that melts ice; the strips have equal areas. The temperatures are means over the step
-of the faces, averaged over each strip and over its way, so the conditions are the Galerkin
+of the faces, averaged over each strip and over its travel, so the conditions are the Galerkin
 equations of the diffusive responses, which are symmetric and positive: no step and no conductance
 makes the scheme unstable. h to infinity leaves T_j = T_ice, perfect contact. The second equation
 is what makes every joule arrive.
@@ -78,7 +78,7 @@ def _belt_fluxes(
     ice_temperature: float,
     ice_response: float,
     own: float,
-) -> tuple:
+) -> tuple[Array, Array]:
     """Solve the strips for an ice face at ice_temperature - ice_response * mean(q).
 
     own: friction heat that arises on the belt's face, W/m2.

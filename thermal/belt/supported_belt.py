@@ -9,22 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
 
-from .belt import BACK, CONTACT, Belt, Response, Window
-from .footprint import Footprint, strip_loads
-from .parameters import Belt as BeltParameters
-from .sinks import Eliminated, each_strip, eliminate, supports
+from thermal.contact.footprint import Footprint, strip_loads
+
+from .material_frame import BACK, CONTACT, BeltField, FluxPatch, Response
+from .parameters import Belt
+from .supports import Eliminated, each_strip, eliminate, supports
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Seen:
+class StepResponse:
     """The belt as a step finds it: places, their step-means without flux, their response.
 
     rubbed: friction heat that enters the belt from its railing in the step, J.
     """
 
-    windows: list[Window]
+    patches: list[FluxPatch]
     free: Array
     response: Array
     contact: Eliminated
@@ -32,7 +33,7 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class Given:
+class HeatGiven:
     """Heat that the belt gave away in a step, J: to the air and to its supports.
 
     What warm rollers give to the belt counts as negative; what the belt's rubbing makes does not
@@ -43,11 +44,11 @@ class Given:
     to_supports: float
 
 
-class Track:
+class SupportedBelt:
     """`belt` and its supports; all of them stand still while the belt runs."""
 
-    def __init__(self, parameters: BeltParameters, footprint: Footprint) -> None:
-        self.belt = Belt(parameters, footprint.lane)
+    def __init__(self, parameters: Belt, footprint: Footprint) -> None:
+        self.belt = BeltField(parameters, footprint.lane)
         self._footprint = footprint
         self._supports = supports(parameters, footprint.length / footprint.strips, footprint.lane)
         self._air = parameters.film
@@ -66,23 +67,23 @@ class Track:
         """Does a support take heat?"""
         return bool(np.any(self._conductances > 0.0))
 
-    def see(
+    def step_response(
         self,
         duration: float,
         centre: float,
         movement: float,
         travel: float,
         belt: Response | None = None,
-    ) -> Seen:
+    ) -> StepResponse:
         """What a step of some duration (s) finds, the contact moving from `centre` (m).
 
-        travel: way of the belt over its supports, m, signed. belt: how it responds, when not as to
+        travel: of the belt over its supports, m, signed. belt: how it responds, when not as to
         a step.
         """
         cell = self.belt.cell
-        windows = [Window(CONTACT, *self._footprint.loads(centre, movement, cell))]
-        windows += [
-            Window(
+        patches = [FluxPatch(CONTACT, *self._footprint.loads(centre, movement, cell))]
+        patches += [
+            FluxPatch(
                 BACK,
                 *strip_loads(
                     support.edges, self._footprint.lane, centre + support.behind, movement, cell
@@ -90,7 +91,7 @@ class Track:
             )
             for support in self._supports
         ]
-        means, response = self.belt.face_means(duration, windows, belt)
+        means, response = self.belt.face_means(duration, patches, belt)
         free, response = means / self._areas, response / self._areas[:, None]
         rubbing = self._drags * (abs(travel) / duration)
         contact = eliminate(
@@ -100,29 +101,29 @@ class Track:
             self._conductances * self._rises + rubbing,
         )
         rubbed = duration * float(rubbing @ self._areas[self._footprint.strips :])
-        return Seen(windows, free, response, contact, rubbed)
+        return StepResponse(patches, free, response, contact, rubbed)
 
     def advance(
         self,
         duration: float,
-        seen: Seen,
+        found: StepResponse,
         contact: Array,
         freezing: Callable[[Array, float], Array] | None = None,
-    ) -> Given:
-        """Advance by a step that was `seen`, with the fluxes of the contact's strips, W/m2.
+    ) -> HeatGiven:
+        """Advance by a step that was `found`, with the fluxes of the contact's strips, W/m2.
 
         freezing: power into the contact face (cells,) W per node, from what that face would be
         at the step's end without it, K (cells,), and its rise for 1 W on every node, K/W.
         """
-        fluxes = seen.contact.fluxes(contact)
-        loads = self.belt.load(seen.windows, fluxes)
+        fluxes = found.contact.fluxes(contact)
+        loads = self.belt.load(found.patches, fluxes)
         if freezing is not None:
             power = freezing(*self.belt.face_after(duration, loads))
             loads[CONTACT] = loads[CONTACT] + rfft(power)
         everywhere = self.belt.advance(duration, loads)
-        times = duration * self._areas * (seen.free + seen.response @ fluxes)
+        times = duration * self._areas * (found.free + found.response @ fluxes)
         own = self._footprint.strips
-        return Given(
+        return HeatGiven(
             everywhere - self._air * float(times.sum()),
             float(self._conductances @ (times[own:] - duration * self._areas[own:] * self._rises)),
         )

@@ -19,8 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import BeltFace
-from .parameters import Belt as BeltParameters
+from thermal.contact.exchange import BeltFace
+
+from .parameters import Belt
 
 Array = NDArray[np.float64]
 
@@ -50,7 +51,7 @@ def each_strip(supports: Sequence[Support], value: Callable[[Support], float]) -
     return np.concatenate([np.zeros(0)] + [np.full(s.strips, value(s)) for s in supports])
 
 
-def supports(belt: BeltParameters, strip: float, lane: float) -> list[Support]:
+def supports(belt: Belt, strip: float, lane: float) -> list[Support]:
     """All supports of a belt, cut into strips not longer than `strip` (m); lane: its width, m."""
 
     def cut(length: float) -> Array:
@@ -102,7 +103,7 @@ def eliminate(free: Array, response: Array, excess: Array, given: Array) -> Elim
     matrix = np.eye(excess.size) + excess[:, None] * response[contact:, contact:]
     right = excess[:, None] * np.column_stack((free[contact:], response[contact:, :contact]))
     right[:, 0] -= given
-    solved = np.linalg.solve(matrix, right)
+    solved = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     own, answer = solved[:, 0], solved[:, 1:]
     across = response[:contact, contact:]
     return Eliminated(

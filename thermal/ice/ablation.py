@@ -18,13 +18,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import Fluxes, IceFace
-from .ice_body import IceBody
-from .parameters import Ice as IceParameters
+from thermal.contact.exchange import Fluxes, IceFace
+
+from .body import IceBody
+from .parameters import Ice
 
 Array = NDArray[np.float64]
 
-#: Longest way that the face recedes in an internal step, m: the iteration then contracts.
+#: Largest recession of the face in an internal step, m: the iteration then contracts.
 LONGEST_RECESSION = 2e-5
 
 _MOST_ITERATIONS = 60
@@ -33,7 +34,7 @@ _MOST_ITERATIONS = 60
 _RELATIVE, _ABSOLUTE = 1e-11, 1e-17
 
 
-def melt_heat(ice: IceParameters, melting: float) -> float:
+def melt_heat(ice: Ice, melting: float) -> float:
     """Heat that melting takes from ice of the air's temperature, J/kg; melting: K above the air."""
     return ice.latent_heat + ice.heat_capacity * melting
 
@@ -52,9 +53,7 @@ class Ablation:
     `speed`: of the face in the last step, m/s, where the next iteration starts; `melt_heat` J/kg.
     """
 
-    def __init__(
-        self, ice: IceBody, parameters: IceParameters, area: float, melting: float
-    ) -> None:
+    def __init__(self, ice: IceBody, parameters: Ice, area: float, melting: float) -> None:
         self._ice, self._area, self._melting = ice, area, melting
         self.melt_heat = melt_heat(parameters, melting)
         self._volume_heat = parameters.density * self.melt_heat

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .parameters import ParameterError
+from thermal.parameters import ParameterError
 
 Array = NDArray[np.float64]
 Cells = NDArray[np.int64]

@@ -7,15 +7,16 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from thermal.belt.material_frame import BeltField
+from thermal.contact.belt_water import BeltWater
+from thermal.contact.exchange import Fluxes, IceFace
+from thermal.contact.footprint import Footprint
+from thermal.contact.melt_film import MeltFilm
+from thermal.materials import GRAVITY
+from thermal.parameters import ThermalParameters
+
 from .ablation import Ablation, Receding
-from .belt import Belt
-from .belt_water import BeltWater
-from .constants import GRAVITY
-from .contact import Fluxes, IceFace
-from .footprint import Footprint
-from .ice_body import IceBody
-from .melt_film import MeltFilm
-from .parameters import ThermalParameters
+from .body import IceBody
 
 Array = NDArray[np.float64]
 
@@ -32,7 +33,7 @@ class Meltwater:
         parameters: ThermalParameters,
         footprint: Footprint,
         ice: IceBody,
-        belt: Belt,
+        belt: BeltField,
         melting: float,
     ) -> None:
         of_ice, contact = parameters.ice, parameters.contact

@@ -1,12 +1,12 @@
-"""Temperature of belt and ice as one file series that ParaView opens.
+"""Temperature of belt and ice as somebody beside the rig sees it: arrays, and files for ParaView.
 
-One VTU file (written by meshio) for each time and a PVD collection that names them. A file
-appears under its name only when it is complete and the collection is replaced as a whole, so
-whatever interrupts a run, what was written before stays readable.
+x = 0 is the centre of the contact, z = 0 the contact face, metres. The belt lies below (the loop
+cut opposite the contact, its temperatures interpolated linearly to this frame), the ice stands
+above: of a cylinder the section through its axis, of a sample all of it.
 
-Seen from the rig: x = 0 is the centre of the contact, z = 0 the contact face, metres. The belt
-lies below (the loop cut opposite the contact, its temperatures interpolated linearly to this
-frame), the ice stands above: of a cylinder the section through its axis, of a sample all of it.
+The series of files is one VTU file (written by meshio) for each time and a PVD collection that
+names them. A file appears under its name only when it is complete and the collection is replaced
+as a whole, so whatever interrupts a run, what was written before stays readable.
 """
 
 from __future__ import annotations
@@ -14,17 +14,53 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import meshio
 import numpy as np
 from numpy.typing import NDArray
 
-from .grid import grid_points, quadrilaterals
+from .grids import grid_points, quadrilaterals
 from .model import BeltIceModel
-from .rig_view import seen_belt
 
 Array = NDArray[np.float64]
+
+
+class RigView(NamedTuple):
+    """Temperatures at one time, degC.
+
+    offset (n,) m along the belt's motion, n covering the loop cut opposite the contact; depth (d,)
+    m below the contact face; belt (n, d). x (m,) m, height (h,) m above the face; ice (m, h) of
+    the section y = 0, NaN outside the ice. contact: its length along the belt, m.
+    """
+
+    offset: Array
+    depth: Array
+    belt: Array
+    x: Array
+    height: Array
+    ice: Array
+    contact: float
+
+
+def seen_belt(model: BeltIceModel) -> tuple[Array, Array]:
+    """Offset (n,) m and temperature (n, depths) degC, interpolated linearly to the rig."""
+    cells, cell = model.belt.cells, model.belt.cell
+    offset = (np.arange(cells + 1, dtype=np.float64) - cells / 2) * cell
+    _, _, field = model.belt_field()
+    place = (model.contact_position + offset) / cell
+    node = np.floor(place).astype(np.int64)
+    part = (place - node)[:, None]
+    return offset, (1.0 - part) * field[node % cells] + part * field[(node + 1) % cells]
+
+
+def rig_view(model: BeltIceModel) -> RigView:
+    """What the model holds now."""
+    offset, belt = seen_belt(model)
+    x, height, rise = model.ice.section()
+    ice = model.parameters.ambient.temperature_degC + rise
+    return RigView(offset, model.belt.depth, belt, x, height, ice, model.footprint.length)
 
 
 class FieldSeries:

@@ -1,7 +1,7 @@
 """A standing block of ice as eigenmodes: warmed at its contact face, cooled by the air, melting.
 
 Its Galerkin space is diagonalised, so a constant flux is advanced exactly, whatever the step.
-Melting lowers the block (see `ice_space`). Within a step the ice sinks at a constant speed and the
+Melting lowers the block (see `space`). Within a step the ice sinks at a constant speed and the
 heat that this moves is a constant load, taken at the mean of the temperatures at the step's ends:
 second order in the step. The modes belong to one height; they are formed anew when the present one
 is off by `_TOLERANCE` of itself. Temperatures are rises above the air.
@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from .ice_space import IceSpace
-from .relaxation import LastDurations, decay, mean_decay, mean_response
+from thermal.relaxation import LastDurations, decay, mean_decay, mean_response
+
+from .space import IceSpace
 
 Array = NDArray[np.float64]
 
@@ -50,14 +51,14 @@ class Response(NamedTuple):
     loss_forced: float  # J lost to the air for load 1 W on the contact
 
 
-def _modes(space: IceSpace, shrink: float) -> tuple[Array, Array]:
+def _modes(space: IceSpace, height_ratio: float) -> tuple[Array, Array]:
     """Rates (n,) 1/s and shapes (n, n) in the trial space, shapes^T capacity shapes = 1.
 
     A dense eigensolver errs by rounding times the fastest rate, which over long runs is not small
     against the slowest. A Rayleigh-Ritz step with the form's factor among the slowest modes, and
     Rayleigh quotients for all, err by rounding.
     """
-    factor = space.factor(shrink)
+    factor = space.factor(height_ratio)
     shapes = eigh(factor.T @ factor, space.capacity)[1]
     slow = shapes[:, :_SLOWEST]
     powers = factor @ slow
@@ -81,17 +82,17 @@ class IceBody:
 
     def _diagonalise(self) -> None:
         """Modes of the present height."""
-        space, shrink = self.space, self.shrink
-        self.rates, self._shapes = _modes(space, shrink)
+        space, height_ratio = self.space, self.height_ratio
+        self.rates, self._shapes = _modes(space, height_ratio)
         self._face = space.contact @ self._shapes
         self._heat = space.heat @ self._shapes
-        self._air = space.air(shrink) @ self._shapes
+        self._air = space.air(height_ratio) @ self._shapes
         self._sinking = self._shapes.T @ space.sinking @ self._shapes
         self.response = LastDurations(self._response)
 
     @property
-    def shrink(self) -> float:
-        """Present height over the first, J."""
+    def height_ratio(self) -> float:
+        """Present height over that at the start, J of `space`: 1 until ice melts."""
         return 1.0 - self.melted_depth / self.space.height
 
     def _response(self, duration: float) -> Response:
@@ -118,7 +119,7 @@ class IceBody:
         recession: how far the face recedes in the step, m.
         """
         response = self.response(duration)
-        middle, end = self._shrinks(recession)
+        middle, end = self._height_ratios(recession)
         return response.face_mean / middle, response.face_end / end
 
     def free_face(
@@ -133,13 +134,13 @@ class IceBody:
         if sinking is not None:
             mean = mean + response.held_mean * sinking
             end = end + response.held * sinking
-        shrunk_middle, shrunk_end = self._shrinks(recession)
-        return float(self._face @ mean) / shrunk_middle, float(self._face @ end) / shrunk_end
+        ratio_middle, ratio_end = self._height_ratios(recession)
+        return float(self._face @ mean) / ratio_middle, float(self._face @ end) / ratio_end
 
-    def _shrinks(self, recession: float) -> tuple[float, float]:
-        """J in the middle and at the end of a step."""
+    def _height_ratios(self, recession: float) -> tuple[float, float]:
+        """Height ratios in the middle and at the end of a step in which the face recedes (m)."""
         part = recession / self.space.height
-        return self.shrink - 0.5 * part, self.shrink - part
+        return self.height_ratio - 0.5 * part, self.height_ratio - part
 
     def sinking(
         self, duration: float, recession: float, load: float, before: Array | None = None
@@ -149,7 +150,7 @@ class IceBody:
         load: W on the contact; before: an estimate of what is returned.
         """
         end = self._after(duration, load, before)
-        speed = recession / (duration * self._shrinks(recession)[0])
+        speed = recession / (duration * self._height_ratios(recession)[0])
         return speed * (self._sinking @ (0.5 * (self.amplitudes + end)))
 
     def _after(self, duration: float, load: float, sinking: Array | None) -> Array:
@@ -177,7 +178,7 @@ class IceBody:
 
     def _recede(self, depth: float) -> None:
         self.melted_depth += depth
-        if self.shrink < _LEAST_HEIGHT:
+        if self.height_ratio < _LEAST_HEIGHT:
             raise IceMelted(
                 f"the ice has melted: of its {self.space.height:g} m less than"
                 f" {_LEAST_HEIGHT * self.space.height:g} m are left"
@@ -206,11 +207,11 @@ class IceBody:
 
     def face(self) -> float:
         """Mean temperature rise of the contact face, K."""
-        return float(self._face @ self.amplitudes) / self.shrink
+        return float(self._face @ self.amplitudes) / self.height_ratio
 
     def nodal(self) -> Array:
         """Temperature rise at the degrees of freedom, K: (N,)."""
-        return self.space.trial @ (self._shapes @ self.amplitudes) / self.shrink
+        return self.space.trial @ (self._shapes @ self.amplitudes) / self.height_ratio
 
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy."""

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .constants import GRAVITY
+from thermal.materials import GRAVITY
 
 
 @dataclass(frozen=True)

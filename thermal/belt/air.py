@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 
-from .constants import GRAVITY, ZERO_DEGC
+from thermal.materials import GRAVITY, ZERO_DEGC
 
 #: Nu_x / sqrt(Re_x) on a continuous moving belt, air (Pr = 0.7).
 SAKIADIS_AIR = 0.3492

@@ -17,10 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .footprint import Footprint
-from .parameters import Belt as BeltParameters
-from .relaxation import decay, mean_decay, mean_response
-from .sinks import Eliminated, each_strip, eliminate, supports
+from thermal.contact.footprint import Footprint
+from thermal.relaxation import decay, mean_decay, mean_response
+
+from .parameters import Belt
+from .supports import Eliminated, each_strip, eliminate, supports
 from .thickness import thickness_of
 
 Array = NDArray[np.float64]
@@ -43,18 +44,16 @@ class BeltSeries:
     """Temperature of a belt that runs under a contact; `amplitudes` (modes, numbers), complex.
 
     waves: of the series along the loop; left out, two cells of the belt make the shortest.
-    `rubbing`, `warmth`: part of the railing's friction heat, and of the rollers' rise, that acts;
-    the answer is linear in both.
+    `railing_heat_factor`, `roller_rise_factor`: part of the railing's friction heat, and of the
+    rollers' rise, that acts; the temperatures are linear in both.
     """
 
-    def __init__(
-        self, belt: BeltParameters, footprint: Footprint, waves: int | None = None
-    ) -> None:
+    def __init__(self, belt: Belt, footprint: Footprint, waves: int | None = None) -> None:
         self._belt, self._lane, self.strips = belt, footprint.lane, footprint.strips
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
         self._wave = 2.0 * np.pi / belt.length * number
         self._weight = np.where(number == 0, 1.0, 2.0)
-        self.rubbing = self.warmth = 1.0
+        self.railing_heat_factor = self.roller_rise_factor = 1.0
         self._supports = supports(belt, footprint.length / footprint.strips, footprint.lane)
         self._place_rows(footprint)
         self._diagonalise(belt.film)
@@ -89,7 +88,7 @@ class BeltSeries:
         if film != self.film:
             nodal = self._modes.shapes @ self.amplitudes
             self._diagonalise(film)
-            self.amplitudes = np.linalg.solve(self._modes.shapes, nodal)
+            self.amplitudes[:] = np.linalg.solve(self._modes.shapes, nodal)
 
     def _respond(self, duration: float, speed: float) -> Response:
         x = (self._rates + 1j * speed * self._wave) * duration
@@ -105,11 +104,12 @@ class BeltSeries:
                 )
         return Response(decay(x), mean, mean * (duration / length), rows / self._areas[:, None])
 
-    def see(self, duration: float, speed: float) -> Eliminated:
+    def step_response(self, duration: float, speed: float) -> Eliminated:
         """The belt as the contact finds it in a step (s) at a speed (m/s)."""
         response = self.response(duration, speed)
-        given = self.warmth * self._conductances * self._rises + self.rubbing * self._drags * abs(
-            speed
+        given = (
+            self.roller_rise_factor * self._conductances * self._rises
+            + self.railing_heat_factor * self._drags * abs(speed)
         )
         return eliminate(
             self._means(response.mean * self.amplitudes),

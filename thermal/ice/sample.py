@@ -16,17 +16,18 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
 from skfem import CellBasis, ElementTetP2, FacetBasis, MeshTet
 
+from thermal.grids import graded
+from thermal.materials import Medium
+
 from .base_layers import cut_at_base, layer_height
-from .eigenmodes import Medium
-from .grading import graded
-from .ice_body import IceBody
-from .ice_mesh import FLAT, MeshError, read_sample
-from .ice_space import Body
+from .body import IceBody
 from .krylov import response_space
-from .parameters import Ice as IceParameters
-from .section import section
+from .mesh_file import FLAT, MeshError, read_sample
+from .parameters import Ice
+from .space import Body
 
 Array = NDArray[np.float64]
 
@@ -41,6 +42,9 @@ _QUADRATURE = 5
 
 #: Places across and upwards at which the section is seen, and how they crowd at the base.
 _ACROSS, _UP, _CROWDED = 81, 40, 300.0
+
+#: Barycentric coordinates that are negative by rounding are zero.
+_ROUNDING = 1e-9
 
 #: A facet whose normal has more than this upwards counts as top.
 _UPWARDS = np.sqrt(0.5)
@@ -60,10 +64,10 @@ class Sample(IceBody):
 
     belt_width: m. `area` m2 of the contact, `breadth` m of the base across the belt. `points`
     (nodes, 3) m and `cells` (cells, 4): the mesh with its layers. `r`: places x of the section, m.
-    MeshError: see `ice_mesh`.
+    MeshError: see `mesh_file`.
     """
 
-    def __init__(self, parameters: IceParameters, file: str | Path, belt_width: float) -> None:
+    def __init__(self, parameters: Ice, file: str | Path, belt_width: float) -> None:
         points, cells = layered(*read_sample(file))
         if len(cells) > MOST_CELLS:
             raise MeshError(
@@ -89,7 +93,7 @@ class Sample(IceBody):
         self._points = points
         self.r = np.linspace(points[:, 0].min(), points[:, 0].max(), _ACROSS)
         self._z = graded(float(high), _UP, _CROWDED)
-        self._section = section(body.basis, self.r, self._z)
+        self._section = _evaluation(body.basis, self.r, self._z)
 
     #: What `cells` are, in meshio's words.
     cell_type = "tetra"
@@ -97,12 +101,12 @@ class Sample(IceBody):
     @property
     def points(self) -> Array:
         """Nodes of the mesh at its present height, m: (nodes, 3)."""
-        return self._points * [1.0, 1.0, self.shrink]
+        return self._points * [1.0, 1.0, self.height_ratio]
 
     @property
     def z(self) -> Array:
         """Heights above the face at which the section is seen, m: (heights,)."""
-        return self._z * self.shrink
+        return self._z * self.height_ratio
 
     def field(self) -> Array:
         """Temperature rise in the plane y = 0 at `r` by `z`, K; NaN outside: (n, heights)."""
@@ -119,9 +123,7 @@ class Sample(IceBody):
         return self.nodal()[self.basis.nodal_dofs[0]]
 
 
-def assembled(
-    parameters: IceParameters, points: Array, cells: NDArray[np.int64], half: float
-) -> Body:
+def assembled(parameters: Ice, points: Array, cells: NDArray[np.int64], half: float) -> Body:
     """P2 elements of a mesh on a belt that covers |y| <= half (m)."""
     height = float(points[:, 2].max())
     mesh = MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(cells.T)).with_boundaries(
@@ -145,3 +147,36 @@ def assembled(
         measure=lambda x: 1.0 + 0.0 * x[0],
         height=height,
     )
+
+
+def _evaluation(basis: CellBasis, x: Array, z: Array) -> csr_matrix:
+    """Evaluation (x.size * z.size, N) on the grid of x by z (m) in the plane y = 0.
+
+    Rows of grid points outside the mesh are empty.
+    """
+    grid = np.stack(np.meshgrid(x, [0.0], z, indexing="ij"), axis=-1).reshape(-1, 3)
+    corners = basis.mesh.p[:, basis.mesh.t].transpose(2, 1, 0)
+    y = corners[:, :, 1]
+    # from the last to the first: of the cells that share a point, the first one gives its value
+    of_point = np.full(len(grid), -1)
+    local = np.zeros((3, len(grid)))
+    for cell in np.flatnonzero((y.min(axis=1) <= 0.0) & (y.max(axis=1) >= 0.0))[::-1]:
+        near, inner = _inside(grid, corners[cell])
+        of_point[near], local[:, near] = cell, inner
+    found = np.flatnonzero(of_point >= 0)
+    dofs = basis.element_dofs[:, of_point[found]]
+    weights = [basis.elem.lbasis(local[:, found], i)[0] for i in range(len(dofs))]
+    return csr_matrix(
+        (np.concatenate(weights), (np.tile(found, len(dofs)), dofs.ravel())),
+        shape=(len(grid), basis.N),
+    )
+
+
+def _inside(grid: Array, corners: Array) -> tuple[NDArray[np.intp], Array]:
+    """Which grid points lie in a tetrahedron (4, 3), and their local coordinates (3, k)."""
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    slack = _ROUNDING * (high - low)
+    near = np.flatnonzero(np.all((grid >= low - slack) & (grid <= high + slack), axis=1))
+    inner = np.linalg.solve((corners[1:] - corners[0]).T, (grid[near] - corners[0]).T)
+    inside = (inner.min(axis=0, initial=1.0) >= -_ROUNDING) & (inner.sum(axis=0) <= 1.0 + _ROUNDING)
+    return near[inside], inner[:, inside]

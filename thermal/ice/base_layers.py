@@ -9,6 +9,8 @@ elements err by 0.07 % of the face's rise, layers cut at a third by 0.16 %, at a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -60,7 +62,7 @@ def cut_at_base(points: Array, cells: Cells, base: Nodes) -> tuple[Array, Cells]
     return np.concatenate((points, start + CUT * (end - start))), np.concatenate(pieces)
 
 
-def _prisms(one, other) -> Cells:
+def _prisms(one: Sequence[Cells], other: Sequence[Cells]) -> Cells:
     """Prisms between two triangles, each three arrays (k,) of nodes, as tetrahedra (3 k, 4).
 
     The diagonal of a side leaves from its lowest node, so that neighbours agree (Dompierre,

@@ -1,10 +1,11 @@
 """The ice as a Galerkin space: everything that its temperature obeys, as small dense arrays.
 
 The block loses height at its contact face when it melts. Its coordinate upwards is therefore
-zeta = z H0/H, which runs from 0 to the height H0 at the start while the block is H = J H0 high, and
-the unknown is U = J u, the heat in a volume of the mesh over its capacity (u the temperature rise
-above the air). The ice above sinks through the mesh towards the face, at the speed
--V share (1 - zeta/H0) for a face that recedes by V, so that the conservative form reads
+zeta = z H0/H, which runs from 0 to the height H0 at the start while the block is H = J H0 high: J,
+the height ratio, is the Jacobian of the map from the mesh to the block. The unknown is U = J u, the
+heat in a volume of the mesh over its capacity (u the temperature rise above the air). The ice above
+sinks through the mesh towards the face, at the speed -V share (1 - zeta/H0) for a face that recedes
+by V, so that the conservative form reads
 
     d/dt int C U v = - int (k grad_across U . grad_across v + k/J^2 U_zeta v_zeta)
                      - int_side h U v - 1/J int_top h U v
@@ -20,7 +21,7 @@ rounding relative to themselves, not to the fastest rate.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,7 @@ from numpy.typing import NDArray
 from scipy.sparse import spmatrix
 from skfem import BilinearForm, CellBasis, FacetBasis, LinearForm
 
-from .eigenmodes import Medium
+from thermal.materials import Medium
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -62,15 +63,15 @@ class IceSpace:
     area: float
     whole_capacity: float
 
-    def factor(self, shrink: float) -> Array:
-        """Factor (up to 4 n, n) of everything that takes heat away, at J = shrink."""
+    def factor(self, height_ratio: float) -> Array:
+        """Factor (up to 4 n, n) of everything that takes heat away, at that height ratio."""
         return np.concatenate(
-            (self.across, self.upwards / shrink, self.side, self.top / np.sqrt(shrink))
+            (self.across, self.upwards / height_ratio, self.side, self.top / np.sqrt(height_ratio))
         )
 
-    def air(self, shrink: float) -> Array:
-        """Heat (n,) to the air at J = shrink, W/K."""
-        return self.side_air + self.top_air / shrink
+    def air(self, height_ratio: float) -> Array:
+        """Heat (n,) to the air at that height ratio, W/K."""
+        return self.side_air + self.top_air / height_ratio
 
 
 @dataclass(frozen=True)
@@ -183,7 +184,9 @@ def _chunks(count: int) -> Iterator[slice]:
     return (slice(start, start + _CHUNK) for start in range(0, count, _CHUNK))
 
 
-def _gradients(basis: CellBasis, weight: Array, components, trial: Array) -> Iterator[Array]:
+def _gradients(
+    basis: CellBasis, weight: Array, components: Iterable[int], trial: Array
+) -> Iterator[Array]:
     """Rows g of some components of the gradient with g . g the power that they conduct, W."""
     root = np.sqrt(weight)
     for part in _chunks(weight.shape[0]):
@@ -204,5 +207,5 @@ def _factor(rows: Iterator[Array], columns: int) -> Array:
     for block in rows:
         factor = np.concatenate((factor, block))
         if len(factor) > columns:
-            factor = np.linalg.qr(factor, mode="r")
+            factor = np.asarray(np.linalg.qr(factor, mode="r"))
     return factor
