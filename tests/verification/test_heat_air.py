@@ -80,7 +80,7 @@ def fukusako(t):
 
 @pytest.mark.parametrize("temperature", [-16.0, -8.0, -1.0])
 def test_the_ice_of_a_temperature_is_that_of_another_review(temperature):
-    """Yen's fits, which `Ice.at` takes, beside Fukusako's: conductivities are 6.5 % apart at most."""
+    """Yen's fits, which `Ice.at` takes, beside Fukusako's: conductivities at most 6.5 % apart."""
     ice, other = Ice.at(temperature), fukusako(temperature)
     assert ice.heat_capacity == pytest.approx(other["heat_capacity"], rel=0.02)
     assert ice.conductivity == pytest.approx(other["conductivity"], rel=0.07)
