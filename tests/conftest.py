@@ -28,3 +28,16 @@ def shared():
         return path
 
     return find
+
+
+@pytest.fixture(scope="session")
+def home(tmp_path_factory):
+    """A folder in which examples leave what they make, once for all of them."""
+    return tmp_path_factory.mktemp("home")
+
+
+@pytest.fixture
+def at_home(home, monkeypatch):
+    """Work as a user does, in a folder of one's own: nothing is left in the checkout's."""
+    monkeypatch.chdir(home)
+    return home
