@@ -177,10 +177,6 @@ class BeltIceModel:
         """Position (cells,) m, depth (depths,) m below the contact face, degC (cells, depths)."""
         return self.belt.position, self.belt.depth, self._ambient + self.belt.field()
 
-    def ice_field(self) -> tuple[Array, Array, Array]:
-        """Radius (radii,) m, height (heights,) m, temperature (radii, heights) degC."""
-        return self.ice.r, self.ice.z, self._ambient + self.ice.field()
-
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy; its length depends on the mesh."""
         return np.concatenate(
