@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_COUETTE, P_FLOODED, P_NORMAL_FORCE, P_RADIUS, P_ROUGHNESS
 
-from thermal.melt_film import WATER_DENSITY
+from thermal.materials import WATER_DENSITY
 
 from .blocks import mechanics_of, value_of
 from .phases import SLIP
