@@ -217,7 +217,7 @@ def film_of(dataset: xr.Dataset) -> Film:
 
 def _fed(dataset: xr.Dataset) -> Array:
     """Melt rate times residence: what a film is that no water comes back to, m."""
-    from thermal.melt_film import WATER_DENSITY
+    from thermal.materials import WATER_DENSITY
 
     lane = min(2.0 * value_of(dataset, "rig", "contact_radius"), value_of(dataset, "belt", "width"))
     if value_of(dataset, "ice", "mesh"):

@@ -12,10 +12,10 @@ from typing import Self
 
 from pydantic import model_validator
 
-from .block import Block, quantity
+from .quantity import Table, quantity
 
 
-class LateralFriction(Block):
+class LateralFriction(Table):
     """Friction along the local relative velocity: lateral and spin components."""
 
     ratio: float = quantity(
@@ -29,7 +29,7 @@ class LateralFriction(Block):
     )
 
 
-class TurningSurface(Block):
+class TurningSurface(Table):
     """The surface is a turning slab: its speed varies over the disc and has a lateral part."""
 
     curvature: float = quantity(
@@ -42,7 +42,7 @@ class TurningSurface(Block):
     )
 
 
-class StaticStrengthening(Block):
+class StaticStrengthening(Table):
     """Static friction grows with the time at rest: with its logarithm, or up to a limit."""
 
     rate: float = quantity(
@@ -59,7 +59,7 @@ class StaticStrengthening(Block):
     )
 
 
-class VelocityWeakening(Block):
+class VelocityWeakening(Table):
     """Kinetic friction falls with the local sliding speed."""
 
     linear: float = quantity(
@@ -79,7 +79,7 @@ class VelocityWeakening(Block):
     )
 
 
-class FilmDrag(Block):
+class FilmDrag(Table):
     """Friction grows with the sliding speed: a film of melt or water is sheared."""
 
     coefficient: float = quantity(
@@ -94,7 +94,7 @@ class FilmDrag(Block):
     )
 
 
-class ThermalWeakening(Block):
+class ThermalWeakening(Table):
     """Kinetic friction falls as friction heat gathers at the interface, and recovers in time."""
 
     per_joule: float = quantity(
@@ -108,7 +108,7 @@ class ThermalWeakening(Block):
     )
 
 
-class RunIn(Block):
+class RunIn(Table):
     """Kinetic friction drifts with the distance slid: wear, polishing, wetting."""
 
     change: float = quantity(
@@ -119,7 +119,7 @@ class RunIn(Block):
     )
 
 
-class SpringHardening(Block):
+class SpringHardening(Table):
     """Springs stiffen with their extension, or with its change since then: a cubic term."""
 
     cubic: float = quantity(
@@ -130,7 +130,7 @@ class SpringHardening(Block):
     )
 
 
-class StructuralDamping(Block):
+class StructuralDamping(Table):
     """A viscous force against the frame."""
 
     coefficient: float = quantity(
@@ -156,7 +156,7 @@ def _second_phase():
     return quantity(0.0, "deg", "phase of the second harmonic where that of the first is nothing")
 
 
-class SpeedRipple(Block):
+class SpeedRipple(Table):
     """The speed of the surface is periodic in time."""
 
     amplitude: float = quantity(
@@ -168,7 +168,7 @@ class SpeedRipple(Block):
     second_phase_deg: float = _second_phase()
 
 
-class SurfacePattern(Block):
+class SurfacePattern(Table):
     """Friction is periodic in the place on the surface."""
 
     amplitude: float = quantity(
@@ -182,7 +182,7 @@ class SurfacePattern(Block):
     second_phase_deg: float = _second_phase()
 
 
-class SurfaceScatter(Block):
+class SurfaceScatter(Table):
     """Friction scatters from place to place on the surface: a random field, the same every time."""
 
     deviation: float = quantity(
@@ -194,7 +194,7 @@ class SurfaceScatter(Block):
     seed: int = quantity(1, "1", "which field it is", ge=0, le=2**31 - 1)
 
 
-class LoadDependence(Block):
+class LoadDependence(Table):
     """Friction coefficients fall (or grow) with the normal force."""
 
     exponent: float = quantity(
@@ -205,7 +205,7 @@ class LoadDependence(Block):
     )
 
 
-class SpringMisalignment(Block):
+class SpringMisalignment(Table):
     """The springs stand off the axis: turned by an angle, or with anchors shifted sideways."""
 
     angle_deg: float = quantity(
@@ -216,7 +216,7 @@ class SpringMisalignment(Block):
     )
 
 
-class StickStiffness(Block):
+class StickStiffness(Table):
     """Stick is judged by a part of the spring force: the study counts one spring of four."""
 
     ratio: float = quantity(
@@ -229,7 +229,7 @@ class StickStiffness(Block):
     )
 
 
-class TemperatureDependence(Block):
+class TemperatureDependence(Table):
     """Friction falls linearly as the interface warms, up to the melting point (0 degC).
 
     Ice on rock, 0.52 at -20 degC to 0.02 at melting: mu_k = 0.52, reference_degC = -20,
@@ -247,7 +247,7 @@ class TemperatureDependence(Block):
     )
 
 
-class AsperityMelting(Block):
+class AsperityMelting(Table):
     """Asperities that melt in passing limit mu_k: as (T_m - T) / sqrt(v), boundary friction.
 
     mu_a = C e (T_m - T) / (H sqrt(l v)): the heat mu_a H v of a contact of length l that slides for
@@ -290,7 +290,7 @@ class AsperityMelting(Block):
     )
 
 
-class MeltFilm(Block):
+class MeltFilm(Table):
     """A film of melt that its own shear melts: friction with the root of the speed, hydrodynamic.
 
     mu_f = sqrt(2 eta v rho L / l) / p, where the pressure p is the load on the wetted part of the
@@ -327,7 +327,7 @@ class MeltFilm(Block):
     )
 
 
-class MixedLubrication(Block):
+class MixedLubrication(Table):
     """Water of the melting face floods part of the contact and is sheared in place of dry friction.
 
     Its mean thickness h is an input: that of the heat model in a coupled run. It fills the share
@@ -356,7 +356,7 @@ class MixedLubrication(Block):
     )
 
 
-class RateAndState(Block):
+class RateAndState(Table):
     """Friction follows the speed and the age of the contact (Dieterich's ageing law): slow belts.
 
     mu_k + a ln(v / v*) + b ln(v* theta / D), theta' = 1 - v theta / D. The age also says what a
@@ -383,7 +383,7 @@ class RateAndState(Block):
     )
 
 
-class EffectBlocks(Block):
+class EffectBlocks(Table):
     """One block for each effect, all off."""
 
     lateral_friction: LateralFriction = LateralFriction()
@@ -432,7 +432,7 @@ class Effect:
     source: str
 
     @property
-    def block(self) -> type[Block]:
+    def block(self) -> type[Table]:
         """The parameters: names, units, defaults, bounds."""
         return EffectBlocks.model_fields[self.id].annotation
 

@@ -13,12 +13,12 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from .block import Block, quantity
 from .effects import EffectBlocks
 from .packing import CURVE_LIMIT, pack
+from .quantity import Table, quantity
 
 
-class Rig(Block):
+class Rig(Table):
     """Block, spring geometry and guides."""
 
     mass: float = quantity(0.67, "kg", "mass of the block", gt=0)
@@ -71,7 +71,7 @@ class Rig(Block):
         return self
 
 
-class Springs(Block):
+class Springs(Table):
     """The four equal springs."""
 
     stiffness: float = quantity(20.17, "N/m", "stiffness of one of the four springs", ge=0)
@@ -116,7 +116,7 @@ class Springs(Block):
         return self
 
 
-class Friction(Block):
+class Friction(Table):
     """Coulomb friction between block and surface."""
 
     mu_s: float = quantity(0.2815, "1", "static friction coefficient", ge=0)
@@ -130,7 +130,7 @@ class Friction(Block):
     )
 
 
-class Surface(Block):
+class Surface(Table):
     """Drive of the surface under the block."""
 
     speed: float = quantity(0.15, "m/s", "speed of the surface; negative runs backwards")
@@ -139,7 +139,7 @@ class Surface(Block):
     )
 
 
-class Initial(Block):
+class Initial(Table):
     """State of the block at the start, in the frame of the rig."""
 
     x: float = quantity(0.0, "m", "position along the motion of the surface")
@@ -150,7 +150,7 @@ class Initial(Block):
     omega: float = quantity(0.0, "rad/s", "angular velocity")
 
 
-class Imperfections(Block):
+class Imperfections(Table):
     """What a real rig departs by from its drawing: drawn at random, the same for the same seed.
 
     Each is the standard deviation of a normal distribution that is cut at three of them.
@@ -172,7 +172,7 @@ class Imperfections(Block):
     )
 
 
-class Solver(Block):
+class Solver(Table):
     """Internal integrator."""
 
     tolerance: float = quantity(

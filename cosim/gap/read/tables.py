@@ -7,12 +7,12 @@ from typing import Literal, Self
 
 import stickslip
 from pydantic import Field, create_model, model_validator
-from stickslip.parameters import Block, quantity
+from stickslip.quantity import Table, quantity
 
 #: The rig as the experimenter knows it; each run has its own mass.
 Rig = create_model(
     "Rig",
-    __base__=Block,
+    __base__=Table,
     __doc__="Springs, attachments, contact and guides of the rig.",
     **{
         key: (field.annotation, field)
@@ -22,7 +22,7 @@ Rig = create_model(
 )
 
 
-class Model(Block):
+class Model(Table):
     """Where the workflow starts."""
 
     scheme: Literal["exact", "study"] = Field(
@@ -30,7 +30,7 @@ class Model(Block):
     )
 
 
-class Noise(Block):
+class Noise(Table):
     """Standard deviation of one sample; what is not given is estimated."""
 
     x: float = quantity(math.inf, "m", "noise of x", gt=0)
@@ -49,7 +49,7 @@ def _coefficient(description: str):
     return Field((0.0, math.inf), description=description, json_schema_extra={"unit": "1"})
 
 
-class Friction(Block):
+class Friction(Table):
     """Coefficients that were measured by themselves: value and standard deviation."""
 
     mu_s: tuple[float, float] = _coefficient("static friction coefficient")
@@ -76,7 +76,7 @@ def _figure(unit: str, description: str):
     return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
 
 
-class Summary(Block):
+class Summary(Table):
     """Figures of a run whose time series is not at hand: value and standard deviation."""
 
     mean_x: tuple[float, float] = _figure("m", "mean of x")
@@ -108,7 +108,7 @@ class Summary(Block):
         return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
 
 
-class RunTable(Block):
+class RunTable(Table):
     """One [[run]]."""
 
     file: str = Field("", description="CSV file beside campaign.toml")
@@ -132,7 +132,7 @@ class RunTable(Block):
         return self
 
 
-class CampaignTable(Block):
+class CampaignTable(Table):
     """campaign.toml but for its runs."""
 
     name: str = Field("unnamed", description="name of the campaign", min_length=1, max_length=200)

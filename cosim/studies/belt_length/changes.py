@@ -15,7 +15,7 @@ from functools import lru_cache
 
 from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
 
-from thermal.constants import MELTING_POINT_DEGC
+from thermal.materials import MELTING_POINT_DEGC
 
 from .case import Case
 from .drift import endless_belt, never_comes_round

@@ -17,7 +17,7 @@ from joblib import Parallel, delayed
 
 from cosim.scenario import Scenario
 from thermal import Belt, ParameterError
-from thermal.steady import NoSteadyState
+from thermal.steady_state import NoSteadyState
 
 from .case import OWN_KEYS, Case, Protocol, StudyError
 from .changes import changes, friction_effect

@@ -1,0 +1,39 @@
+"""A checked table of parameters, the element that scenarios and FMU parameters are made of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class Table(BaseModel):
+    """A table of parameters: unknown keys, NaN and infinities are refused; nothing changes later.
+
+    A table that takes what TOML or JSON give for a tuple sets ``strict=False`` for itself.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
+
+
+def quantity(
+    default: Any,
+    unit: str,
+    description: str,
+    typical: tuple[float, float] | None = None,
+    **bounds: Any,
+) -> Any:
+    """A field with unit (`1` for none) and description.
+
+    Parameters
+    ----------
+    default : the value, or ``...`` where one must be given
+    unit : of the value, as the FMU spells it
+    description : what a reader of the schema is told
+    typical : range in which an effect shows in a rig of this kind, for whoever looks for it
+    bounds : pydantic's gt, ge, lt, le
+    """
+    extra: dict[str, Any] = {"unit": unit}
+    if typical is not None:
+        extra["typical"] = typical
+    return Field(default, description=description, json_schema_extra=extra, **bounds)
