@@ -3,7 +3,7 @@
 The folders are the way: read the campaign, shoot the model at it, name what is missing, show it.
 """
 
-from cosim.gap.errors import CampaignError
-from cosim.gap.read import Campaign, MeasuredRun, Stick, Track, read_campaign
+from cosim.gap.data import Campaign, MeasuredRun, Stick, Track, read_campaign
+from cosim.gap.data.errors import CampaignError
 
 __all__ = ["Campaign", "CampaignError", "MeasuredRun", "Stick", "Track", "read_campaign"]

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.atlas.atlas import Atlas
-from cosim.gap.atlas.model_track import ModelTrack
-from cosim.gap.atlas.where import Where
-from cosim.gap.read import Campaign
-from cosim.gap.shooting.drive import model_parameters
+from cosim.gap.data import Campaign
+from cosim.gap.diagnostics.model_track import ModelTrack
+from cosim.gap.diagnostics.regimes import Atlas
+from cosim.gap.diagnostics.where import Where
+from cosim.gap.estimation.drive import model_parameters
 
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "unknown")

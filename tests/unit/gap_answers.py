@@ -7,14 +7,14 @@ import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
-from cosim.gap.atlas import find_where, residual_atlas
+from cosim.gap.diagnostics import find_where, residual_atlas
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import Point, start
+from cosim.gap.estimation.preparation import prepare
+from cosim.gap.estimation.problem import Problem
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import Gap, Ranked
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
 PLAIN = (

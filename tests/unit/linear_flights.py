@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.gap.shooting.fit import with_columns
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, Trial
-from cosim.gap.shooting.windows import Window
+from cosim.gap.estimation.fit import with_columns
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.segments import Window
+from cosim.gap.estimation.trial import Model, Trial
 
 #: Free numbers of every window's state: position and velocity.
 FREE = (0, 3)

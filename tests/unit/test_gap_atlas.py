@@ -7,15 +7,15 @@ import pytest
 from gap_campaigns import NOISE, motion, noisy
 from stickslip.packing import GRAVITY
 
-from cosim.gap.atlas import (
+from cosim.gap.data import MeasuredRun, Track, find_sticks
+from cosim.gap.diagnostics import (
     ModelTrack,
-    draw_atlas,
     find_where,
     pattern_wavelength,
     residual_atlas,
     ripple_frequency,
 )
-from cosim.gap.read import MeasuredRun, Track, find_sticks
+from cosim.gap.show.regime_figure import draw_atlas
 
 SPEEDS = (0.02, 0.06, 0.12)
 

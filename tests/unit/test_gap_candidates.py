@@ -11,19 +11,18 @@ from cosim.gap import read_campaign
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.candidates.extend import extended, moved
-from cosim.gap.naming.other_starts import other_starts
-from cosim.gap.naming.plain import plain_free_parameters
-from cosim.gap.naming.scales import scales
-from cosim.gap.naming.search import Search
-from cosim.gap.naming.tried import ACROSS, Tried
-from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import Fitted, Point, start
+from cosim.gap.candidates.plain import plain_free_parameters
+from cosim.gap.candidates.scales import scales
+from cosim.gap.estimation.drive import SPEED_OFFSET, model_parameters
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import Fitted, Point, start
+from cosim.gap.estimation.preparation import Data, prepare
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.trial import Model, Trial, finished, try_model
+from cosim.gap.selection.alternatives import other_starts
+from cosim.gap.selection.search import Search
+from cosim.gap.selection.tried import ACROSS, Tried
 from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, Trial, finished, try_model
 
 EFFECTS = (
     "lateral_friction",

@@ -7,13 +7,13 @@ import pytest
 from linear_flights import linear_flight
 from scipy.stats import kstest
 
-from cosim.gap.naming.chance import DRAWS, chance
-from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import start
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import start
+from cosim.gap.estimation.preparation import Data
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.trial import Model, try_model
+from cosim.gap.selection.bootstrap import DRAWS, chance
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, try_model
 
 PLAIN = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 0.1))
 OWN = FreeParameter("a.own", 0.0, 0.1, per_run=True)

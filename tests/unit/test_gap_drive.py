@@ -10,26 +10,21 @@ from stickslip import Parameters
 from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.gap import MeasuredRun, Stick, Track, read_campaign
-from cosim.gap.naming.intervals import intervals
-from cosim.gap.naming.plain import (
+from cosim.gap.candidates.plain import (
     CREEP,
     common_creep,
     drive_free_parameters,
     first_guess,
     plain_free_parameters,
 )
-from cosim.gap.read.stick_remarks import SPEED_PART
-from cosim.gap.shooting.drive import (
-    RIPPLE_LENGTH,
-    SPEED_OFFSET,
-    driven_speed,
-    model_parameters,
-)
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import start
+from cosim.gap.data.stick_remarks import SPEED_PART
+from cosim.gap.estimation.drive import RIPPLE_LENGTH, SPEED_OFFSET, driven_speed, model_parameters
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import start
+from cosim.gap.estimation.intervals import intervals
+from cosim.gap.estimation.preparation import prepare
+from cosim.gap.estimation.problem import Problem
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
 
 SPEEDS = (0.02, 0.04, 0.08)
 #: Where blocks break away and stick again, m, and samples, s.

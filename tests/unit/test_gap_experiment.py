@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
 
-from cosim.gap.experiment import Member, experiments, next_experiment
-from cosim.gap.experiment.rehearsal import problem_of, rehearse, setting_of
-from cosim.gap.experiment.separation import separation
-from cosim.gap.read import read_campaign
-from cosim.gap.shooting.fit import with_columns
-from cosim.gap.shooting.fitted import Fitted, start
+from cosim.gap.data import read_campaign
+from cosim.gap.design import Member, experiments, next_experiment
+from cosim.gap.design.rehearsal import problem_of, rehearse, setting_of
+from cosim.gap.design.separation import separation
+from cosim.gap.estimation.fit import with_columns
+from cosim.gap.estimation.fitted import Fitted, start
+from cosim.gap.estimation.preparation import prepare
+from cosim.gap.estimation.problem import Problem
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
 
 DRAG = FreeParameter("structural_damping.coefficient", 0.4, 0.2, 0.0)
 

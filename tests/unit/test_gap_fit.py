@@ -10,15 +10,14 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2
 
 from cosim.gap import read_campaign
-from cosim.gap.naming.intervals import determined, intervals
-from cosim.gap.shooting.data import prepared
-from cosim.gap.shooting.fit import fit, with_columns
-from cosim.gap.shooting.fitted import Point, start
+from cosim.gap.estimation.fit import fit, with_columns
+from cosim.gap.estimation.fitted import Point, start
+from cosim.gap.estimation.intervals import determined, intervals
+from cosim.gap.estimation.phases import with_phases
+from cosim.gap.estimation.preparation import prepare, prepared
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.trial import Model, sketch, try_model
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.phases import with_phases
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 MU_S, MU_K, LINEAR = 0.3, 0.2, 0.8

@@ -10,11 +10,11 @@ import pytest
 from linear_flights import FREE, joint, linear_flight, trial_of
 from scipy.optimize import lsq_linear
 
-from cosim.gap.naming.intervals import intervals
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import start
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import start
+from cosim.gap.estimation.intervals import intervals
+from cosim.gap.estimation.problem import Problem
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.problem import Problem
 
 SHARED = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 3.0))
 OWN = FreeParameter("a.own", 0.0, 0.2, per_run=True)

@@ -5,17 +5,15 @@ import pytest
 from gap_campaigns import motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
-from cosim.gap.shooting.columns import Columns
-from cosim.gap.shooting.data import prepared
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.flight import LOST
+from cosim.gap.estimation.columns import Columns
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import Point, start
+from cosim.gap.estimation.initial_states import with_lost_windows_found, with_velocities
+from cosim.gap.estimation.phases import with_phases, with_phases_followed
+from cosim.gap.estimation.preparation import SHORT_CYCLES, prepare, prepared
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.segmented_run import LOST
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.phases import with_phases, with_phases_followed
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.rescue import with_lost_windows_found
-from cosim.gap.shooting.velocities import with_velocities
 
 SPEED, PHASE = 0.1, 130.0
 FREE_PARAMETERS = (

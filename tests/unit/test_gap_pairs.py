@@ -8,12 +8,12 @@ from cosim.gap import read_campaign
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.candidates.extend import extended
-from cosim.gap.naming.search import Search
-from cosim.gap.naming.tried import Tried
-from cosim.gap.shooting.data import prepared
+from cosim.gap.estimation.preparation import prepared
+from cosim.gap.estimation.screening import glance, ground
+from cosim.gap.estimation.trial import Model, sketch, try_model
+from cosim.gap.selection.search import Search
+from cosim.gap.selection.tried import Tried
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.glance import glance, ground
-from cosim.gap.shooting.trial import Model, sketch, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 PLAIN = Model(

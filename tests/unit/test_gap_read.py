@@ -6,7 +6,7 @@ from gap_campaigns import KNOWN, NOISE, SHARED, motion, noisy, write_campaign, w
 from stickslip import Parameters
 
 from cosim.gap import CampaignError, read_campaign
-from cosim.gap.read.campaign import read_track
+from cosim.gap.data.campaign import read_track
 
 
 @pytest.fixture(scope="module")

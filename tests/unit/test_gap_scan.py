@@ -7,14 +7,13 @@ import pytest
 from gap_campaigns import motion, noisy, write_campaign
 
 from cosim.gap.candidates.catalogue import Scales, candidates
-from cosim.gap.naming.scan import periodogram, scan
-from cosim.gap.naming.wave_answer import sums, wave_answer
-from cosim.gap.read import read_campaign
-from cosim.gap.shooting.data import Data
+from cosim.gap.data import read_campaign
+from cosim.gap.estimation.preparation import SHORT_CYCLES, Data, prepare
+from cosim.gap.estimation.screening import ground
+from cosim.gap.estimation.trial import Model, sketch
+from cosim.gap.selection.frequency_response import sums, wave_answer
+from cosim.gap.selection.periodogram import periodogram, scan
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.glance import ground
-from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
-from cosim.gap.shooting.trial import Model, sketch
 
 SPEEDS, AMPLITUDE, PHASES = (0.04, 0.07), 0.08, (40.0, 190.0)
 PLAIN = Model(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.naming.screen import Screen
+from cosim.gap.selection.score_test import Screen
 from cosim.gap.shooting.free_parameter import FreeParameter
 
 ROWS = 400

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.gap import read_campaign
-from cosim.gap.read import Track, cycle_features, find_sticks
+from cosim.gap.data import Track, cycle_features, find_sticks
 
 OMEGA = {mass: math.sqrt(4.0 * KNOWN["stiffness"] / mass) for mass in (0.87, 1.5)}
 

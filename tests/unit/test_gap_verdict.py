@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.naming.measures import (
+from cosim.gap.estimation.fitted import Fitted, Point
+from cosim.gap.estimation.segmented_run import TILT
+from cosim.gap.estimation.trial import Model, Trial
+from cosim.gap.selection.criteria import (
     ALIKE,
     ALIKE_PART,
     DRIFT,
@@ -22,14 +25,11 @@ from cosim.gap.naming.measures import (
     explained,
     repaired,
 )
-from cosim.gap.naming.pairs import DOMINANT, HARDLY, NEEDED
-from cosim.gap.naming.refined_pair import MOST, NEARLY
-from cosim.gap.naming.tried import Tried
-from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, SEEN, WAVE, judge
-from cosim.gap.shooting.fitted import Fitted, Point
-from cosim.gap.shooting.flight import TILT
+from cosim.gap.selection.pair_refinement import MOST, NEARLY
+from cosim.gap.selection.pairs import DOMINANT, HARDLY, NEEDED
+from cosim.gap.selection.tried import Tried
+from cosim.gap.selection.verdict import ALL, DOES_MOST, RIVAL, SEEN, WAVE, judge
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.trial import Model, Trial
 
 ROWS = 1000
 FAR = 10.0

@@ -7,11 +7,9 @@ import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
-from cosim.gap.naming.across import moves_across
-from cosim.gap.naming.plain import plain_free_parameters
-from cosim.gap.shooting.data import prepared
-from cosim.gap.shooting.preparation import period, prepare
-from cosim.gap.shooting.trial import Model, sketch, try_model
+from cosim.gap.candidates.plain import moves_across, plain_free_parameters
+from cosim.gap.estimation.preparation import period, prepare, prepared
+from cosim.gap.estimation.trial import Model, sketch, try_model
 
 
 @pytest.fixture(scope="module")

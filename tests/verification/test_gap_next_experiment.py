@@ -19,14 +19,14 @@ from gap_campaigns import NOISE, noisy, write_campaign  # noqa: E402
 
 from cosim.gap.candidates.catalogue import candidates  # noqa: E402
 from cosim.gap.candidates.extend import extended  # noqa: E402
-from cosim.gap.experiment import Member, next_experiment  # noqa: E402
-from cosim.gap.naming.plain import plain_free_parameters  # noqa: E402
-from cosim.gap.naming.scales import scales  # noqa: E402
-from cosim.gap.naming.tried import Tried  # noqa: E402
-from cosim.gap.naming.verdict import FITS, alike  # noqa: E402
-from cosim.gap.read import read_campaign  # noqa: E402
-from cosim.gap.shooting.data import prepared  # noqa: E402
-from cosim.gap.shooting.trial import Model, sketch, try_model  # noqa: E402
+from cosim.gap.candidates.plain import plain_free_parameters
+from cosim.gap.candidates.scales import scales
+from cosim.gap.data import read_campaign
+from cosim.gap.design import Member, next_experiment
+from cosim.gap.estimation.preparation import prepared
+from cosim.gap.estimation.trial import Model, sketch, try_model
+from cosim.gap.selection.tried import Tried
+from cosim.gap.selection.verdict import FITS, alike
 
 PAIR = ("film_drag", "structural_damping")
 HIDDEN = {

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from cosim.gap.estimation.trial import Model
 from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.trial import Model
 
 from .candidate import Candidate
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from cosim.atomic import write_bytes, write_text
 from cosim.coupling.coupled_case import own_fmu
-from cosim.gap.atlas import draw_atlas, residual_atlas
+from cosim.gap.diagnostics import residual_atlas
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
 from cosim.report.drawing import Picture
@@ -19,6 +19,7 @@ from .model_file import model_text
 from .model_file import safe_name as safe_name
 from .numbers import as_json
 from .page import page
+from .regime_figure import draw_atlas
 from .reproduction import reproduce, reproduced_runs
 from .reproduction_figure import draw_reproduction
 from .run_figures import draw_residuals, overlays

@@ -10,9 +10,9 @@ from typing import Any
 
 import tomli_w
 
-from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.estimation.drive import driven_speed
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.drive import driven_speed
 from cosim.scenario import Scenario
 from cosim.studies.reproduction.summary import SummaryGap
 from thermal import Ambient

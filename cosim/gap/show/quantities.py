@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.gap.shooting.drive import SECOND
+from cosim.gap.estimation.drive import SECOND
 from cosim.scenario import Scenario
 
 #: Of the tracker and the drive, not of the model.

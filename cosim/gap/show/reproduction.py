@@ -8,8 +8,8 @@ import numpy as np
 from stickslip.restarted import STATE, Restart, simulate_restarted
 
 from cosim.coupling import FmuParticipant
+from cosim.gap.estimation.segmented_run import COLUMN
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.flight import COLUMN
 from cosim.scenario import Scenario
 
 from .flown import Reproduced

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cosim.gap.estimation.preparation import period
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.preparation import period
 from cosim.report.drawing import BLUE, GREEN, GREY, INK, PURPLE, RED, Picture, panels, picture
 
 #: Runs that a figure shows: more rows than these nobody reads.

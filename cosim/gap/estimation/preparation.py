@@ -1,0 +1,103 @@
+"""From measured runs to the shooting segments that the model is simulated in."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from stickslip import Parameters
+
+from cosim.gap.data import Campaign, MeasuredRun, Track
+
+from .segmented_run import TOLERANCE, TOLERANCE_ACROSS, Flight
+from .segments import CYCLES, cut, joined
+
+#: Cycles in the short windows in which a fit sets out: hardly a phase to be lost.
+SHORT_CYCLES = 1.2
+#: A cycle is at most this much slower than sticks follow each other.
+_SLOWER = 0.7
+
+
+def prepare(
+    campaign: Campaign, runs: Sequence[MeasuredRun], planar: bool, cycles: float = CYCLES
+) -> tuple[Flight, ...]:
+    """Flights of runs with a track. planar: the model moves across and turns as the rig allows."""
+    return tuple(_flight(campaign, run, planar, cycles) for run in runs)
+
+
+def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> Flight:
+    track = run.track
+    known = known_parameters(campaign, run, planar)
+    channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
+    across = planar and "y" in channels
+    cycle = period(run)
+    windows = cut(track, run.sticks, run.surface_speed, cycle, across, min(cycles, SHORT_CYCLES))
+    if cycles > SHORT_CYCLES:
+        windows = joined(windows, track.time, cycles * cycle)
+    noise = {name: run.noise[name] for name in channels}
+    temperature = known["temperature_dependence.reference_degC"]
+    return Flight(
+        run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows
+    )
+
+
+def known_parameters(campaign: Campaign, run: MeasuredRun, planar: bool) -> dict[str, float]:
+    """Every parameter of the model, what is to be fitted at its default; on a line or planar."""
+    with warnings.catch_warnings(action="ignore"):  # friction is for the fit
+        parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
+    known = dict(parameters.flat())
+    if planar:
+        return known | {"solver.tolerance": TOLERANCE_ACROSS}
+    return known | {"solver.tolerance": TOLERANCE, "rig.free_y": 0.0, "rig.free_phi": 0.0}
+
+
+def period(run: MeasuredRun) -> float:
+    """Of a stick-slip cycle, or of the strongest oscillation where nothing sticks, s.
+
+    That of the strongest line in the spectrum of x: no slower than sticks follow each other, of
+    which some may not have been recognised, or than a quarter of the free oscillation.
+    """
+    free = run.natural_frequency / (2.0 * np.pi)
+    onsets = np.array([stick.start for stick in run.sticks])
+    slowest = _SLOWER / np.median(np.diff(onsets)) if onsets.size > 3 else free / 4.0
+    return _strongest_period(run.track, slowest, max(2.0 * free, 2.0 * slowest), 1.0 / free)
+
+
+def _strongest_period(track: Track, slowest: float, fastest: float, default: float) -> float:
+    """From the spectrum of x between two frequencies, Hz."""
+    seen = np.isfinite(track.x)
+    time = np.arange(track.time[0], track.time[-1], track.interval)
+    x = np.interp(time, track.time[seen], track.x[seen])
+    power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(x.size), 8 * x.size))
+    frequency = np.fft.rfftfreq(8 * x.size, track.interval)
+    inside = (frequency > slowest) & (frequency < fastest)
+    if not inside.any():
+        return default
+    return float(1.0 / frequency[inside][power[inside].argmax()])
+
+
+@dataclass(frozen=True)
+class Data:
+    """The flights of a campaign: for fitting and held out, in long and in short windows.
+
+    Every long window starts where a short one does.
+    """
+
+    fit: tuple[Flight, ...]
+    short: tuple[Flight, ...]
+    held_out: tuple[Flight, ...]
+    held_out_short: tuple[Flight, ...]
+
+
+def prepared(
+    campaign: Campaign, fit: Sequence[MeasuredRun], held_out: Sequence[MeasuredRun], planar: bool
+) -> Data:
+    """Runs with a track. planar: the model moves across and turns as the rig allows."""
+    return Data(
+        prepare(campaign, fit, planar),
+        prepare(campaign, fit, planar, SHORT_CYCLES),
+        prepare(campaign, held_out, planar),
+        prepare(campaign, held_out, planar, SHORT_CYCLES),
+    )

@@ -1,0 +1,86 @@
+"""A first look at a law on top of a fitted model, by that model's own derivatives.
+
+A law that sets out as next to nothing hardly changes what a motion answers to the free parameters that were
+there before. Only the answers to its own are taken anew in a round (the chord method): a fifth of
+the work, and good enough to tell which laws are worth a fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .columns import Columns
+from .fit import fit, with_columns
+from .fitted import Fitted, Point
+from .phases import best_states, with_phases
+from .preparation import Data
+from .problem import Problem
+from .trial import Model
+
+#: Steps tried in a round before it is given up: by other derivatives none may lead on.
+_TRIES = 4
+
+
+def ground(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fitted:
+    """A fit in short windows with derivatives at its end.
+
+    other : ``model`` has other settings than the fitted one; windows whose states have made up for
+    those start from what was read off the data.
+    """
+    problem = Problem(data.short, model.free_parameters, model.settings)
+    point = fitted.point
+    if other:
+        states = [
+            best_states(problem, run, point.shared, own, at)
+            for run, (own, at) in enumerate(zip(point.own, point.states, strict=True))
+        ]
+        point = replace(point, states=tuple(states))
+    fitted = replace(fitted, point=point, residuals=problem.all_residuals(point))
+    return with_columns(problem, fitted)
+
+
+def glance(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
+    """A few rounds in short windows from where the simpler model ``base`` ended (a `ground`)."""
+    problem = Problem(data.short, model.free_parameters, model.settings)
+    before = {free_parameter.key for free_parameter in base.free_parameters}
+    shared = [base.values.get(k.key, k.start) if k.prior else k.start for k in problem.shared]
+    own = tuple(
+        np.array([k.scaled(base.own_values(i).get(k.key, k.start)) for k in problem.own])
+        for i in range(len(data.short))
+    )
+    scaled = [k.scaled(value) for k, value in zip(problem.shared, shared, strict=True)]
+    point = Point(np.array(scaled), own, base.point.states)
+    new = {free_parameter.key for free_parameter in problem.own} - before
+    point = with_phases(problem, point, new)
+
+    def derivatives(run: int, at: Point, residuals: np.ndarray) -> Columns:
+        return _columns(problem, run, at, residuals, base)
+
+    return fit(problem, point, rounds, derivatives=derivatives, tries=_TRIES)
+
+
+def _columns(problem: Problem, run: int, at: Point, residuals: np.ndarray, base: Fitted) -> Columns:
+    """Derivatives of one run: those by the base's free parameters and the states as they were there."""
+    then = base.columns[run]
+    point = at.shared, at.own[run], at.states[run]
+    known = [
+        free_parameter.key for free_parameter in base.free_parameters if not free_parameter.per_run
+    ]
+    shared = np.empty((residuals.size, len(problem.shared)))
+    for j, free_parameter in enumerate(problem.shared):
+        if free_parameter.key in known:
+            shared[:, j] = then.shared[:, known.index(free_parameter.key)]
+        else:
+            shared[:, j] = problem.difference(run, point, 0, j, free_parameter, residuals)
+    known = [
+        free_parameter.key for free_parameter in base.free_parameters if free_parameter.per_run
+    ]
+    own = np.empty((residuals.size, len(problem.own)))
+    for j, free_parameter in enumerate(problem.own):
+        if free_parameter.key in known:
+            own[:, j] = then.own[:, known.index(free_parameter.key)]
+        else:
+            own[:, j] = problem.difference(run, point, 1, j, free_parameter, residuals)
+    return Columns(residuals, shared, own, then.states)
