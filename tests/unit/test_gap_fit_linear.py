@@ -163,7 +163,7 @@ def test_intervals_cover_what_noise_that_lingers_does_to_a_fit():
 
 
 @pytest.mark.parametrize(
-    "knob",
+    "free_parameter",
     [
         FreeParameter("a.a", 0.3, 0.02, 0.1, 2.0),
         FreeParameter("a.a", 0.3, 0.5, 1e-3, 10.0, log=True),
