@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linear_flights import linear_flight
+from linear_runs import linear_flight
 from scipy.stats import kstest
 
 from cosim.gap.estimation.fit import fit

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, noisy, write_campaign
-from linear_flights import trial_of
+from linear_runs import trial_of
 from stickslip import Parameters
 from stickslip.restarted import Restart, simulate_restarted
 

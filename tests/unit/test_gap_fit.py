@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
-from linear_flights import trial_of
+from linear_runs import trial_of
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 

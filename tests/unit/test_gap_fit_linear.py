@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linear_flights import FREE, joint, linear_flight, trial_of
+from linear_runs import FREE, joint, linear_flight, trial_of
 from scipy.optimize import lsq_linear
 
 from cosim.gap.estimation.fit import fit

@@ -14,7 +14,7 @@ from cosim.interrupts import held_interrupts
 from cosim.report.drawing import Picture
 from cosim.studies.reproduction.summary import SummaryGap
 
-from .flown import Reproduced
+from .reproduced import Reproduced
 from .model_file import model_text
 from .model_file import safe_name as safe_name
 from .numbers import as_json

@@ -12,7 +12,7 @@ from cosim.gap.estimation.segmented_run import COLUMN
 from cosim.gap.result import FittedRun, Gap
 from cosim.scenario import Scenario
 
-from .flown import Reproduced
+from .reproduced import Reproduced
 from .model_file import scenario_of
 
 

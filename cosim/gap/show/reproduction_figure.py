@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from cosim.gap.result import Gap
 from cosim.report.drawing import INK, RED, panels, picture
 
-from .flown import Reproduced
+from .reproduced import Reproduced
 from .run_figures import SCALES, channels
 
 CAPTION = (

@@ -9,7 +9,7 @@ from stickslip import CATALOGUE
 from cosim.gap.result import Gap
 from cosim.studies.reproduction.summary import SummaryGap
 
-from .flown import Reproduced
+from .reproduced import Reproduced
 from .quantities import PLAIN, Quantity, quantities
 
 #: Of the tracker; said where everything is.
