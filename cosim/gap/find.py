@@ -11,13 +11,13 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.data import Campaign
 from cosim.gap.design import Member, next_experiment
-from cosim.gap.diagnostics import empirical_term, find_where, residual_atlas
+from cosim.gap.diagnostics import analyse_residuals, empirical_term, find_where
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.preparation import Data, prepared
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import Flight
+from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.thinning import thinned
-from cosim.gap.estimation.trial import Model, Trial, sketch, try_model
+from cosim.gap.estimation.trial import Model, Trial, coarse_fit, try_model
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import FittedModel, Gap, Ranked
 from cosim.processes import Map, processes
@@ -27,7 +27,7 @@ from .candidates.scales import scales
 from .estimation.intervals import determined, intervals
 from .selection.alternatives import other_starts
 from .selection.bootstrap import chance
-from .selection.search import SKETCH, Search
+from .selection.search import COARSE, Search
 from .selection.tried import Tried
 from .selection.verdict import Finding, judge
 
@@ -56,17 +56,17 @@ def find_gap(
     with processes(jobs) as mapped:
         mapped(_woken, [(data.short[0],)] * jobs)  # they start while the plain model is fitted
         base = Model(plain_free_parameters(campaign, planar), {})
-        sketched = _sketched(data, base)
-        plain = try_model(data, base, sketched)
+        coarse = _coarse(data, base)
+        plain = try_model(data, base, coarse)
         search = Search(data, mapped, progress)
-        finding = judge(search, plain, sketched, _laws(campaign, plain, planar))
+        finding = judge(search, plain, coarse, _laws(campaign, plain, planar))
         ranking = search.judged(finding.ranking)
         return _answer(campaign, data, plain, finding, ranking, seed, planar, mapped)
 
 
-def _woken(flight: Flight) -> None:
+def _woken(segmented: SegmentedRun) -> None:
     """Have a process load what it needs."""
-    flight.places({}, flight.starts)
+    segmented.places({}, segmented.starts)
 
 
 def _laws(campaign: Campaign, plain: Trial, planar: bool) -> list[Candidate]:
@@ -79,10 +79,10 @@ def _laws(campaign: Campaign, plain: Trial, planar: bool) -> list[Candidate]:
     return [law for law in laws if _is_felt(law, campaign, planar)]
 
 
-def _sketched(data: Data, base: Model) -> Fitted:
-    """The plain model in short windows, from whichever mu_s ends best."""
-    first = sketch(data, base, SKETCH)
-    again = [sketch(data, model, SKETCH) for model in other_starts(base, first.values)]
+def _coarse(data: Data, base: Model) -> Fitted:
+    """The plain model in short segments, from whichever mu_s ends best."""
+    first = coarse_fit(data, base, COARSE)
+    again = [coarse_fit(data, model, COARSE) for model in other_starts(base, first.values)]
     best = min(again, key=lambda fitted: fitted.cost)
     return best if best.cost < _CLEARLY * first.cost else first
 
@@ -108,15 +108,15 @@ def _answer(
     before = _fitted_model(campaign, data, plain)
     after = _fitted_model(campaign, data, finding.chosen) if finding.chosen else None
     tried = {t.candidate.effect for t in ranking}
-    atlas = residual_atlas([run.track for run in before.runs])
+    analysis = analyse_residuals([run.track for run in before.runs])
     unnamed = finding.verdict == "unknown"
     return Gap(
         campaign=campaign,
         verdict=finding.verdict,
         effects=finding.effects,
         classes=(finding.effects,) if finding.verdict == "class" else (),
-        where=find_where(atlas),
-        ranking=tuple(_ranked(plain, t, finding.nearest.gap) for t in ranking),
+        where=find_where(analysis),
+        ranking=tuple(_ranked(plain, t, finding.nearest.rms_residual) for t in ranking),
         gap_before=before.gap,
         gap_after=(after or before).gap,
         plain=before,
@@ -124,7 +124,7 @@ def _answer(
         chance=chance(data, plain, finalists, seed),
         determined=determined(plain),
         seed=seed,
-        atlas=atlas,
+        analysis=analysis,
         next_experiment=_separating(campaign, finding, planar),
         empirical=empirical_term(campaign, data, plain, mapped) if unnamed else None,
         remarks=_remarks(campaign, tried, finding),
@@ -166,8 +166,8 @@ def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
     return Ranked(
         effect=tried.candidate.effect,
         form=tried.candidate.form,
-        held_out_gap=trial.held_out_gap,
-        fit_gap=trial.fitted.gap(),
+        held_out_gap=trial.held_out_rms,
+        fit_gap=trial.fitted.rms_residual(),
         delta_bic=float(gained - tried.candidate.size * np.log(rows)),
         parameters=values,
         intervals={key: wide[key] for key in values if key in wide},
@@ -176,7 +176,7 @@ def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
 
 def _remarks(campaign: Campaign, tried: set[str], finding: Finding) -> tuple[str, ...]:
     lines = []
-    if finding.lookalike:
+    if finding.confounder:
         lines.append(f"{finding.lookalike} does better than any effect of the catalogue")
     silent = [
         e for e in ("lateral_friction", "turning_surface", "spring_misalignment") if e not in tried

@@ -1,4 +1,4 @@
-"""Fits in windows as fitted models: the motion, the start and the gap of every run."""
+"""Fits in segments as fitted models: the motion, the start and the gap of every run."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ def fitted_model(
 ) -> FittedModel:
     """A model from its fits: the first part is that of the runs for fitting, others are held out.
 
-    Every problem's flights carry the names of the campaign's runs.
+    Every problem's segmented runs carry the names of the campaign's runs.
     """
     by_name = {run.name: run for run in campaign.runs}
     runs = {
         run.name: run
         for problem, fitted in parts
-        for run in _runs(problem, fitted, [by_name[f.name] for f in problem.flights])
+        for run in _runs(problem, fitted, [by_name[f.name] for f in problem.segmented_runs])
     }
     problem, fitted = parts[0]
-    free = problem.flights[0].known
+    free = problem.segmented_runs[0].known
     return FittedModel(
         values=fitted.values,
         settings=dict(problem.settings),
@@ -42,7 +42,7 @@ def fitted_model(
             name for name in ("x", "y", "phi") if free.get(f"rig.free_{name}", 1.0)
         ),
         runs=tuple(runs[name] for name in by_name if name in runs),
-        gap=(fitted.gap(), _held_out(parts)),
+        gap=(fitted.rms_residual(), _held_out(parts)),
     )
 
 
@@ -55,7 +55,7 @@ def _held_out(parts: Sequence[tuple[Problem, Fitted]]) -> float:
 def _runs(problem: Problem, fitted: Fitted, runs: Sequence[MeasuredRun]) -> list[FittedRun]:
     tracks = tracks_of(problem, fitted, runs)
     return [
-        FittedRun(track, _start(problem, fitted, i), fitted.gap([i]), fitted.own_values(i))
+        FittedRun(track, _start(problem, fitted, i), fitted.rms_residual([i]), fitted.own_values(i))
         for i, track in enumerate(tracks)
     ]
 
@@ -66,5 +66,5 @@ def _start(problem: Problem, fitted: Fitted, run: int) -> tuple[float, ...]:
     states = fitted.point.states[run].copy()
     for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
         states[:, axis] -= values.pop(key, 0.0)
-    first = problem.flights[run].fly(values, states)[0]
+    first = problem.segmented_runs[run].simulate(values, states)[0]
     return tuple(float(first[column]) for column in _STATE)

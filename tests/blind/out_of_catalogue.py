@@ -125,7 +125,7 @@ def lifting_springs(rng) -> Ingredient:
     )
 
 
-STRANGERS: dict[str, Draw] = {
+OUT_OF_CATALOGUE: dict[str, Draw] = {
     draw.__name__: draw
     for draw in (
         resonator,

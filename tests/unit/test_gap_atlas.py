@@ -1,4 +1,4 @@
-"""The atlas against misfits that are known: the model's exact track, moved by a known force."""
+"""The residual analysis against misfits that are known: the model's exact track, moved by a known force."""
 
 import dataclasses
 
@@ -10,12 +10,12 @@ from stickslip.packing import GRAVITY
 from cosim.gap.data import MeasuredRun, Track, find_sticks
 from cosim.gap.diagnostics import (
     ModelTrack,
+    analyse_residuals,
     find_where,
     pattern_wavelength,
-    residual_atlas,
     ripple_frequency,
 )
-from cosim.gap.show.regime_figure import draw_atlas
+from cosim.gap.show.regime_figure import draw_regimes
 
 SPEEDS = (0.02, 0.06, 0.12)
 
@@ -52,7 +52,7 @@ def restarted(true, speed, mass, modelled, period):
         due = starts[-1] + int(period / 0.01)
         starts.append(int(slips[np.argmin(np.abs(slips - due))]))
     columns = {name: np.empty(len(true.time)) for name in ("x", "y", "vx", "mode")}
-    window = np.zeros(len(true.time), dtype=int)
+    segment = np.zeros(len(true.time), dtype=int)
     for number, (first, last) in enumerate(zip(starts, [*starts[1:], None], strict=True)):
         part = slice(first, last)
         initial = {name: float(true[name][first]) for name in ("x", "y", "vx", "vy")}
@@ -60,12 +60,12 @@ def restarted(true, speed, mass, modelled, period):
         run = motion(speed=speed, mass=mass, duration=length, initial=initial, **modelled)
         for name, values in columns.items():
             values[part] = run[name][: len(values[part])]
-        window[part] = number
-    return columns | {"window": window}
+        segment[part] = number
+    return columns | {"window": segment}
 
 
-def region(atlas, channel, regime):
-    return next(r for r in atlas.regions if (r.channel, r.regime) == (channel, regime))
+def region(analysis, channel, regime):
+    return next(r for r in analysis.regions if (r.channel, r.regime) == (channel, regime))
 
 
 def dependence(found, name):
@@ -74,25 +74,25 @@ def dependence(found, name):
 
 @pytest.fixture(scope="module")
 def of_noise():
-    """Atlases of models that lack nothing."""
-    return [residual_atlas(tracks({}, masses=(0.87, 1.5), seed=seed)) for seed in (1, 2)]
+    """Residual analysises of models that lack nothing."""
+    return [analyse_residuals(tracks({}, masses=(0.87, 1.5), seed=seed)) for seed in (1, 2)]
 
 
 def test_noise_alone_is_no_misfit(of_noise):
-    for atlas in of_noise:
-        assert atlas.gap == pytest.approx(1.0, abs=0.03)
-        where = find_where(atlas, slight=0.0)
+    for analysis in of_noise:
+        assert analysis.rms_residual == pytest.approx(1.0, abs=0.03)
+        where = find_where(analysis, slight=0.0)
         assert (where.channel, where.regime, where.runs) == ("", "", ())
         assert where.text.startswith("No misfit beyond the noise in any channel or regime")
-        assert atlas.ripple is None and atlas.pattern is None
+        assert analysis.ripple is None and analysis.pattern is None
 
 
 def test_chances_are_what_they_say(of_noise):
     """Of the tests on noise alone about one in ten is below 0.1."""
     chances = [
         found.log10_p
-        for atlas in of_noise
-        for part in atlas.regions
+        for analysis in of_noise
+        for part in analysis.regions
         if (part.channel, part.regime) in (("x", "slip"), ("x", "stick"))
         for found in part.dependences
     ]
@@ -103,8 +103,8 @@ def test_chances_are_what_they_say(of_noise):
 
 def test_a_wrong_kinetic_friction_is_found_in_newtons():
     """0.01 too little friction is a force of 0.01 m g, in every run and on nothing dependent."""
-    atlas = residual_atlas(tracks({"mu_k": 0.21}, {"mu_k": 0.2}, masses=(0.87, 1.5)))
-    slip = region(atlas, "x", "slip")
+    analysis = analyse_residuals(tracks({"mu_k": 0.21}, {"mu_k": 0.2}, masses=(0.87, 1.5)))
+    slip = region(analysis, "x", "slip")
     weight = np.array([0.87] * 3 + [1.5] * 3) * GRAVITY
     assert np.all(np.abs(slip.value - 0.01 * weight) < 4.0 * slip.error)
     load = dependence(slip, "load")
@@ -114,22 +114,24 @@ def test_a_wrong_kinetic_friction_is_found_in_newtons():
 
 def test_friction_that_falls_with_speed():
     effect = {"velocity_weakening": {"linear": 0.5}}
-    atlas = residual_atlas(tracks({"mu_k": 0.2, **effect}, {"mu_k": 0.19}, speeds=(0.06, 0.2, 0.4)))
-    found = dependence(region(atlas, "x", "slip"), "sliding_speed")
+    analysis = analyse_residuals(
+        tracks({"mu_k": 0.2, **effect}, {"mu_k": 0.19}, speeds=(0.06, 0.2, 0.4))
+    )
+    found = dependence(region(analysis, "x", "slip"), "sliding_speed")
     law = (0.2 * (1.0 - 0.5 * found.centre) - 0.19) * 0.87 * GRAVITY
     # a bin's mean speed is not where its mean force acts, by a tenth of a bin or so
     assert np.all(np.abs(found.value - law) < 4.0 * found.error + 0.02)
-    where = find_where(atlas)
+    where = find_where(analysis)
     assert (where.channel, where.regime) == ("x", "slip")
     assert "depends most clearly on the sliding speed" in where.text
 
 
 def test_static_friction_that_grows_with_rest():
     effect = {"static_strengthening": {"rate": 0.05}}
-    atlas = residual_atlas(tracks(effect, {"mu_s": 0.37}, speeds=(0.02, 0.04, 0.08)))
-    where = find_where(atlas)
+    analysis = analyse_residuals(tracks(effect, {"mu_s": 0.37}, speeds=(0.02, 0.04, 0.08)))
+    where = find_where(analysis)
     assert (where.channel, where.regime) == ("x", "break-away")
-    found = dependence(region(atlas, "x", "break-away"), "hold_time")
+    found = dependence(region(analysis, "x", "break-away"), "hold_time")
     law = (0.3 + 0.05 * np.log10(1.0 + found.centre / 0.01) - 0.37) * 0.87 * GRAVITY
     assert np.all(np.abs(found.value - law) < 4.0 * found.error + 0.03)
 
@@ -138,8 +140,8 @@ def test_springs_that_harden():
     """A force against the position, by its shape: a slip's own level says nothing of position."""
     cubic, stretch = 1e3, 0.03  # N/m3; m, of springs of 0.17 m between points 0.20 m apart
     effect = {"spring_hardening": {"cubic": cubic}}
-    atlas = residual_atlas(tracks(effect, {"mu_k": 0.19}, speeds=(0.06, 0.12)))
-    slip = region(atlas, "x", "slip")
+    analysis = analyse_residuals(tracks(effect, {"mu_k": 0.19}, speeds=(0.06, 0.12)))
+    slip = region(analysis, "x", "slip")
     assert slip.dependences[0].variable == "position"
     found = dependence(slip, "position")
     law = -2.0 * cubic * ((stretch + found.centre) ** 3 - (stretch - found.centre) ** 3)
@@ -152,13 +154,13 @@ def test_springs_that_harden():
 def test_a_place_that_follows_the_friction_is_no_dependence_on_place():
     """Friction that drifts moves the block: not because of where the block is."""
     effect = {"run_in": {"change": -0.2, "distance": 0.5}}
-    slip = region(residual_atlas(tracks({"mu_k": 0.22, **effect}, {"mu_k": 0.19})), "x", "slip")
+    slip = region(analyse_residuals(tracks({"mu_k": 0.22, **effect}, {"mu_k": 0.19})), "x", "slip")
     assert dependence(slip, "position").log10_p > 0.05 * dependence(slip, "distance").log10_p
 
 
 def test_friction_that_drifts():
     effect = {"run_in": {"change": -0.2, "distance": 0.5}}
-    where = find_where(residual_atlas(tracks({"mu_k": 0.22, **effect}, {"mu_k": 0.19})))
+    where = find_where(analyse_residuals(tracks({"mu_k": 0.22, **effect}, {"mu_k": 0.19})))
     assert (where.channel, where.regime) == ("x", "slip")
     assert "the distance slid" in where.text or "the place on the surface" in where.text
 
@@ -170,7 +172,7 @@ def test_a_ripple_of_the_surface_speed():
     # resolution: a quarter of a period over 20 s
     assert period.rate == pytest.approx(1.3, abs=0.0125) and period.log10_p < -10.0
     np.testing.assert_allclose(period.amplitude, [0.002, 0.004, 0.006], rtol=0.2)
-    where = find_where(residual_atlas(compared))
+    where = find_where(analyse_residuals(compared))
     assert (where.channel, where.regime) == ("x", "stick")
     assert "repeats itself every 0.7" in where.text
 
@@ -181,30 +183,30 @@ def test_a_pattern_on_the_surface(wavelength):
     compared = tracks(effect)
     period = pattern_wavelength(compared)
     assert period.length == pytest.approx(wavelength, rel=0.03) and period.log10_p < -10.0
-    where = find_where(residual_atlas(compared))
+    where = find_where(analyse_residuals(compared))
     assert "of surface" in where.text
     assert where.regime in ("slip", "break-away")
 
 
 def test_a_block_that_is_pulled_aside():
     effect = {"spring_misalignment": {"lateral_offset": 0.002}}
-    where = find_where(residual_atlas(tracks(effect)))
+    where = find_where(analyse_residuals(tracks(effect)))
     assert where.channel == "y" and "depends on nothing that was looked at" in where.text
 
 
 def test_a_slight_misfit_is_only_mentioned():
-    atlas = residual_atlas(tracks({"mu_k": 0.2005}, {"mu_k": 0.2}))
-    assert atlas.gap < 1.1
-    assert find_where(atlas).text.startswith("No misfit that matters")
-    assert find_where(atlas, slight=0.0).regime == "slip"
+    analysis = analyse_residuals(tracks({"mu_k": 0.2005}, {"mu_k": 0.2}))
+    assert analysis.rms_residual < 1.1
+    assert find_where(analysis).text.startswith("No misfit that matters")
+    assert find_where(analysis, slight=0.0).regime == "slip"
 
 
 def test_gaps_and_missing_samples():
     compared = tracks({"mu_k": 0.21}, {"mu_k": 0.2})
     track = compared[0]
     track.run.track.x[300:420] = np.nan
-    atlas = residual_atlas(compared)
-    slip = region(atlas, "x", "slip")
+    analysis = analyse_residuals(compared)
+    slip = region(analysis, "x", "slip")
     assert np.all(np.abs(slip.value - 0.01 * 0.87 * GRAVITY) < 4.0 * slip.error)
 
 
@@ -213,14 +215,14 @@ def test_nothing_in_common_is_said():
     compared = tracks({}, speeds=(0.4,))
     alone = [dataclasses.replace(track, mode=np.full(len(track.x), 0.0)) for track in compared]
     alone = [dataclasses.replace(track, y=None) for track in alone]
-    where = find_where(residual_atlas(alone))
+    where = find_where(analyse_residuals(alone))
     assert where.channel == "" and "share no stretch" in where.text
 
 
 def test_the_figure_has_a_row_for_each_region(monkeypatch):
-    atlas = residual_atlas(tracks({"mu_k": 0.21}, {"mu_k": 0.2}, speeds=(0.04, 0.06)))
-    drawn = draw_atlas.__wrapped__(atlas)
-    assert len(drawn.axes) == 4 * len(atlas.regions)
+    analysis = analyse_residuals(tracks({"mu_k": 0.21}, {"mu_k": 0.2}, speeds=(0.04, 0.06)))
+    drawn = draw_regimes.__wrapped__(analysis)
+    assert len(drawn.axes) == 4 * len(analysis.regions)
     labels = [axis.get_ylabel() for axis in drawn.axes[::4]]
     assert "x, slip\nfriction force (N)" in labels
-    assert draw_atlas(atlas).png.startswith(b"\x89PNG")
+    assert draw_regimes(analysis).png.startswith(b"\x89PNG")

@@ -116,17 +116,19 @@ def test_starts_lie_inside_ranges_that_the_model_allows(candidate):
 
 
 @pytest.mark.parametrize("candidate", EVERY)
-def test_a_candidate_changes_the_model_at_its_start(candidate, flight):
-    """It can be flown, and is felt: a step of each of its free parameters moves the block."""
+def test_a_candidate_changes_the_model_at_its_start(candidate, segmented):
+    """It can be simulated, and is felt: a step of each of its free parameters moves the block."""
     started = {**candidate.settings, **{k.key: k.start for k in candidate.free_parameters}}
-    plain = flight.fly(FRICTION, flight.starts)
-    with_it = flight.fly({**FRICTION, **started}, flight.starts)
+    plain = segmented.simulate(FRICTION, segmented.starts)
+    with_it = segmented.simulate({**FRICTION, **started}, segmented.starts)
     assert np.isfinite(with_it).all()
     seen = slice(0, 6)
     assert np.abs(with_it[:, seen] - plain[:, seen]).max() > 1e-6
     for free_parameter in candidate.free_parameters:
         near = free_parameter.value(free_parameter.scaled(free_parameter.start) + 0.1)
-        stepped = flight.fly({**FRICTION, **started, free_parameter.key: near}, flight.starts)
+        stepped = segmented.simulate(
+            {**FRICTION, **started, free_parameter.key: near}, segmented.starts
+        )
         assert np.abs(stepped[:, seen] - with_it[:, seen]).max() > 1e-9
 
 
@@ -142,7 +144,7 @@ def campaign(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def flight(campaign):
+def segmented(campaign):
     return prepare(campaign, campaign.runs, True)[0]
 
 
@@ -364,4 +366,4 @@ def test_plain_free_parameters_start_inside_their_ranges_and_fit(campaign):
         prepare(campaign, campaign.runs, False),
         [free_parameter for free_parameter in free_parameters if free_parameter.key != "offset.y"],
     )
-    assert fit(problem, start(problem.flights, problem.free_parameters)).gap() < 1.2
+    assert fit(problem, start(problem.segmented_runs, problem.free_parameters)).rms_residual() < 1.2

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linear_runs import linear_flight
+from linear_runs import linear_run
 from scipy.stats import kstest
 
 from cosim.gap.estimation.fit import fit
@@ -30,12 +30,12 @@ ROWS, CAMPAIGNS = 60, 60
 def campaign(seed, held_out=2, strength=0.0):
     """Noise of one, and of the first law so much; three runs for fitting."""
     random = np.random.default_rng(seed)
-    flights = []
+    segmented_runs = []
     for _ in range(3 + held_out):
-        flight = linear_flight(random, (*EVERY, OWN), ROWS, windows=2)
-        added = strength * flight.by_key["b.one"]
-        flights.append(replace(flight, data=flight.data + added))
-    fit, held = tuple(flights[:3]), tuple(flights[3:])
+        segmented = linear_run(random, (*EVERY, OWN), ROWS, segments=2)
+        added = strength * segmented.by_key["b.one"]
+        segmented_runs.append(replace(segmented, data=segmented.data + added))
+    fit, held = tuple(segmented_runs[:3]), tuple(segmented_runs[3:])
     return Data(fit, fit, held, held)
 
 

@@ -231,8 +231,8 @@ def test_speed_of_every_run_is_found(tmp_path):
     campaign = kernel_campaign(tmp_path, offsets=offsets)
     free_parameters = plain_free_parameters(campaign, False)
     problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
-    found = fit(problem, start(problem.flights, free_parameters))
-    assert found.gap() == pytest.approx(1.0, abs=0.1)  # of 1600 samples: 0.02, and the fit's
+    found = fit(problem, start(problem.segmented_runs, free_parameters))
+    assert found.rms_residual() == pytest.approx(1.0, abs=0.1)  # of 1600 samples: 0.02, and the fit's
     for run, offset in enumerate((offsets[0], offsets[2])):
         # a stick of half a second in 0.2 mm of noise: a part in a hundred of 0.03 m/s
         assert found.own_values(run)[SPEED_OFFSET] == pytest.approx(offset, abs=0.01)
@@ -250,32 +250,34 @@ def test_creep_is_found_again_by_the_fit(tmp_path):
     campaign = kernel_campaign(tmp_path, creep=CREEPING)
     free_parameters = plain_free_parameters(campaign, False)
     problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
-    found = fit(problem, start(problem.flights, free_parameters))
-    assert found.gap() == pytest.approx(1.0, abs=0.1)
+    found = fit(problem, start(problem.segmented_runs, free_parameters))
+    assert found.rms_residual() == pytest.approx(1.0, abs=0.1)
     assert found.values[CREEP] == pytest.approx(CREEPING, rel=0.15)
     rigid = [free_parameter for free_parameter in free_parameters if free_parameter.key != CREEP]
-    without = Problem(problem.flights, rigid)
-    assert fit(without, start(problem.flights, rigid)).gap() > 1.2 * found.gap()
+    without = Problem(problem.segmented_runs, rigid)
+    assert fit(without, start(problem.segmented_runs, rigid)).rms_residual() > 1.2 * found.rms_residual()
 
 
-def test_a_flight_with_an_offset_is_one_on_a_faster_surface(tmp_path):
+def test_a_run_with_an_offset_is_one_on_a_faster_surface(tmp_path):
     campaign = kernel_campaign(tmp_path)
-    flight = prepare(campaign, campaign.runs, False)[0]
-    faster = replace(flight, speed=flight.speed * 1.04)
-    states = flight.starts
-    np.testing.assert_array_equal(flight.fly({SPEED_OFFSET: 0.04}, states), faster.fly({}, states))
-    assert np.abs(flight.fly({}, states) - faster.fly({}, states))[:, 0].max() > NOISE
+    segmented = prepare(campaign, campaign.runs, False)[0]
+    faster = replace(segmented, speed=segmented.speed * 1.04)
+    states = segmented.starts
+    np.testing.assert_array_equal(
+        segmented.simulate({SPEED_OFFSET: 0.04}, states), faster.simulate({}, states)
+    )
+    assert np.abs(segmented.simulate({}, states) - faster.simulate({}, states))[:, 0].max() > NOISE
 
 
 def test_the_tracker_s_zero_moves_with_the_data(tmp_path):
     campaign = kernel_campaign(tmp_path)
     free_parameters = (FreeParameter("offset.x", 0.0, NOISE),)
-    flights = prepare(campaign, campaign.fit_runs, False)
-    moved = [replace(f, channels={"x": f.channels["x"] + 5.0 * NOISE}) for f in flights]
+    segmented_runs = prepare(campaign, campaign.fit_runs, False)
+    moved = [replace(f, channels={"x": f.channels["x"] + 5.0 * NOISE}) for f in segmented_runs]
     found = []
-    for flown in (flights, moved):
-        problem = Problem(flown, free_parameters, {"friction.mu_s": 0.3, "friction.mu_k": 0.2})
-        found.append(fit(problem, start(flown, free_parameters)))
+    for simulated in (segmented_runs, moved):
+        problem = Problem(simulated, free_parameters, {"friction.mu_s": 0.3, "friction.mu_k": 0.2})
+        found.append(fit(problem, start(simulated, free_parameters)))
     before, after = (fitted.values["offset.x"] for fitted in found)
     assert after - before == pytest.approx(5.0 * NOISE, rel=0.01)
     assert found[1].cost == pytest.approx(found[0].cost, abs=0.05)  # each stops within 0.02

@@ -34,7 +34,7 @@ def member(campaign, effect, *free_parameters, **settings):
     """The true friction, as if it had been fitted, with other free parameters."""
     plain = (FreeParameter("friction.mu_s", 0.3, 0.015), FreeParameter("friction.mu_k", 0.2, 0.01))
     problem = Problem(prepare(campaign, campaign.runs, False), (*plain, *free_parameters), settings)
-    point = start(problem.flights, problem.free_parameters)
+    point = start(problem.segmented_runs, problem.free_parameters)
     fitted = Fitted(problem.free_parameters, point, problem.all_residuals(point))
     return Member(effect, problem.free_parameters, settings, with_columns(problem, fitted))
 
@@ -64,8 +64,8 @@ def test_fewer_are_looked_at_by_leaving_the_rig_as_it_is(campaign):
 def test_a_model_is_not_separated_from_itself(campaign):
     one = member(campaign, "structural_damping", DRAG)
     setting = setting_of(campaign, planar=False)
-    flight = rehearse(setting, experiments(campaign)[0], one.values)
-    assert separation(flight, one, one.information()) < 0.02
+    segmented = rehearse(setting, experiments(campaign)[0], one.values)
+    assert separation(segmented, one, one.information()) < 0.02
 
 
 def test_what_a_free_parameter_can_take_up_is_no_separation(campaign):
@@ -73,11 +73,11 @@ def test_what_a_free_parameter_can_take_up_is_no_separation(campaign):
     one = member(campaign, "structural_damping", DRAG)
     setting = setting_of(campaign, planar=False)
     values = one.values | {"friction.mu_k": 0.206}
-    flight = rehearse(setting, experiments(campaign)[0], values)
+    segmented = rehearse(setting, experiments(campaign)[0], values)
     known, unknown = one.information() * 100.0, np.zeros((3, 3))
     for rounds in (0, 3):
-        assert separation(flight, one, known, rounds) > 1.0
-    assert separation(flight, one, unknown, 10) < 0.1
+        assert separation(segmented, one, known, rounds) > 1.0
+    assert separation(segmented, one, unknown, 10) < 0.1
 
 
 def test_the_rig_cannot_crush_its_springs(campaign):
@@ -88,11 +88,11 @@ def test_the_rig_cannot_crush_its_springs(campaign):
 
 def test_rehearsed_run_is_sampled_as_the_campaign(campaign):
     one = member(campaign, "structural_damping", DRAG)
-    flight = rehearse(setting_of(campaign, planar=False), experiments(campaign)[0], one.values)
-    assert flight.time[-1] == pytest.approx(6.0)
-    assert np.diff(flight.time) == pytest.approx(0.01)
-    own = problem_of(flight, one)
-    point = start([flight], one.free_parameters)
+    segmented = rehearse(setting_of(campaign, planar=False), experiments(campaign)[0], one.values)
+    assert segmented.time[-1] == pytest.approx(6.0)
+    assert np.diff(segmented.time) == pytest.approx(0.01)
+    own = problem_of(segmented, one)
+    point = start([segmented], one.free_parameters)
     assert np.abs(own.residuals(0, point.shared, point.own[0], point.states[0])).max() < 1.0
 
 

@@ -1,4 +1,4 @@
-"""Windows thrown off course: they neither lead a fit nor stay where the model sticks at once."""
+"""Segments thrown off course: they neither lead a fit nor stay where the model sticks at once."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from cosim.gap import read_campaign
 from cosim.gap.estimation.columns import Columns
 from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import Point, start
-from cosim.gap.estimation.initial_states import with_lost_windows_found, with_velocities
+from cosim.gap.estimation.initial_states import with_lost_segments_found, with_velocities
 from cosim.gap.estimation.phases import with_phases, with_phases_followed
 from cosim.gap.estimation.preparation import SHORT_CYCLES, prepare, prepared
 from cosim.gap.estimation.problem import Problem
@@ -41,28 +41,28 @@ def patterned(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def fitted(patterned):
-    return fit(patterned, with_phases(patterned, start(patterned.flights, FREE_PARAMETERS)))
+    return fit(patterned, with_phases(patterned, start(patterned.segmented_runs, FREE_PARAMETERS)))
 
 
 def moving(problem):
-    return np.array([3 in window.free for window in problem.flights[0].windows])
+    return np.array([3 in segment.free for segment in problem.segmented_runs[0].segments])
 
 
-def by_window(problem, point):
+def by_segment(problem, point):
     residuals = problem.residuals(0, point.shared, point.own[0], point.states[0])
-    return problem.by_window(0, residuals)
+    return problem.by_segment(0, residuals)
 
 
-def test_squares_by_window_are_all_there_are(patterned, fitted):
+def test_squares_by_segment_are_all_there_are(patterned, fitted):
     (residuals,) = fitted.residuals
-    squares = patterned.by_window(0, residuals)
-    assert squares.shape == (len(patterned.flights[0].windows),)
+    squares = patterned.by_segment(0, residuals)
+    assert squares.shape == (len(patterned.segmented_runs[0].segments),)
     assert squares.sum() == pytest.approx(residuals @ residuals, rel=1e-12)
 
 
-def test_a_lost_window_counts_little_more_than_one_that_fits_badly(patterned, fitted):
+def test_a_lost_segment_counts_little_more_than_one_that_fits_badly(patterned, fitted):
     (residuals,) = fitted.residuals
-    owner = patterned.flights[0].window_of_rows()
+    owner = patterned.segmented_runs[0].segment_of_rows()
     lost, poor = (np.where(owner == 0, worst, residuals) for worst in (LOST, 0.1 * LOST))
     one = patterned.misfit(0, residuals)
     # a hundred times the squares is log(100) = 4.6 more per row
@@ -72,17 +72,17 @@ def test_a_lost_window_counts_little_more_than_one_that_fits_badly(patterned, fi
     assert one < patterned.misfit(0, poor)
 
 
-def test_a_window_that_sticks_at_once_is_set_moving(patterned, fitted):
+def test_a_segment_that_sticks_at_once_is_set_moving(patterned, fitted):
     here = moving(patterned)
     assert here.any()
     states = fitted.point.states[0].copy()
     states[here, 3] = SPEED  # as fast as the surface: it sticks
     stuck = Point(fitted.point.shared, fitted.point.own, (states,))
     freed = with_velocities(patterned, stuck)
-    before, after = by_window(patterned, stuck), by_window(patterned, freed)
+    before, after = by_segment(patterned, stuck), by_segment(patterned, freed)
     assert np.all(after <= before) and after.sum() < 0.5 * before.sum()
     moved = after < before
-    read_off = patterned.flights[0].starts
+    read_off = patterned.segmented_runs[0].starts
     assert freed.shared is stuck.shared and moved.any() and here[moved].all()
     assert np.array_equal(freed.states[0][moved, 0], read_off[moved, 0])
     assert np.array_equal(freed.states[0][~moved], states[~moved], equal_nan=True)
@@ -93,27 +93,27 @@ def test_velocities_that_fit_stay(patterned, fitted):
     assert np.array_equal(again.states[0], fitted.point.states[0], equal_nan=True)
 
 
-def test_at_another_phase_windows_keep_the_states_that_fit_better(patterned, fitted):
+def test_at_another_phase_segments_keep_the_states_that_fit_better(patterned, fitted):
     turned = Point(fitted.point.shared, (fitted.point.own[0] + 6.0,), fitted.point.states)
     found = with_phases(patterned, turned)
-    read_off = Point(found.shared, found.own, (patterned.flights[0].starts,))
+    read_off = Point(found.shared, found.own, (patterned.segmented_runs[0].starts,))
     kept = Point(found.shared, found.own, turned.states)
-    best = np.minimum(by_window(patterned, read_off), by_window(patterned, kept))
-    # a window starts its integration with the step that the one before it ended with
-    assert by_window(patterned, found) == pytest.approx(best, rel=1e-4)
+    best = np.minimum(by_segment(patterned, read_off), by_segment(patterned, kept))
+    # a segment starts its integration with the step that the one before it ended with
+    assert by_segment(patterned, found) == pytest.approx(best, rel=1e-4)
     off = found.own[0][0] * 30.0 - PHASE
     assert abs((off + 180.0) % 360.0 - 180.0) <= 15.0  # steps of 60 and 20 degrees
 
 
-def test_a_lost_window_is_found_again(patterned, fitted):
+def test_a_lost_segment_is_found_again(patterned, fitted):
     """A state that the fit has ruined comes back, and what fits stays the very same."""
-    assert with_lost_windows_found(patterned, fitted.point) is fitted.point
+    assert with_lost_segments_found(patterned, fitted.point) is fitted.point
     here = np.flatnonzero(moving(patterned))[:1]
     states = fitted.point.states[0].copy()
     states[here, 3] = -5.0 * SPEED
     ruined = Point(fitted.point.shared, fitted.point.own, (states,))
-    found = with_lost_windows_found(patterned, ruined)
-    good, bad, again = (by_window(patterned, p)[here] for p in (fitted.point, ruined, found))
+    found = with_lost_segments_found(patterned, ruined)
+    good, bad, again = (by_segment(patterned, p)[here] for p in (fitted.point, ruined, found))
     assert np.all(bad > 10.0 * good) and again == pytest.approx(good, rel=0.05)
     others = np.delete(np.arange(len(states)), here)
     assert np.array_equal(found.states[0][others], states[others], equal_nan=True)
@@ -130,7 +130,7 @@ def test_a_phase_is_found_by_following_it(patterned, fitted):
     assert with_phases_followed(patterned, fitted.point) is fitted.point
 
 
-def test_long_windows_start_where_short_ones_do(tmp_path):
+def test_long_segments_start_where_short_ones_do(tmp_path):
     run = motion(speed=SPEED, mu_s=0.3, mu_k=0.2, duration=8.0)
     runs = [
         {
@@ -143,12 +143,12 @@ def test_long_windows_start_where_short_ones_do(tmp_path):
     campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": 2e-4}))
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     for (long,), (short,) in ((data.fit, data.short), (data.held_out, data.held_out_short)):
-        assert 2 <= len(long.windows) < len(short.windows)
-        by_first = {window.first: window for window in short.windows}
-        for window, following in zip(long.windows, [*long.windows[1:], None], strict=True):
-            begun = by_first[window.first]
-            assert np.array_equal(window.state, begun.state, equal_nan=True)
-            assert (window.free, window.last) == (
+        assert 2 <= len(long.segments) < len(short.segments)
+        by_first = {segment.first: segment for segment in short.segments}
+        for segment, following in zip(long.segments, [*long.segments[1:], None], strict=True):
+            begun = by_first[segment.first]
+            assert np.array_equal(segment.state, begun.state, equal_nan=True)
+            assert (segment.free, segment.last) == (
                 begun.free,
                 following.first if following else len(long.time),
             )

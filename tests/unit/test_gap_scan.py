@@ -9,9 +9,9 @@ from gap_campaigns import motion, noisy, write_campaign
 from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.data import read_campaign
 from cosim.gap.estimation.preparation import SHORT_CYCLES, Data, prepare
-from cosim.gap.estimation.screening import ground
-from cosim.gap.estimation.trial import Model, sketch
-from cosim.gap.selection.frequency_response import sums, wave_answer
+from cosim.gap.estimation.screening import linearised
+from cosim.gap.estimation.trial import Model, coarse_fit
+from cosim.gap.selection.frequency_response import frequency_response, sums
 from cosim.gap.selection.periodogram import periodogram, scan
 from cosim.gap.shooting.free_parameter import FreeParameter
 
@@ -46,11 +46,14 @@ def scanned(request, tmp_path_factory):
         )
     folder = tmp_path_factory.mktemp("scan")
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": 2e-4}))
-    flights = prepare(campaign, campaign.runs, False, SHORT_CYCLES)
-    data = Data(flights, flights, (), ())
-    fitted = ground(data, PLAIN, sketch(data, PLAIN, 8))
+    segmented_runs = prepare(campaign, campaign.runs, False, SHORT_CYCLES)
+    data = Data(segmented_runs, segmented_runs, (), ())
+    fitted = linearised(data, PLAIN, coarse_fit(data, PLAIN, 8))
     law = LAWS[request.param]
-    answers = [wave_answer(law, PLAIN, fitted, flight, i) for i, flight in enumerate(flights)]
+    answers = [
+        frequency_response(law, PLAIN, fitted, segmented, i)
+        for i, segmented in enumerate(segmented_runs)
+    ]
     return request.param, law, answers
 
 
@@ -89,8 +92,8 @@ def test_the_periodogram_is_nothing_where_there_is_no_misfit(scanned):
     assert not periodogram(law, silent)[1].any()
 
 
-def test_a_window_that_answers_violently_does_not_outweigh_the_others():
-    """Of two windows of ten rows, the same but that one answers a thousand times as much."""
+def test_a_segment_that_answers_violently_does_not_outweigh_the_others():
+    """Of two segments of ten rows, the same but that one answers a thousand times as much."""
     random = np.random.default_rng(2)
     part = random.standard_normal(10) + 1j * random.standard_normal(10)
     sizes, basis = np.array([10, 10]), np.ones((20, 2))

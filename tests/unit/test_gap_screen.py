@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.selection.score_test import Screen
+from cosim.gap.selection.score_test import ScoreTest
 from cosim.gap.shooting.free_parameter import FreeParameter
 
 ROWS = 400
@@ -17,7 +17,7 @@ def law(effect, start=0.1, low=0.0, high=1.0):
 def screen(residuals, answers, laws):
     """Products of what was seen with the laws' answers to their starts."""
     left = np.column_stack([residuals, *answers])
-    return Screen(tuple(laws), left.T @ left)
+    return ScoreTest(tuple(laws), left.T @ left)
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def test_two_laws_that_hide_one_another_are_found_with_their_strengths(random):
     residuals = 0.2 * noise - 20.0 * one - 20.0 * other  # 4 of the rest, nothing of the common
     found = screen(residuals, [one, other], [law("a", 0.01), law("b", 0.02)])
     assert found.gains().max() < 0.1
-    first, second = found.concealed()
+    first, second = found.masking_pair()
     assert (first.effect, second.effect) == ("a", "b")
     assert first.free_parameters[0].start == pytest.approx(0.2, rel=0.05)
     assert second.free_parameters[0].start == pytest.approx(0.4, rel=0.05)
@@ -50,18 +50,18 @@ def test_two_laws_that_hide_one_another_are_found_with_their_strengths(random):
 def test_a_strength_stays_in_its_range(random):
     common, rest = random.standard_normal((2, ROWS))
     one, other = common + 0.1 * rest, 0.1 * rest - common
-    found = screen(-20.0 * (one + other), [one, other], [law("a"), law("b", 0.01)]).concealed()
+    found = screen(-20.0 * (one + other), [one, other], [law("a"), law("b", 0.01)]).masking_pair()
     assert found[0].free_parameters[0].start == 1.0
 
 
-def test_what_one_does_alone_is_not_concealed(random):
+def test_what_one_does_alone_is_not_masked(random):
     one, other = random.standard_normal((2, ROWS))
-    assert screen(-5.0 * one - 0.5 * other, [one, other], map(law, "ab")).concealed() is None
+    assert screen(-5.0 * one - 0.5 * other, [one, other], map(law, "ab")).masking_pair() is None
 
 
 def test_two_laws_of_one_effect_are_no_pair(random):
     common, rest = random.standard_normal((2, ROWS))
     one, other = common + 0.1 * rest, 0.1 * rest - common
-    assert screen(-20.0 * (one + other), [one, other], map(law, "aa")).concealed() is None
+    assert screen(-20.0 * (one + other), [one, other], map(law, "aa")).masking_pair() is None
     # nor are two of which one would have to be less than nothing
-    assert screen(-20.0 * (one - other), [one, other], map(law, "ab")).concealed() is None
+    assert screen(-20.0 * (one - other), [one, other], map(law, "ab")).masking_pair() is None

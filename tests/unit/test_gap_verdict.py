@@ -10,19 +10,19 @@ from cosim.gap.estimation.fitted import Fitted, Point
 from cosim.gap.estimation.segmented_run import TILT
 from cosim.gap.estimation.trial import Model, Trial
 from cosim.gap.selection.criteria import (
-    ALIKE,
-    ALIKE_PART,
     DRIFT,
     EXPLAINED_AT_LEAST,
     EXPLAINED_BY_ONE,
     EXPLAINED_BY_TWO,
     FITS,
     HOLDS,
+    INDISTINGUISHABLE,
+    INDISTINGUISHABLE_PART,
     PART_OF_OTHERS,
     PLAIN_FITS,
-    alike,
-    excess,
+    excess_chi_square,
     explained,
+    indistinguishable,
     repaired,
 )
 from cosim.gap.selection.pair_refinement import MOST, NEARLY
@@ -54,11 +54,11 @@ def tried(effect, at, settings=None):
     """An effect with a trial, or a gap; None: ruled out by a shorter look."""
     at = trial(at, settings) if isinstance(at, float | int) else at
     model = Model((), settings or {})
-    sketched = SKETCHED if at is None else at.fitted
-    return Tried(Candidate(effect, "law", (), settings or {}), model, sketched, at)
+    coarse = COARSE_RMS if at is None else at.fitted
+    return Tried(Candidate(effect, "law", (), settings or {}), model, coarse, at)
 
 
-SKETCHED = trial(FAR).fitted
+COARSE_RMS = trial(FAR).fitted
 
 
 @dataclass
@@ -67,7 +67,7 @@ class MadeUp:
 
     second : effect -> trials on top of it; without : effect -> gap of a pair without it;
     across : gap of a pair of which only the friction across is left of one effect; hidden : two
-    effects that conceal one another, the second tried on top of the first; lookalike : gap of what
+    effects that conceal one another, the second tried on top of the first; confounder : gap of what
     is not in the catalogue; doubles : trials of what may take a second one's place; once_more :
     effect -> what is found for it when its period is looked for anew beside the other
     """
@@ -79,21 +79,21 @@ class MadeUp:
     across: float = FAR
     asked: list = field(default_factory=list)
     hidden: tuple | None = None
-    lookalike: float = FAR
-    doubles: list = field(default_factory=list)
+    confounder: float = FAR
+    aliases: list = field(default_factory=list)
     once_more: dict = field(default_factory=dict)
 
-    def concealed(self, base, fitted, candidates):
+    def masking_pair(self, base, fitted, candidates):
         return self.hidden
 
     def on(self, base, fitted, candidates):
         if any(
             TILT in {free_parameter.key for free_parameter in c.free_parameters} for c in candidates
         ):
-            return [replace(tried("", self.lookalike), candidate=candidates[0])]
+            return [replace(tried("", self.confounder), candidate=candidates[0])]
         done = [t for t in self.first if t.trial is not None]
         rest = [t for t in self.first if t.trial is None]
-        return sorted(done, key=lambda t: t.trial.gap) + rest
+        return sorted(done, key=lambda t: t.trial.rms_residual) + rest
 
     def beside(self, base, fitted, candidates):
         on_top = {
@@ -103,14 +103,14 @@ class MadeUp:
         offered = {c.effect for c in candidates}
         self.asked.append(offered)
         found = [t for t in on_top.get(id(base), []) if t.candidate.effect in offered]
-        return sorted(found, key=lambda t: t.trial.gap)
+        return sorted(found, key=lambda t: t.trial.rms_residual)
 
     def together(self, pairs):
         return list(pairs)
 
     def instead(self, second, law, candidates, keep):
         offered = {c.effect for c in candidates}
-        return [t for t in self.doubles if t.candidate.effect in offered]
+        return [t for t in self.aliases if t.candidate.effect in offered]
 
     def anew(self, second, law, candidates):
         self.asked.append(law.effect)
@@ -123,18 +123,20 @@ class MadeUp:
     def polished(self, chosen, candidates):
         better = {t.candidate.effect: t for t in self.polish}
         return sorted(
-            (better.get(t.candidate.effect, t) for t in chosen), key=lambda t: t.trial.gap
+            (better.get(t.candidate.effect, t) for t in chosen), key=lambda t: t.trial.rms_residual
         )
 
 
-def finding(first, plain=FAR, sketched=SKETCHED, **more):
+def finding(first, plain=FAR, coarse=COARSE_RMS, **more):
     search = MadeUp(first, **more)
     candidates = [t.candidate for t in first]
-    return judge(search, trial(plain), sketched, candidates), search
+    return judge(search, trial(plain), coarse, candidates), search
 
 
 def test_measures():
-    assert excess(trial(2.0)) == pytest.approx(3.0) and excess(trial(0.9)) == 0.0
+    assert (
+        excess_chi_square(trial(2.0)) == pytest.approx(3.0) and excess_chi_square(trial(0.9)) == 0.0
+    )
     assert explained(trial(FAR), after(0.8)) == pytest.approx(0.8)
     assert explained(trial(1.0), trial(1.0)) == 0.0  # nothing was there to be explained
 
@@ -165,7 +167,7 @@ def test_what_is_true_of_the_fitted_runs_alone_is_no_name(times, verdict):
 def test_a_plain_model_that_fits_lacks_nothing_whatever_fits_better():
     found, _ = finding([tried("film_drag", 1.0)], plain=LESS * PLAIN_FITS)
     assert (found.verdict, found.effects, found.chosen) == ("none", (), None)
-    assert found.nearest.gap == pytest.approx(LESS * PLAIN_FITS)
+    assert found.nearest.rms_residual == pytest.approx(LESS * PLAIN_FITS)
     assert [t.candidate.effect for t in found.ranking] == ["film_drag"]
 
 
@@ -193,38 +195,41 @@ def test_a_wave_is_named_though_the_plain_model_fits(period, part, rival, verdic
 def test_one_effect_is_named():
     found, _ = finding([tried("run_in", 5.0), tried("film_drag", 1.02), tried("speed_ripple", 7.0)])
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
-    assert found.chosen.gap == found.nearest.gap == pytest.approx(1.02)
+    assert found.chosen.rms_residual == found.nearest.rms_residual == pytest.approx(1.02)
     order = [t.candidate.effect for t in found.ranking]
     assert order == ["film_drag", "run_in", "speed_ripple"]
 
 
 def test_effects_that_do_as_well_are_a_class():
-    most = np.sqrt(1.02**2 + LESS * ALIKE)
+    most = np.sqrt(1.02**2 + LESS * INDISTINGUISHABLE)
     first = [tried("structural_damping", most), tried("film_drag", 1.02), tried("run_in", 5.0)]
     found, _ = finding(first)
     assert (found.verdict, found.effects) == ("class", ("film_drag", "structural_damping"))
-    assert found.chosen.gap == pytest.approx(1.02)  # the member that fits best
+    assert found.chosen.rms_residual == pytest.approx(1.02)  # the member that fits best
 
 
 def test_effects_are_told_apart_by_more_than_their_fit_s_own_misfit():
     best = trial(1.4)
-    allowed = ALIKE + ALIKE_PART * excess(best)
+    allowed = INDISTINGUISHABLE + INDISTINGUISHABLE_PART * excess_chi_square(best)
     for part, members in ((LESS, 2), (MORE, 1)):
-        other = trial(np.sqrt(best.gap**2 + part * allowed))
-        assert len(alike([tried("film_drag", best), tried("run_in", other)])) == members
+        other = trial(np.sqrt(best.rms_residual**2 + part * allowed))
+        assert len(indistinguishable([tried("film_drag", best), tried("run_in", other)])) == members
 
 
 def test_friction_across_alone_is_named_when_others_add_nothing_to_it():
     with_it = tried("turning_surface", 1.0, ACROSS)
     without = tried("spring_misalignment", 1.0)
     alone = tried(PART_OF_OTHERS, 1.01, ACROSS)
-    assert alike([with_it, alone]) == (PART_OF_OTHERS,)
-    assert alike([with_it, without]) == ("turning_surface", "spring_misalignment")
+    assert indistinguishable([with_it, alone]) == (PART_OF_OTHERS,)
+    assert indistinguishable([with_it, without]) == ("turning_surface", "spring_misalignment")
     # one that does as well without any friction across is a member
-    assert set(alike([with_it, alone, without])) == {PART_OF_OTHERS, "spring_misalignment"}
+    assert set(indistinguishable([with_it, alone, without])) == {
+        PART_OF_OTHERS,
+        "spring_misalignment",
+    }
     # what friction across alone does not repair is for the others
     far = tried(PART_OF_OTHERS, 5.0, ACROSS)
-    assert alike([with_it, far]) == ("turning_surface",)
+    assert indistinguishable([with_it, far]) == ("turning_surface",)
 
 
 @pytest.mark.parametrize(
@@ -239,7 +244,7 @@ def test_friction_across_that_another_effect_needs_is_named_with_it(effect, with
     first = [tried(effect, 1.01, ACROSS), tried(PART_OF_OTHERS, 6.0, ACROSS)]
     found, _ = finding(first, without={PART_OF_OTHERS: without})
     assert (found.verdict, found.effects) == ("named", effects)
-    assert found.chosen.gap == pytest.approx(1.01)
+    assert found.chosen.rms_residual == pytest.approx(1.01)
 
 
 def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
@@ -251,7 +256,7 @@ def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
     ]
     found, _ = finding(first, across=1.02)
     assert (found.verdict, found.effects) == ("named", (PART_OF_OTHERS,))
-    assert found.chosen.gap == pytest.approx(1.02)
+    assert found.chosen.rms_residual == pytest.approx(1.02)
     names = [t.candidate.effect for t in found.ranking]
     assert names == [PART_OF_OTHERS, "turning_surface", "spring_misalignment"]
 
@@ -265,9 +270,9 @@ def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
     ],
 )  # nothing else looks like that
 def test_what_looks_like_an_effect_and_does_better_is_said(effect, gap, verdict):
-    found, _ = finding([tried(effect, 1.21)], lookalike=gap)
-    assert (found.verdict, found.nearest.gap) == (verdict, pytest.approx(1.21))
-    assert found.lookalike == ("a rig tilted sideways" if verdict == "unknown" else "")
+    found, _ = finding([tried(effect, 1.21)], confounder=gap)
+    assert (found.verdict, found.nearest.rms_residual) == (verdict, pytest.approx(1.21))
+    assert found.confounder == ("a rig tilted sideways" if verdict == "unknown" else "")
 
 
 def test_an_effect_tried_once_more_counts_as_it_then_fits():
@@ -298,26 +303,26 @@ def two_effects(pair, one=0.6, other=0.5):
 def test_two_effects_are_named_where_both_repair_it():
     found, search = two_effects(trial(1.02))
     assert (found.verdict, found.effects) == ("named", ("film_drag", "run_in"))
-    assert found.chosen.gap == pytest.approx(1.02)
+    assert found.chosen.rms_residual == pytest.approx(1.02)
     for offered in search.asked:  # a second one is another one
         assert len(offered) == 2
 
 
-def test_two_effects_that_conceal_one_another_are_named():
-    """Neither does anything alone; where both do all in short windows, no others are tried."""
+def test_two_effects_that_mask_one_another_are_named():
+    """Neither does anything alone; where both do all in short segments, no others are tried."""
     first = [tried("speed_ripple", after(0.1)), tried("run_in", after(0.05))]
     both = tried("thermal_weakening", 1.02)
     hidden = (tried("film_drag", FAR).candidate, both)
     found, search = finding(first, hidden=hidden, second={"speed_ripple": [tried("run_in", 3.0)]})
     assert (found.verdict, found.effects) == ("named", ("film_drag", "thermal_weakening"))
-    assert found.chosen.gap == pytest.approx(1.02) and not search.asked
+    assert found.chosen.rms_residual == pytest.approx(1.02) and not search.asked
 
 
 @pytest.mark.parametrize(
     "left, verdict",
     [(LESS * HARDLY, ("film_drag", "run_in")), (MORE * HARDLY, ("speed_ripple", "run_in"))],
 )
-def test_a_pair_that_leaves_more_than_noise_may_have_a_double_for_its_first(left, verdict):
+def test_a_pair_that_leaves_more_than_noise_may_have_an_alias_for_its_first(left, verdict):
     """Its second does as well on top of another first, and leaves less there."""
     first = [
         tried("film_drag", after(0.6, 100.0)),
@@ -326,7 +331,7 @@ def test_a_pair_that_leaves_more_than_noise_may_have_a_double_for_its_first(left
     ]
     far = trial(100.0).fitted
     second = {"film_drag": [tried("run_in", left)], "speed_ripple": [tried("run_in", 1.0)]}
-    found, _ = finding(first, plain=100.0, sketched=far, second=second)
+    found, _ = finding(first, plain=100.0, coarse=far, second=second)
     assert (found.verdict, found.effects) == ("named", verdict)
 
 
@@ -340,12 +345,12 @@ def test_what_moves_a_block_off_its_line_is_tried_in_place_of_what_does_so_too(l
     first[1] = replace(first[1], candidate=replace(first[1].candidate, lateral=True))
     pair = tried("run_in", MORE * PLAIN_FITS)
     pair = replace(pair, candidate=replace(pair.candidate, lateral=lateral))
-    search = {"second": {"film_drag": [pair]}, "doubles": [tried("turning_surface", 1.0)]}
+    search = {"second": {"film_drag": [pair]}, "aliases": [tried("turning_surface", 1.0)]}
     found, _ = finding(first, plain=100.0, **search)
     assert (found.verdict, found.effects) == ("named", ("film_drag", second))
 
 
-def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_doubles():
+def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_aliases():
     first = [
         tried("lateral_friction", after(0.6, 100.0)),
         tried("run_in", after(0.5, 100.0)),
@@ -355,7 +360,7 @@ def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_
         first[i] = replace(first[i], candidate=replace(first[i].candidate, lateral=True))
     search = {
         "second": {"lateral_friction": [tried("run_in", MORE * PLAIN_FITS)]},
-        "doubles": [tried("turning_surface", 1.0)],
+        "aliases": [tried("turning_surface", 1.0)],
     }
     found, _ = finding(first, plain=100.0, **search)
     assert (found.verdict, found.effects) == ("named", ("run_in", "turning_surface"))
@@ -376,12 +381,12 @@ def test_a_period_that_was_found_beside_nothing_is_looked_for_beside_the_other(p
     assert "film_drag" not in search.asked  # it has no period
 
 
-def test_a_pair_that_fits_in_short_windows_is_fitted_more_closely():
+def test_a_pair_that_fits_in_short_segments_is_fitted_more_closely():
     """Long ones may have led its laws astray."""
     first = [tried("film_drag", after(0.4)), tried("run_in", after(0.3))]
     astray = after(LESS * NEARLY)
     for short, effects in ((PLAIN_FITS, ("film_drag", "run_in")), (MORE * PLAIN_FITS, ())):
-        pair = replace(tried("run_in", astray), sketched=trial(short).fitted)
+        pair = replace(tried("run_in", astray), coarse=trial(short).fitted)
         found, _ = finding(first, second={"film_drag": [pair]}, polish=[tried("run_in", 1.02)])
         assert found.effects == effects
 
@@ -410,12 +415,12 @@ def test_a_law_that_has_become_a_plain_number_is_no_effect(time, verdict):
     assert "stick_stiffness" in found.effects
     # nor does one that explains most stand alone where such a law does the rest
     most = after(0.5 * (1.0 + EXPLAINED_BY_ONE))
-    assert most.gap > FITS and repaired(trial(FAR), most, EXPLAINED_BY_ONE)
+    assert most.rms_residual > FITS and repaired(trial(FAR), most, EXPLAINED_BY_ONE)
     first = [tried("run_in", most), tried("static_strengthening", after(0.1))]
     second = {"run_in": [tried("static_strengthening", ended(1.02, time))]}
     found, _ = finding(first, second=second)
     assert found.verdict == verdict
-    assert found.nearest.gap == pytest.approx(1.02)
+    assert found.nearest.rms_residual == pytest.approx(1.02)
 
 
 def test_two_effects_must_take_away_so_much():
@@ -431,7 +436,9 @@ def test_two_effects_must_take_away_so_much():
 @pytest.mark.parametrize("part, second", [(LESS, PART_OF_OTHERS), (MORE, "turning_surface")])
 def test_friction_across_stands_for_what_brings_it_along_if_it_does_as_well(part, second):
     pair = trial(1.02)
-    gap = np.sqrt(1.02**2 + part * (ALIKE + ALIKE_PART * excess(pair)))
+    gap = np.sqrt(
+        1.02**2 + part * (INDISTINGUISHABLE + INDISTINGUISHABLE_PART * excess_chi_square(pair))
+    )
     first = [
         tried("film_drag", after(0.6)),
         tried("turning_surface", after(0.5), ACROSS),
@@ -460,13 +467,13 @@ def test_beside_an_effect_that_explains_nearly_all_another_must_do_so_with_the_r
 ):
     """What is left by one whose law is a little wrong is seldom a second one."""
     plain, alone = 100.0, after(0.5 * (EXPLAINED_BY_ONE + 1.0), 100.0)
-    pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED) * excess(alone)))
+    pair = trial(np.sqrt(1.0 + factor * (1.0 - NEEDED) * excess_chi_square(alone)))
     first = [tried("film_drag", alone), tried("run_in", after(0.3, plain))]
     found, _ = finding(
         first,
         plain=plain,
         second={"film_drag": [tried("run_in", pair)]},
-        without={"run_in": alone.gap, "film_drag": 0.9 * plain},
+        without={"run_in": alone.rms_residual, "film_drag": 0.9 * plain},
     )
     assert (found.verdict, found.effects) == ("named", effects)
 
@@ -481,7 +488,7 @@ def test_an_effect_that_leaves_noise_once_it_sets_out_from_the_pair_needs_no_oth
 
 def test_beside_an_effect_that_explains_all_no_other_is_looked_for():
     first = [tried("film_drag", after(1.0 - LESS * (1.0 - ALL), 100.0))]
-    assert first[0].trial.gap > FITS
+    assert first[0].trial.rms_residual > FITS
     second = {"film_drag": [tried("run_in", 1.0)]}
     found, search = finding(first, plain=100.0, second=second)
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
@@ -497,7 +504,7 @@ def test_one_effect_that_dominates_is_named_though_something_is_left():
     ]
     found, _ = finding(first, plain=plain)
     assert (found.verdict, found.effects) == ("named", ("film_drag",))
-    assert found.chosen.gap == pytest.approx(after(strong, plain).gap)
+    assert found.chosen.rms_residual == pytest.approx(after(strong, plain).rms_residual)
 
 
 @pytest.mark.parametrize(
@@ -511,7 +518,7 @@ def test_no_name_without_a_repair_or_with_a_rival(strong, rival):
     ]
     found, _ = finding(first, plain=plain)
     assert (found.verdict, found.effects, found.chosen) == ("unknown", (), None)
-    assert found.nearest.gap == pytest.approx(after(strong, plain).gap)
+    assert found.nearest.rms_residual == pytest.approx(after(strong, plain).rms_residual)
 
 
 def test_nothing_helps():
@@ -523,7 +530,7 @@ def test_what_is_nearest_may_be_a_pair():
     pair = after(0.95 * EXPLAINED_BY_TWO)  # twice as much as either alone
     alone = 0.45 * EXPLAINED_BY_TWO
     found, _ = two_effects(pair, one=alone, other=alone)
-    assert found.verdict == "unknown" and found.nearest.gap == pytest.approx(pair.gap)
+    assert found.verdict == "unknown" and found.nearest.rms_residual == pytest.approx(pair.rms_residual)
 
 
 def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
@@ -533,14 +540,14 @@ def test_a_pair_whose_better_half_does_it_alone_is_no_pair():
     pair = after(1.0 - (1.0 - strong) * MORE * (1.0 - NEEDED))
     assert repaired(trial(FAR), pair, EXPLAINED_BY_TWO)
     found, _ = finding([good, poor], second={"film_drag": [tried("run_in", pair)]})
-    assert found.verdict == "unknown" and found.nearest.gap == pytest.approx(good.trial.gap)
+    assert found.verdict == "unknown" and found.nearest.rms_residual == pytest.approx(good.trial.rms_residual)
 
 
 def test_a_little_that_nothing_explains_is_nothing():
     """Between what fits and what is repaired, an effect has a name for nearly all of it."""
     between = 0.5 * (PLAIN_FITS + FITS)
     weak = after(LESS * EXPLAINED_AT_LEAST, between)
-    assert weak.gap < FITS
+    assert weak.rms_residual < FITS
     found, _ = finding([tried("film_drag", weak)], plain=between)
     assert (found.verdict, found.effects) == ("none", ())
     found, _ = finding(
@@ -552,19 +559,19 @@ def test_a_little_that_nothing_explains_is_nothing():
 def test_what_remains_may_be_noise_and_yet_most_of_what_was():
     before = MORE * FITS
     most, least = (after(part * EXPLAINED_AT_LEAST, before) for part in (LESS, MORE))
-    assert most.gap < FITS
+    assert most.rms_residual < FITS
     assert not repaired(trial(before), most, EXPLAINED_BY_ONE)
     assert repaired(trial(before), least, EXPLAINED_BY_ONE)
 
 
-def test_what_only_long_flights_show_may_be_drift():
+def test_what_only_long_runs_show_may_be_drift():
     short, plain = trial(LESS * PLAIN_FITS).fitted, LESS * DRIFT
     weak = [tried("film_drag", after(LESS * EXPLAINED_AT_LEAST, plain))]
-    assert finding(weak, plain=plain, sketched=short)[0].verdict == "none"
+    assert finding(weak, plain=plain, coarse=short)[0].verdict == "none"
     assert finding(weak, plain=plain)[0].verdict == "unknown"  # short ones show it as well
-    assert finding(weak, plain=MORE * DRIFT, sketched=short)[0].verdict == "unknown"
+    assert finding(weak, plain=MORE * DRIFT, coarse=short)[0].verdict == "unknown"
     strong = [tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, plain))]
-    assert finding(strong, plain=plain, sketched=short)[0].effects == ("film_drag",)
+    assert finding(strong, plain=plain, coarse=short)[0].effects == ("film_drag",)
 
 
 def test_what_only_held_out_runs_feel_explains_nothing():

@@ -1,4 +1,4 @@
-"""Windows of a run: how long a cycle is, and what of a state is free at their beginning."""
+"""Segments of a run: how long a cycle is, and what of a state is free at their beginning."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 from cosim.gap import read_campaign
 from cosim.gap.candidates.plain import moves_across, plain_free_parameters
 from cosim.gap.estimation.preparation import period, prepare, prepared
-from cosim.gap.estimation.trial import Model, sketch, try_model
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model
 
 
 @pytest.fixture(scope="module")
@@ -27,23 +27,23 @@ def campaign_of(folder, track, seed=1):
 def test_a_block_that_sticks_along_x_may_swing_across(aside, tmp_path):
     campaign = campaign_of(tmp_path, aside)
     assert moves_across(campaign)
-    (flight,) = prepare(campaign, campaign.fit_runs, True)
-    held = [w for w in flight.windows if np.isfinite(w.hold_since)]
+    (segmented,) = prepare(campaign, campaign.fit_runs, True)
+    held = [w for w in segmented.segments if np.isfinite(w.hold_since)]
     assert held
-    for window in held:
+    for segment in held:
         # how the block was put down turned, nobody has seen
-        assert window.free == ((0, 1, 4) if window.first else (0, 1, 2, 4))
-        true = np.interp(flight.time[window.first], aside.time, aside["vy"])
-        assert window.state[4] == pytest.approx(true, abs=5e-3)  # a parabola through 13 samples
+        assert segment.free == ((0, 1, 4) if segment.first else (0, 1, 2, 4))
+        true = np.interp(segmented.time[segment.first], aside.time, aside["vy"])
+        assert segment.state[4] == pytest.approx(true, abs=5e-3)  # a parabola through 13 samples
 
 
 def test_the_plain_model_fits_a_plain_block_that_swings_across(aside, tmp_path):
     campaign = campaign_of(tmp_path, aside)
     data = prepared(campaign, campaign.fit_runs, (), True)
     model = Model(plain_free_parameters(campaign, True), {})
-    trial = try_model(data, model, sketch(data, model, 4))
+    trial = try_model(data, model, coarse_fit(data, model, 4))
     # 4000 rows: their noise alone has a root mean square of 1 +- 0.011
-    assert trial.gap == pytest.approx(1.0, abs=0.05)
+    assert trial.rms_residual == pytest.approx(1.0, abs=0.05)
 
 
 @pytest.mark.parametrize("kept", [slice(None), slice(None, None, 3), slice(0, 5)])

@@ -24,9 +24,9 @@ from cosim.gap.candidates.scales import scales
 from cosim.gap.data import read_campaign
 from cosim.gap.design import Member, next_experiment
 from cosim.gap.estimation.preparation import prepared
-from cosim.gap.estimation.trial import Model, sketch, try_model
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model
 from cosim.gap.selection.tried import Tried
-from cosim.gap.selection.verdict import FITS, alike
+from cosim.gap.selection.verdict import FITS, indistinguishable
 
 PAIR = ("film_drag", "structural_damping")
 HIDDEN = {
@@ -56,16 +56,16 @@ def fitted(folder, runs):
     campaign = read_campaign(path)
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     base = Model(plain_free_parameters(campaign, False), {})
-    plain = sketch(data, base, 8)
+    plain = coarse_fit(data, base, 8)
     done = {}
     for law in candidates(scales(list(campaign.runs), plain.values["friction.mu_k"], 0.0)):
         if law.effect in PAIR:
             model = extended(base, law, plain.values)
-            sketched = sketch(data, model, 8)
-            tried = Tried(law, model, sketched, try_model(data, model, sketched))
-            if law.effect not in done or tried.trial.gap < done[law.effect].trial.gap:
+            coarse = coarse_fit(data, model, 8)
+            tried = Tried(law, model, coarse, try_model(data, model, coarse))
+            if law.effect not in done or tried.trial.rms_residual < done[law.effect].trial.rms_residual:
                 done[law.effect] = tried
-    return campaign, sorted(done.values(), key=lambda t: t.trial.gap)
+    return campaign, sorted(done.values(), key=lambda t: t.trial.rms_residual)
 
 
 def proposed_for(campaign, done):
@@ -94,16 +94,16 @@ def test_one_more_run_names_what_one_speed_cannot(tmp_path, effect):
     (tmp_path / "before").mkdir()
     (tmp_path / "after").mkdir()
     campaign, done = fitted(tmp_path / "before", one_speed(hidden))
-    assert set(alike(done)) == set(PAIR)
-    assert done[0].trial.gap < FITS
+    assert set(indistinguishable(done)) == set(PAIR)
+    assert done[0].trial.rms_residual < FITS
 
     proposed = proposed_for(campaign, done)
     assert proposed["predicted_separation"] > 2.0
     extra = as_proposed(hidden, proposed, seed=7)
     _, after = fitted(tmp_path / "after", [*one_speed(hidden), extra])
-    assert alike(after) == (effect,)
-    assert after[0].trial.gap < FITS
+    assert indistinguishable(after) == (effect,)
+    assert after[0].trial.rms_residual < FITS
     # what the other effect leaves in the new run is about what was predicted: the prediction
     # stands on the campaign's numbers, which the new run then mends
-    left = after[1].trial.gaps[2]
+    left = after[1].trial.rms_residuals[2]
     assert 0.5 < left / np.hypot(1.0, proposed["predicted_separation"]) < 3.0

@@ -30,7 +30,7 @@ _STICKS = 5
 #: The surface's speed, where it is off at all, is off by about this part.
 _SPEED = 0.03
 #: A set-point is kept to this part; creeps are alike within this part.
-_SET_POINT, _ALIKE = 0.003, 0.5
+_SET_POINT, _EQUAL = 0.003, 0.5
 
 
 def plain_free_parameters(campaign: Campaign, planar: bool) -> tuple[FreeParameter, ...]:
@@ -90,8 +90,10 @@ def common_creep(runs: Sequence[MeasuredRun]) -> tuple[float, float] | None:
     precision = float(np.sum((load / error) ** 2))
     creep = float(np.sum(lag * load / error**2)) / precision
     of_mean = precision**-0.5
-    alike = np.abs(lag - creep * load) <= np.maximum(SPEED_ERRORS * error, _ALIKE * creep * load)
-    return (creep, of_mean) if creep > SPEED_ERRORS * of_mean and alike.all() else None
+    indistinguishable = np.abs(lag - creep * load) <= np.maximum(
+        SPEED_ERRORS * error, _EQUAL * creep * load
+    )
+    return (creep, of_mean) if creep > SPEED_ERRORS * of_mean and indistinguishable.all() else None
 
 
 def _lag(run: MeasuredRun) -> tuple[float, float, float]:

@@ -17,7 +17,7 @@ from .rehearsal import Setting, rehearse, setting_of
 from .separation import separation
 
 #: Experiments times pairs that are looked at, linearised; so many of the best are then refitted ...
-_LOOKS, _FINALISTS = 180, 3
+_SCREENED, _FINALISTS = 180, 3
 #: ... with so many Levenberg-Marquardt steps.
 _ROUNDS = 3
 #: Of runs nearly as good as the best, within this part, the one that needs least new equipment.
@@ -54,16 +54,16 @@ def next_experiment(campaign: Campaign, members: Sequence[Member], planar: bool)
     pairs = list(combinations(range(len(sides)), 2))
     looked = [
         (min(_apart(setting, one, sides, pairs, 0).values(), default=0.0), one)
-        for one in experiments(campaign, _LOOKS // len(pairs))
+        for one in experiments(campaign, _SCREENED // len(pairs))
     ]
     best = _most_telling(looked)[:_FINALISTS]
     both_ways = list(permutations(range(len(sides)), 2))
-    flown = {one: _apart(setting, one, sides, both_ways, _ROUNDS) for _, one in best}
-    told = [(min(found.values()), one) for one, found in flown.items() if found]
+    simulated = {one: _apart(setting, one, sides, both_ways, _ROUNDS) for _, one in best}
+    told = [(min(found.values()), one) for one, found in simulated.items() if found]
     if not told:
         return None
     chosen = _most_telling(told)[0][1]
-    return _described(setting, chosen, sides, flown[chosen])
+    return _described(setting, chosen, sides, simulated[chosen])
 
 
 def _most_telling(scored: Sequence[tuple[float, Experiment]]) -> list[tuple[float, Experiment]]:
@@ -101,14 +101,14 @@ def _side(member: Member) -> _Side:
 
 def _apart(setting: Setting, experiment: Experiment, sides, pairs, rounds: int) -> dict:
     """(truth, other) -> separation; empty where the rig cannot do the experiment."""
-    flights = {}
+    segmented_runs = {}
     for truth in sorted({truth for truth, _ in pairs}):
-        flights[truth] = rehearse(setting, experiment, sides[truth].member.values)
-        if flights[truth] is None:
+        segmented_runs[truth] = rehearse(setting, experiment, sides[truth].member.values)
+        if segmented_runs[truth] is None:
             return {}
     return {
         (truth, other): separation(
-            flights[truth], sides[other].member, sides[other].information, rounds
+            segmented_runs[truth], sides[other].member, sides[other].information, rounds
         )
         for truth, other in pairs
     }

@@ -10,8 +10,8 @@ import numpy as np
 from cosim.gap.data import Campaign, MeasuredRun, Track, find_sticks
 from cosim.gap.estimation.preparation import known_parameters, prepare
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import COLUMN, Flight
-from cosim.gap.estimation.segments import Window
+from cosim.gap.estimation.segmented_run import COLUMN, SegmentedRun
+from cosim.gap.estimation.segments import Segment
 from cosim.gap.shooting.free_parameter import OFFSETS
 
 from .member import Member, without_zero
@@ -46,12 +46,12 @@ def setting_of(campaign: Campaign, planar: bool) -> Setting:
 
 
 def rehearse(setting: Setting, experiment: Experiment, values: Mapping[str, float]):
-    """The flight of a model's own motion in an experiment, or None where the rig cannot do it.
+    """The segmented run of a model's own motion in an experiment, or None where the rig cannot do it.
 
     The rig cannot where springs would be crushed or the model gives up. Returns `Flight`.
     """
     run = _planned(setting, experiment)
-    outputs = _fly(setting, run, experiment, without_zero(values, OFFSETS))
+    outputs = _simulated(setting, run, experiment, without_zero(values, OFFSETS))
     x = outputs[:, COLUMN["x"]]
     if not np.isfinite(x).all() or np.abs(x).max() > FARTHEST * setting.campaign.rig.spring_length:
         return None
@@ -70,7 +70,7 @@ def _planned(setting: Setting, experiment: Experiment, track=None, sticks=()) ->
     )  # fmt: skip
 
 
-def _fly(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> np.ndarray:
+def _simulated(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> np.ndarray:
     """Outputs (n, O_SIZE) from the experiment's start."""
     state, since = np.zeros(6), np.nan
     if experiment.start == "carried":
@@ -78,14 +78,14 @@ def _fly(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> 
     else:
         state[0] = experiment.pull
     known = known_parameters(setting.campaign, run, setting.planar)
-    window = Window(0, len(setting.time), state, (), since)
-    flight = Flight(
+    segment = Segment(0, len(setting.time), state, (), since)
+    segmented = SegmentedRun(
         run.name, known, run.surface_speed, known["temperature_dependence.reference_degC"],
-        setting.time, {}, {}, (window,),
+        setting.time, {}, {}, (segment,),
     )  # fmt: skip
-    return flight.fly(values, state[None, :])
+    return segmented.simulate(values, state[None, :])
 
 
-def problem_of(flight: Flight, member: Member) -> Problem:
+def problem_of(segmented: SegmentedRun, member: Member) -> Problem:
     """A member's fit to somebody else's motion."""
-    return Problem([flight], member.free_parameters, dict(member.settings))
+    return Problem([segmented], member.free_parameters, dict(member.settings))

@@ -14,7 +14,7 @@ from cosim.gap.estimation.columns import Columns
 from cosim.gap.estimation.fitted import Point
 from cosim.gap.estimation.phases import with_phases
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import Flight
+from cosim.gap.estimation.segmented_run import SegmentedRun
 
 from .member import Member
 from .rehearsal import problem_of
@@ -23,10 +23,12 @@ from .rehearsal import problem_of
 _DAMPING, _TRIES = 1e-3, 4
 
 
-def separation(truth: Flight, member: Member, information: np.ndarray, rounds: int = 0) -> float:
+def separation(
+    truth: SegmentedRun, member: Member, information: np.ndarray, rounds: int = 0
+) -> float:
     """Root mean square over the new run's samples, in units of the noise, of what cannot be fitted.
 
-    rounds : Levenberg-Marquardt steps that are really flown; 0: the linearised answer.
+    rounds : Levenberg-Marquardt steps that are really simulated; 0: the linearised answer.
     """
     problem = problem_of(truth, member)
     known = member.point

@@ -5,7 +5,7 @@ from cosim.gap.diagnostics.empirical import empirical_term
 from cosim.gap.diagnostics.features import Feature, library
 from cosim.gap.diagnostics.force_term import Term
 from cosim.gap.diagnostics.model_track import ModelTrack, tracks_of
-from cosim.gap.diagnostics.regimes import Atlas, Region, residual_atlas
+from cosim.gap.diagnostics.regimes import RegimeAnalysis, Region, analyse_residuals
 from cosim.gap.diagnostics.spectrum import (
     Period,
     pattern_wavelength,
@@ -17,7 +17,7 @@ from cosim.gap.diagnostics.where import Where, find_where
 
 __all__ = [
     "VARIABLES",
-    "Atlas",
+    "RegimeAnalysis",
     "Dependence",
     "Feature",
     "ModelTrack",
@@ -29,7 +29,7 @@ __all__ = [
     "find_where",
     "library",
     "pattern_wavelength",
-    "residual_atlas",
+    "analyse_residuals",
     "ripple_frequency",
     "strongest_period",
     "tracks_of",

@@ -13,7 +13,7 @@ from cosim.gap.candidates.extend import extended
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.diagnostics.spectrum import Period, strongest_period
 from cosim.gap.estimation.preparation import Data
-from cosim.gap.estimation.trial import Trial, sketch, try_model
+from cosim.gap.estimation.trial import Trial, coarse_fit, try_model
 from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.processes import Map
 
@@ -26,7 +26,7 @@ from .sparse_regression import Formula, formulas
 _UNSEEN_RATIO = 1.3
 #: Break-aways differ between the two directions when they do by this part.
 _UNLIKE = 0.05
-#: Rounds of the fit in short windows with the force acting.
+#: Rounds of the fit in short segments with the force acting.
 _ROUNDS = 4
 #: The formula is kept when it takes away this part of the held-out gap's excess, in squares.
 _WORTH = 0.2
@@ -54,9 +54,9 @@ def empirical_term(
     Keys: kind ("empirical"), formula, terms ([{feature, coefficient, unit}]), parameters (friction,
     refitted with it), fit_gap_before, fit_gap_after, held_out_gap_before, held_out_gap_after, text.
     """
-    names = {flight.name for flight in data.fit}
+    names = {segmented.name for segmented in data.fit}
     fit_runs = [run for run in campaign.runs if run.name in names]
-    names = {flight.name for flight in data.held_out}
+    names = {segmented.name for segmented in data.held_out}
     held_out = [run for run in campaign.runs if run.name in names]
     fit_slips, held_slips = slips_of(fit_runs), slips_of(held_out)
     if not fit_slips:
@@ -66,11 +66,11 @@ def empirical_term(
     tasks = [(data, base, one, fit_runs) for one in _promising(found)]
     for each in mapped(_closed_loop, tasks):
         acting.append(each)
-        if acting[-1][0].held_out_gap <= _ENOUGH:
+        if acting[-1][0].held_out_rms <= _ENOUGH:
             break
     trial, features = base, ()
     for tried, terms in sorted(acting, key=lambda pair: len(pair[1])):
-        if tried.held_out_gap < (1.0 - _EARNED) * trial.held_out_gap:
+        if tried.held_out_rms < (1.0 - _EARNED) * trial.held_out_rms:
             trial, features = tried, terms
     return _described(base, trial, features) if _worth(base, trial) else None
 
@@ -128,19 +128,19 @@ def _by_run(slips: Sequence[Slip], run: int, count: int) -> np.ndarray:
 def _closed_loop(
     data: Data, base: Trial, best: Formula, runs: Sequence[MeasuredRun]
 ) -> tuple[Trial, tuple[Feature, ...]]:
-    """The force in the model, fitted in short windows and judged in long ones; its features."""
+    """The force in the model, fitted in short segments and judged in long ones; its features."""
     friction, best = _friction(best, runs)
-    flights = [
-        tuple(forced(flight, best.features) for flight in part)
+    segmented_runs = [
+        tuple(forced(segmented, best.features) for segmented in part)
         for part in (data.fit, data.short, data.held_out, data.held_out_short)
     ]
     free_parameters = tuple(
         FreeParameter(key(i), float(c), _STEP * abs(float(c)))
         for i, c in enumerate(best.coefficients)
     )
-    acting = Data(*flights)
+    acting = Data(*segmented_runs)
     model = extended(base.model, Candidate("empirical", "formula", free_parameters), friction)
-    trial = try_model(acting, model, sketch(acting, model, _ROUNDS), rounds=0)
+    trial = try_model(acting, model, coarse_fit(acting, model, _ROUNDS), rounds=0)
     return trial, best.features
 
 
@@ -165,7 +165,7 @@ def _friction(best: Formula, runs: Sequence[MeasuredRun]) -> tuple[dict[str, flo
 
 
 def _worth(base: Trial, trial: Trial) -> bool:
-    before, after = (max(t.held_out_gap**2 - 1.0, 0.0) for t in (base, trial))
+    before, after = (max(t.held_out_rms**2 - 1.0, 0.0) for t in (base, trial))
     return after < (1.0 - _WORTH) * before
 
 
@@ -174,8 +174,8 @@ def _described(base: Trial, trial: Trial, features: Sequence[Feature]) -> dict[s
     terms = [Term(f, float(values[key(i)])) for i, f in enumerate(features)]
     text = formula(terms)
     gaps = {
-        "fit_gap_before": base.fitted.gap(), "fit_gap_after": trial.fitted.gap(),
-        "held_out_gap_before": base.held_out_gap, "held_out_gap_after": trial.held_out_gap,
+        "fit_gap_before": base.fitted.rms_residual(), "fit_gap_after": trial.fitted.rms_residual(),
+        "held_out_gap_before": base.held_out_rms, "held_out_gap_after": trial.held_out_rms,
     }  # fmt: skip
     return {
         "kind": "empirical",
@@ -189,7 +189,7 @@ def _described(base: Trial, trial: Trial, features: Sequence[Feature]) -> dict[s
         },
         **{name: float(value) for name, value in gaps.items()},
         "text": (
-            f"{text} (empirical, no catalogued effect; held-out gap {base.held_out_gap:.3g} "
-            f"to {trial.held_out_gap:.3g})"
+            f"{text} (empirical, no catalogued effect; held-out gap {base.held_out_rms:.3g} "
+            f"to {trial.held_out_rms:.3g})"
         ),
     }

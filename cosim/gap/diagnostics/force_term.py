@@ -1,4 +1,4 @@
-"""A formula with its coefficients, and as the force of a flight."""
+"""A formula with its coefficients, and as the force of a segmented run."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from stickslip.packing import pack
 from stickslip.restarted import Force
 
 from cosim.gap.estimation.drive import driven_speed
-from cosim.gap.estimation.segmented_run import Flight
+from cosim.gap.estimation.segmented_run import SegmentedRun
 
 from .features import Feature, Moment
 
@@ -49,8 +49,8 @@ def key(number: int) -> str:
 
 
 @dataclass(frozen=True)
-class ForcedFlight(Flight):
-    """A flight on which features with coefficients, parameters `key(i)`, act as a force along x."""
+class ForcedRun(SegmentedRun):
+    """A segmented run on which features with coefficients, parameters `key(i)`, act as a force along x."""
 
     features: tuple[Feature, ...] = field(default=(), kw_only=True)
 
@@ -84,7 +84,7 @@ def moment_of(block: Sequence[float], speed: float, load: float) -> Moment:
     )  # fmt: skip
 
 
-def forced(flight: Flight, features: Sequence[Feature]) -> ForcedFlight:
-    """The same flight under a force."""
-    known = {one.name: getattr(flight, one.name) for one in fields(flight) if one.init}
-    return ForcedFlight(**known, features=tuple(features))
+def forced(segmented: SegmentedRun, features: Sequence[Feature]) -> ForcedRun:
+    """The same segmented run under a force."""
+    known = {one.name: getattr(segmented, one.name) for one in fields(segmented) if one.init}
+    return ForcedRun(**known, features=tuple(features))

@@ -29,7 +29,7 @@ class ModelTrack:
     x, vx : (n,) arrays, m, m/s; the tracker's zero included in x
     mode : (n,) array, 0 stick, 1 slip
     y, phi : (n,) arrays, m, rad, or None where they are not compared
-    window : (n,) array of whole numbers: the model starts anew where it changes
+    segment : (n,) array of whole numbers: the model starts anew where it changes
     """
 
     run: MeasuredRun
@@ -38,7 +38,7 @@ class ModelTrack:
     mode: np.ndarray = field(repr=False)
     y: np.ndarray | None = field(default=None, repr=False)
     phi: np.ndarray | None = field(default=None, repr=False)
-    window: np.ndarray | None = field(default=None, repr=False)
+    segment: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def time(self) -> np.ndarray:
@@ -59,9 +59,9 @@ class ModelTrack:
         return (self.run.track[channel] - getattr(self, channel)) / self.run.noise[channel]
 
     @cached_property
-    def windows(self) -> np.ndarray:
+    def segments(self) -> np.ndarray:
         """(n,) number of the stretch between two starts of the model."""
-        return np.zeros(len(self.time), dtype=int) if self.window is None else self.window
+        return np.zeros(len(self.time), dtype=int) if self.segment is None else self.segment
 
     @cached_property
     def model_sticks(self) -> tuple[Stick, ...]:
@@ -88,7 +88,7 @@ class ModelTrack:
         Only those of at least so many samples of x; none crosses a start of the model.
         """
         both = (self.mode == mode) & (self.measured_mode == mode)
-        edges = np.flatnonzero((np.diff(both.astype(int)) != 0) | (np.diff(self.windows) != 0)) + 1
+        edges = np.flatnonzero((np.diff(both.astype(int)) != 0) | (np.diff(self.segments) != 0)) + 1
         parts = np.split(np.arange(len(both)), edges)
         seen = np.isfinite(self.run.track.x)
         parts = [part[seen[part]] for part in parts if both[part[0]]]
@@ -101,22 +101,24 @@ def tracks_of(problem: Problem, fitted: Fitted, runs: Sequence[MeasuredRun]) -> 
 
 
 def _track(problem: Problem, fitted: Fitted, number: int, run: MeasuredRun) -> ModelTrack:
-    flight = problem.flights[number]
+    segmented = problem.segmented_runs[number]
     values = problem.settings | fitted.values | fitted.own_values(number)
     offsets = {key: values.pop(key) for key in OFFSETS if key in values}
     states = fitted.point.states[number].copy()
     for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
         states[:, axis] -= offsets.get(key, 0.0)
-    outputs = flight.fly(values, states)
-    window = np.zeros(len(flight.time), dtype=int)
-    for place, piece in enumerate(flight.windows):
-        window[piece.first : piece.last] = place
+    outputs = segmented.simulate(values, states)
+    segment = np.zeros(len(segmented.time), dtype=int)
+    for place, piece in enumerate(segmented.segments):
+        segment[piece.first : piece.last] = place
     return ModelTrack(
         run,
         x=outputs[:, layout.O_X] + offsets.get("offset.x", 0.0),
         vx=outputs[:, layout.O_VX],
         mode=outputs[:, layout.O_MODE],
-        y=outputs[:, layout.O_Y] + offsets.get("offset.y", 0.0) if "y" in flight.channels else None,
-        phi=outputs[:, layout.O_PHI] if "phi" in flight.channels else None,
-        window=window,
+        y=outputs[:, layout.O_Y] + offsets.get("offset.y", 0.0)
+        if "y" in segmented.channels
+        else None,
+        phi=outputs[:, layout.O_PHI] if "phi" in segmented.channels else None,
+        segment=segment,
     )

@@ -1,4 +1,4 @@
-"""The atlas: for each channel and regime, how large the misfit is and on what it depends."""
+"""The residual analysis: for each channel and regime, how large the misfit is and on what it depends."""
 
 from __future__ import annotations
 
@@ -56,19 +56,19 @@ class Region:
 
 
 @dataclass(frozen=True)
-class Atlas:
+class RegimeAnalysis:
     """The misfit of a model, everywhere.
 
     Attributes
     ----------
     regions : channel by channel, regime by regime
-    gap : root mean square residual of all samples in units of the noise
+    rms_residual : root mean square residual of all samples in units of the noise
     ripple, pattern : the strongest period of the misfit in time (in stick) and along the surface
         (in slip); None where there is none beyond chance
     """
 
     regions: tuple[Region, ...]
-    gap: float
+    rms_residual: float
     ripple: Period | None = None
     pattern: Period | None = None
 
@@ -78,8 +78,8 @@ class Atlas:
         return sum(1 + len(region.dependences) for region in self.regions)
 
 
-def residual_atlas(tracks: Sequence[ModelTrack]) -> Atlas:
-    """The atlas of a fitted model, before or after an effect was added."""
+def analyse_residuals(tracks: Sequence[ModelTrack]) -> RegimeAnalysis:
+    """The residual analysis of a fitted model, before or after an effect was added."""
     tracks = list(tracks)
     variables = [variables_of(track) for track in tracks]
     every = sources(tracks)
@@ -91,8 +91,8 @@ def residual_atlas(tracks: Sequence[ModelTrack]) -> Atlas:
             variables[i][name] = phase_of(period, COORDINATES[name](track), i)
     regions = tuple(_region(source, tracks, variables, periods) for source in every)
     residuals = [track.residual(channel) for track in tracks for channel in track.channels]
-    gap = float(np.sqrt(np.nanmean(np.concatenate(residuals) ** 2)))
-    return Atlas(regions, gap, periods.get("time_phase"), periods.get("surface_phase"))
+    rms = float(np.sqrt(np.nanmean(np.concatenate(residuals) ** 2)))
+    return RegimeAnalysis(regions, rms, periods.get("time_phase"), periods.get("surface_phase"))
 
 
 def _region(

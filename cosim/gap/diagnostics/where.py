@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.diagnostics.dependence import Dependence
-from cosim.gap.diagnostics.regimes import Atlas, Region
+from cosim.gap.diagnostics.regimes import RegimeAnalysis, Region
 from cosim.gap.diagnostics.variables import VARIABLES
 
 #: A misfit counts where chance makes one like it, in any of the tests, less often than this.
 CHANCE = 0.01
-#: Variables that are phases: the atlas's period, and its unit.
+#: Variables that are phases: the residual analysis's period, and its unit.
 PERIODIC = {"time_phase": ("ripple", "s"), "surface_phase": ("pattern", "m of surface")}
 #: Values that are known so many times worse than usual are not quoted.
 UNCLEAR = 3.0
@@ -33,40 +33,42 @@ class Where:
     text: str
 
 
-def find_where(atlas: Atlas, slight: float = SLIGHT) -> Where:
+def find_where(analysis: RegimeAnalysis, slight: float = SLIGHT) -> Where:
     """The region that takes most of the sum of squares, of those that are not chance.
 
     Where all residuals together are below ``slight`` times the noise, nothing is missing that
     matters, and what is certain is only mentioned.
     """
-    limit = math.log10(CHANCE) - math.log10(max(atlas.tests, 1))
-    certain = [region for region in atlas.regions if region.most_certain < limit]
+    limit = math.log10(CHANCE) - math.log10(max(analysis.tests, 1))
+    certain = [region for region in analysis.regions if region.most_certain < limit]
     if not certain:
-        return Where("", "", (), _nothing(atlas))
+        return Where("", "", (), _nothing(analysis))
     # where a block comes to rest follows from where it broke away and what slowed it down
     causes = [region for region in certain if region.regime != "re-stick"] or certain
     worst = max(causes, key=lambda region: sum(region.explained.values()))
-    if atlas.gap < slight:
+    if analysis.rms_residual < slight:
         trace = f"{worst.channel} {_in(worst.regime)}"
-        return Where("", "", (), f"No misfit that matters: {_left(atlas)}; a trace is in {trace}.")
+        return Where(
+            "", "", (), f"No misfit that matters: {_left(analysis)}; a trace is in {trace}."
+        )
     runs = _runs(worst)
     others = [region for region in certain if region is not worst]
-    return Where(worst.channel, worst.regime, runs, _sentence(worst, runs, others, atlas))
+    return Where(worst.channel, worst.regime, runs, _sentence(worst, runs, others, analysis))
 
 
-def _nothing(atlas: Atlas) -> str:
-    if not atlas.regions:
+def _nothing(analysis: RegimeAnalysis) -> str:
+    if not analysis.regions:
         return "Nothing can be compared: measurement and model share no stretch of stick or slip."
-    least = min(region.most_certain for region in atlas.regions)
-    chance = min(10.0**least * atlas.tests, 1.0)
+    least = min(region.most_certain for region in analysis.regions)
+    chance = min(10.0**least * analysis.tests, 1.0)
     return (
-        f"No misfit beyond the noise in any channel or regime: {_left(atlas)}; the most suspicious "
-        f"of {atlas.tests} tests comes about by chance with probability {chance:.2g}."
+        f"No misfit beyond the noise in any channel or regime: {_left(analysis)}; the most suspicious "
+        f"of {analysis.tests} tests comes about by chance with probability {chance:.2g}."
     )
 
 
-def _left(atlas: Atlas) -> str:
-    return f"all residuals together are {atlas.gap:.3g} times the noise"
+def _left(analysis: RegimeAnalysis) -> str:
+    return f"all residuals together are {analysis.rms_residual:.3g} times the noise"
 
 
 def _runs(region: Region) -> tuple[str, ...]:
@@ -83,12 +85,14 @@ def _runs(region: Region) -> tuple[str, ...]:
     return tuple(named)
 
 
-def _sentence(region: Region, runs: tuple[str, ...], others: list[Region], atlas: Atlas) -> str:
+def _sentence(
+    region: Region, runs: tuple[str, ...], others: list[Region], analysis: RegimeAnalysis
+) -> str:
     """What, where, on what it depends, in which runs, and what else there is."""
-    limit = math.log10(CHANCE) - math.log10(atlas.tests)
+    limit = math.log10(CHANCE) - math.log10(analysis.tests)
     told = [found for found in region.dependences if found.log10_p < limit]
     if told:
-        depends = _depends(region, told[0], atlas)
+        depends = _depends(region, told[0], analysis)
         more = [VARIABLES[found.variable].label for found in told[1:3]]
         depends += f" (also on {' and '.join(more)})" if more else ""
     else:
@@ -107,14 +111,14 @@ def _sentence(region: Region, runs: tuple[str, ...], others: list[Region], atlas
     return text
 
 
-def _depends(region: Region, found: Dependence, atlas: Atlas) -> str:
+def _depends(region: Region, found: Dependence, analysis: RegimeAnalysis) -> str:
     """By how much a region's misfit differs, and most clearly with what."""
     clear = np.flatnonzero(found.error <= UNCLEAR * np.median(found.error))
     low, high = clear[np.argmin(found.value[clear])], clear[np.argmax(found.value[clear])]
     variable = VARIABLES[found.variable]
     if found.variable in PERIODIC:
         name, what = PERIODIC[found.variable]
-        period = getattr(atlas, name)
+        period = getattr(analysis, name)
         return (
             f"by {found.value[low]:+.3g} to {found.value[high]:+.3g} {region.unit} and repeats "
             f"itself every {period.length:.4g} {what}"

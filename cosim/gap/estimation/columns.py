@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-#: Steps of a window's state that are as unlikely as a residual of one.
+#: Steps of a segment's state that are as unlikely as a residual of one.
 _FAR = 50.0
 #: Longest step of what belongs to one run, in steps of a free parameter: its motion may hardly feel it.
 _LONGEST_OWN = 1.0
@@ -27,7 +27,7 @@ class Columns:
     residuals : (r,) where they were taken
     shared : (r, g) by the campaign's free parameters
     own : (r, k) by the run's own free parameters
-    states : of each window: rows, derivatives (rows, free) by the free numbers of its state
+    states : of each segment: rows, derivatives (rows, free) by the free numbers of its state
     """
 
     residuals: np.ndarray
@@ -44,7 +44,7 @@ class Columns:
         return self.without_states(self.own)
 
     def without_states(self, a: np.ndarray) -> np.ndarray:
-        """What of (r, ...) the windows' states cannot take up."""
+        """What of (r, ...) the segments' states cannot take up."""
         rest = a.copy()
         for (rows, _), basis in zip(self.states, self._bases, strict=True):
             rest[rows] -= basis @ (basis.T @ a[rows])
@@ -58,7 +58,7 @@ class Columns:
         return rest
 
     def local_step(self, shared: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
-        """Own free parameters' step (k,) and each window's, that go best with a step of the shared ones."""
+        """Own free parameters' step (k,) and each segment's, that go best with a step of the shared ones."""
         rest = self.residuals + self.shared @ shared
         own = np.zeros(0)
         if self.own.shape[1]:
@@ -70,6 +70,6 @@ class Columns:
 
 
 def _damped(columns: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    """Step of a window's state; in what the motion hardly feels it stays short."""
+    """Step of a segment's state; in what the motion hardly feels it stays short."""
     square = columns.T @ columns + np.eye(columns.shape[1]) / _FAR**2
     return -np.linalg.solve(square, columns.T @ rest)

@@ -1,4 +1,4 @@
-"""Least squares over parameters, with the windows' states and the runs' phases eliminated.
+"""Least squares over parameters, with the segments' states and the runs' phases eliminated.
 
 Levenberg-Marquardt on the parameters of the campaign; what belongs to one run alone follows.
 """
@@ -87,8 +87,8 @@ class _Descent:
             point, residuals = self.problem.tried(self.point, step, columns)
             cost = _cost(self.problem, point, residuals)
             if cost < self.cost:
-                excess = cost - sum(r.size for r in residuals)
-                enough = self.cost - cost > max(_ENOUGH, _PART_OF_EXCESS * excess)
+                excess_chi_square = cost - sum(r.size for r in residuals)
+                enough = self.cost - cost > max(_ENOUGH, _PART_OF_EXCESS * excess_chi_square)
                 self.point, self.residuals, self.cost = point, residuals, cost
                 self.damping = max(0.2 * damping, 1e-9)
                 return enough

@@ -10,7 +10,7 @@ import numpy as np
 from cosim.gap.shooting.free_parameter import FreeParameter
 
 from .columns import Columns
-from .segmented_run import Flight
+from .segmented_run import SegmentedRun
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Point:
     ----------
     shared : (g,) free parameters of the campaign, scaled
     own : per run (k,) free parameters of the run, scaled
-    states : per run (windows, 6)
+    states : per run (segments, 6)
     """
 
     shared: np.ndarray
@@ -29,11 +29,15 @@ class Point:
     states: tuple[np.ndarray, ...]
 
 
-def start(flights: Sequence[Flight], free_parameters: Sequence[FreeParameter]) -> Point:
-    """All free parameters at their starts, all windows at the states read off the data."""
+def start(
+    segmented_runs: Sequence[SegmentedRun], free_parameters: Sequence[FreeParameter]
+) -> Point:
+    """All free parameters at their starts, all segments at the states read off the data."""
     shared = np.array([k.scaled(k.start) for k in free_parameters if not k.per_run])
     own = np.array([k.scaled(k.start) for k in free_parameters if k.per_run])
-    return Point(shared, tuple(own.copy() for _ in flights), tuple(f.starts for f in flights))
+    return Point(
+        shared, tuple(own.copy() for _ in segmented_runs), tuple(f.starts for f in segmented_runs)
+    )
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,7 @@ class Fitted:
         """Sum of squares."""
         return float(sum(r @ r for r in self.residuals))
 
-    def gap(self, runs: Sequence[int] | None = None) -> float:
+    def rms_residual(self, runs: Sequence[int] | None = None) -> float:
         """Root mean square residual in units of the noise."""
         chosen = self.residuals if runs is None else [self.residuals[i] for i in runs]
         return float(np.sqrt(sum(r @ r for r in chosen) / max(1, sum(r.size for r in chosen))))

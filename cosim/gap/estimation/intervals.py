@@ -20,7 +20,7 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     Residuals of neighbouring samples are not independent where a model does not quite fit. Two
     estimates allow for that, and the wider one counts: the information of so many samples as would
     have the gap's scatter (its square divides it), and the covariance of estimates whose residuals
-    are independent from window to window only (Liang & Zeger 1986).
+    are independent from segment to segment only (Liang & Zeger 1986).
     """
     shared = [
         free_parameter
@@ -30,7 +30,7 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     weight = np.array([k.step / k.prior if k.prior else 0.0 for k in shared])
     information, scatter = _information(trial)
     known = np.diag(weight**2)
-    scarce = known + information / max(trial.fitted.gap(), 1.0) ** 2
+    scarce = known + information / max(trial.fitted.rms_residual(), 1.0) ** 2
     reach = _NINETY_FIVE * np.sqrt(
         np.maximum(
             np.diag(_inverse(scarce)),
@@ -51,7 +51,7 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
 
 
 def _information(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
-    """(g, g) Fisher information of white noise, and what the windows' scores scatter by instead."""
+    """(g, g) Fisher information of white noise, and what the segments' scores scatter by instead."""
     shared = sum(not free_parameter.per_run for free_parameter in trial.model.free_parameters)
     information, scores = np.zeros((shared, shared)), []
     for columns in trial.fitted.columns:

@@ -67,14 +67,14 @@ def _ring(problem: Problem, run: int, shared, now: np.ndarray, turned: list[int]
 
 def _cost_read_off(problem: Problem, run: int, shared, own: np.ndarray) -> float:
     """From the states read off the data."""
-    residuals = problem.residuals(run, shared, own, problem.flights[run].starts)
+    residuals = problem.residuals(run, shared, own, problem.segmented_runs[run].starts)
     return problem.misfit(run, residuals)
 
 
 def with_phases_followed(problem: Problem, point: Point) -> Point:
-    """Each run's phases where they fit best once its windows' states have followed them.
+    """Each run's phases where they fit best once its segments' states have followed them.
 
-    What states read off the data leave may hide a phase: some fifty flights a run tell more.
+    What states read off the data leave may hide a phase: some fifty segmented runs a run tell more.
     """
     turned = [
         j
@@ -83,7 +83,7 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
     ]
     if not turned:
         return point
-    ended = [_followed(problem, run, point, turned) for run in range(len(problem.flights))]
+    ended = [_followed(problem, run, point, turned) for run in range(len(problem.segmented_runs))]
     if all(fitted is None for fitted in ended):
         return point
     parts = [
@@ -98,7 +98,7 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
 
 def _followed(problem: Problem, run: int, point: Point, turned: list[int]) -> Fitted | None:
     """One run fitted from its most promising phases, or None if none leads anywhere."""
-    alone = Problem([problem.flights[run]], problem.free_parameters, problem.settings)
+    alone = Problem([problem.segmented_runs[run]], problem.free_parameters, problem.settings)
     now = point.own[run]
     residuals = alone.residuals(0, point.shared, now, point.states[run])
     best, least = None, _CLEARLY * float(residuals @ residuals)
@@ -119,12 +119,12 @@ def _promising(problem: Problem, run: int, point: Point, turned: list[int]) -> l
 
 
 def best_states(problem: Problem, run: int, shared, own: np.ndarray, states: np.ndarray):
-    """Each window's state, fitted elsewhere, or as read off the data where that is better.
+    """Each segment's state, fitted elsewhere, or as read off the data where that is better.
 
-    states : (windows, 6) fitted. Read off, a velocity may be so near the surface's that the window
+    states : (segments, 6) fitted. Read off, a velocity may be so near the surface's that the segment
     is lost.
     """
-    first = problem.flights[run].starts
-    fitted = problem.by_window(run, problem.residuals(run, shared, own, states))
-    read_off = problem.by_window(run, problem.residuals(run, shared, own, first))
+    first = problem.segmented_runs[run].starts
+    fitted = problem.by_segment(run, problem.residuals(run, shared, own, states))
+    read_off = problem.by_segment(run, problem.residuals(run, shared, own, first))
     return np.where((fitted < read_off)[:, None], states, first)

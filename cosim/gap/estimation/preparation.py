@@ -11,10 +11,10 @@ from stickslip import Parameters
 
 from cosim.gap.data import Campaign, MeasuredRun, Track
 
-from .segmented_run import TOLERANCE, TOLERANCE_ACROSS, Flight
+from .segmented_run import TOLERANCE, TOLERANCE_ACROSS, SegmentedRun
 from .segments import CYCLES, cut, joined
 
-#: Cycles in the short windows in which a fit sets out: hardly a phase to be lost.
+#: Cycles in the short segments in which a fit sets out: hardly a phase to be lost.
 SHORT_CYCLES = 1.2
 #: A cycle is at most this much slower than sticks follow each other.
 _SLOWER = 0.7
@@ -22,24 +22,24 @@ _SLOWER = 0.7
 
 def prepare(
     campaign: Campaign, runs: Sequence[MeasuredRun], planar: bool, cycles: float = CYCLES
-) -> tuple[Flight, ...]:
-    """Flights of runs with a track. planar: the model moves across and turns as the rig allows."""
-    return tuple(_flight(campaign, run, planar, cycles) for run in runs)
+) -> tuple[SegmentedRun, ...]:
+    """Runs of runs with a track. planar: the model moves across and turns as the rig allows."""
+    return tuple(_segmented(campaign, run, planar, cycles) for run in runs)
 
 
-def _flight(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> Flight:
+def _segmented(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> SegmentedRun:
     track = run.track
     known = known_parameters(campaign, run, planar)
     channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
     across = planar and "y" in channels
     cycle = period(run)
-    windows = cut(track, run.sticks, run.surface_speed, cycle, across, min(cycles, SHORT_CYCLES))
+    segments = cut(track, run.sticks, run.surface_speed, cycle, across, min(cycles, SHORT_CYCLES))
     if cycles > SHORT_CYCLES:
-        windows = joined(windows, track.time, cycles * cycle)
+        segments = joined(segments, track.time, cycles * cycle)
     noise = {name: run.noise[name] for name in channels}
     temperature = known["temperature_dependence.reference_degC"]
-    return Flight(
-        run.name, known, run.surface_speed, temperature, track.time, channels, noise, windows
+    return SegmentedRun(
+        run.name, known, run.surface_speed, temperature, track.time, channels, noise, segments
     )
 
 
@@ -80,15 +80,15 @@ def _strongest_period(track: Track, slowest: float, fastest: float, default: flo
 
 @dataclass(frozen=True)
 class Data:
-    """The flights of a campaign: for fitting and held out, in long and in short windows.
+    """The segmented runs of a campaign: for fitting and held out, in long and in short segments.
 
-    Every long window starts where a short one does.
+    Every long segment starts where a short one does.
     """
 
-    fit: tuple[Flight, ...]
-    short: tuple[Flight, ...]
-    held_out: tuple[Flight, ...]
-    held_out_short: tuple[Flight, ...]
+    fit: tuple[SegmentedRun, ...]
+    short: tuple[SegmentedRun, ...]
+    held_out: tuple[SegmentedRun, ...]
+    held_out_short: tuple[SegmentedRun, ...]
 
 
 def prepared(

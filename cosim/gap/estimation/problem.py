@@ -1,4 +1,4 @@
-"""Residuals of some runs as a function of the free parameters to turn and of the windows' states."""
+"""Residuals of some runs as a function of the free parameters to turn and of the segments' states."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
 
 from .columns import Columns
 from .fitted import Point
-from .segmented_run import Flight
+from .segmented_run import SegmentedRun
 
 #: Differences are taken over this part of a free parameter's step.
 _PART = 1e-2
-#: Steps of the windows' states: positions m (and rad), velocities m/s (and rad/s).
+#: Steps of the segments' states: positions m (and rad), velocities m/s (and rad/s).
 _STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
-#: A window whose sum of squares grows by more than this was thrown off course by its own step.
+#: A segment whose sum of squares grows by more than this was thrown off course by its own step.
 _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 
 
@@ -25,11 +25,11 @@ class Problem:
 
     def __init__(
         self,
-        flights: Sequence[Flight],
+        segmented_runs: Sequence[SegmentedRun],
         free_parameters: Sequence[FreeParameter],
         settings: dict[str, float] | None = None,
     ):
-        self.flights, self.free_parameters = tuple(flights), tuple(free_parameters)
+        self.segmented_runs, self.free_parameters = tuple(segmented_runs), tuple(free_parameters)
         self.settings = dict(settings or {})
         self.shared = [
             free_parameter for free_parameter in free_parameters if not free_parameter.per_run
@@ -39,17 +39,17 @@ class Problem:
     def residuals(self, run: int, shared, own, states) -> np.ndarray:
         """(rows,) of one run."""
         values, states, offsets = self._set_for(shared, own, states)
-        flight = self.flights[run]
-        rows = flight.residuals(flight.places(values, states), offsets)
+        segmented = self.segmented_runs[run]
+        rows = segmented.residuals(segmented.places(values, states), offsets)
         return np.concatenate([rows, self._known_of_own(own)])
 
-    def flown(self, run: int, shared, own, states) -> tuple[np.ndarray, dict[str, float]]:
+    def simulated(self, run: int, shared, own, states) -> tuple[np.ndarray, dict[str, float]]:
         """The model's outputs (n, O_SIZE) of one run, and the tracker's zeros."""
         values, states, offsets = self._set_for(shared, own, states)
-        return self.flights[run].fly(values, states), offsets
+        return self.segmented_runs[run].simulate(values, states), offsets
 
     def _set_for(self, shared, own, states) -> tuple[dict[str, float], np.ndarray, dict]:
-        """Parameters, windows' states (windows, 6) as the model has them, and tracker's zeros."""
+        """Parameters, segments' states (segments, 6) as the model has them, and tracker's zeros."""
         values = dict(self.settings)
         values.update((k.key, k.value(s)) for k, s in zip(self.shared, shared, strict=True))
         values.update((k.key, k.value(s)) for k, s in zip(self.own, own, strict=True))
@@ -64,26 +64,28 @@ class Problem:
         known = [(k, s) for k, s in zip(self.own, own, strict=True) if k.prior is not None]
         return np.array([(k.value(s) - k.start) / k.prior for k, s in known])
 
-    def by_window(self, run: int, residuals: np.ndarray) -> np.ndarray:
-        """(windows,) sums of squares of one run."""
-        return np.bincount(self._owner(run), residuals**2, len(self.flights[run].windows))
+    def by_segment(self, run: int, residuals: np.ndarray) -> np.ndarray:
+        """(segments,) sums of squares of one run."""
+        return np.bincount(self._owner(run), residuals**2, len(self.segmented_runs[run].segments))
 
     def misfit(self, run: int, residuals: np.ndarray) -> float:
-        """Of one run, so that no window that was thrown off course outweighs the others."""
-        squares = self.by_window(run, residuals)
-        rows = np.maximum(self.by_window(run, np.ones_like(residuals)), 1.0)
+        """Of one run, so that no segment that was thrown off course outweighs the others."""
+        squares = self.by_segment(run, residuals)
+        rows = np.maximum(self.by_segment(run, np.ones_like(residuals)), 1.0)
         return float(np.sum(rows * np.log1p(squares / rows)))
 
     def _owner(self, run: int) -> np.ndarray:
-        """(rows,) window of each row; what is known beforehand is put to the first."""
+        """(rows,) segment of each row; what is known beforehand is put to the first."""
         own = sum(k.prior is not None for k in self.own)
-        return np.concatenate([self.flights[run].window_of_rows(), np.zeros(own, dtype=int)])
+        return np.concatenate(
+            [self.segmented_runs[run].segment_of_rows(), np.zeros(own, dtype=int)]
+        )
 
     def all_residuals(self, point: Point) -> tuple[np.ndarray, ...]:
         """Of every run."""
         return tuple(
             self.residuals(i, point.shared, point.own[i], point.states[i])
-            for i in range(len(self.flights))
+            for i in range(len(self.segmented_runs))
         )
 
     def columns(self, run: int, point: Point, residuals: np.ndarray, free_shared) -> Columns:
@@ -108,18 +110,18 @@ class Problem:
         return (self.residuals(run, *moved) - residuals) / step
 
     def _by_state(self, run, at, residuals):
-        """Every window's rows and derivatives; windows do not overlap, so one run tells all."""
-        flight = self.flights[run]
+        """Every segment's rows and derivatives; segments do not overlap, so one run tells all."""
+        segmented = self.segmented_runs[run]
         owner = self._owner(run)
         by_axis = {}
-        for axis in sorted({axis for w in flight.windows for axis in w.free}):
+        for axis in sorted({axis for w in segmented.segments for axis in w.free}):
             states = at[2].copy()
-            states[[axis in w.free for w in flight.windows], axis] += _PART * _STATE_STEP[axis]
+            states[[axis in w.free for w in segmented.segments], axis] += _PART * _STATE_STEP[axis]
             by_axis[axis] = (self.residuals(run, at[0], at[1], states) - residuals) / _PART
-        rows = [np.flatnonzero(owner == number) for number in range(len(flight.windows))]
+        rows = [np.flatnonzero(owner == number) for number in range(len(segmented.segments))]
         return tuple(
-            (r, np.column_stack([by_axis[axis][r] for axis in window.free]))
-            for r, window in zip(rows, flight.windows, strict=True)
+            (r, np.column_stack([by_axis[axis][r] for axis in segment.free]))
+            for r, segment in zip(rows, segmented.segments, strict=True)
         )
 
     def tried(
@@ -145,35 +147,35 @@ class Problem:
         return Point(shared, tuple(own), tuple(states)), tuple(residuals)
 
     def _limit(self, run: int, before: np.ndarray, alone: bool) -> np.ndarray:
-        """(windows,) sums of squares that a step may leave; no more than before if it is alone."""
-        squares = self.by_window(run, before)
+        """(segments,) sums of squares that a step may leave; no more than before if it is alone."""
+        squares = self.by_segment(run, before)
         return squares if alone and not self.own else _GROWTH * squares + _GROWTH_SLACK
 
     def _follow(self, run, shared, own, states, move, limit):
-        """States after their step, shortened in the windows that it would throw off course."""
+        """States after their step, shortened in the segments that it would throw off course."""
         owner = self._owner(run)
-        count = len(self.flights[run].windows)
+        count = len(self.segmented_runs[run].segments)
         reach = np.ones(count)
         taken = states + move
         residuals = self.residuals(run, shared, own, taken)
         for shorter in (0.25, 0.0):
-            costs = self.by_window(run, residuals)
+            costs = self.by_segment(run, residuals)
             if not (costs > limit).any():
                 break
             reach[costs > limit] = shorter
             other = states + reach[:, None] * move
             tried = self.residuals(run, shared, own, other)
-            better = self.by_window(run, tried) < costs
+            better = self.by_segment(run, tried) < costs
             taken = np.where(better[:, None], other, taken)
             residuals = np.where(better[owner], tried, residuals)
         return taken, residuals
 
     def _state_step(self, run: int, steps: Sequence[np.ndarray]) -> np.ndarray:
-        """(windows, 6) step of the states."""
-        windows = self.flights[run].windows
-        move = np.zeros((len(windows), 6))
-        for number, (window, step) in enumerate(zip(windows, steps, strict=True)):
-            axes = list(window.free)
+        """(segments, 6) step of the states."""
+        segments = self.segmented_runs[run].segments
+        move = np.zeros((len(segments), 6))
+        for number, (segment, step) in enumerate(zip(segments, steps, strict=True)):
+            axes = list(segment.free)
             move[number, axes] = step * _STATE_STEP[axes]
         return move
 

@@ -23,10 +23,10 @@ from .trial import Model
 _TRIES = 4
 
 
-def ground(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fitted:
-    """A fit in short windows with derivatives at its end.
+def linearised(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fitted:
+    """A fit in short segments with derivatives at its end.
 
-    other : ``model`` has other settings than the fitted one; windows whose states have made up for
+    other : ``model`` has other settings than the fitted one; segments whose states have made up for
     those start from what was read off the data.
     """
     problem = Problem(data.short, model.free_parameters, model.settings)
@@ -41,8 +41,8 @@ def ground(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fit
     return with_columns(problem, fitted)
 
 
-def glance(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
-    """A few rounds in short windows from where the simpler model ``base`` ended (a `ground`)."""
+def screening_fit(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
+    """A few rounds in short segments from where the simpler model ``base`` ended (a `ground`)."""
     problem = Problem(data.short, model.free_parameters, model.settings)
     before = {free_parameter.key for free_parameter in base.free_parameters}
     shared = [base.values.get(k.key, k.start) if k.prior else k.start for k in problem.shared]

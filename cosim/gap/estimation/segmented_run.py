@@ -11,7 +11,7 @@ from stickslip.packing import GRAVITY, pack
 from stickslip.restarted import Force, Restart, simulate_restarted, track_restarted
 
 from .drive import SPEED_OFFSET, driven_speed, model_parameters
-from .segments import Window
+from .segments import Segment
 
 #: Columns of the model's outputs, and of its places, that a tracker can see.
 COLUMN = {"x": layout.O_X, "y": layout.O_Y, "phi": layout.O_PHI}
@@ -28,8 +28,8 @@ _LONGER = 2.0
 
 
 @dataclass(frozen=True)
-class Flight:
-    """A run, cut into windows.
+class SegmentedRun:
+    """A run, cut into segments.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Flight:
     time : (n,) s since the first sample
     channels : name -> (n,) measured values, NaN where missing
     noise : name -> standard deviation of the channel
-    windows : the pieces
+    segments : the pieces
     """
 
     name: str
@@ -49,7 +49,7 @@ class Flight:
     time: np.ndarray
     channels: Mapping[str, np.ndarray]
     noise: Mapping[str, float]
-    windows: tuple[Window, ...]
+    segments: tuple[Segment, ...]
     seen: Mapping[str, np.ndarray] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -58,11 +58,11 @@ class Flight:
 
     @property
     def starts(self) -> np.ndarray:
-        """(windows, 6) first guesses of the windows' states."""
-        return np.array([window.state for window in self.windows])
+        """(segments, 6) first guesses of the segments' states."""
+        return np.array([segment.state for segment in self.segments])
 
-    def fly(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        """The model's outputs (n, O_SIZE) with parameters and windows' states (windows, 6)."""
+    def simulate(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        """The model's outputs (n, O_SIZE) with parameters and segments' states (segments, 6)."""
         return self._simulated(simulate_restarted, values, states)
 
     def places(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
@@ -81,8 +81,8 @@ class Flight:
         p = np.array(pack(flat))
         p[layout.P_LONGEST_STEP] *= _LONGER
         restarts = [
-            Restart(window.first, state, window.hold_since)
-            for window, state in zip(self.windows, states, strict=True)
+            Restart(segment.first, state, segment.hold_since)
+            for segment, state in zip(self.segments, states, strict=True)
         ]
         force = self.force(values)
         return simulate(p, speed, self.temperature, self.time, restarts, force, aside)
@@ -96,9 +96,9 @@ class Flight:
         rows = np.concatenate(parts)
         return np.clip(np.nan_to_num(rows, nan=LOST), -LOST, LOST)
 
-    def window_of_rows(self) -> np.ndarray:
-        """(rows,) number of the window that each residual belongs to."""
+    def segment_of_rows(self) -> np.ndarray:
+        """(rows,) number of the segment that each residual belongs to."""
         number = np.zeros(len(self.time), dtype=int)
-        for i, window in enumerate(self.windows):
-            number[window.first : window.last] = i
+        for i, segment in enumerate(self.segments):
+            number[segment.first : segment.last] = i
         return np.concatenate([number[self.seen[name]] for name in self.channels])

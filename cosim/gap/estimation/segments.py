@@ -7,19 +7,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-#: Stick-slip cycles in a window: enough for the period to tell, few enough for a small error of
+#: Stick-slip cycles in a segment: enough for the period to tell, few enough for a small error of
 #: the period to stay small.
 CYCLES = 3
 #: Half width, in samples, of the stretch that tells position and velocity outside a stick.
 _REACH = 6
-#: A window starts with a stick that lasts this part of a cycle; a shorter one may be none.
+#: A segment starts with a stick that lasts this part of a cycle; a shorter one may be none.
 _LASTS = 0.1
-#: A window that would leave less than this share of its length at the end of a run takes it in.
+#: A segment that would leave less than this share of its length at the end of a run takes it in.
 _REMNANT = 0.5
 
 
 @dataclass(frozen=True)
-class Window:
+class Segment:
     """A piece of a run: samples first ... last - 1.
 
     Attributes
@@ -37,9 +37,9 @@ class Window:
 
 
 def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float = CYCLES):
-    """Windows of a run: tuple of `Window`.
+    """Segments of a run: tuple of `Segment`.
 
-    period : of a cycle, s. A window starts at the beginning of a stick where there is one near the
+    period : of a cycle, s. A segment starts at the beginning of a stick where there is one near the
     place where it is due, else where the block moves against the surface as fast as it ever does:
     near a stick a small error of the velocity would decide between stick and slip.
     planar: y is measured and the model may move across.
@@ -51,27 +51,27 @@ def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float 
     ends = [*starts[1:], len(track.time)]
     by_first = {stick.first: stick for stick in sticks}
     return tuple(
-        _window(track, first, last, by_first.get(first), speed, planar)
+        _segment(track, first, last, by_first.get(first), speed, planar)
         for first, last in zip(starts, ends, strict=True)
     )
 
 
-def joined(windows: Sequence[Window], time: np.ndarray, length: float) -> tuple[Window, ...]:
-    """The same windows put together to longer ones of about this length, s.
+def joined(segments: Sequence[Segment], time: np.ndarray, length: float) -> tuple[Segment, ...]:
+    """The same segments put together to longer ones of about this length, s.
 
-    A longer one starts where a short one does, and thus from a state that a fit in short windows
+    A longer one starts where a short one does, and thus from a state that a fit in short segments
     has found.
     """
-    ends = [time[window.last - 1] for window in windows]
+    ends = [time[segment.last - 1] for segment in segments]
     chosen = [0]
-    for number in range(1, len(windows)):
-        begin = time[windows[number].first]
-        due = time[windows[chosen[-1]].first] + length
+    for number in range(1, len(segments)):
+        begin = time[segments[number].first]
+        due = time[segments[chosen[-1]].first] + length
         rest = ends[-1] - begin
         if begin + 0.5 * (ends[number] - begin) > due and rest > _REMNANT * length:
             chosen.append(number)
-    lasts = [windows[number].first for number in chosen[1:]] + [windows[-1].last]
-    return tuple(replace(windows[i], last=last) for i, last in zip(chosen, lasts, strict=True))
+    lasts = [segments[number].first for number in chosen[1:]] + [segments[-1].last]
+    return tuple(replace(segments[i], last=last) for i, last in zip(chosen, lasts, strict=True))
 
 
 def _starts(track, onsets, speed: float, length: float, period: float) -> list[int]:
@@ -102,7 +102,7 @@ def _fastest(track, due: float, speed: float, period: float) -> int:
     return int(seen[steps[np.abs(way / time - speed).argmax()]])
 
 
-def _window(track, first: int, last: int, stick, speed: float, planar: bool) -> Window:
+def _segment(track, first: int, last: int, stick, speed: float, planar: bool) -> Segment:
     state = np.full(6, np.nan)
     if first == 0:
         state[:] = 0.0  # what is measured is put in its place
@@ -112,11 +112,11 @@ def _window(track, first: int, last: int, stick, speed: float, planar: bool) -> 
         across = (1, 4) if first else (1, 2, 4)  # how it was put down turned, nobody has seen
     if stick is None:
         _fill_moving(track, first, state, track.x, 0)
-        return Window(first, last, state, (0, 3, *across), np.nan)
+        return Segment(first, last, state, (0, 3, *across), np.nan)
     rows = slice(stick.first, stick.last + 1)
     time = track.time[rows] - track.time[stick.first]
     state[0] = np.nanmean(track.x[rows] - speed * time)
-    return Window(first, last, state, (0, *across), stick.start)
+    return Segment(first, last, state, (0, *across), stick.start)
 
 
 def _fill_moving(track, first: int, state: np.ndarray, values: np.ndarray, at: int) -> None:

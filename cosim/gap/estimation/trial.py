@@ -11,13 +11,13 @@ from cosim.gap.shooting.free_parameter import FreeParameter
 
 from .fit import MOST_ROUNDS, fit, with_columns
 from .fitted import Fitted, Point, start
-from .initial_states import with_lost_windows_found, with_velocities
+from .initial_states import with_lost_segments_found, with_velocities
 from .phases import best_states, with_phases, with_phases_followed
 from .preparation import Data
 from .problem import Problem
-from .segmented_run import Flight
+from .segmented_run import SegmentedRun
 
-#: Rounds that the windows' states take to follow parameters that stay as they are.
+#: Rounds that the segments' states take to follow parameters that stay as they are.
 _ROUNDS_UNFITTED, _ROUNDS_SHORT = 2, 4
 #: Fits that may follow one whose phases turned out to be better elsewhere.
 _REPEATS = 3
@@ -51,23 +51,25 @@ class Trial:
     rows: np.ndarray
 
     @property
-    def gap(self) -> float:
+    def rms_residual(self) -> float:
         """Root mean square residual of all runs in units of the noise."""
         return float(np.sqrt(self.squares.sum() / self.rows.sum()))
 
     @property
-    def gaps(self) -> np.ndarray:
+    def rms_residuals(self) -> np.ndarray:
         """(runs,) the same, run by run."""
         return np.sqrt(self.squares / self.rows)
 
     @property
-    def held_out_gap(self) -> float:
+    def held_out_rms(self) -> float:
         """Of the runs that were kept back; of all where none was."""
-        return self.held_out.gap() if self.held_out.residuals else self.fitted.gap()
+        return (
+            self.held_out.rms_residual() if self.held_out.residuals else self.fitted.rms_residual()
+        )
 
 
-def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
-    """A fit in short windows: robust, cheap, and near enough for the long ones.
+def coarse_fit(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
+    """A fit in short segments: robust, cheap, and near enough for the long ones.
 
     before : the same model's, to go on from
     """
@@ -76,10 +78,10 @@ def sketch(data: Data, model: Model, rounds: int, before: Fitted | None = None) 
     return fit(problem, with_phases(problem, point), rounds)
 
 
-def try_model(data: Data, model: Model, sketched: Fitted, rounds: int = MOST_ROUNDS) -> Trial:
-    """Fit in long windows from a sketch, and judge; in no ``rounds`` the sketch is judged."""
+def try_model(data: Data, model: Model, coarse: Fitted, rounds: int = MOST_ROUNDS) -> Trial:
+    """Fit in long segments from a coarse fit, and judge; in no ``rounds`` the coarse fit is judged."""
     problem = Problem(data.fit, model.free_parameters, model.settings)
-    point = _carried_over(problem, data.short, sketched.point)
+    point = _carried_over(problem, data.short, coarse.point)
     if rounds:  # states first: parameters would make up for those that are not of this model
         point = with_velocities(problem, point)
         point = fit(problem, point, _ROUNDS_UNFITTED, fixed=True).point
@@ -105,43 +107,43 @@ def _judged(data: Data, model: Model, fitted: Fitted, closely: bool = True) -> T
 def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted:
     """The held-out runs with the campaign's free parameters as fitted; their states and phases are free.
 
-    closely : phases are followed, and lost windows looked for
+    closely : phases are followed, and lost segments looked for
     """
     short = Problem(data.held_out_short, model.free_parameters, model.settings)
-    point = start(short.flights, model.free_parameters)
-    own = tuple(np.array([k.scaled(k.start) for k in short.own]) for _ in short.flights)
+    point = start(short.segmented_runs, model.free_parameters)
+    own = tuple(np.array([k.scaled(k.start) for k in short.own]) for _ in short.segmented_runs)
     point = with_phases(short, Point(fitted.point.shared, own, point.states))
     point = fit(short, with_velocities(short, point), _ROUNDS_SHORT, fixed=True).point
     problem = Problem(data.held_out, model.free_parameters, model.settings)
-    point = with_velocities(problem, _carried_over(problem, short.flights, point))
+    point = with_velocities(problem, _carried_over(problem, short.segmented_runs, point))
     if not closely:
         return fit(problem, point, fixed=True)
     point = fit(problem, with_phases_followed(problem, point), fixed=True).point
-    return fit(problem, with_lost_windows_found(problem, point), fixed=True)
+    return fit(problem, with_lost_segments_found(problem, point), fixed=True)
 
 
-def _carried_over(problem: Problem, flights: Sequence[Flight], point: Point) -> Point:
-    """A point in short windows as one in long ones, which start where some of the short ones do.
+def _carried_over(problem: Problem, segmented_runs: Sequence[SegmentedRun], point: Point) -> Point:
+    """A point in short segments as one in long ones, which start where some of the short ones do.
 
-    Each starts from the state that was fitted in its short window, or from that read off the data
+    Each starts from the state that was fitted in its short segment, or from that read off the data
     where it does better.
     """
     states = []
-    for run, (long, short) in enumerate(zip(problem.flights, flights, strict=True)):
-        rows = [window.first for window in short.windows]
-        fitted = point.states[run][[rows.index(window.first) for window in long.windows]]
+    for run, (long, short) in enumerate(zip(problem.segmented_runs, segmented_runs, strict=True)):
+        rows = [segment.first for segment in short.segments]
+        fitted = point.states[run][[rows.index(segment.first) for segment in long.segments]]
         states.append(best_states(problem, run, point.shared, point.own[run], fitted))
     return Point(point.shared, point.own, tuple(states))
 
 
 def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
-    """A fit; again from where phases, and lost windows, fit better, as long as it leads on.
+    """A fit; again from where phases, and lost segments, fit better, as long as it leads on.
 
     In fewer ``rounds`` it is a first look, and is not repeated.
     """
     fitted = fit(problem, point, rounds)
     for _ in range(_REPEATS if rounds == MOST_ROUNDS else 0):
-        again = with_lost_windows_found(problem, with_phases_followed(problem, fitted.point))
+        again = with_lost_segments_found(problem, with_phases_followed(problem, fitted.point))
         if again is fitted.point:
             break
         other = fit(problem, again, rounds)

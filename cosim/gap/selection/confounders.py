@@ -12,12 +12,12 @@ from cosim.gap.estimation.segmented_run import TILT
 from cosim.gap.estimation.trial import Trial
 from cosim.gap.shooting.free_parameter import FreeParameter
 
-from .criteria import as_good, excess
+from .criteria import as_good, excess_chi_square
 from .search import Search
 from .tried import ACROSS, Tried
 
 #: By effect of the catalogue: what looks like it.
-_LOOKALIKES = {
+_CONFOUNDERS = {
     "spring_misalignment": tuple(
         Candidate(
             "a rig tilted sideways",
@@ -32,17 +32,19 @@ _LOOKALIKES = {
 }
 
 
-def better_lookalike(search: Search, plain: Trial, sketched: Fitted, best: Tried) -> Tried | None:
+def better_confounder(search: Search, plain: Trial, coarse: Fitted, best: Tried) -> Tried | None:
     """What does clearly better than an effect without being in the catalogue, or None.
 
-    sketched : the plain model in short windows
+    fitted coarsely : the plain model in short segments
     """
-    laws = _LOOKALIKES.get(best.candidate.effect, ())
+    laws = _CONFOUNDERS.get(best.candidate.effect, ())
     if not laws:
         return None
     other = min(
-        (t for t in search.on(plain.model, sketched, laws) if t.trial is not None),
-        key=lambda t: t.trial.gap,
+        (t for t in search.on(plain.model, coarse, laws) if t.trial is not None),
+        key=lambda t: t.trial.rms_residual,
     )
-    clearly = best.trial.gap**2 > as_good(other.trial) and excess(best.trial) > 0.0
+    clearly = (
+        best.trial.rms_residual**2 > as_good(other.trial) and excess_chi_square(best.trial) > 0.0
+    )
     return other if clearly else None

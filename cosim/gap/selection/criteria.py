@@ -28,24 +28,26 @@ AT_AN_END = 1.02
 #: What has taken away less than this part is not fitted more closely, nor is what leaves more than
 #: so many times the best one's excess.
 WORTH_A_POLISH, IN_REACH = 0.5, 4.0
-#: Where the plain model fits in short flights, what long ones show up to this gap may be the drift
+#: Where the plain model fits in short segmented runs, what long ones show up to this gap may be the drift
 #: of a motion that is unstable by itself.
 DRIFT = 2.0
 #: So many times the part that is gone from the fitted runs may be gone from all.
 FELT_BY_FITTED = 2.0
 #: Effects cannot be told apart when their gaps, squared, differ by less than this ...
-ALIKE = 0.08
+INDISTINGUISHABLE = 0.08
 #: ... and this part of what the better one leaves over the noise.
-ALIKE_PART = 0.1
+INDISTINGUISHABLE_PART = 0.1
 #: Friction across the motion comes with every effect that moves a block off its line.
 PART_OF_OTHERS = "lateral_friction"
 #: The effect that acts by it.
 DRAGS_ASIDE = "turning_surface"
 
 
-def is_little(plain: Trial, sketched: Fitted) -> bool:
+def is_little(plain: Trial, coarse: Fitted) -> bool:
     """Whether what the plain model leaves is next to nothing, or nothing but drift."""
-    return plain.gap <= FITS or (plain.gap <= DRIFT and sketched.gap() <= PLAIN_FITS)
+    return plain.rms_residual <= FITS or (
+        plain.rms_residual <= DRIFT and coarse.rms_residual() <= PLAIN_FITS
+    )
 
 
 def repaired(plain: Trial, trial: Trial, part: float) -> bool:
@@ -56,12 +58,16 @@ def repaired(plain: Trial, trial: Trial, part: float) -> bool:
     if not stands(trial):
         return False
     share = explained(plain, trial)
-    return share >= part or (share >= EXPLAINED_AT_LEAST and excess(trial) <= FITS**2 - 1.0)
+    return share >= part or (
+        share >= EXPLAINED_AT_LEAST and excess_chi_square(trial) <= FITS**2 - 1.0
+    )
 
 
 def stands(trial: Trial) -> bool:
     """Whether an effect is one at all: true of the runs held out too, and no plain number."""
-    return trial.held_out_gap <= HOLDS * max(trial.fitted.gap(), 1.0) and not is_plain(trial)
+    return trial.held_out_rms <= HOLDS * max(trial.fitted.rms_residual(), 1.0) and not is_plain(
+        trial
+    )
 
 
 def is_plain(trial: Trial) -> bool:
@@ -74,7 +80,9 @@ def is_plain(trial: Trial) -> bool:
 
 def in_reach(done: Sequence[Tried]) -> list[Tried]:
     """Those that might do as well as the best one if they were fitted more closely."""
-    return [t for t in done if excess(t.trial) <= IN_REACH * excess(done[0].trial)]
+    return [
+        t for t in done if excess_chi_square(t.trial) <= IN_REACH * excess_chi_square(done[0].trial)
+    ]
 
 
 def explained(plain: Trial, trial: Trial) -> float:
@@ -83,10 +91,12 @@ def explained(plain: Trial, trial: Trial) -> float:
     It counts no more than so many times what is gone from those fitted: a number that they hardly
     feel may happen to help a run that was held out.
     """
-    of_all = gone(plain.gap, trial.gap)
-    if plain.fitted.gap() <= PLAIN_FITS:
+    of_all = gone(plain.rms_residual, trial.rms_residual)
+    if plain.fitted.rms_residual() <= PLAIN_FITS:
         return of_all
-    return min(of_all, FELT_BY_FITTED * gone(plain.fitted.gap(), trial.fitted.gap()))
+    return min(
+        of_all, FELT_BY_FITTED * gone(plain.fitted.rms_residual(), trial.fitted.rms_residual())
+    )
 
 
 def gone(before: float, after: float) -> float:
@@ -94,15 +104,15 @@ def gone(before: float, after: float) -> float:
     return 1.0 - max(after**2 - 1.0, 0.0) / (before**2 - 1.0) if before > 1.0 else 0.0
 
 
-def excess(trial: Trial) -> float:
+def excess_chi_square(trial: Trial) -> float:
     """Mean square residual over that of the noise."""
-    return max(trial.gap**2 - 1.0, 0.0)
+    return max(trial.rms_residual**2 - 1.0, 0.0)
 
 
-def alike(done: Sequence[Tried]) -> tuple[str, ...]:
+def indistinguishable(done: Sequence[Tried]) -> tuple[str, ...]:
     """The effects that repair the model as well as the best one does."""
     best = done[0].trial
-    members = tuple(t.candidate.effect for t in done if t.trial.gap**2 <= as_good(best))
+    members = tuple(t.candidate.effect for t in done if t.trial.rms_residual**2 <= as_good(best))
     if PART_OF_OTHERS in members:  # then what the others add to it is of no use
         has_it = {t.candidate.effect for t in done if ACROSS in t.model.settings}
         members = tuple(m for m in members if m == PART_OF_OTHERS or m not in has_it)
@@ -111,16 +121,18 @@ def alike(done: Sequence[Tried]) -> tuple[str, ...]:
 
 def as_good(best: Trial) -> float:
     """Square of the gap that is as good as the best one."""
-    return best.gap**2 + ALIKE + ALIKE_PART * excess(best)
+    return (
+        best.rms_residual**2 + INDISTINGUISHABLE + INDISTINGUISHABLE_PART * excess_chi_square(best)
+    )
 
 
 def telling(done: Sequence[Tried]) -> list[Tried]:
-    """Those that add something to the friction across that they bring along, in short windows."""
+    """Those that add something to the friction across that they bring along, in short segments."""
     across = next((t for t in done if t.candidate.effect == PART_OF_OTHERS), None)
     return [t for t in done if across is None or t is across or not _adds_nothing(t, across)]
 
 
 def _adds_nothing(tried: Tried, across: Tried) -> bool:
-    left = tried.sketched.gap() ** 2
-    as_well = left + ALIKE + ALIKE_PART * max(left - 1.0, 0.0)
-    return ACROSS in tried.candidate.settings and across.sketched.gap() ** 2 <= as_well
+    left = tried.coarse.rms_residual() ** 2
+    as_well = left + INDISTINGUISHABLE + INDISTINGUISHABLE_PART * max(left - 1.0, 0.0)
+    return ACROSS in tried.candidate.settings and across.coarse.rms_residual() ** 2 <= as_well

@@ -1,8 +1,8 @@
 """A run's linear answer to a small wave of any rate: of the surface's speed, or of its friction.
 
-What a wave does inside a window is a smooth function of its rate once its phase is counted from the
-window's middle. Some rates are flown; between them the answer follows by interpolation, and a run
-that is cut into many windows is known at many more rates than were flown.
+What a wave does inside a segment is a smooth function of its rate once its phase is counted from the
+segment's middle. Some rates are simulated; between them the answer follows by interpolation, and a run
+that is cut into many segments is known at many more rates than were simulated.
 """
 
 from __future__ import annotations
@@ -16,23 +16,23 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.columns import Columns
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import Flight
+from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
 
-#: Amplitude of the wave that is flown; small against 1, large against the integrator's error.
+#: Amplitude of the wave that is simulated; small against 1, large against the integrator's error.
 _SMALL = 1e-3
-#: Steps of the rates flown, in periods over a window: interpolation by cubics needs as many.
+#: Steps of the rates simulated, in periods over a segment: interpolation by cubics needs as many.
 _STEP = 0.6
-#: The most rates that are flown in a run.
+#: The most rates that are simulated in a run.
 _RATES, _FEWEST = 32, 5
 #: No direction of a wave is felt less than this part of the whole.
 _LEAST = 0.02
-#: What a window's answer is taken to be wrong by, as a part of a full wave's: where a small wave
+#: What a segment's answer is taken to be wrong by, as a part of a full wave's: where a small wave
 #: changes much, as whether a block sticks, a larger one does not do so in proportion.
 _WRONG = 0.1
 #: The lowest of them stands for 0, in steps.
 _ALL_BUT_NONE = 1e-6
-#: A block that sticks all the time tells nothing of the surface's way: windows count as so many
+#: A block that sticks all the time tells nothing of the surface's way: segments count as so many
 #: times the noise at least.
 _SHORTEST = 50.0
 #: A full ripple that moves the surface by less than so much of the noise is not to be seen.
@@ -40,10 +40,10 @@ _SEEN = 2.0
 
 
 @dataclass(frozen=True)
-class WaveAnswer:
+class FrequencyResponse:
     """The answer of one run; its coordinate is the time (s) or the way of the surface (m).
 
-    What the windows' states, the model's free parameters and the run's own can take up is left out. A window
+    What the segments' states, the model's free parameters and the run's own can take up is left out. A segment
     counts the less, the worse the model fits in it, as one thrown off course answers nothing
     linearly, and the more violently it answers: else a few would outweigh all others.
 
@@ -51,8 +51,8 @@ class WaveAnswer:
     ----------
     speed : set-point, m/s
     length : of the run in its coordinate
-    step : of the rates flown: 0, step, 2 step ..., periods per unit of the coordinate
-    centres : (w,) of the windows
+    step : of the rates simulated: 0, step, 2 step ..., periods per unit of the coordinate
+    centres : (w,) of the segments
     products : (rates, w, c + 1) answer (complex: e^(i angle)) times columns of the free parameters, times the
         residuals
     squares, turned : (rates, w) sum of squares of the answer's modulus, and of the answer
@@ -105,19 +105,19 @@ class WaveAnswer:
 def _summed(
     values: np.ndarray, first: np.ndarray, weights: np.ndarray, turn: np.ndarray
 ) -> np.ndarray:
-    """(n, c) sums over windows of what lies between the rates flown, turned.
+    """(n, c) sums over segments of what lies between the rates simulated, turned.
 
-    values : (rates, w, c) at the rates flown; first : (n,) the rate flown below each; weights :
+    values : (rates, w, c) at the rates simulated; first : (n,) the rate simulated below each; weights :
     (4, n) of that before, this and the two after it; turn : (n, w)
     """
     total = np.zeros((len(first), values.shape[2]), dtype=complex)
     for below in np.unique(first):
         rows = first == below
         for offset, weight in enumerate(weights[:, rows], start=-1):
-            flown = values[min(abs(below + offset), len(values) - 1)]
+            simulated = values[min(abs(below + offset), len(values) - 1)]
             if below + offset < 0:  # the answer to a negative rate is the conjugate one
-                flown = np.conj(flown)
-            total[rows] += (weight[:, None] * turn[rows]) @ flown
+                simulated = np.conj(simulated)
+            total[rows] += (weight[:, None] * turn[rows]) @ simulated
     return total
 
 
@@ -130,56 +130,58 @@ def _matrix(squares: np.ndarray, turned: np.ndarray) -> np.ndarray:
     return matrix
 
 
-def wave_answer(
-    candidate: Candidate, model: Model, fitted: Fitted, flight: Flight, run: int
-) -> WaveAnswer:
-    """Of a flight, at the fit of a model to it and others, of which it is number ``run``.
+def frequency_response(
+    candidate: Candidate, model: Model, fitted: Fitted, segmented: SegmentedRun, run: int
+) -> FrequencyResponse:
+    """Of a segmented run, at the fit of a model to it and others, of which it is number ``run``.
 
     fitted : with derivatives
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
-    problem = Problem([flight], model.free_parameters, model.settings)
+    problem = Problem([segmented], model.free_parameters, model.settings)
     residuals, columns = fitted.residuals[run], fitted.columns[run]
-    windows = [rows for rows, _ in columns.states if rows.size]
+    segments = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
-    centres = np.array([along[rows].mean() for rows in windows])
+    centres = np.array([along[rows].mean() for rows in segments])
     step = _STEP / max(
-        float(np.quantile([np.ptp(along[rows]) for rows in windows], 0.9)),
-        _SHORTEST * flight.noise["x"],
+        float(np.quantile([np.ptp(along[rows]) for rows in segments], 0.9)),
+        _SHORTEST * segmented.noise["x"],
     )
-    weight, basis = _weight_and_basis(columns, windows)
-    order = np.concatenate(windows)
-    sizes = np.array([rows.size for rows in windows])
+    weight, basis = _weight_and_basis(columns, segments)
+    order = np.concatenate(segments)
+    sizes = np.array([rows.size for rows in segments])
     centre = np.repeat(centres, sizes)
     found = []
-    for rate in step * np.maximum(np.arange(_count(candidate, flight, step)), _ALL_BUT_NONE):
-        wave = _wave(candidate, model, flight, at, rate) - (1.0 + 1.0j) * residuals
+    for rate in step * np.maximum(np.arange(_count(candidate, segmented, step)), _ALL_BUT_NONE):
+        wave = _wave(candidate, model, segmented, at, rate) - (1.0 + 1.0j) * residuals
         wave = columns.without_states(wave / _SMALL) * weight
         found.append(sums(wave[order] * np.exp(-2j * np.pi * rate * centre), basis[order], sizes))
     parts = (np.array(part) for part in zip(*found, strict=True))
     misfit = float(basis[:, -1] @ basis[:, -1])
-    return WaveAnswer(abs(flight.speed), float(np.ptp(along)), step, centres, *parts, misfit)
+    return FrequencyResponse(
+        abs(segmented.speed), float(np.ptp(along)), step, centres, *parts, misfit
+    )
 
 
 def sums(wave: np.ndarray, basis: np.ndarray, sizes: np.ndarray):
-    """By window: of the wave times the basis, of its modulus squared, of its square."""
+    """By segment: of the wave times the basis, of its modulus squared, of its square."""
     begins = np.concatenate([[0], np.cumsum(sizes)[:-1]])
     products, squares, turned = (
         np.add.reduceat(part, begins, axis=0)
         for part in (wave[:, None] * basis, np.abs(wave) ** 2, wave**2)
     )
     trust = 1.0 / (1.0 + _WRONG**2 * squares / sizes)
-    # the basis is of unit length, however much its windows count
+    # the basis is of unit length, however much its segments count
     products[:, :-1] *= np.sqrt(trust)[:, None]
     products[:, -1] *= trust
     return products, trust * squares, trust * turned
 
 
-def _count(candidate: Candidate, flight: Flight, step: float) -> int:
+def _count(candidate: Candidate, segmented: SegmentedRun, step: float) -> int:
     """Rates to fly."""
     if not _in_time(candidate):
         return _RATES
-    visible = abs(flight.speed) / (2.0 * np.pi * _SEEN * flight.noise["x"])
+    visible = abs(segmented.speed) / (2.0 * np.pi * _SEEN * segmented.noise["x"])
     return int(np.clip(visible / step, _FEWEST, _RATES))
 
 
@@ -189,34 +191,38 @@ def _in_time(candidate: Candidate) -> bool:
 
 def _along(problem: Problem, at, candidate: Candidate, rows: int) -> np.ndarray:
     """(rows,) coordinate of each residual; of what is known beforehand, that of the first."""
-    (flight,) = problem.flights
-    along = flight.time
+    (segmented,) = problem.segmented_runs
+    along = segmented.time
     if not _in_time(candidate):
-        outputs = problem.flown(0, *at)[0]
+        outputs = problem.simulated(0, *at)[0]
         along = outputs[:, layout.O_TRAVEL] - outputs[:, layout.O_X]
-        along = np.interp(flight.time, flight.time[np.isfinite(along)], along[np.isfinite(along)])
-    seen = np.concatenate([along[flight.seen[name]] for name in flight.channels])
+        along = np.interp(
+            segmented.time, segmented.time[np.isfinite(along)], along[np.isfinite(along)]
+        )
+    seen = np.concatenate([along[segmented.seen[name]] for name in segmented.channels])
     return np.concatenate([seen, np.full(rows - seen.size, along[0])])
 
 
-def _wave(candidate: Candidate, model: Model, flight: Flight, at, rate: float) -> np.ndarray:
+def _wave(
+    candidate: Candidate, model: Model, segmented: SegmentedRun, at, rate: float
+) -> np.ndarray:
     """Residuals under a small wave e^(i angle), its two parts as real and imaginary one."""
     effect, period = candidate.effect, candidate.periodic
     value = rate if period.endswith("frequency") else 1.0 / rate
     parts = []
     for degrees in (0.0, 90.0):
         wave = {f"{effect}.amplitude": _SMALL, period: value, f"{effect}.phase_deg": degrees}
-        problem = Problem([flight], model.free_parameters, {**model.settings, **wave})
+        problem = Problem([segmented], model.free_parameters, {**model.settings, **wave})
         parts.append(problem.residuals(0, *at))
     # the sine of the time's angle and its cosine, or the cosine of the place's and its sine
     return parts[1] + 1j * parts[0] if _in_time(candidate) else parts[0] + 1j * parts[1]
 
 
-def _weight_and_basis(columns: Columns, windows) -> tuple[np.ndarray, np.ndarray]:
-    """(rows,) weight by window, and what the free parameters take up, orthonormal, with the residuals."""
+def _weight_and_basis(columns: Columns, segments) -> tuple[np.ndarray, np.ndarray]:
+    """(rows,) weight by segment, and what the free parameters take up, orthonormal, with the residuals."""
     left = columns.without_states(columns.residuals)
     weight = np.empty(left.size)
-    for rows in windows:
+    for rows in segments:
         weight[rows] = 1.0 / np.sqrt(1.0 + np.mean(left[rows] ** 2))
     free_parameters = columns.without_states(np.column_stack([columns.shared, columns.own]))
     basis = np.linalg.qr(free_parameters * weight[:, None])[0]

@@ -19,7 +19,7 @@ from .tried import Tried, penalised
 
 #: A pair that has taken away this part is fitted more closely, if it does not fit.
 NEARLY = 0.8
-#: A pair that takes away this part in short windows and does not fit has its periods looked for
+#: A pair that takes away this part in short segments and does not fit has its periods looked for
 #: anew, in so many turns at most, each of which must leave less than this part of the squares.
 MOST, TURNS, LEADS_ON = 0.6, 2, 0.98
 
@@ -27,24 +27,27 @@ MOST, TURNS, LEADS_ON = 0.6, 2, 0.98
 Pair = tuple[Tried, Tried]
 
 
-def gap_of(pair: Pair) -> float:
+def rms_of(pair: Pair) -> float:
     """Of both effects together."""
-    return pair[1].trial.gap
+    return pair[1].trial.rms_residual
 
 
 def alternated(search: Search, plain: Fitted, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
     """Each periodic effect's period anew beside the other: it was found while that was missing.
 
-    Backfitting (Breiman & Friedman 1985), in short windows; only of a pair that does most and does
+    Backfitting (Breiman & Friedman 1985), in short segments; only of a pair that does most and does
     not fit.
     """
     for _ in range(TURNS):
-        now = pair[1].sketched
-        if now.gap() <= PLAIN_FITS or gone(plain.gap(), now.gap()) < MOST:
+        now = pair[1].coarse
+        if (
+            now.rms_residual() <= PLAIN_FITS
+            or gone(plain.rms_residual(), now.rms_residual()) < MOST
+        ):
             break
         for place in (0, 1):
             pair = _anew(search, pair, place, candidates)
-        if pair[1].sketched.cost > LEADS_ON * now.cost:
+        if pair[1].coarse.cost > LEADS_ON * now.cost:
             break
     return pair
 
@@ -53,7 +56,7 @@ def _anew(search: Search, pair: Pair, place: int, candidates: Sequence[Candidate
     """A pair with one of its effects looked for anew, if it is periodic and that is better."""
     law, now = pair[place].candidate, pair[1]
     found = search.anew(now, law, candidates) if law.periodic else None
-    if found is None or penalised(found.sketched) >= penalised(now.sketched):
+    if found is None or penalised(found.coarse) >= penalised(now.coarse):
         return pair
     return _with_law(pair, place, found)
 
@@ -69,9 +72,9 @@ def _with_law(pair: Pair, place: int, found: Tried) -> Pair:
 def is_worth_more(plain: Trial, pair: Pair) -> bool:
     """Whether other laws of its effects may be what a pair lacks."""
     both = pair[1]
-    if both.trial.gap <= PLAIN_FITS:
+    if both.trial.rms_residual <= PLAIN_FITS:
         return False
-    return both.sketched.gap() <= PLAIN_FITS or explained(plain, both.trial) >= NEARLY
+    return both.coarse.rms_residual() <= PLAIN_FITS or explained(plain, both.trial) >= NEARLY
 
 
 def polished(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pair:
@@ -81,7 +84,7 @@ def polished(search: Search, pair: Pair, candidates: Sequence[Candidate]) -> Pai
     return _with_law(pair, 0 if found.candidate.effect == laws[1].effect else 1, found)
 
 
-def doubled(
+def aliased(
     search: Search,
     pair: Pair,
     alone: Mapping[str, Trial],
@@ -90,7 +93,7 @@ def doubled(
 ) -> list[Pair]:
     """Others in place of an effect that moves the block off its line, if a pair does not fit."""
     aside = [t.candidate.lateral for t in pair]
-    if gap_of(pair) <= PLAIN_FITS or not any(aside):
+    if rms_of(pair) <= PLAIN_FITS or not any(aside):
         return []
     names = {t.candidate.effect for t in pair}
     others = [c for c in candidates if c.lateral and c.effect not in names]

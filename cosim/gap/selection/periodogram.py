@@ -13,7 +13,7 @@ import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
 
-from .frequency_response import WaveAnswer
+from .frequency_response import FrequencyResponse
 
 #: Steps of the periodogram, in periods over the longest run, and the fewest periods in a run.
 _FINE, _FEWEST = 0.25, 1.3
@@ -48,7 +48,7 @@ class Peak:
     step: float
 
 
-def scan(candidate: Candidate, answers: Sequence[WaveAnswer]) -> list[Peak]:
+def scan(candidate: Candidate, answers: Sequence[FrequencyResponse]) -> list[Peak]:
     """The strongest periods, strongest first; one, though it be feeble.
 
     None where the runs are too short for any: a block that sticks all the time goes no way.
@@ -72,7 +72,7 @@ def scan(candidate: Candidate, answers: Sequence[WaveAnswer]) -> list[Peak]:
 
 
 def periodogram(
-    candidate: Candidate, answers: Sequence[WaveAnswer]
+    candidate: Candidate, answers: Sequence[FrequencyResponse]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Rates (n,) per second or per metre, what a wave of each explains, and its amplitude."""
     # a ripple is answered to in time; that of a roller is one along the surface's way

@@ -15,17 +15,17 @@ import numpy as np
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import Flight
+from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
 from cosim.processes import Map
 
 #: Two laws are concealed by one another where together they explain this part, and so many times
 #: what either does alone: what one adds, the other takes away.
-_CONCEALED, _TIMES = 0.3, 1.5
+_MASKING, _TIMES = 0.3, 1.5
 
 
 @dataclass(frozen=True)
-class Screen:
+class ScoreTest:
     """What laws could take away, alone and in pairs.
 
     Attributes
@@ -44,9 +44,9 @@ class Screen:
         least = 1e-12 * max(self.left[0, 0], 1e-300)
         return np.where(along > 0.0, along**2 / np.maximum(own, least), 0.0) / self.left[0, 0]
 
-    def concealed(self) -> tuple[Candidate, Candidate] | None:
+    def masking_pair(self) -> tuple[Candidate, Candidate] | None:
         """The two that explain most together, if neither does so alone; as strong as they come."""
-        alone, best, found = self.gains(), _CONCEALED, None
+        alone, best, found = self.gains(), _MASKING, None
         for i, j in combinations(range(len(self.laws)), 2):
             if self.laws[i].effect == self.laws[j].effect:
                 continue
@@ -67,23 +67,27 @@ class Screen:
         return strengths, float(strengths @ along) / self.left[0, 0]
 
 
-def screened(
-    flights: Sequence[Flight], base: Model, fitted: Fitted, laws: Sequence[Candidate], mapped: Map
-) -> Screen:
+def score_test(
+    segmented_runs: Sequence[SegmentedRun],
+    base: Model,
+    fitted: Fitted,
+    laws: Sequence[Candidate],
+    mapped: Map,
+) -> ScoreTest:
     """All laws screened on top of a fitted base.
 
     fitted : of the base, with derivatives
     """
     faint = tuple(law.faint() for law in laws)
-    runs = [(flight, base, fitted, i, faint) for i, flight in enumerate(flights)]
+    runs = [(segmented, base, fitted, i, faint) for i, segmented in enumerate(segmented_runs)]
     products = np.sum(list(mapped(answers, runs)), axis=0)
     count = products.shape[0] - 1 - len(laws)
     taken = np.linalg.lstsq(products[:count, :count], products[:count, count:], rcond=1e-10)[0]
-    return Screen(faint, products[count:, count:] - products[count:, :count] @ taken)
+    return ScoreTest(faint, products[count:, count:] - products[count:, :count] @ taken)
 
 
 def answers(
-    flight: Flight, base: Model, fitted: Fitted, run: int, laws: Sequence[Candidate]
+    segmented: SegmentedRun, base: Model, fitted: Fitted, run: int, laws: Sequence[Candidate]
 ) -> np.ndarray:
     """Products, over one run, of the free parameters' columns, the residuals and the laws' answers.
 
@@ -91,12 +95,12 @@ def answers(
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
     residuals, columns = fitted.residuals[run], fitted.columns[run]
-    found = [_answer(flight, base, law, at) - residuals for law in laws]
+    found = [_answer(segmented, base, law, at) - residuals for law in laws]
     left = columns.left(np.column_stack([columns.shared, residuals, *found]))
     return left.T @ left
 
 
-def _answer(flight: Flight, base: Model, law: Candidate, at) -> np.ndarray:
+def _answer(segmented: SegmentedRun, base: Model, law: Candidate, at) -> np.ndarray:
     """Residuals with the law, which is a faint one, in the model."""
     faint = {free_parameter.key: free_parameter.start for free_parameter in law.free_parameters}
     settings = {**base.settings, **law.settings, **faint}
@@ -108,4 +112,4 @@ def _answer(flight: Flight, base: Model, law: Candidate, at) -> np.ndarray:
         for k, s in zip([k for k in base.free_parameters if not k.per_run], at[0], strict=True)
         if k.key not in faint
     ]
-    return Problem([flight], free_parameters, settings).residuals(0, np.array(kept), *at[1:])
+    return Problem([segmented], free_parameters, settings).residuals(0, np.array(kept), *at[1:])

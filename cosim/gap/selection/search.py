@@ -13,27 +13,27 @@ from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import Fitted, Point
 from cosim.gap.estimation.preparation import Data
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.screening import glance, ground
-from cosim.gap.estimation.trial import Model, finished, sketch, try_model
+from cosim.gap.estimation.screening import linearised, screening_fit
+from cosim.gap.estimation.trial import Model, coarse_fit, finished, try_model
 from cosim.processes import Map
 
 from .alternatives import other_laws, other_starts
 from .breadth import ALONE, ANEW, BESIDE, Breadth
-from .frequency_response import wave_answer
+from .frequency_response import frequency_response
 from .periodogram import NOISE, scan
-from .score_test import screened
+from .score_test import score_test
 from .tried import ACROSS, Tried, best_laws, in_the_running, penalised, rank
 
-#: Rounds of the glance at every law, of a look at those that do well in it, of a sketch of those
+#: Rounds of the screening fit at every law, of a look at those that do well in it, of a coarse fit of those
 #: that do so again, ...
-GLANCE, LOOK, SKETCH = 3, 2, 6
-#: ... so many are fitted in long windows, at most so many of one effect.
+SCREENING, STARTING, COARSE = 3, 2, 6
+#: ... so many are fitted in long segments, at most so many of one effect.
 FINALISTS, FORMS = 5, 2
-#: Rounds in long windows before the best few, so many, are fitted to the end.
+#: Rounds in long segments before the best few, so many, are fitted to the end.
 FIRST, FINISHED = 6, 2
 #: So many laws set out as next to nothing as well; on top of a first effect no others are tried.
 PROMISING = 10
-#: Laws of one effect that set out again, by other values or other laws, and go to long windows.
+#: Laws of one effect that set out again, by other values or other laws, and go to long segments.
 AGAIN = 3
 
 Progress = Callable[[int], object]
@@ -49,37 +49,37 @@ class Search:
     def on(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
         """The best law of each effect, best effect first; finalists have a trial.
 
-        fitted : the base in short windows.
+        fitted : the base in short segments.
         """
-        sketches, seen = self._sketches(base, fitted, candidates, ALONE)
-        done = self._tried(best_laws(sketches, FORMS)[:FINALISTS])
+        coarse_fits, seen = self._coarse_fits(base, fitted, candidates, ALONE)
+        done = self._tried(best_laws(coarse_fits, FORMS)[:FINALISTS])
         effects = {t.candidate.effect for t in done}
-        rest = [t for t in best_laws([*sketches, *seen], 1) if t.candidate.effect not in effects]
+        rest = [t for t in best_laws([*coarse_fits, *seen], 1) if t.candidate.effect not in effects]
         return done + rest
 
     def beside(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
-        """The best laws beside an effect that is in the base, in short windows, best first."""
-        sketches, _ = self._sketches(base, fitted, candidates, BESIDE)
-        return best_laws(sketches, FORMS)
+        """The best laws beside an effect that is in the base, in short segments, best first."""
+        coarse_fits, _ = self._coarse_fits(base, fitted, candidates, BESIDE)
+        return best_laws(coarse_fits, FORMS)
 
-    def concealed(
+    def masking_pair(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
     ) -> tuple[Candidate, Tried] | None:
         """Two laws that do much together and little alone: one, and the other on top of it."""
         laws = [c for c in candidates if c.free_parameters and not c.periodic]
-        with_derivatives = self._grounds(base, fitted, ())[()]
-        two = screened(self.data.short, base, with_derivatives, laws, self.mapped).concealed()
+        with_derivatives = self._linearised(base, fitted, ())[()]
+        two = score_test(self.data.short, base, with_derivatives, laws, self.mapped).masking_pair()
         if two is None:
             return None
         model = extended(extended(base, two[0], fitted.values), two[1], {})
         second = Tried(two[1], model, fitted)
-        return two[0], self._run(_sketched, [(self.data, second)])[0]
+        return two[0], self._run(_coarse, [(self.data, second)])[0]
 
     def together(self, pairs: Sequence[tuple[Tried, Tried]]) -> list[tuple[Tried, Tried]]:
-        """Second effects on top of first ones in long windows; the best few to the end."""
+        """Second effects on top of first ones in long segments; the best few to the end."""
         seconds = [second for _, second in pairs]
-        trials = self._run(try_model, [(self.data, t.model, t.sketched, FIRST) for t in seconds])
-        best = sorted(range(len(pairs)), key=lambda i: trials[i].gap)[:FINISHED]
+        trials = self._run(try_model, [(self.data, t.model, t.coarse, FIRST) for t in seconds])
+        best = sorted(range(len(pairs)), key=lambda i: trials[i].rms_residual)[:FINISHED]
         ended = self._run(finished, [(self.data, trials[i]) for i in best])
         trials = [ended[best.index(i)] if i in best else trial for i, trial in enumerate(trials)]
         return [
@@ -90,15 +90,15 @@ class Search:
     def instead(
         self, second: Tried, law: Candidate, candidates: Sequence[Candidate], keep: Sequence[str]
     ) -> list[Tried]:
-        """The best law of each effect in place of one of a pair, in long windows, best first.
+        """The best law of each effect in place of one of a pair, in long segments, best first.
 
         second : the pair's second effect on top of the first, with a trial; law : that of either;
         keep : settings of that law that the other needs
         """
         values = second.trial.fitted.values
         rest = reduced(second.model, law, values, keep)
-        tried = [Tried(c, extended(rest, c, values), second.sketched) for c in candidates]
-        return self._tried(best_laws(self._run(_sketched, [(self.data, t) for t in tried]), 1))
+        tried = [Tried(c, extended(rest, c, values), second.coarse) for c in candidates]
+        return self._tried(best_laws(self._run(_coarse, [(self.data, t) for t in tried]), 1))
 
     def less(self, tried: Tried, dropped: Candidate, keep: Sequence[str]) -> Tried:
         """A trial's model without an effect, fitted to the end from where the trial ended.
@@ -106,8 +106,8 @@ class Search:
         keep : settings of the dropped effect that others need
         """
         model = reduced(tried.model, dropped, tried.trial.fitted.values, keep)
-        (again,) = self._run(_sketched, [(self.data, replace(tried, model=model))])
-        (trial,) = self._run(try_model, [(self.data, model, again.sketched)])
+        (again,) = self._run(_coarse, [(self.data, replace(tried, model=model))])
+        (trial,) = self._run(try_model, [(self.data, model, again.coarse)])
         return replace(again, trial=trial)
 
     def anew(self, second: Tried, law: Candidate, candidates: Sequence[Candidate]) -> Tried | None:
@@ -115,17 +115,17 @@ class Search:
 
         second : the pair's second effect on top of the first; law : that of either that is dropped
         """
-        fitted = second.sketched
+        fitted = second.coarse
         model = reduced(second.model, law, fitted.values, ())
         (rest,) = self._run(_left, [(self.data, model, fitted)])
         laws = [c for c in candidates if c.effect == law.effect]
-        sketches, _ = self._sketches(model, rest, laws, ANEW)
-        return min(sketches, key=lambda t: penalised(t.sketched), default=None)
+        coarse_fits, _ = self._coarse_fits(model, rest, laws, ANEW)
+        return min(coarse_fits, key=lambda t: penalised(t.coarse), default=None)
 
     def polished(self, tried: Sequence[Tried], candidates: Sequence[Candidate]) -> list[Tried]:
         """Trials once more, from several values of mu_s and by the effect's other laws, best first.
 
-        Where nothing sticks in most windows, a fit may have left mu_s in a place that the motion
+        Where nothing sticks in most segments, a fit may have left mu_s in a place that the motion
         does not feel, and an effect unrecognised for it. A law with one number more finds its way
         from where the simpler one ended.
         """
@@ -136,68 +136,68 @@ class Search:
             for model in other_starts(t.model, t.trial.fitted.values)
         ]
         again += [law for t in tried for law in other_laws(t, candidates)]
-        again = best_laws(self._run(_sketched, [(self.data, t) for t in again]), AGAIN)
-        return best_laws([*tried, *self._tried(again)], 1, lambda t: t.trial.gap)
+        again = best_laws(self._run(_coarse, [(self.data, t) for t in again]), AGAIN)
+        return best_laws([*tried, *self._tried(again)], 1, lambda t: t.trial.rms_residual)
 
     def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
         """Those that were ruled out early judged as well, by what little fit they had."""
         early = [t for t in tried if t.trial is None]
-        trials = self._run(try_model, [(self.data, t.model, t.sketched, 0) for t in early])
+        trials = self._run(try_model, [(self.data, t.model, t.coarse, 0) for t in early])
         late = [replace(t, trial=trial) for t, trial in zip(early, trials, strict=True)]
-        late.sort(key=lambda t: t.trial.gap)
+        late.sort(key=lambda t: t.trial.rms_residual)
         return (*(t for t in tried if t.trial is not None), *late)
 
-    def _sketches(
+    def _coarse_fits(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], breadth: Breadth
     ) -> tuple[list[Tried], list[Tried]]:
-        """The best laws sketched, at most so many, and all that were looked at for it."""
-        seen, unseen = self._glanced(base, fitted, candidates, breadth)
-        # the best law of every effect: by derivatives of afar a glance may miss how well one does
+        """The best laws fitted coarsely, at most so many, and all that were looked at for it."""
+        seen, unseen = self._screened(base, fitted, candidates, breadth)
+        # the best law of every effect: by derivatives of afar a screening fit may miss how well one does
         chosen = sorted(best_laws(seen, FORMS), key=lambda t: rank(t, seen))
-        looks = [(self.data, t, LOOK) for t in chosen[: breadth.looked_at]]
-        looks = self._run(_continued, looks)
-        chosen = in_the_running(best_laws(looks, FORMS)[: breadth.sketched], fitted)
-        sketches = self._run(_continued, [(self.data, t, SKETCH - LOOK) for t in chosen])
-        return sketches, [*looks, *seen, *unseen]
+        started = [(self.data, t, STARTING) for t in chosen[: breadth.started]]
+        started = self._run(_continued, started)
+        chosen = in_the_running(best_laws(started, FORMS)[: breadth.coarse], fitted)
+        coarse_fits = self._run(_continued, [(self.data, t, COARSE - STARTING) for t in chosen])
+        return coarse_fits, [*started, *seen, *unseen]
 
-    def _glanced(
+    def _screened(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], breadth: Breadth
     ) -> tuple[list[Tried], list[Tried]]:
-        """Every law after a glance at it; those whose period is noise, as they set out."""
-        grounds = self._grounds(base, fitted, candidates)
-        placed, feeble = self._placed(base, grounds[()], candidates, breadth)
-        promising = self._promising(base, grounds[()], placed)
+        """Every law after a screening fit at it; those whose period is noise, as they set out."""
+        linearised_fits = self._linearised(base, fitted, candidates)
+        placed, feeble = self._placed(base, linearised_fits[()], candidates, breadth)
+        promising = self._promising(base, linearised_fits[()], placed)
         if not breadth.everything:
             placed, feeble = promising, []
         placed = placed + [c.faint() for c in promising if c.can_be_faint]
-        laws = [*((c, GLANCE) for c in placed), *((c, 0) for c in feeble)]
+        laws = [*((c, SCREENING) for c in placed), *((c, 0) for c in feeble)]
         models = [extended(base, c, fitted.values) for c, _ in laws]
         tasks = [
-            (self.data, m, grounds[_across(base, c)], rounds)
+            (self.data, m, linearised_fits[_across(base, c)], rounds)
             for (c, rounds), m in zip(laws, models, strict=True)
         ]
-        glances = self._run(glance, tasks)
-        tried = [Tried(c, m, g) for (c, _), m, g in zip(laws, models, glances, strict=True)]
+        screened = self._run(screening_fit, tasks)
+        tried = [Tried(c, m, g) for (c, _), m, g in zip(laws, models, screened, strict=True)]
         return tried[: len(placed)], tried[len(placed) :]
 
-    def _tried(self, sketched: Sequence[Tried]) -> list[Tried]:
-        """The best law of each effect in long windows, best first; the best few to the end."""
-        trials = self._run(try_model, [(self.data, t.model, t.sketched, FIRST) for t in sketched])
-        done = [replace(t, trial=trial) for t, trial in zip(sketched, trials, strict=True)]
-        done = best_laws(done, 1, lambda t: t.trial.gap)
+    def _tried(self, coarse: Sequence[Tried]) -> list[Tried]:
+        """The best law of each effect in long segments, best first; the best few to the end."""
+        trials = self._run(try_model, [(self.data, t.model, t.coarse, FIRST) for t in coarse])
+        done = [replace(t, trial=trial) for t, trial in zip(coarse, trials, strict=True)]
+        done = best_laws(done, 1, lambda t: t.trial.rms_residual)
         trials = self._run(finished, [(self.data, t.trial) for t in done[:FINISHED]])
         ended = [replace(t, trial=trial) for t, trial in zip(done, trials, strict=False)]
-        return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.gap)
+        return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.rms_residual)
 
-    def _grounds(
+    def _linearised(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
     ) -> dict[tuple, Fitted]:
         """The base with its derivatives, as it is and with the friction across that laws bring."""
         kinds = list(dict.fromkeys([(), *(_across(base, c) for c in candidates)]))
         models = [replace(base, settings={**base.settings, **dict(kind)}) for kind in kinds]
         tasks = [(self.data, m, fitted, bool(kind)) for kind, m in zip(kinds, models, strict=True)]
-        grounds = self._run(ground, tasks)
-        return dict(zip(kinds, grounds, strict=True))
+        linearised_fits = self._run(linearised, tasks)
+        return dict(zip(kinds, linearised_fits, strict=True))
 
     def _promising(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
@@ -205,7 +205,7 @@ class Search:
         """Those whose answer goes best with what is left; periodic ones, which have phases, all."""
         kept = [c for c in candidates if c.periodic]
         laws = [c for c in candidates if not c.periodic]
-        explained = screened(self.data.short, base, fitted, laws, self.mapped).gains()
+        explained = score_test(self.data.short, base, fitted, laws, self.mapped).gains()
         best = np.argsort(-explained, kind="stable")[:PROMISING]
         return kept + [laws[i] for i in sorted(best)]
 
@@ -228,9 +228,9 @@ class Search:
         placed, feeble = [c for c in candidates if not c.periodic], []
         for effect in dict.fromkeys(c.effect for c in candidates if c.periodic):
             laws = [c for c in candidates if c.effect == effect]
-            flights = enumerate(self.data.short)
-            calls = [(laws[0], base, fitted, flight, i) for i, flight in flights]
-            answers = self._run(wave_answer, calls)
+            segmented_runs = enumerate(self.data.short)
+            calls = [(laws[0], base, fitted, segmented, i) for i, segmented in segmented_runs]
+            answers = self._run(frequency_response, calls)
             periods = {law.periodic: law for law in laws}
             found = self._run(scan, [(law, answers) for law in periods.values()])
             found = dict(zip(periods, found, strict=True))
@@ -255,16 +255,16 @@ def _across(base: Model, candidate: Candidate) -> tuple[tuple[str, float], ...]:
 
 def _continued(data: Data, tried: Tried, rounds: int) -> Tried:
     """So many rounds on; phases that look better may lead nowhere."""
-    again = sketch(data, tried.model, rounds, tried.sketched)
-    return replace(tried, sketched=min(again, tried.sketched, key=lambda fitted: fitted.cost))
+    again = coarse_fit(data, tried.model, rounds, tried.coarse)
+    return replace(tried, coarse=min(again, tried.coarse, key=lambda fitted: fitted.cost))
 
 
-def _sketched(data: Data, tried: Tried) -> Tried:
-    return replace(tried, sketched=sketch(data, tried.model, SKETCH))
+def _coarse(data: Data, tried: Tried) -> Tried:
+    return replace(tried, coarse=coarse_fit(data, tried.model, COARSE))
 
 
 def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
-    """A model where one with more free parameters was fitted; the windows' states alone make up for them."""
+    """A model where one with more free parameters was fitted; the segments' states alone make up for them."""
     kept = {free_parameter.key for free_parameter in model.free_parameters}
     shared = [
         free_parameter.key in kept
@@ -279,4 +279,6 @@ def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
     point = Point(
         fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own), fitted.point.states
     )
-    return fit(Problem(data.short, model.free_parameters, model.settings), point, LOOK, fixed=True)
+    return fit(
+        Problem(data.short, model.free_parameters, model.settings), point, STARTING, fixed=True
+    )

@@ -23,7 +23,7 @@ class Tried:
 
     candidate: Candidate
     model: Model
-    sketched: Fitted
+    coarse: Fitted
     trial: Trial | None = None
 
 
@@ -38,7 +38,7 @@ def best_laws(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:
     """The best laws of each effect, best first."""
     counts: dict[str, int] = {}
     best = []
-    for t in sorted(tried, key=key or (lambda t: penalised(t.sketched))):
+    for t in sorted(tried, key=key or (lambda t: penalised(t.coarse))):
         counts[t.candidate.effect] = counts.get(t.candidate.effect, 0) + 1
         if counts[t.candidate.effect] <= most:
             best.append(t)
@@ -47,9 +47,9 @@ def best_laws(tried: Sequence[Tried], most: int, key=None) -> list[Tried]:
 
 def rank(tried: Tried, seen: Sequence[Tried]) -> int:
     """How many laws of its effect did better."""
-    cost = penalised(tried.sketched)
+    cost = penalised(tried.coarse)
     return sum(
-        t.candidate.effect == tried.candidate.effect and penalised(t.sketched) < cost for t in seen
+        t.candidate.effect == tried.candidate.effect and penalised(t.coarse) < cost for t in seen
     )
 
 
@@ -58,8 +58,8 @@ def in_the_running(tried: Sequence[Tried], fitted: Fitted) -> list[Tried]:
 
     fitted : the base
     """
-    before = fitted.gap() ** 2 - 1.0
-    left = [max(t.sketched.gap() ** 2 - 1.0, 0.0) for t in tried]
+    before = fitted.rms_residual() ** 2 - 1.0
+    left = [max(t.coarse.rms_residual() ** 2 - 1.0, 0.0) for t in tried]
     if not tried or min(left) > NEARLY_ALL * before:
         return list(tried)
     return [t for t, rest in zip(tried, left, strict=True) if rest <= HOPELESS * before]

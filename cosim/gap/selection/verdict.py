@@ -9,7 +9,7 @@ from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.trial import Trial
 
-from .confounders import better_lookalike
+from .confounders import better_confounder
 from .criteria import (
     DRAGS_ASIDE,
     EXPLAINED_BY_ONE,
@@ -18,11 +18,11 @@ from .criteria import (
     PART_OF_OTHERS,
     PLAIN_FITS,
     WORTH_A_POLISH,
-    alike,
     as_good,
-    excess,
+    excess_chi_square,
     explained,
     in_reach,
+    indistinguishable,
     is_little,
     is_plain,
     repaired,
@@ -57,7 +57,7 @@ class Finding:
     chosen : the model that repairs it, None for none and unknown
     ranking : every effect on top of the plain model, best first
     nearest : the best that there is, whatever the verdict
-    lookalike : what would repair it and is not in the catalogue, in words, or ""
+    confounder : what would repair it and is not in the catalogue, in words, or ""
     """
 
     verdict: str
@@ -65,38 +65,38 @@ class Finding:
     chosen: Trial | None
     ranking: Sequence[Tried]
     nearest: Trial
-    lookalike: str = ""
+    confounder: str = ""
 
 
-def judge(search: Search, plain: Trial, sketched: Fitted, candidates: Sequence[Candidate]):
+def judge(search: Search, plain: Trial, coarse: Fitted, candidates: Sequence[Candidate]):
     """Look for one effect, then for two: `Finding`."""
-    ranking = search.on(plain.model, sketched, candidates)
+    ranking = search.on(plain.model, coarse, candidates)
     done, early = _parted(ranking)
-    if plain.gap <= PLAIN_FITS:
+    if plain.rms_residual <= PLAIN_FITS:
         if done and _is_wave(plain, done):
             return _named(done[0], ranking)
         return Finding("none", (), None, ranking, plain)
     best = done[0].trial
-    if best.gap > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
+    if best.rms_residual > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
         done = _merged(search.polished(in_reach(telling(done))[:POLISHED], candidates), done)
-    other = better_lookalike(search, plain, sketched, done[0])
+    other = better_confounder(search, plain, coarse, done[0])
     if other and repaired(plain, other.trial, EXPLAINED_BY_ONE):
         nearest, words = done[0].trial, other.candidate.effect
         return Finding("unknown", (), None, [*done, *early], nearest, words)
     single = _of_one(plain, [*done, *early])
-    if single and (single.nearest.gap <= FITS or explained(plain, single.nearest) >= ALL):
+    if single and (single.nearest.rms_residual <= FITS or explained(plain, single.nearest) >= ALL):
         best = next(t for t in done if t.trial is single.chosen)
         return _with_friction_across(search, single, best, candidates)
-    if is_little(plain, sketched):  # and nothing explains it
+    if is_little(plain, coarse):  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)
-    return _of_two(search, plain, sketched, [*done, *early], candidates, single)
+    return _of_two(search, plain, coarse, [*done, *early], candidates, single)
 
 
 def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
     """Those with a trial, best first, and those that were ruled out by a shorter look."""
     done = [t for t in ranking if t.trial is not None]
     early = [t for t in ranking if t.trial is None]
-    return sorted(done, key=lambda t: t.trial.gap), early
+    return sorted(done, key=lambda t: t.trial.rms_residual), early
 
 
 def _named(best: Tried, ranking: Sequence[Tried]) -> Finding:
@@ -108,10 +108,12 @@ def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
     """One effect, or several that do as well as one another, if they repair the model."""
     done, _ = _parted(ranking)
     # one that is plain numbers by another name may do as well as an effect
-    done = [t for t in done if t.trial.gap**2 <= as_good(done[0].trial) and stands(t.trial)]
+    done = [
+        t for t in done if t.trial.rms_residual**2 <= as_good(done[0].trial) and stands(t.trial)
+    ]
     if not done or not repaired(plain, done[0].trial, EXPLAINED_BY_ONE):
         return None
-    best, members = done[0].trial, alike(done)
+    best, members = done[0].trial, indistinguishable(done)
     return Finding("named" if len(members) == 1 else "class", members, best, ranking, best)
 
 
@@ -134,7 +136,7 @@ def _with_friction_across(
     if effect == DRAGS_ASIDE or len(single.effects) > 1:
         return single
     without = search.less(best, across[0], keep=())
-    if without.trial.gap**2 <= as_good(best.trial):
+    if without.trial.rms_residual**2 <= as_good(best.trial):
         return single
     return replace(single, effects=(effect, PART_OF_OTHERS))
 
@@ -142,7 +144,7 @@ def _with_friction_across(
 def _of_two(
     search: Search,
     plain: Trial,
-    sketched: Fitted,
+    coarse: Fitted,
     ranking: Sequence[Tried],
     candidates: Sequence[Candidate],
     single: Finding | None,
@@ -152,7 +154,7 @@ def _of_two(
     single : what is to be said if there is no second one, as far as it is known
     """
     done, early = _parted(ranking)
-    pair = best_pair(search, plain, sketched, done, candidates)
+    pair = best_pair(search, plain, coarse, done, candidates)
     if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
         alone = needed_alone(search, plain, pair)
         if alone is None:
@@ -167,7 +169,7 @@ def _of_two(
     best = done[0]
     if _dominates(plain, done):
         return _named(best, ranking)
-    nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.gap)
+    nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.rms_residual)
     return Finding("unknown", (), None, ranking, nearest)
 
 
@@ -182,13 +184,13 @@ def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
     """The polished ones in place of what they were, best first."""
     effects = {t.candidate.effect for t in better}
     rest = [t for t in done if t.candidate.effect not in effects]
-    return sorted([*better, *rest], key=lambda t: t.trial.gap)
+    return sorted([*better, *rest], key=lambda t: t.trial.rms_residual)
 
 
 def _is_wave(plain: Trial, done: Sequence[Tried]) -> bool:
     """Whether there is something to see, and the best effect, a periodic one, alone does it."""
     periodic = bool(done[0].candidate.periodic)
-    return periodic and excess(plain) >= SEEN and _dominates(plain, done, WAVE)
+    return periodic and excess_chi_square(plain) >= SEEN and _dominates(plain, done, WAVE)
 
 
 def _dominates(plain: Trial, done: Sequence[Tried], most: float = DOES_MOST) -> bool:

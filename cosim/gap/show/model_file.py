@@ -20,7 +20,7 @@ from thermal import Ambient
 from .quantities import unit_and_meaning
 from .words import formula, gap_line, verdict
 
-#: Enough that the motion is the fitted one for longer than any window.
+#: Enough that the motion is the fitted one for longer than any segment.
 DIGITS = 12
 #: Tables that stand before the effects.
 FIRST = ("rig", "springs", "friction", "surface")

@@ -1,4 +1,4 @@
-"""The atlas as a figure: a row for each region, a panel for its runs and for each variable."""
+"""The residual analysis as a figure: a row for each region, a panel for its runs and for each variable."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from cosim.gap.diagnostics.dependence import Dependence
-from cosim.gap.diagnostics.regimes import Atlas, Region
+from cosim.gap.diagnostics.regimes import RegimeAnalysis, Region
 from cosim.gap.diagnostics.variables import VARIABLES
 from cosim.gap.diagnostics.where import CHANCE
 from cosim.report.drawing import BLUE, GREY, RED, panels, picture
@@ -25,16 +25,16 @@ CAPTION = (
 
 
 @picture("atlas", CAPTION)
-def draw_atlas(atlas: Atlas) -> Figure:
+def draw_regimes(analysis: RegimeAnalysis) -> Figure:
     """Small multiples; a region that was not seen has no row."""
-    rows = max(len(atlas.regions), 1)
+    rows = max(len(analysis.regions), 1)
     figure, axes = panels(rows, SHOWN + 1, height=2.2, width=11.0, sharey="row")
     for axis in axes.flat:
         axis.set_axis_off()
-    for row, region in zip(axes, atlas.regions, strict=False):
-        _draw_runs(row[0], region, atlas.tests)
+    for row, region in zip(axes, analysis.regions, strict=False):
+        _draw_runs(row[0], region, analysis.tests)
         for axis, dependence in zip(row[1:], region.dependences, strict=False):
-            _draw(axis, region, dependence, atlas.tests)
+            _draw(axis, region, dependence, analysis.tests)
     return figure
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Reproduced:
-    """A run's first window, from one initial state, by the FMU.
+    """A run's first segment, from one initial state, by the FMU.
 
     Attributes
     ----------
@@ -18,7 +18,7 @@ class Reproduced:
     motion : channel -> (n,) by the FMU, the tracker's zero included, m or rad
     measured : channel -> (n,) the data
     gap : root mean square of measured less FMU over all channels, units of the noise
-    plain_gap : of the plain model, fitted, in the same window
+    plain_gap : of the plain model, fitted, in the same segment
     apart : largest difference between the FMU and the compiled kernel in any channel, noise units
     """
 

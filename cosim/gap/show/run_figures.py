@@ -120,7 +120,7 @@ def _motion(
             model = factor * getattr(run.track, channel)[rows]
             axis.plot(time, model, color=colour, linewidth=1.1 if span else 0.6, label=label)
     if span:
-        for start in track.time[np.flatnonzero(np.diff(track.windows)) + 1]:
+        for start in track.time[np.flatnonzero(np.diff(track.segments)) + 1]:
             if low < start < high:
                 axis.axvline(start, color=GREY, linewidth=0.8, linestyle=":")
     axis.set_xlim(low, high)
