@@ -177,7 +177,7 @@ def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
 def _remarks(campaign: Campaign, tried: set[str], finding: Finding) -> tuple[str, ...]:
     lines = []
     if finding.confounder:
-        lines.append(f"{finding.lookalike} does better than any effect of the catalogue")
+        lines.append(f"{finding.confounder} does better than any effect of the catalogue")
     silent = [
         e for e in ("lateral_friction", "turning_surface", "spring_misalignment") if e not in tried
     ]

@@ -61,7 +61,7 @@ def restarted(true, speed, mass, modelled, period):
         for name, values in columns.items():
             values[part] = run[name][: len(values[part])]
         segment[part] = number
-    return columns | {"window": segment}
+    return columns | {"segment": segment}
 
 
 def region(analysis, channel, regime):
