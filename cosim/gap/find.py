@@ -13,10 +13,9 @@ from cosim.gap.data import Campaign
 from cosim.gap.design import Member, next_experiment
 from cosim.gap.diagnostics import analyse_residuals, empirical_term, find_where
 from cosim.gap.estimation.fitted import Fitted
-from cosim.gap.estimation.preparation import Data, prepared
+from cosim.gap.estimation.preparation import Data, prepared, thinned
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import SegmentedRun
-from cosim.gap.estimation.thinning import thinned
 from cosim.gap.estimation.trial import Model, Trial, coarse_fit, try_model
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import FittedModel, Gap, Ranked

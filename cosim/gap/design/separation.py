@@ -8,19 +8,22 @@ run tells against it. Gauss-Newton steps find it; the first one alone is the lin
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from cosim.gap.estimation.columns import Columns
+from cosim.gap.estimation.descent import Damping, Descent
 from cosim.gap.estimation.fitted import Point
 from cosim.gap.estimation.phases import with_phases
-from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import SegmentedRun
 
 from .member import Member
 from .rehearsal import problem_of
 
 #: Levenberg-Marquardt: damping at first, and how often a step is damped more before it is given up.
-_DAMPING, _TRIES = 1e-3, 4
+_DAMPING, _TRIES = Damping(harder=10.0, easier=0.1, least=0.0, lasting=True), 4
 
 
 def separation(
@@ -33,27 +36,35 @@ def separation(
     problem = problem_of(truth, member)
     known = member.point
     point = with_phases(problem, Point(known.shared, known.own, (truth.starts,)))
-    residuals = problem.residuals(0, point.shared, point.own[0], point.states[0])
+    objective = _Both(known.shared, information)
+    descent = Descent(problem, objective, point, _DAMPING)
+    shared = range(len(problem.shared))
+    size = descent.residuals[0].size
     if not rounds:
-        columns = _columns(problem, point, residuals)
-        return float(np.sqrt(_left(columns, information) / residuals.size))
-    cost, damping = float(residuals @ residuals), _DAMPING
+        return float(np.sqrt(_left(descent.columns(shared)[0], information) / size))
     for _ in range(rounds):
-        columns = _columns(problem, point, residuals)
-        for _ in range(_TRIES):
-            step = _step(columns, information, point.shared - known.shared, damping)
-            tried, (new,) = problem.tried(point, step, [columns])
-            moved = tried.shared - known.shared
-            new_cost = float(new @ new + moved @ information @ moved)
-            if new_cost < cost:
-                point, residuals, cost, damping = tried, new, new_cost, 0.1 * damping
-                break
-            damping *= 10.0
-    return float(np.sqrt(cost / residuals.size))
+        descent.goes_down(descent.columns(shared), _TRIES)
+    return float(np.sqrt(descent.cost / size))
 
 
-def _columns(problem: Problem, point: Point, residuals: np.ndarray) -> Columns:
-    return problem.columns(0, point, residuals, range(len(problem.shared)))
+@dataclass(frozen=True)
+class _Both:
+    """Misfit in the new run, and in the campaign as its information has it.
+
+    known : (g,) shared free parameters where the campaign alone wants them, scaled
+    information : (g, g) inverse of their covariance
+    """
+
+    known: np.ndarray
+    information: np.ndarray
+
+    def cost(self, point: Point, residuals: Sequence[np.ndarray]) -> float:
+        (new,) = residuals
+        moved = point.shared - self.known
+        return float(new @ new + moved @ self.information @ moved)
+
+    def step(self, point: Point, columns: Sequence[Columns], damping: float) -> np.ndarray:
+        return _step(columns[0], self.information, point.shared - self.known, damping)
 
 
 def _step(

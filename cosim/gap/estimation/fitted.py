@@ -13,6 +13,16 @@ from .columns import Columns
 from .segmented_run import SegmentedRun
 
 
+def shared_of(free_parameters: Sequence[FreeParameter]) -> list[FreeParameter]:
+    """Those that have one value for the campaign."""
+    return [free for free in free_parameters if not free.per_run]
+
+
+def own_of(free_parameters: Sequence[FreeParameter]) -> list[FreeParameter]:
+    """Those that every run has a value of its own of: phases."""
+    return [free for free in free_parameters if free.per_run]
+
+
 @dataclass(frozen=True)
 class Point:
     """Where a fit stands.
@@ -33,8 +43,8 @@ def start(
     segmented_runs: Sequence[SegmentedRun], free_parameters: Sequence[FreeParameter]
 ) -> Point:
     """All free parameters at their starts, all segments at the states read off the data."""
-    shared = np.array([k.scaled(k.start) for k in free_parameters if not k.per_run])
-    own = np.array([k.scaled(k.start) for k in free_parameters if k.per_run])
+    shared = np.array([free.scaled(free.start) for free in shared_of(free_parameters)])
+    own = np.array([free.scaled(free.start) for free in own_of(free_parameters)])
     return Point(
         shared, tuple(own.copy() for _ in segmented_runs), tuple(f.starts for f in segmented_runs)
     )
@@ -46,7 +56,7 @@ class Fitted:
 
     Attributes
     ----------
-    free parameters : what was turned
+    free_parameters : what was fitted
     point : where it ended
     residuals : per run (rows,) in units of the noise
     columns : per run, derivatives at the end (None unless asked for)
@@ -58,13 +68,20 @@ class Fitted:
     columns: tuple[Columns, ...] | None = None
 
     @property
+    def derivatives(self) -> tuple[Columns, ...]:
+        """Those at its end; ValueError where they were not taken."""
+        if self.columns is None:
+            raise ValueError("fitted without derivatives; with_columns adds them")
+        return self.columns
+
+    @property
     def values(self) -> dict[str, float]:
         """Fitted parameters of the campaign."""
-        return _named(self.free_parameters, self.point.shared, per_run=False)
+        return _named(shared_of(self.free_parameters), self.point.shared)
 
     def own_values(self, run: int) -> dict[str, float]:
         """Fitted parameters of one run."""
-        return _named(self.free_parameters, self.point.own[run], per_run=True)
+        return _named(own_of(self.free_parameters), self.point.own[run])
 
     @property
     def cost(self) -> float:
@@ -77,13 +94,5 @@ class Fitted:
         return float(np.sqrt(sum(r @ r for r in chosen) / max(1, sum(r.size for r in chosen))))
 
 
-def _named(
-    free_parameters: Sequence[FreeParameter], scaled: np.ndarray, per_run: bool
-) -> dict[str, float]:
-    chosen = [
-        free_parameter for free_parameter in free_parameters if free_parameter.per_run == per_run
-    ]
-    return {
-        free_parameter.key: free_parameter.value(s)
-        for free_parameter, s in zip(chosen, scaled, strict=True)
-    }
+def _named(free_parameters: Sequence[FreeParameter], scaled: np.ndarray) -> dict[str, float]:
+    return {free.key: free.value(s) for free, s in zip(free_parameters, scaled, strict=True)}

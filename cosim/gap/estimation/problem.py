@@ -9,7 +9,7 @@ import numpy as np
 from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
 
 from .columns import Columns
-from .fitted import Point
+from .fitted import Point, own_of, shared_of
 from .segmented_run import SegmentedRun
 
 #: Differences are taken over this part of a free parameter's step.
@@ -31,10 +31,11 @@ class Problem:
     ):
         self.segmented_runs, self.free_parameters = tuple(segmented_runs), tuple(free_parameters)
         self.settings = dict(settings or {})
-        self.shared = [
-            free_parameter for free_parameter in free_parameters if not free_parameter.per_run
-        ]
-        self.own = [free_parameter for free_parameter in free_parameters if free_parameter.per_run]
+        self.shared, self.own = shared_of(free_parameters), own_of(free_parameters)
+
+    def inside(self, shared: np.ndarray) -> np.ndarray:
+        """(g,) the campaign's free parameters, scaled, or the nearest that are allowed."""
+        return np.array([k.inside(s) for k, s in zip(self.shared, shared, strict=True)])
 
     def residuals(self, run: int, shared, own, states) -> np.ndarray:
         """(rows,) of one run."""
@@ -128,9 +129,7 @@ class Problem:
         self, point: Point, step: np.ndarray, columns: Sequence[Columns]
     ) -> tuple[Point, tuple[np.ndarray, ...]]:
         """The point after a step of the campaign's free parameters, the runs following, and its residuals."""
-        shared = np.array(
-            [k.inside(s) for k, s in zip(self.shared, point.shared + step, strict=True)]
-        )
+        shared = self.inside(point.shared + step)
         own, states, residuals = [], [], []
         for i, c in enumerate(columns):
             own_step, state_steps = c.local_step(shared - point.shared)
