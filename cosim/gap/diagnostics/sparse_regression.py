@@ -1,9 +1,8 @@
 """Sparse regression: which few features make up the force that is left.
 
-Greedy forward regression with orthogonal least squares (Billings et al. 1989), as PySINDy has it.
-Features of stick-slip are nearly collinear at few speeds and loads; thresholding the coefficients
-of a full least-squares fit, PySINDy's default, would there drop what cancels rather than what is
-small.
+Greedy forward regression with orthogonal least squares (Chen, Billings & Luo 1989). Features of
+stick-slip are nearly collinear at few speeds and loads; thresholding the coefficients of a full
+least-squares fit (Brunton et al. 2016) would there drop what cancels rather than what is small.
 """
 
 from __future__ import annotations
@@ -84,12 +83,25 @@ def _useful(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _orders(columns: np.ndarray, seen: np.ndarray) -> list[list[int]]:
     """Features of the best formulas with no, one, two ... terms; friction is in all of them."""
-    from pysindy import FROLS  # takes a second to import, and few campaigns need it
-
     useful, free, friction = _useful(columns)
     rest = seen - friction * (friction @ seen)
     # the triangle of a QR factorisation holds the same regression in as many rows as columns
     triangle = np.linalg.qr(np.column_stack([free, rest]), mode="r")
-    search = FROLS(max_iter=MOST_TERMS, alpha=0.0)
-    search.fit(triangle[:, :-1], triangle[:, -1])
-    return [[int(useful[i]) for i in np.flatnonzero(terms[0])] for terms in search.history_]
+    chosen = forward_selection(triangle[:, :-1], triangle[:, -1], MOST_TERMS)
+    return [sorted(int(useful[i]) for i in chosen[:count]) for count in range(len(chosen) + 1)]
+
+
+def forward_selection(columns: np.ndarray, seen: np.ndarray, most: int) -> list[int]:
+    """Columns (r, f) that explain (r,) best, at most so many, in the order in which they join.
+
+    The next is the one whose part orthogonal to those before takes most off the sum of squares.
+    """
+    left, chosen = columns.copy(), []
+    for _ in range(min(most, columns.shape[1])):
+        squares = np.sum(left**2, axis=0)
+        squares[chosen] = np.inf
+        best = int(np.argmax((seen @ left) ** 2 / np.maximum(squares, 1e-300)))
+        chosen.append(best)
+        direction = left[:, best] / np.linalg.norm(left[:, best])
+        left -= np.outer(direction, direction @ left)
+    return chosen
