@@ -103,7 +103,7 @@ def _answer(
     planar: bool,
     mapped: Map,
 ) -> Gap:
-    finalists = [t.trial for t in finding.ranking if t.trial is not None]
+    finalists = [t.trial for t in finding.ranking if t.judged is not None]
     before = _fitted_model(campaign, data, plain)
     after = _fitted_model(campaign, data, finding.chosen) if finding.chosen else None
     tried = {t.candidate.effect for t in ranking}
@@ -137,7 +137,7 @@ def _separating(campaign: Campaign, finding: Finding, planar: bool) -> dict | No
     members = [
         Member(t.candidate.effect, t.model.free_parameters, t.model.settings, t.trial.fitted)
         for t in finding.ranking
-        if t.trial is not None and t.candidate.effect in finding.effects
+        if t.judged is not None and t.candidate.effect in finding.effects
     ]
     return next_experiment(campaign, members, planar)
 
@@ -181,7 +181,7 @@ def _remarks(campaign: Campaign, tried: set[str], finding: Finding) -> tuple[str
         e for e in ("lateral_friction", "turning_surface", "spring_misalignment") if e not in tried
     ]
     if silent:
-        seen = any("y" in run.track.channels for run in campaign.runs if run.track is not None)
+        seen = any("y" in run.motion.channels for run in campaign.runs if run.track is not None)
         why = "no motion across was seen" if seen else "y was not measured"
         lines.append(f"{', '.join(silent)}: not tried, as {why}")
     if "stick_stiffness" not in tried:

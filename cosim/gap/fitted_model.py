@@ -60,11 +60,14 @@ def _runs(problem: Problem, fitted: Fitted, runs: Sequence[MeasuredRun]) -> list
     ]
 
 
-def _start(problem: Problem, fitted: Fitted, run: int) -> tuple[float, ...]:
+def _start(
+    problem: Problem, fitted: Fitted, run: int
+) -> tuple[float, float, float, float, float, float]:
     """The model's own state at the first sample; in a stick its velocity is the surface's."""
     values = problem.settings | fitted.values | fitted.own_values(run)
     states = fitted.point.states[run].copy()
     for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
         states[:, axis] -= values.pop(key, 0.0)
     first = problem.segmented_runs[run].simulate(values, states)[0]
-    return tuple(float(first[column]) for column in _STATE)
+    x, y, phi, vx, vy, omega = (float(first[column]) for column in _STATE)
+    return x, y, phi, vx, vy, omega

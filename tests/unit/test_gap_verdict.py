@@ -91,8 +91,8 @@ class MadeUp:
             TILT in {free_parameter.key for free_parameter in c.free_parameters} for c in candidates
         ):
             return [replace(tried("", self.confounder), candidate=candidates[0])]
-        done = [t for t in self.first if t.trial is not None]
-        rest = [t for t in self.first if t.trial is None]
+        done = [t for t in self.first if t.judged is not None]
+        rest = [t for t in self.first if t.judged is None]
         return sorted(done, key=lambda t: t.trial.rms_residual) + rest
 
     def beside(self, base, fitted, candidates):
@@ -188,7 +188,7 @@ def test_a_wave_is_named_though_the_plain_model_fits(period, part, rival, verdic
     assert finding(first, plain=plain)[0].verdict == verdict
     # of an excess that is hardly there nothing is said
     hardly = np.sqrt(1.0 + LESS * SEEN)
-    first[0] = replace(first[0], trial=after(part, hardly))
+    first[0] = replace(first[0], judged=after(part, hardly))
     assert finding(first[:1], plain=hardly)[0].verdict == "none"
 
 

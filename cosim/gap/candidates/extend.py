@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cosim.gap.estimation.trial import Model
@@ -18,7 +18,7 @@ _FELT, _USUAL = 1.05, 1.3
 _GROWN = 0.3
 
 
-def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Model:
+def extended(base: Model, candidate: Candidate, fitted: Mapping[str, float]) -> Model:
     """The base, starting where it was fitted, with the candidate's free parameters."""
     candidate, fitted = _in_place_of_mu_s(base, candidate, _holding(fitted))
     taken = {free_parameter.key for free_parameter in candidate.free_parameters}
@@ -33,7 +33,7 @@ def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Mod
 
 
 def reduced(
-    model: Model, candidate: Candidate, fitted: dict[str, float], keep: Sequence[str]
+    model: Model, candidate: Candidate, fitted: Mapping[str, float], keep: Sequence[str]
 ) -> Model:
     """The model without a candidate, starting from where it was fitted.
 
@@ -53,7 +53,7 @@ def reduced(
     return Model(free_parameters, settings, model.added - 1)
 
 
-def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float]):
+def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: Mapping[str, float]):
     """What grows in a hold sets out in place of a part of what mu_s has over mu_k.
 
     On top of all of it, the first breaks-away would come late, and the fit look elsewhere.
@@ -70,7 +70,7 @@ def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float
     return replace(candidate, free_parameters=(first, *candidate.free_parameters[1:])), moved_over
 
 
-def _holding(fitted: dict[str, float]) -> dict[str, float]:
+def _holding(fitted: Mapping[str, float]) -> Mapping[str, float]:
     """With a mu_s that the motion feels: one below mu_k is as good as any other there."""
     mu_s, mu_k = fitted.get("friction.mu_s"), fitted.get("friction.mu_k")
     if mu_s is None or mu_k is None or mu_s > _FELT * mu_k:
@@ -78,7 +78,7 @@ def _holding(fitted: dict[str, float]) -> dict[str, float]:
     return {**fitted, "friction.mu_s": _USUAL * mu_k}
 
 
-def moved(free_parameter: FreeParameter, fitted: dict[str, float]) -> FreeParameter:
+def moved(free_parameter: FreeParameter, fitted: Mapping[str, float]) -> FreeParameter:
     """The free parameter starting where it was fitted, if that is inside its range.
 
     One with a prior stays centred on it.

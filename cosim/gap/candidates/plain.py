@@ -103,7 +103,7 @@ def _lag(run: MeasuredRun) -> tuple[float, float, float]:
     """
     sign = 1.0 if run.surface_speed >= 0.0 else -1.0
     speed = cycle_features(run).stick_speed
-    ends = np.array([[run.track.x[s.first], run.track.x[s.last]] for s in run.sticks])
+    ends = np.array([[run.motion.x[s.first], run.motion.x[s.last]] for s in run.sticks])
     load = float(np.nanmedian(ends.mean(axis=1)) / np.nanmedian(ends[:, 1]))
     error = float(np.hypot(speed.error, _SET_POINT * run.surface_speed))
     return sign * (run.surface_speed - speed.value), error, load
@@ -126,9 +126,9 @@ def first_guess(
     holding, sliding = [], []
     for run in runs:
         per_metre = run.total_stiffness / (run.mass * GRAVITY)
-        seen = run.track.x[np.isfinite(run.track.x)]
-        ends = [run.track.x[s.last] for s in run.sticks if np.isfinite(s.end_sd)]
-        starts = [run.track.x[s.first] for s in run.sticks if np.isfinite(s.start_sd)]
+        seen = run.motion.x[np.isfinite(run.motion.x)]
+        ends = [run.motion.x[s.last] for s in run.sticks if np.isfinite(s.end_sd)]
+        starts = [run.motion.x[s.first] for s in run.sticks if np.isfinite(s.start_sd)]
         if ends and starts:
             holding.append(per_metre * np.nanmedian(ends))
             sliding.append(per_metre * 0.5 * (np.nanmedian(ends) + np.nanmedian(starts)))
@@ -138,7 +138,7 @@ def first_guess(
     mu_s = float(np.median(np.abs(holding))) if holding else 1.3 * mu_k
     if everywhere and all(never_slips(run) for run in everywhere):
         held = [
-            run.total_stiffness * np.nanmax(np.abs(run.track.x)) / (run.mass * GRAVITY)
+            run.total_stiffness * np.nanmax(np.abs(run.motion.x)) / (run.mass * GRAVITY)
             for run in everywhere
         ]
         mu_s = 1.3 * max(held)
@@ -159,12 +159,12 @@ def moves_across(campaign: Campaign) -> bool:
         for run in campaign.runs
         if run.track is not None
         for channel in ("y", "phi")
-        if channel in run.track.channels
+        if channel in run.motion.channels
     )
 
 
 def _moves(run: MeasuredRun, channel: str) -> bool:
-    values = run.track[channel]
+    values = run.motion[channel]
     values = values[np.isfinite(values)]
     each = max(5, values.size // _PIECES)
     means = values[: values.size // each * each].reshape(-1, each).mean(axis=1)

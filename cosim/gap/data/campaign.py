@@ -168,7 +168,11 @@ def _with_noise(
     remarks: list[str] = []
     estimated = []
     for channel in CHANNELS:
-        there = [i for i, run in enumerate(runs) if run.track and channel in run.track.channels]
+        there = [
+            i
+            for i, run in enumerate(runs)
+            if run.track is not None and channel in run.motion.channels
+        ]
         if channel in given or not there:
             values = [given.get(channel, 0.0)] * len(there)
         else:
@@ -185,14 +189,14 @@ def _estimated(channel: str, runs: list[MeasuredRun]) -> tuple[list[float], floa
     """Noise of each run, pooled where the runs agree; that of the campaign; remarks."""
     values, counts = [], []
     for run in runs:
-        value = difference_noise(run.track.time, run.track[channel])
+        value = difference_noise(run.motion.time, run.motion[channel])
         if not value > 0.0:
             raise CampaignError(
                 f"{run.file}: column {channel}: no noise can be estimated (no two samples differ, "
                 f"or too few in a row), allowed is noise.{channel} in campaign.toml"
             )
         values.append(value)
-        counts.append(int(np.count_nonzero(np.isfinite(run.track[channel]))))
+        counts.append(int(np.count_nonzero(np.isfinite(run.motion[channel]))))
     pooled = float(np.sqrt(np.average(np.square(values), weights=counts)))
     if agree(values, counts):
         return [pooled] * len(values), pooled, []
@@ -209,7 +213,7 @@ def _with_sticks(runs: tuple[MeasuredRun, ...]) -> tuple[tuple[MeasuredRun, ...]
     for run in runs:
         if run.track is not None:
             omega, noise = run.natural_frequency, run.noise["x"]
-            run = replace(run, sticks=find_sticks(run.track, run.surface_speed, omega, noise))
+            run = replace(run, sticks=find_sticks(run.motion, run.surface_speed, omega, noise))
             for remark in stick_remarks(run):
                 names.setdefault(remark, []).append(run.name)
         found.append(run)

@@ -6,7 +6,7 @@ import math
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar
 
 import stickslip
 from pydantic import BaseModel, Field, ValidationError, create_model, model_validator
@@ -15,17 +15,20 @@ from stickslip.parameters import Block, quantity
 from cosim.gap.data.errors import CampaignError
 from cosim.scenario.faults import describe_faults, nearest
 
-#: The rig as the experimenter knows it; each run has its own mass.
-Rig = create_model(
-    "Rig",
-    __base__=Block,
-    __doc__="Springs, attachments, contact and guides of the rig.",
-    **{
-        key: (field.annotation, field)
-        for key, field in stickslip.Rig.model_fields.items()
-        if key != "mass"
-    },
-)
+if TYPE_CHECKING:
+    Rig = stickslip.Rig  # for those who read its keys: they are the same
+else:
+    #: The rig as the experimenter knows it; each run has its own mass.
+    Rig = create_model(
+        "Rig",
+        __base__=Block,
+        __doc__="Springs, attachments, contact and guides of the rig.",
+        **{
+            key: (field.annotation, field)
+            for key, field in stickslip.Rig.model_fields.items()
+            if key != "mass"
+        },
+    )
 
 
 class Model(Block):

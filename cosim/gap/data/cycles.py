@@ -64,7 +64,7 @@ def cycle_features(run: MeasuredRun) -> CycleFeatures:
     upward crossing of the mean to the next. Standard errors are those of means over cycles: they
     hold scatter from cycle to cycle as well as noise.
     """
-    track, sticks = run.track, run.sticks
+    track, sticks = run.motion, run.sticks
     whole = [stick for stick in sticks if math.isfinite(stick.start_sd + stick.end_sd)]
     slips = [
         after.start - before.end
@@ -115,9 +115,9 @@ def _share(slip: Figure, stick: Figure) -> Figure:
 
 def _line(run: MeasuredRun, stick: Stick, at: float) -> float:
     """x on the stick's line at a time, m; the stick's half next to it says where the line is."""
-    half = max(0.5 * stick.duration, 3.0 * run.track.interval)
+    half = max(0.5 * stick.duration, 3.0 * run.motion.interval)
     inside = slice(stick.first, stick.last + 1)
-    time, x = run.track.time[inside], run.track.x[inside]
+    time, x = run.motion.time[inside], run.motion.x[inside]
     near = np.isfinite(x) & (np.abs(time - at) <= half)
     if not near.any():
         return math.nan
@@ -127,7 +127,7 @@ def _line(run: MeasuredRun, stick: Stick, at: float) -> float:
 def _unbroken(run: MeasuredRun, before: Stick, after: Stick) -> bool:
     """Whether nothing can be hidden in a gap between two sticks."""
     rows = slice(before.last, after.first + 1)
-    time = run.track.time[rows][np.isfinite(run.track.x[rows])]
+    time = run.motion.time[rows][np.isfinite(run.motion.x[rows])]
     return bool(np.max(np.diff(time), initial=0.0) < GAP * 2.0 * math.pi / run.natural_frequency)
 
 
@@ -141,8 +141,8 @@ def _marks(run: MeasuredRun, slips: list[float]) -> list[float]:
 
 def _crossings(run: MeasuredRun) -> list[float]:
     """Times at which x crosses its mean upwards; noise near the mean does not count twice."""
-    there = np.isfinite(run.track.x)
-    time, x = run.track.time[there], run.track.x[there]
+    there = np.isfinite(run.motion.x)
+    time, x = run.motion.time[there], run.motion.x[there]
     level = x - np.mean(x)
     dead = max(0.2 * float(np.std(level)), 3.0 * run.noise.get("x", 0.0))
     marks, armed = [], False

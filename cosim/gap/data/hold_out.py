@@ -55,7 +55,7 @@ def _same_data(run: MeasuredRun, other: MeasuredRun) -> bool:
 
 
 def _present(run: MeasuredRun) -> np.ndarray:
-    return run.track.x[np.isfinite(run.track.x)]
+    return run.motion.x[np.isfinite(run.motion.x)]
 
 
 def choose_hold_outs(runs: Sequence[MeasuredRun]) -> tuple[MeasuredRun, ...]:

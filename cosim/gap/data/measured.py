@@ -115,6 +115,13 @@ class MeasuredRun:
     sticks: tuple[Stick, ...] = field(default=(), repr=False)
 
     @property
+    def motion(self) -> Track:
+        """What the tracker saw; ValueError for a run of which only figures are known."""
+        if self.track is None:
+            raise ValueError(f"{self.name}: only figures are known of this run, it has no track")
+        return self.track
+
+    @property
     def total_stiffness(self) -> float:
         """Of the four springs along x, N/m."""
         return 4.0 * self.stiffness

@@ -45,7 +45,7 @@ def never_slips(run: MeasuredRun) -> bool:
     """Whether the block goes with the surface all the time."""
     if any(math.isfinite(stick.start_sd) for stick in run.sticks):
         return False
-    return sum(stick.duration for stick in run.sticks) > ALL_STICK * run.track.duration
+    return sum(stick.duration for stick in run.sticks) > ALL_STICK * run.motion.duration
 
 
 def line_scatter(run: MeasuredRun) -> float:
@@ -53,8 +53,8 @@ def line_scatter(run: MeasuredRun) -> float:
     squares, freedom = 0.0, 0
     for stick in run.sticks:
         rows = slice(stick.first, stick.last + 1)
-        there = np.isfinite(run.track.x[rows])
-        time, x = run.track.time[rows][there], run.track.x[rows][there]
+        there = np.isfinite(run.motion.x[rows])
+        time, x = run.motion.time[rows][there], run.motion.x[rows][there]
         if len(x) < LONG:
             continue
         line = np.polynomial.Polynomial.fit(time, x, 1)

@@ -51,7 +51,7 @@ class Member:
             self.fitted.point.shared
         )[1]
         known = np.diag(weight**2)
-        for columns in self.fitted.columns:
+        for columns in self.fitted.derivatives:
             left = columns.left(columns.shared)
             known = known + left.T @ left
         return known

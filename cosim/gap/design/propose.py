@@ -10,6 +10,7 @@ import numpy as np
 from stickslip import CATALOGUE
 
 from cosim.gap.data import Campaign
+from cosim.gap.estimation.segmented_run import SegmentedRun
 
 from .member import Member
 from .range import Experiment, experiments
@@ -101,14 +102,15 @@ def _side(member: Member) -> _Side:
 
 def _apart(setting: Setting, experiment: Experiment, sides, pairs, rounds: int) -> dict:
     """(truth, other) -> separation; empty where the rig cannot do the experiment."""
-    segmented_runs = {}
+    runs: dict[int, SegmentedRun] = {}
     for truth in sorted({truth for truth, _ in pairs}):
-        segmented_runs[truth] = rehearse(setting, experiment, sides[truth].member.values)
-        if segmented_runs[truth] is None:
+        rehearsed = rehearse(setting, experiment, sides[truth].member.values)
+        if rehearsed is None:
             return {}
+        runs[truth] = rehearsed
     return {
         (truth, other): separation(
-            segmented_runs[truth], sides[other].member, sides[other].information, rounds
+            runs[truth], sides[other].member, sides[other].information, rounds
         )
         for truth, other in pairs
     }

@@ -82,5 +82,5 @@ def _speeds(runs: Sequence[MeasuredRun]) -> list[float]:
 
 def _farthest(runs: Sequence[MeasuredRun]) -> float:
     """Where the block was farthest out, m, signed, to a tenth of a millimetre."""
-    ends = [run.track.x[np.nanargmax(np.abs(run.track.x))] for run in runs]
+    ends = [run.motion.x[np.nanargmax(np.abs(run.motion.x))] for run in runs]
     return round(float(max(ends, key=abs)), 4)

@@ -34,28 +34,31 @@ class Setting:
 def setting_of(campaign: Campaign, planar: bool) -> Setting:
     """Duration and sampling of the campaign's runs; channels that all of them have."""
     runs = tracked(campaign)
-    duration = float(np.median([run.track.duration for run in runs]))
-    interval = float(np.median([run.track.interval for run in runs]))
+    duration = float(np.median([run.motion.duration for run in runs]))
+    interval = float(np.median([run.motion.interval for run in runs]))
     time = interval * np.arange(int(round(duration / interval)) + 1)
     channels = tuple(
         name
         for name in COLUMN
-        if all(name in run.track.channels for run in runs) and campaign.noise.get(name)
+        if all(name in run.motion.channels for run in runs) and campaign.noise.get(name)
     )
     return Setting(campaign, time, channels, planar)
 
 
-def rehearse(setting: Setting, experiment: Experiment, values: Mapping[str, float]):
-    """The segmented run of a model's own motion in an experiment, or None where the rig cannot do it.
+def rehearse(
+    setting: Setting, experiment: Experiment, values: Mapping[str, float]
+) -> SegmentedRun | None:
+    """A model's own motion in an experiment as a run; None where the rig cannot do it.
 
-    The rig cannot where springs would be crushed or the model gives up. Returns `Flight`.
+    It cannot where springs would be crushed or the model gives up.
     """
     run = _planned(setting, experiment)
     outputs = _simulated(setting, run, experiment, without_zero(values, OFFSETS))
     x = outputs[:, COLUMN["x"]]
     if not np.isfinite(x).all() or np.abs(x).max() > FARTHEST * setting.campaign.rig.spring_length:
         return None
-    track = Track(setting.time, **{name: outputs[:, COLUMN[name]] for name in setting.channels})
+    seen = {name: outputs[:, COLUMN[name]] for name in setting.channels}
+    track = Track(setting.time, seen["x"], seen.get("y"), seen.get("phi"))
     sticks = find_sticks(track, run.surface_speed, run.natural_frequency, run.noise["x"])
     measured = _planned(setting, experiment, track, sticks)
     return prepare(setting.campaign, [measured], setting.planar)[0]

@@ -68,14 +68,14 @@ def empirical_term(
         acting.append(each)
         if acting[-1][0].held_out_rms <= _ENOUGH:
             break
-    trial, features = base, ()
+    trial, features = base, tuple[Feature, ...]()
     for tried, terms in sorted(acting, key=lambda pair: len(pair[1])):
         if tried.held_out_rms < (1.0 - _EARNED) * trial.held_out_rms:
             trial, features = tried, terms
     return _described(base, trial, features) if _worth(base, trial) else None
 
 
-def _promising(found: Sequence[Formula]) -> list[Formula]:
+def _promising(found: Sequence[Formula]) -> Sequence[Formula]:
     """The one that the held-out runs choose, and one with another number of terms beside it.
 
     A term must earn its place: without taking away a part of what fewer terms leave, it is noise.
@@ -92,8 +92,8 @@ def _promising(found: Sequence[Formula]) -> list[Formula]:
 def _library(slips: Sequence[Slip], runs: Sequence[MeasuredRun]) -> list[Feature]:
     """With the strongest periods in time and along the surface, where there are any."""
     stretches = [slip.stretch for slip in slips]
-    along_time = [run.track.time for run in runs]
-    places = [_by_run(slips, i, len(run.track.time)) for i, run in enumerate(runs)]
+    along_time = [run.motion.time for run in runs]
+    places = [_by_run(slips, i, len(run.motion.time)) for i, run in enumerate(runs)]
     fastest = _HIGHEST * max(run.natural_frequency for run in runs) / (2.0 * np.pi)
     slowest = min(abs(run.surface_speed) for run in runs) or np.inf
     rates = [
@@ -102,8 +102,8 @@ def _library(slips: Sequence[Slip], runs: Sequence[MeasuredRun]) -> list[Feature
     ]
     signs = {np.sign(run.surface_speed) for run in runs}
     x = np.concatenate([slip.moment.x for slip in slips])
-    reach = tuple(float(end) for end in np.percentile(x, (0.5, 99.5)))
-    return library(len(signs - {0.0}) > 1, reach, *rates)
+    low, high = (float(end) for end in np.percentile(x, (0.5, 99.5)))
+    return library(len(signs - {0.0}) > 1, (low, high), *rates)
 
 
 def _strongest(period: Period | None, highest: float) -> float | None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
+T = TypeVar("T", float, np.ndarray)
 
-class Moment(NamedTuple):
+
+class Moment(NamedTuple, Generic[T]):
     """What is known of the block at a moment, or (n,) moments.
 
     x, vx : position and velocity, m, m/s; sliding : of the surface past the block, m/s, and its
@@ -18,14 +20,14 @@ class Moment(NamedTuple):
     surface, m; load : normal force, N
     """
 
-    x: np.ndarray | float
-    vx: np.ndarray | float
-    sliding: np.ndarray | float
-    direction: np.ndarray | float
-    time: np.ndarray | float
-    distance: np.ndarray | float
-    place: np.ndarray | float
-    load: np.ndarray | float
+    x: T
+    vx: T
+    sliding: T
+    direction: T
+    time: T
+    distance: T
+    place: T
+    load: T
 
 
 @dataclass(frozen=True)
@@ -36,27 +38,27 @@ class Feature:
     ----------
     name : as in the formula; "" is a constant
     unit : of the coefficient, so that the term is a force in N
-    of : value at a moment
+    of : its value at a moment, or at many: a number or an array, as the moment has them
     both_ways : only runs with the surface moving both ways can tell it from a simpler feature
     """
 
     name: str
     unit: str
-    of: Callable[[Moment], np.ndarray | float]
+    of: Callable[[Moment[Any]], Any]
     both_ways: bool = False
 
 
 #: The kinetic friction: always there, refitted with everything else.
 FRICTION = Feature("direction·N", "1", lambda m: m.direction * m.load)
 
-#: Widths of bumps, parts of the way that the block covers.
+#: Widths of bumps, parts of the travel that the block covers.
 _WIDTHS = (0.08, 0.2)
 
 #: Not from the slips, but from break-aways that need another force one way than the other.
 HELD = Feature("N while held", "1", lambda m: m.load * (m.direction == 0.0))
 
 #: A force by position (springs, magnets, a bent scale), by velocity (dampers, air), by sliding
-#: speed (films), each also growing with time (what softens or melts), with the way slid, the load.
+#: speed (films), each also growing with time (what softens or melts), with the distance slid, the load.
 #: The hold time is not among them: it decides when a stick ends, which is no force that acts in
 #: slip, and within one run it stands for the break-away force itself.
 _FEATURES = (
@@ -115,7 +117,7 @@ def _bumps(low: float, high: float) -> list[Feature]:
     return found
 
 
-def _bump(centre: float, width: float, m: Moment) -> np.ndarray | float:
+def _bump(centre: float, width: float, m: Moment[T]) -> T:
     return np.exp(-(((m.x - centre) / width) ** 2))
 
 

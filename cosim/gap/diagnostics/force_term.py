@@ -57,7 +57,7 @@ class ForcedRun(SegmentedRun):
     @cached_property
     def load(self) -> float:
         """Normal force, N."""
-        return float(pack(self.known)[layout.P_NORMAL_FORCE])
+        return float(pack(dict(self.known))[layout.P_NORMAL_FORCE])
 
     def force(self, values: Mapping[str, float]) -> Force:
         """The features' sum, with the coefficients among ``values``."""
@@ -67,12 +67,12 @@ class ForcedRun(SegmentedRun):
 
         def along(block: Sequence[float]) -> float:
             moment = moment_of(block, speed, self.load)
-            return sum(c * one(moment) for c, one in zip(coefficients, of, strict=True))
+            return float(sum(c * one(moment) for c, one in zip(coefficients, of, strict=True)))
 
         return along
 
 
-def moment_of(block: Sequence[float], speed: float, load: float) -> Moment:
+def moment_of(block: Sequence[float], speed: float, load: float) -> Moment[float]:
     """Of the model's state."""
     vx, slips = block[layout.VX], block[layout.MODE] == layout.SLIP
     sliding = speed - vx if slips else 0.0

@@ -43,7 +43,7 @@ class ModelTrack:
     @property
     def time(self) -> np.ndarray:
         """(n,) s"""
-        return self.run.track.time
+        return self.run.motion.time
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -51,12 +51,12 @@ class ModelTrack:
         return tuple(
             name
             for name in ("x", "y", "phi")
-            if name in self.run.track.channels and getattr(self, name) is not None
+            if name in self.run.motion.channels and getattr(self, name) is not None
         )
 
     def residual(self, channel: str) -> np.ndarray:
         """(n,) measured less modelled, in units of the noise; NaN where nothing was measured."""
-        return (self.run.track[channel] - getattr(self, channel)) / self.run.noise[channel]
+        return (self.run.motion[channel] - getattr(self, channel)) / self.run.noise[channel]
 
     @cached_property
     def segments(self) -> np.ndarray:
@@ -90,7 +90,7 @@ class ModelTrack:
         both = (self.mode == mode) & (self.measured_mode == mode)
         edges = np.flatnonzero((np.diff(both.astype(int)) != 0) | (np.diff(self.segments) != 0)) + 1
         parts = np.split(np.arange(len(both)), edges)
-        seen = np.isfinite(self.run.track.x)
+        seen = np.isfinite(self.run.motion.x)
         parts = [part[seen[part]] for part in parts if both[part[0]]]
         return [part for part in parts if len(part) >= samples]
 

@@ -83,9 +83,11 @@ def analyse_residuals(tracks: Sequence[ModelTrack]) -> RegimeAnalysis:
     tracks = list(tracks)
     variables = [variables_of(track) for track in tracks]
     every = sources(tracks)
-    periods = {"time_phase": ripple_frequency(tracks, every)}
-    periods["surface_phase"] = pattern_wavelength(tracks, every)
-    periods = {name: found for name, found in periods.items() if found and found.certain}
+    found = {
+        "time_phase": ripple_frequency(tracks, every),
+        "surface_phase": pattern_wavelength(tracks, every),
+    }
+    periods = {name: period for name, period in found.items() if period and period.certain}
     for name, period in periods.items():
         for i, track in enumerate(tracks):
             variables[i][name] = phase_of(period, COORDINATES[name](track), i)
@@ -144,7 +146,7 @@ def _one_hot(piece, present: np.ndarray) -> np.ndarray:
 
 
 def _dependence(
-    source: Source, variables: list[Mapping[str, np.ndarray]], name: str, present: np.ndarray
+    source: Source, variables: Sequence[Mapping[str, np.ndarray]], name: str, present: np.ndarray
 ) -> tuple[Dependence, np.ndarray] | None:
     """Dependence on a variable, and what it explains of each run; None where it has one value."""
     values, kind = source.at_samples(variables, name), VARIABLES[name].kind

@@ -10,7 +10,7 @@ all bins gives the force in each, with its error. No derivative of a noisy track
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -53,6 +53,17 @@ class Stretch:
         constant = self.free(self.respond(np.ones((len(self.rows), 1)))[:, 0])
         constant = constant / max(float(np.linalg.norm(constant)), 1e-300)
         return columns - np.tensordot(constant, constant @ columns, axes=0)
+
+    def normal(self, inputs: np.ndarray, level: bool = False) -> Normal:
+        """Normal equations of inputs (n, b) at its samples; ``level``: it has its own constant."""
+        columns = self.free(self.respond(inputs) / self.noise, level)
+        residual = self.free(self.residual, level)
+        return Normal(
+            columns.T @ columns,
+            columns.T @ residual,
+            float(residual @ residual),
+            len(residual) - self.nuisance.shape[1] - level,
+        )
 
 
 @dataclass(frozen=True)
@@ -135,22 +146,3 @@ def stick_stretch(
 
     nuisance = np.full((len(time), 1), 1.0 / np.sqrt(len(time)))
     return Stretch(track, rows, time, residual, noise, nuisance, respond)
-
-
-def normal_equations(
-    stretches: Sequence[Stretch], inputs: Callable[[Stretch], np.ndarray], level: bool = False
-) -> list[Normal]:
-    """Of each stretch, for inputs (n, b) at its samples; ``level``: each has its own constant."""
-    found = []
-    for stretch in stretches:
-        columns = stretch.free(stretch.respond(inputs(stretch)) / stretch.noise, level)
-        residual = stretch.free(stretch.residual, level)
-        found.append(
-            Normal(
-                columns.T @ columns,
-                columns.T @ residual,
-                float(residual @ residual),
-                len(residual) - stretch.nuisance.shape[1] - level,
-            )
-        )
-    return found

@@ -35,7 +35,7 @@ class Slip:
     """A stretch of slip with what was known of the block in it."""
 
     stretch: Stretch
-    moment: Moment
+    moment: Moment[np.ndarray]
 
 
 def slips_of(runs: Sequence[MeasuredRun]) -> list[Slip]:
@@ -45,7 +45,7 @@ def slips_of(runs: Sequence[MeasuredRun]) -> list[Slip]:
 
 def _slips(number: int, run: MeasuredRun) -> list[Slip]:
     moment = _moments(run)
-    track, omega = run.track, run.natural_frequency
+    track, omega = run.motion, run.natural_frequency
     rows = np.flatnonzero(_moving(run, moment) & np.isfinite(track.x))
     found = []
     for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1 + 2 * _MARGIN) + 1):
@@ -62,7 +62,7 @@ def _slips(number: int, run: MeasuredRun) -> list[Slip]:
     return found
 
 
-def _moving(run: MeasuredRun, moment: Moment) -> np.ndarray:
+def _moving(run: MeasuredRun, moment: Moment[np.ndarray]) -> np.ndarray:
     """(n,) whether a sample lies in slip for sure: no stick, and not so slow that it may be one."""
     sliding = np.abs(moment.sliding)
     held = sliding < _SLOW * np.percentile(sliding, 95)
@@ -72,9 +72,9 @@ def _moving(run: MeasuredRun, moment: Moment) -> np.ndarray:
     return near < 0.5
 
 
-def _moments(run: MeasuredRun) -> Moment:
+def _moments(run: MeasuredRun) -> Moment[np.ndarray]:
     """At all samples; in sticks the block moves as the surface does."""
-    track = run.track
+    track = run.motion
     x, vx = _smooth(run)
     sliding = run.surface_speed - vx
     for stick in run.sticks:
@@ -93,7 +93,7 @@ def _moments(run: MeasuredRun) -> Moment:
 
 def _smooth(run: MeasuredRun) -> tuple[np.ndarray, np.ndarray]:
     """(n,) position and velocity from cubics through the samples about each."""
-    track = run.track
+    track = run.motion
     seen = np.isfinite(track.x)
     step = track.interval
     count = int(round(track.duration / step)) + 1
@@ -102,10 +102,13 @@ def _smooth(run: MeasuredRun) -> tuple[np.ndarray, np.ndarray]:
     period = 2.0 * np.pi / run.natural_frequency
     width = max(5, 2 * int(0.5 * _SMOOTH * period / step) + 1)
     smooth = [savgol_filter(x, width, 3, deriv=order, delta=step) for order in (0, 1)]
-    return tuple(np.interp(track.time, even, values) for values in smooth)
+    position, velocity = (np.interp(track.time, even, values) for values in smooth)
+    return position, velocity
 
 
-def holding(runs: Sequence[MeasuredRun], force: Callable[[Moment], np.ndarray]) -> list[float]:
+def holding(
+    runs: Sequence[MeasuredRun], force: Callable[[Moment[np.ndarray]], np.ndarray]
+) -> list[float]:
     """Coefficients of static friction at the break-aways that were seen, under a force, N."""
     found = []
     for run in runs:
@@ -121,8 +124,8 @@ def holding(runs: Sequence[MeasuredRun], force: Callable[[Moment], np.ndarray]) 
 def _broken_away(run: MeasuredRun, stick: Stick) -> float:
     """Where the block was at the end of a stick, in which it moved as the surface does, m."""
     rows = slice(stick.first, stick.last + 1)
-    since = run.track.time[rows] - stick.end
-    return float(np.nanmean(run.track.x[rows] - run.surface_speed * since))
+    since = run.motion.time[rows] - stick.end
+    return float(np.nanmean(run.motion.x[rows] - run.surface_speed * since))
 
 
 def rows_of(slips: Sequence[Slip], features: Sequence[Feature]) -> tuple[np.ndarray, np.ndarray]:

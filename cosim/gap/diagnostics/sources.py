@@ -13,7 +13,6 @@ from cosim.gap.diagnostics.model_track import SLIP, STICK, ModelTrack
 from cosim.gap.diagnostics.response import (
     Normal,
     Stretch,
-    normal_equations,
     slip_stretch,
     stick_stretch,
 )
@@ -27,6 +26,12 @@ class Points:
     rows: np.ndarray
     values: np.ndarray
     errors: np.ndarray
+
+    def normal(self, inputs: np.ndarray, level: bool = False) -> Normal:
+        """Normal equations of inputs (m, b) at its samples; points have no level of their own."""
+        columns = inputs / self.errors[:, None]
+        scaled = self.values / self.errors
+        return Normal(columns.T @ columns, columns.T @ scaled, float(scaled @ scaled), len(scaled))
 
 
 @dataclass(frozen=True)
@@ -59,20 +64,12 @@ class Source:
 
         level : of a stretch, only what changes within it counts
         """
-        if not self.pieces or isinstance(self.pieces[0], Stretch):
-            return normal_equations(self.pieces, inputs, level)
-        return [_normal_of_points(points, inputs(points)) for points in self.pieces]
+        return [piece.normal(inputs(piece), level) for piece in self.pieces]
 
     def at_samples(self, variables: Sequence[Mapping[str, np.ndarray]], name: str) -> np.ndarray:
         """Values of a variable at all samples of the pieces."""
         parts = [variables[piece.track][name][piece.rows] for piece in self.pieces]
         return np.concatenate([np.empty(0), *parts])
-
-
-def _normal_of_points(points: Points, inputs: np.ndarray) -> Normal:
-    columns = inputs / points.errors[:, None]
-    scaled = points.values / points.errors
-    return Normal(columns.T @ columns, columns.T @ scaled, float(scaled @ scaled), len(scaled))
 
 
 #: Fewest samples of a stretch, and its longest part of a natural period where means are taken.
@@ -137,7 +134,7 @@ def _points_at_corners(number: int, track: ModelTrack, corner: str) -> Points:
     run = track.run
     rows, values, errors = [], [], []
     for measured, modelled in _matched(track):
-        apart = _level(track, run.track.x, measured, corner)
+        apart = _level(track, run.motion.x, measured, corner)
         apart -= _level(track, track.x, modelled, corner)
         if not math.isfinite(apart + _sd(measured, corner) + _sd(modelled, corner)):
             continue

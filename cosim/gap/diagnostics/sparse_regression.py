@@ -86,7 +86,7 @@ def _orders(columns: np.ndarray, seen: np.ndarray) -> list[list[int]]:
     useful, free, friction = _useful(columns)
     rest = seen - friction * (friction @ seen)
     # the triangle of a QR factorisation holds the same regression in as many rows as columns
-    triangle = np.linalg.qr(np.column_stack([free, rest]), mode="r")
+    _, triangle = np.linalg.qr(np.column_stack([free, rest]))
     chosen = forward_selection(triangle[:, :-1], triangle[:, -1], MOST_TERMS)
     return [sorted(int(useful[i]) for i in chosen[:count]) for count in range(len(chosen) + 1)]
 
@@ -96,7 +96,8 @@ def forward_selection(columns: np.ndarray, seen: np.ndarray, most: int) -> list[
 
     The next is the one whose part orthogonal to those before takes most off the sum of squares.
     """
-    left, chosen = columns.copy(), []
+    left = columns.copy()
+    chosen: list[int] = []
     for _ in range(min(most, columns.shape[1])):
         squares = np.sum(left**2, axis=0)
         squares[chosen] = np.inf

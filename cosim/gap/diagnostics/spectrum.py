@@ -102,7 +102,8 @@ def _of_source(
     found = [s for s in every if s.channel == "x" and s.regime == regime]
     if not found:
         return None
-    return strongest_period(found[0].pieces, [coordinate(track) for track in tracks])
+    stretches = [piece for piece in found[0].pieces if isinstance(piece, Stretch)]
+    return strongest_period(stretches, [coordinate(track) for track in tracks])
 
 
 def strongest_period(stretches: Sequence[Stretch], along: Sequence[np.ndarray]) -> Period | None:

@@ -76,9 +76,9 @@ def variables_of(track: ModelTrack) -> dict[str, np.ndarray]:
 
 def smoothed(track: ModelTrack) -> tuple[np.ndarray, np.ndarray]:
     """(n,) measured x and its rate, m and m/s, by parabolas over a small part of a period."""
-    time, x = track.time, track.run.track.x
+    time, x = track.time, track.run.motion.x
     seen = np.isfinite(x)
-    interval = track.run.track.interval
+    interval = track.run.motion.interval
     even = np.arange(time[0], time[-1] + interval, interval)
     values = np.interp(even, time[seen], x[seen])
     part = SMOOTHED * 2.0 * math.pi / track.run.natural_frequency

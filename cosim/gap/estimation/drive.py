@@ -8,11 +8,9 @@ from collections.abc import Mapping
 #: Part by which a run's surface is faster than its set-point.
 SPEED_OFFSET = "offset.speed"
 
-#: Way of the surface in one period of a ripple that a roller makes, m: at another speed it has
+#: Travel of the surface in one period of a ripple that a roller makes, m: at another speed it has
 #: another frequency.
 RIPPLE_LENGTH = "speed_ripple.wavelength"
-
-
 #: Parts of a second harmonic in phase with the first and a quarter of its own period ahead: unlike
 #: amplitude and phase, which they are fitted for, they have a meaning where there is none of it.
 SECOND = ("second_in_phase", "second_ahead")
@@ -25,10 +23,11 @@ def model_parameters(set_point: float, values: Mapping[str, float]) -> dict[str,
     """
     flat = dict(values)
     for effect in ("speed_ripple", "surface_pattern"):
-        parts = [flat.pop(f"{effect}.{part}", None) for part in SECOND]
-        if None not in parts:
-            flat[f"{effect}.second_amplitude"] = math.hypot(*parts)
-            flat[f"{effect}.second_phase_deg"] = math.degrees(math.atan2(parts[1], parts[0]))
+        keys = [f"{effect}.{part}" for part in SECOND]
+        if all(key in flat for key in keys):
+            in_phase, ahead = (flat.pop(key) for key in keys)
+            flat[f"{effect}.second_amplitude"] = math.hypot(in_phase, ahead)
+            flat[f"{effect}.second_phase_deg"] = math.degrees(math.atan2(ahead, in_phase))
     if RIPPLE_LENGTH in flat:
         flat["speed_ripple.frequency"] = abs(set_point) / flat.pop(RIPPLE_LENGTH)
     return flat

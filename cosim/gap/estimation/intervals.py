@@ -54,7 +54,7 @@ def _information(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
     """(g, g) Fisher information of white noise, and what the segments' scores scatter by instead."""
     shared = sum(not free_parameter.per_run for free_parameter in trial.model.free_parameters)
     information, scores = np.zeros((shared, shared)), []
-    for columns in trial.fitted.columns:
+    for columns in trial.fitted.derivatives:
         left, residuals = columns.left(columns.shared), columns.left(columns.residuals)
         information = information + left.T @ left
         scores += [left[rows].T @ residuals[rows] for rows, _ in columns.states]

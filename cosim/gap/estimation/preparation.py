@@ -37,7 +37,7 @@ def prepare(
 
 
 def _segmented(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> SegmentedRun:
-    track = run.track
+    track = run.motion
     known = known_parameters(campaign, run, planar)
     channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
     across = planar and "y" in channels
@@ -71,7 +71,7 @@ def period(run: MeasuredRun) -> float:
     free = run.natural_frequency / (2.0 * np.pi)
     onsets = np.array([stick.start for stick in run.sticks])
     slowest = _SLOWER / np.median(np.diff(onsets)) if onsets.size > 3 else free / 4.0
-    return _strongest_period(run.track, slowest, max(2.0 * free, 2.0 * slowest), 1.0 / free)
+    return _strongest_period(run.motion, slowest, max(2.0 * free, 2.0 * slowest), 1.0 / free)
 
 
 def _strongest_period(track: Track, slowest: float, fastest: float, default: float) -> float:
@@ -114,7 +114,7 @@ def prepared(
 
 def thinned(run: MeasuredRun) -> MeasuredRun:
     """The run as it is, or its first cycles with few of the samples inside long sticks."""
-    track = run.track
+    track = run.motion
     cycles = _cycles(run)
     end = run.sticks[cycles].first if len(run.sticks) > cycles else track.time.size
     if end <= MOST_SAMPLES:
@@ -132,13 +132,13 @@ def thinned(run: MeasuredRun) -> MeasuredRun:
 
 def _cycles(run: MeasuredRun) -> int:
     """How many are looked at: long sticks of a fast oscillator cost the model many steps."""
-    first = run.track.time[0]
+    first = run.motion.time[0]
     swings = np.array([s.start - first for s in run.sticks]) * run.natural_frequency / (2.0 * np.pi)
     return int(np.clip(np.searchsorted(swings, MOST_SWINGS), FEWEST_CYCLES, MOST_CYCLES))
 
 
 def _with_rows(run: MeasuredRun, rows: np.ndarray) -> MeasuredRun:
-    track = run.track
+    track = run.motion
     channels = {name: track[name][rows] for name in track.channels}
     cut = Track(
         track.time[rows], time_offset=track.time_offset, outliers=track.outliers, **channels

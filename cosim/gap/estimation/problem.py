@@ -62,8 +62,13 @@ class Problem:
 
     def _known_of_own(self, own) -> np.ndarray:
         """Rows for what is known beforehand of a run's own free parameters."""
-        known = [(k, s) for k, s in zip(self.own, own, strict=True) if k.prior is not None]
-        return np.array([(k.value(s) - k.start) / k.prior for k, s in known])
+        return np.array(
+            [
+                (free.value(s) - free.start) / free.prior
+                for free, s in zip(self.own, own, strict=True)
+                if free.prior is not None
+            ]
+        )
 
     def by_segment(self, run: int, residuals: np.ndarray) -> np.ndarray:
         """(segments,) sums of squares of one run."""
@@ -95,9 +100,9 @@ class Problem:
         shared = np.zeros((residuals.size, len(self.shared)))
         for j in free_shared:
             shared[:, j] = self.difference(run, at, 0, j, self.shared[j], residuals)
-        own = [self.difference(run, at, 1, j, k, residuals) for j, k in enumerate(self.own)]
-        own = np.array(own).reshape(len(own), residuals.size).T
-        return Columns(residuals, shared, own, self._by_state(run, at, residuals))
+        own = [self.difference(run, at, 1, j, free, residuals) for j, free in enumerate(self.own)]
+        stacked = np.array(own).reshape(len(own), residuals.size).T
+        return Columns(residuals, shared, stacked, self._by_state(run, at, residuals))
 
     def difference(self, run, at, which, j, free_parameter: FreeParameter, residuals) -> np.ndarray:
         """(rows,) derivative of one run by number j of its point's part ``which``."""

@@ -63,7 +63,7 @@ def screening_fit(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted
 
 def _columns(problem: Problem, run: int, at: Point, residuals: np.ndarray, base: Fitted) -> Columns:
     """Derivatives of one run: those by the base's free parameters and the states as they were there."""
-    then = base.columns[run]
+    then = base.derivatives[run]
     point = at.shared, at.own[run], at.states[run]
     known = [
         free_parameter.key for free_parameter in base.free_parameters if not free_parameter.per_run

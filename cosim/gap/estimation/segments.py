@@ -106,7 +106,7 @@ def _segment(track, first: int, last: int, stick, speed: float, planar: bool) ->
     state = np.full(6, np.nan)
     if first == 0:
         state[:] = 0.0  # what is measured is put in its place
-    across = ()
+    across: tuple[int, ...] = ()
     if planar:  # friction along x alone leaves a block that sticks free to swing across
         _fill_moving(track, first, state, track.y, 1)
         across = (1, 4) if first else (1, 2, 4)  # how it was put down turned, nobody has seen

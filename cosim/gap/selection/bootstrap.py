@@ -64,13 +64,13 @@ def _law(data: Data, trial: Trial, plain_free_parameters: int) -> _Law:
 def _stacked(fitted: Fitted) -> np.ndarray:
     shared = sum(not free_parameter.per_run for free_parameter in fitted.free_parameters)
     none = np.empty((0, shared))
-    return np.concatenate([none, *(c.left(c.shared) for c in fitted.columns)])
+    return np.concatenate([none, *(c.left(c.shared) for c in fitted.derivatives)])
 
 
 def _best_gain(laws: Sequence[_Law], random: np.random.Generator) -> float:
     """The best gain over the plain model when there is nothing but noise."""
-    noise = random.standard_normal(laws[0].fit.shape[0])
-    kept_back = random.standard_normal(laws[0].held_out.shape[0])
+    noise = random.standard_normal(laws[0].fit.shape[:1])
+    kept_back = random.standard_normal(laws[0].held_out.shape[:1])
     return max(
         _cost(law, law.plain, noise, kept_back) - _cost(law, law.plain | True, noise, kept_back)
         for law in laws

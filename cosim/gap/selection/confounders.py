@@ -41,7 +41,7 @@ def better_confounder(search: Search, plain: Trial, coarse: Fitted, best: Tried)
     if not laws:
         return None
     other = min(
-        (t for t in search.on(plain.model, coarse, laws) if t.trial is not None),
+        (t for t in search.on(plain.model, coarse, laws) if t.judged is not None),
         key=lambda t: t.trial.rms_residual,
     )
     clearly = (

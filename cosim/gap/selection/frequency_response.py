@@ -139,7 +139,7 @@ def frequency_response(
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
     problem = Problem([segmented], model.free_parameters, model.settings)
-    residuals, columns = fitted.residuals[run], fitted.columns[run]
+    residuals, columns = fitted.residuals[run], fitted.derivatives[run]
     segments = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
     centres = np.array([along[rows].mean() for rows in segments])
@@ -156,14 +156,16 @@ def frequency_response(
         wave = _wave(candidate, model, segmented, at, rate) - (1.0 + 1.0j) * residuals
         wave = columns.without_states(wave / _SMALL) * weight
         found.append(sums(wave[order] * np.exp(-2j * np.pi * rate * centre), basis[order], sizes))
-    parts = (np.array(part) for part in zip(*found, strict=True))
+    products, squares, turned = (np.array(part) for part in zip(*found, strict=True))
     misfit = float(basis[:, -1] @ basis[:, -1])
     return FrequencyResponse(
-        abs(segmented.speed), float(np.ptp(along)), step, centres, *parts, misfit
+        abs(segmented.speed), float(np.ptp(along)), step, centres, products, squares, turned, misfit
     )
 
 
-def sums(wave: np.ndarray, basis: np.ndarray, sizes: np.ndarray):
+def sums(
+    wave: np.ndarray, basis: np.ndarray, sizes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """By segment: of the wave times the basis, of its modulus squared, of its square."""
     begins = np.concatenate([[0], np.cumsum(sizes)[:-1]])
     products, squares, turned = (
@@ -178,7 +180,7 @@ def sums(wave: np.ndarray, basis: np.ndarray, sizes: np.ndarray):
 
 
 def _count(candidate: Candidate, segmented: SegmentedRun, step: float) -> int:
-    """Rates to fly."""
+    """Rates to simulate."""
     if not _in_time(candidate):
         return _RATES
     visible = abs(segmented.speed) / (2.0 * np.pi * _SEEN * segmented.noise["x"])

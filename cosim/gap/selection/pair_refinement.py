@@ -99,5 +99,5 @@ def aliased(
     others = [c for c in candidates if c.lateral and c.effect not in names]
     dropped, kept = (pair[1], pair[0]) if aside[1] else pair
     found = search.instead(pair[1], dropped.candidate, others, tuple(kept.candidate.settings))
-    kept = replace(kept, trial=alone.get(kept.candidate.effect, plain))
+    kept = replace(kept, judged=alone.get(kept.candidate.effect, plain))
     return [(kept, other) for other in found]

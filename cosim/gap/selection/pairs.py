@@ -38,11 +38,11 @@ def best_pair(
     fitted coarsely : the plain model in short segments
     """
     alone = {t.candidate.effect: t.trial for t in done}
-    best, *others = _coarse(search, plain, coarse, done, candidates) or [None]
-    if best is None:
+    coarse_pairs = _coarse_pairs(search, plain, coarse, done, candidates)
+    if not coarse_pairs:
         return None
-    best = alternated(search, coarse, best, candidates)
-    pairs = sorted(search.together([best, *others]), key=rms_of)
+    best = alternated(search, coarse, coarse_pairs[0], candidates)
+    pairs = sorted(search.together([best, *coarse_pairs[1:]]), key=rms_of)
     if is_worth_more(plain, pairs[0]):
         better = polished(search, pairs[0], candidates)
         aliases = aliased(search, better, alone, plain, candidates)
@@ -64,7 +64,7 @@ def _is_needed(plain: Trial, alone: Trial, both: Trial) -> bool:
     return explained(plain, alone) < DOMINANT or excess_chi_square(both) <= little
 
 
-def _coarse(
+def _coarse_pairs(
     search: Search,
     plain: Trial,
     coarse: Fitted,

@@ -99,4 +99,4 @@ def _peaks(power: np.ndarray) -> list[int]:
     """The highest local maxima."""
     padded = np.concatenate([[-np.inf], power, [-np.inf]])
     top = np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
-    return sorted(top, key=lambda i: -power[i])[:PEAKS]
+    return sorted(top.tolist(), key=lambda i: -power[i])[:PEAKS]

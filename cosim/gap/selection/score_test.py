@@ -46,17 +46,16 @@ class ScoreTest:
 
     def masking_pair(self) -> tuple[Candidate, Candidate] | None:
         """The two that explain most together, if neither does so alone; as strong as they come."""
-        alone, best, found = self.gains(), _MASKING, None
+        alone, best = self.gains(), _MASKING
+        found: tuple[Candidate, Candidate] | None = None
         for i, j in combinations(range(len(self.laws)), 2):
             if self.laws[i].effect == self.laws[j].effect:
                 continue
             strengths, gain = self._together(i, j)
             if gain > max(best, _TIMES * max(alone[i], alone[j])) and np.all(strengths > 0.0):
                 best = gain
-                found = tuple(
-                    self.laws[k].times(float(strength))
-                    for k, strength in zip((i, j), strengths, strict=True)
-                )
+                first, second = (float(strength) for strength in strengths)
+                found = self.laws[i].times(first), self.laws[j].times(second)
         return found
 
     def _together(self, i: int, j: int) -> tuple[np.ndarray, float]:
@@ -94,7 +93,7 @@ def answers(
     (g + 1 + l, g + 1 + l) among g free parameters, the residuals and l laws.
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
-    residuals, columns = fitted.residuals[run], fitted.columns[run]
+    residuals, columns = fitted.residuals[run], fitted.derivatives[run]
     found = [_answer(segmented, base, law, at) - residuals for law in laws]
     left = columns.left(np.column_stack([columns.shared, residuals, *found]))
     return left.T @ left

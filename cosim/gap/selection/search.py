@@ -83,7 +83,7 @@ class Search:
         ended = self._run(finished, [(self.data, trials[i]) for i in best])
         trials = [ended[best.index(i)] if i in best else trial for i, trial in enumerate(trials)]
         return [
-            (first, replace(second, trial=trial))
+            (first, replace(second, judged=trial))
             for (first, second), trial in zip(pairs, trials, strict=True)
         ]
 
@@ -108,7 +108,7 @@ class Search:
         model = reduced(tried.model, dropped, tried.trial.fitted.values, keep)
         (again,) = self._run(_coarse, [(self.data, replace(tried, model=model))])
         (trial,) = self._run(try_model, [(self.data, model, again.coarse)])
-        return replace(again, trial=trial)
+        return replace(again, judged=trial)
 
     def anew(self, second: Tried, law: Candidate, candidates: Sequence[Candidate]) -> Tried | None:
         """The best law of a periodic effect of a pair, its period looked for beside the other.
@@ -141,11 +141,11 @@ class Search:
 
     def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
         """Those that were ruled out early judged as well, by what little fit they had."""
-        early = [t for t in tried if t.trial is None]
+        early = [t for t in tried if t.judged is None]
         trials = self._run(try_model, [(self.data, t.model, t.coarse, 0) for t in early])
-        late = [replace(t, trial=trial) for t, trial in zip(early, trials, strict=True)]
+        late = [replace(t, judged=trial) for t, trial in zip(early, trials, strict=True)]
         late.sort(key=lambda t: t.trial.rms_residual)
-        return (*(t for t in tried if t.trial is not None), *late)
+        return (*(t for t in tried if t.judged is not None), *late)
 
     def _coarse_fits(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate], breadth: Breadth
@@ -154,8 +154,9 @@ class Search:
         seen, unseen = self._screened(base, fitted, candidates, breadth)
         # the best law of every effect: by derivatives of afar a screening fit may miss how well one does
         chosen = sorted(best_laws(seen, FORMS), key=lambda t: rank(t, seen))
-        started = [(self.data, t, STARTING) for t in chosen[: breadth.started]]
-        started = self._run(_continued, started)
+        started = self._run(
+            _continued, [(self.data, t, STARTING) for t in chosen[: breadth.started]]
+        )
         chosen = in_the_running(best_laws(started, FORMS)[: breadth.coarse], fitted)
         coarse_fits = self._run(_continued, [(self.data, t, COARSE - STARTING) for t in chosen])
         return coarse_fits, [*started, *seen, *unseen]
@@ -183,10 +184,10 @@ class Search:
     def _tried(self, coarse: Sequence[Tried]) -> list[Tried]:
         """The best law of each effect in long segments, best first; the best few to the end."""
         trials = self._run(try_model, [(self.data, t.model, t.coarse, FIRST) for t in coarse])
-        done = [replace(t, trial=trial) for t, trial in zip(coarse, trials, strict=True)]
+        done = [replace(t, judged=trial) for t, trial in zip(coarse, trials, strict=True)]
         done = best_laws(done, 1, lambda t: t.trial.rms_residual)
         trials = self._run(finished, [(self.data, t.trial) for t in done[:FINISHED]])
-        ended = [replace(t, trial=trial) for t, trial in zip(done, trials, strict=False)]
+        ended = [replace(t, judged=trial) for t, trial in zip(done, trials, strict=False)]
         return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.rms_residual)
 
     def _linearised(
@@ -228,12 +229,13 @@ class Search:
         placed, feeble = [c for c in candidates if not c.periodic], []
         for effect in dict.fromkeys(c.effect for c in candidates if c.periodic):
             laws = [c for c in candidates if c.effect == effect]
-            segmented_runs = enumerate(self.data.short)
-            calls = [(laws[0], base, fitted, segmented, i) for i, segmented in segmented_runs]
-            answers = self._run(frequency_response, calls)
+            calls = [
+                (laws[0], base, fitted, segmented, i) for i, segmented in enumerate(self.data.short)
+            ]
+            responses = self._run(frequency_response, calls)
             periods = {law.periodic: law for law in laws}
-            found = self._run(scan, [(law, answers) for law in periods.values()])
-            found = dict(zip(periods, found, strict=True))
+            scanned = self._run(scan, [(law, responses) for law in periods.values()])
+            found = dict(zip(periods, scanned, strict=True))
             peaks = [(peak, law) for law in laws for peak in found[law.periodic]]
             strongest = sorted({peak.power for peak, _ in peaks}, reverse=True)
             if strongest[:1] and strongest[0] < NOISE:

@@ -19,12 +19,25 @@ ACROSS = "lateral_friction.ratio"
 
 @dataclass(frozen=True)
 class Tried:
-    """A candidate on top of a base model; `trial` is None where a shorter look ruled it out."""
+    """A candidate on top of a base model.
+
+    Attributes
+    ----------
+    coarse : its fit in short segments
+    judged : its trial in long ones; None where the coarse fit ruled it out
+    """
 
     candidate: Candidate
     model: Model
     coarse: Fitted
-    trial: Trial | None = None
+    judged: Trial | None = None
+
+    @property
+    def trial(self) -> Trial:
+        """Its trial; ValueError where the coarse fit ruled it out."""
+        if self.judged is None:
+            raise ValueError(f"{self.candidate.effect}: ruled out before it was judged")
+        return self.judged
 
 
 def penalised(fitted: Fitted) -> float:

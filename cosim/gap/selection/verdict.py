@@ -85,8 +85,8 @@ def judge(search: Search, plain: Trial, coarse: Fitted, candidates: Sequence[Can
         return Finding("unknown", (), None, [*done, *early], nearest, words)
     single = _of_one(plain, [*done, *early])
     if single and (single.nearest.rms_residual <= FITS or explained(plain, single.nearest) >= ALL):
-        best = next(t for t in done if t.trial is single.chosen)
-        return _with_friction_across(search, single, best, candidates)
+        chosen = next(t for t in done if t.trial is single.chosen)
+        return _with_friction_across(search, single, chosen, candidates)
     if is_little(plain, coarse):  # and nothing explains it
         return Finding("none", (), None, [*done, *early], plain)
     return _of_two(search, plain, coarse, [*done, *early], candidates, single)
@@ -94,8 +94,8 @@ def judge(search: Search, plain: Trial, coarse: Fitted, candidates: Sequence[Can
 
 def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
     """Those with a trial, best first, and those that were ruled out by a shorter look."""
-    done = [t for t in ranking if t.trial is not None]
-    early = [t for t in ranking if t.trial is None]
+    done = [t for t in ranking if t.judged is not None]
+    early = [t for t in ranking if t.judged is None]
     return sorted(done, key=lambda t: t.trial.rms_residual), early
 
 

@@ -49,8 +49,8 @@ def scenario_of(gap: Gap, run: FittedRun) -> Scenario:
     tables["surface"]["speed"] = driven_speed(measured.surface_speed, fitted)
     _put(tables, gap.model.parameters(run))
     tables["initial"] = dict(zip(STATE, run.start, strict=True))
-    interval = _digits(measured.track.interval, 6)
-    tables["run"] = {"duration": measured.track.duration, "output_interval": interval}
+    interval = _digits(measured.motion.interval, 6)
+    tables["run"] = {"duration": measured.motion.duration, "output_interval": interval}
     tables["coupling"] = {"macro_step": interval}
     return _scenario(gap.campaign, tables)
 

@@ -32,7 +32,7 @@ def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
     own = _in_kernel(scenario, time)
     zero = {name: gap.model.values.get(f"offset.{name}", 0.0) for name in track.channels}
     motion = {name: simulated[name] + zero[name] for name in track.channels}
-    measured = {name: track.run.track[name][rows] for name in track.channels}
+    measured = {name: track.run.motion[name][rows] for name in track.channels}
     apart = max(
         np.max(np.abs(simulated[name] - own[name])) / noise[name] for name in track.channels
     )

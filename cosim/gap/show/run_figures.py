@@ -109,7 +109,7 @@ def _motion(
     time = track.time[rows]
     axis.plot(
         time,
-        factor * track.run.track[channel][rows],
+        factor * track.run.motion[channel][rows],
         ".",
         color=INK,
         markersize=size,

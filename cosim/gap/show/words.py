@@ -74,10 +74,10 @@ def fitted_quantities(gap: Answer) -> list[Quantity]:
             if row.effect in gap.found:
                 intervals |= row.intervals
         return quantities(model.values, intervals)
-    model = gap.model
-    intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
-    intervals = model.intervals or (intervals if gap.extended is None else {})
-    values = {**model.values, **model.settings}
+    fitted = gap.model
+    known = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
+    intervals = dict(fitted.intervals) or (known if gap.extended is None else {})
+    values = {**fitted.values, **fitted.settings}
     shown = [key for key in values if key not in ZEROS]
     shown.sort(key=lambda key: key not in PLAIN)
     return quantities({key: values[key] for key in shown}, intervals)
