@@ -151,7 +151,7 @@ def _fitted_model(campaign: Campaign, data: Data, trial: Trial) -> FittedModel:
 
 
 def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
-    """``noise`` : gap of the best model, to which sums of squares are compared."""
+    """``noise`` : root mean square residual of the best model, to which others are compared."""
     trial = tried.trial
     rows = float(plain.rows.sum())
     gained = (plain.squares.sum() - trial.squares.sum()) / max(noise, 1.0) ** 2

@@ -1,4 +1,4 @@
-"""Fits in segments as fitted models: the motion, the start and the gap of every run."""
+"""Fits in segments as fitted models: the motion, the start and the residual of every run."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def fitted_model(
 ) -> FittedModel:
     """A model from its fits: the first part is that of the runs for fitting, others are held out.
 
-    Every problem's segmented runs carry the names of the campaign's runs.
+    The runs of every problem carry the names of the campaign's runs.
     """
     by_name = {run.name: run for run in campaign.runs}
     runs = {
@@ -47,7 +47,7 @@ def fitted_model(
 
 
 def _held_out(parts: Sequence[tuple[Problem, Fitted]]) -> float:
-    """Gap over all held-out runs; that of the fit where none is held out."""
+    """Root mean square residual over all held-out runs; that of the fit where none is held out."""
     rows = [r for _, fitted in parts[1:] for r in fitted.residuals] or list(parts[0][1].residuals)
     return float(np.sqrt(sum(r @ r for r in rows) / sum(r.size for r in rows)))
 

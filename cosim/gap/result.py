@@ -122,7 +122,7 @@ class Gap:
     chance : "p" of the best of the catalogue under the plain model, "draws" that it rests on
     determined : plain parameter -> (value, low, high), as far as the data determine it
     seed : of everything that was drawn
-    residual analysis : of the plain model's misfit, what ``where`` was read off
+    analysis : of the plain model's misfit by regime, what ``where`` was read off
     next_experiment : the run that would tell most, or None
     empirical : the formula proposed where the catalogue has no name, or None
     remarks : what the reader should know, a line each; the campaign's own are in the campaign

@@ -56,7 +56,7 @@ def reduced(
 def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: Mapping[str, float]):
     """What grows in a hold sets out in place of a part of what mu_s has over mu_k.
 
-    On top of all of it, the first breaks-away would come late, and the fit look elsewhere.
+    On top of all of it, the first break-aways would come late, and the fit go elsewhere.
     """
     stated = any(
         free_parameter.key == "friction.mu_s" and free_parameter.prior is not None

@@ -25,11 +25,11 @@ _ZERO = 2.0
 #: and a block that comes to rest beside the line between the anchors has crooked springs.
 _ZERO_MOST = {"x": 10.0, "y": 3.0}
 #: Sticks that tell a surface's speed; one that is off is so in most runs: a ripple is another
-#: matter, and may look so in some.
+#: matter, and may seem so in some.
 _STICKS = 5
 #: The surface's speed, where it is off at all, is off by about this part.
 _SPEED = 0.03
-#: A set-point is kept to this part; creeps are alike within this part.
+#: A set-point is kept to this part; creeps are equal within this part.
 _SET_POINT, _EQUAL = 0.003, 0.5
 
 

@@ -18,8 +18,8 @@ DENSITY = 80
 #: scatter that is not white counts as noise.
 GAP, COLOUR = 0.5, 1.0 / 24.0
 #: Two sticks are one where the second goes on where the first ends, within so many standard
-#: deviations, or where the surface left the block behind by less than this part of its own way: in
-#: a slip the springs pull the block back, which makes it more than the whole.
+#: deviations, or where the surface left the block behind by less than this part of its own travel:
+#: in a slip the springs pull the block back, which makes it more than the whole.
 SAME_LEVEL, LEFT_BEHIND = 4.0, 0.5
 #: A stick moves with the surface, within so many standard errors and this part of its speed.
 SAME_SPEED, SPEED_PART = 4.0, 0.2
@@ -93,8 +93,8 @@ def _merged(
     merged = ranges[:1]
     for before, after in pairwise(ranges):
         left, samples = _left_behind(time, x, before, after, speed)
-        way = abs(speed) * (time[after[0]] - time[before[1] - 1])
-        if left < max(SAME_LEVEL * noise / math.sqrt(samples), LEFT_BEHIND * way):
+        travel = abs(speed) * (time[after[0]] - time[before[1] - 1])
+        if left < max(SAME_LEVEL * noise / math.sqrt(samples), LEFT_BEHIND * travel):
             merged[-1] = (merged[-1][0], after[1])
         else:
             merged.append(after)
@@ -104,7 +104,7 @@ def _merged(
 def _moves_along(
     time: np.ndarray, x: np.ndarray, span: tuple[int, int], speed: float, noise: float
 ) -> bool:
-    """Whether the slope of a stick is that of the surface: else a vibration looked like one."""
+    """Whether the slope of a stick is that of the surface: else a vibration was taken for one."""
     rows = slice(*span)
     away = time[rows] - np.mean(time[rows])
     spread = float(away @ away)
@@ -115,7 +115,7 @@ def _moves_along(
 def _left_behind(
     time: np.ndarray, x: np.ndarray, before: tuple[int, int], after: tuple[int, int], speed: float
 ) -> tuple[float, float]:
-    """Way of the surface under the block between two sticks, and half the samples it is read from.
+    """Travel of the surface under the block between two sticks, and half its samples.
 
     Negative where the block moved ahead of the surface.
     """

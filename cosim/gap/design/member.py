@@ -43,7 +43,7 @@ class Member:
         return Point(self.fitted.point.shared, (self.fitted.point.own[0],), ())
 
     def information(self) -> np.ndarray:
-        """(g, g) what the campaign knows of the shared free parameters: inverse of their covariance.
+        """(g, g) inverse of the covariance of the shared free parameters, as the campaign has it.
 
         On the scale of the fit. States and phases are eliminated; prior knowledge counts.
         """

@@ -17,7 +17,7 @@ from .range import Experiment, experiments
 from .rehearsal import Setting, rehearse, setting_of
 from .separation import separation
 
-#: Experiments times pairs that are looked at, linearised; so many of the best are then refitted ...
+#: Experiments times pairs that are screened, linearised; so many of the best are then refitted ...
 _SCREENED, _FINALISTS = 180, 3
 #: ... with so many Levenberg-Marquardt steps.
 _ROUNDS = 3
@@ -25,7 +25,7 @@ _ROUNDS = 3
 _NEARLY = 0.8
 #: More members than this are not compared: the ones that fit best stand for the class.
 _MEMBERS = 4
-#: A coefficient that the campaign knows no better than this many steps of its free parameter is not known.
+#: A coefficient is not known that the campaign knows no better than this many of its fit's steps.
 _VAGUE = 20.0
 #: What a break-away takes, over kinetic friction, where no break-away was seen.
 _UNSEEN_RATIO = 1.3
@@ -53,11 +53,11 @@ def next_experiment(campaign: Campaign, members: Sequence[Member], planar: bool)
         return None
     setting = setting_of(campaign, planar)
     pairs = list(combinations(range(len(sides)), 2))
-    looked = [
+    screened = [
         (min(_apart(setting, one, sides, pairs, 0).values(), default=0.0), one)
         for one in experiments(campaign, _SCREENED // len(pairs))
     ]
-    best = _most_telling(looked)[:_FINALISTS]
+    best = _most_telling(screened)[:_FINALISTS]
     both_ways = list(permutations(range(len(sides)), 2))
     simulated = {one: _apart(setting, one, sides, both_ways, _ROUNDS) for _, one in best}
     told = [(min(found.values()), one) for one, found in simulated.items() if found]

@@ -14,7 +14,7 @@ from cosim.gap.data import Campaign, MeasuredRun
 SPEED_FACTOR = 3.0
 #: The heaviest block may carry as much again; beside each of the stiffest springs goes another.
 LOAD_FACTOR = STIFFNESS_FACTOR = 2.0
-#: Speeds looked at, evenly spaced on a logarithmic scale.
+#: Speeds tried, evenly spaced on a logarithmic scale.
 SPEEDS = 6
 #: How a run may start: laid on the running surface with slack springs and carried along, or pulled
 #: as far as the campaign has seen the block and let go.

@@ -1,4 +1,4 @@
-"""Where the misfit lives, and what formula it would take: residual forces by regime and variable."""
+"""Where the misfit lives: residual forces by regime and variable, and a formula for them."""
 
 from cosim.gap.diagnostics.dependence import Dependence
 from cosim.gap.diagnostics.empirical import empirical_term

@@ -1,4 +1,4 @@
-"""From a campaign without a name to a formula with its gap."""
+"""A formula for the force that the catalogue has no name for: proposed, and judged."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ _UNSEEN_RATIO = 1.3
 _UNLIKE = 0.05
 #: Rounds of the fit in short segments with the force acting.
 _ROUNDS = 4
-#: The formula is kept when it takes away this part of the held-out gap's excess, in squares.
+#: The formula is kept when it takes away this part of the held-out excess chi-square.
 _WORTH = 0.2
 #: Part of what fewer terms leave of the held-out runs that further terms must take away.
 _EARNED = 0.1
-#: Highest frequency that is looked for, in free vibrations: a block hardly follows faster ones.
+#: Highest frequency that is searched for, in free vibrations: a block hardly follows faster ones.
 _HIGHEST = 4.0
-#: A held-out gap at which no other formula is tried.
+#: A held-out root mean square residual at which no other formula is tried.
 _ENOUGH = 1.5
 #: A step of a coefficient, part of what the regression gave.
 _STEP = 0.1
@@ -48,9 +48,9 @@ def empirical_term(
     base : the model that is left, fitted to `data`. mapped : as `processes` gives it.
     The features are chosen by sparse regression on the measured slips of the runs for fitting,
     their number by the held-out runs; the force then acts in the model, from the model's own state,
-    and coefficients and friction are refitted. It is kept only where the held-out gap becomes
-    smaller. (The held-out runs choose among a handful of formulas: their gap is not quite as
-    independent as that of a named effect.)
+    and coefficients and friction are refitted. It is kept only where the held-out residual
+    becomes smaller. (The held-out runs choose among a handful of formulas: what they leave is not
+    as independent as that of a named effect.)
     Keys: kind ("empirical"), formula, terms ([{feature, coefficient, unit}]), parameters (friction,
     refitted with it), fit_gap_before, fit_gap_after, held_out_gap_before, held_out_gap_after, text.
     """
@@ -107,7 +107,7 @@ def _library(slips: Sequence[Slip], runs: Sequence[MeasuredRun]) -> list[Feature
 
 
 def _strongest(period: Period | None, highest: float) -> float | None:
-    """Rate of the strongest period that a block can follow; whether it is real is for the gap."""
+    """Rate of the strongest period that a block can follow, whether it is real or not."""
     if period is None:
         return None
     followed = period.rates <= highest
@@ -153,8 +153,8 @@ def _friction(best: Formula, runs: Sequence[MeasuredRun]) -> tuple[dict[str, flo
     def force(m):
         return sum(c * f.of(m) for c, f in zip(best.coefficients, best.features, strict=True))
 
-    ways = [[run for run in runs if np.sign(run.surface_speed) == sign] for sign in (1.0, -1.0)]
-    seen = [float(np.median(found)) for way in ways if (found := holding(way, force))]
+    signed = [[run for run in runs if np.sign(run.surface_speed) == sign] for sign in (1.0, -1.0)]
+    seen = [float(np.median(found)) for those in signed if (found := holding(those, force))]
     mu_s = float(np.mean(seen)) if seen else _UNSEEN_RATIO * best.mu_k
     friction = {"friction.mu_k": best.mu_k, "friction.mu_s": max(mu_s, best.mu_k)}
     if len(seen) < 2 or abs(seen[0] - seen[1]) < _UNLIKE * mu_s:

@@ -1,4 +1,4 @@
-"""A formula with its coefficients, and as the force of a segmented run."""
+"""A formula with its coefficients, and as a force on the block of a run."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def key(number: int) -> str:
 
 @dataclass(frozen=True)
 class ForcedRun(SegmentedRun):
-    """A segmented run on which features with coefficients, parameters `key(i)`, act as a force along x."""
+    """A run on whose block features with coefficients `key(i)` act as a force along x."""
 
     features: tuple[Feature, ...] = field(default=(), kw_only=True)
 
@@ -85,6 +85,6 @@ def moment_of(block: Sequence[float], speed: float, load: float) -> Moment[float
 
 
 def forced(segmented: SegmentedRun, features: Sequence[Feature]) -> ForcedRun:
-    """The same segmented run under a force."""
+    """The same run under a force."""
     known = {one.name: getattr(segmented, one.name) for one in fields(segmented) if one.init}
     return ForcedRun(**known, features=tuple(features))

@@ -1,4 +1,4 @@
-"""The residual analysis: for each channel and regime, how large the misfit is and on what it depends."""
+"""Residual analysis by regime: how large the misfit of each channel is and on what it depends."""
 
 from __future__ import annotations
 

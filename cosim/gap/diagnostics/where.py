@@ -13,7 +13,7 @@ from cosim.gap.diagnostics.variables import VARIABLES
 
 #: A misfit counts where chance makes one like it, in any of the tests, less often than this.
 CHANCE = 0.01
-#: Variables that are phases: the residual analysis's period, and its unit.
+#: Variables that are phases: the period found, and its unit.
 PERIODIC = {"time_phase": ("ripple", "s"), "surface_phase": ("pattern", "m of surface")}
 #: Values that are known so many times worse than usual are not quoted.
 UNCLEAR = 3.0
@@ -62,8 +62,8 @@ def _nothing(analysis: RegimeAnalysis) -> str:
     least = min(region.most_certain for region in analysis.regions)
     chance = min(10.0**least * analysis.tests, 1.0)
     return (
-        f"No misfit beyond the noise in any channel or regime: {_left(analysis)}; the most suspicious "
-        f"of {analysis.tests} tests comes about by chance with probability {chance:.2g}."
+        f"No misfit beyond the noise in any channel or regime: {_left(analysis)}; the most "
+        f"suspicious of {analysis.tests} tests comes about by chance with probability {chance:.2g}."
     )
 
 

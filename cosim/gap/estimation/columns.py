@@ -14,7 +14,8 @@ import numpy as np
 
 #: Steps of a segment's state that are as unlikely as a residual of one.
 _FAR = 50.0
-#: Longest step of what belongs to one run, in steps of a free parameter: its motion may hardly feel it.
+#: Longest step of what belongs to one run, in steps of a free parameter: the motion may hardly
+#: feel it.
 _LONGEST_OWN = 1.0
 
 
@@ -58,7 +59,7 @@ class Columns:
         return rest
 
     def local_step(self, shared: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
-        """Own free parameters' step (k,) and each segment's, that go best with a step of the shared ones."""
+        """Steps of the run's own (k,) and of each segment's state that go best with shared ones."""
         rest = self.residuals + self.shared @ shared
         own = np.zeros(0)
         if self.own.shape[1]:

@@ -1,7 +1,7 @@
 """Levenberg-Marquardt: where a fit stands, and the damped steps by which it goes down.
 
 Of steps that are ever more damped, the first that lowers the cost is taken (Levenberg 1944,
-Marquardt 1963). What is minimised says itself what it costs and which way a step goes; the runs'
+Marquardt 1963). What is minimised says itself what it costs and where a step goes; the runs'
 own free parameters and the segments' states follow every step (`Problem.tried`).
 """
 
@@ -52,7 +52,7 @@ class Damping:
 
 
 class Descent:
-    """A fit on its way: the point, its residuals by run, its cost, the damping of its steps."""
+    """A fit as it goes down: its point, residuals by run, cost, and the damping of its steps."""
 
     def __init__(self, problem: Problem, objective: Objective, point: Point, damping: Damping):
         self.problem, self.objective, self.schedule = problem, objective, damping

@@ -19,8 +19,8 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
 
     Residuals of neighbouring samples are not independent where a model does not quite fit. Two
     estimates allow for that, and the wider one counts: the information of so many samples as would
-    have the gap's scatter (its square divides it), and the covariance of estimates whose residuals
-    are independent from segment to segment only (Liang & Zeger 1986).
+    have the residual's scatter (its mean square divides it), and the covariance of estimates whose
+    residuals are independent from segment to segment only (Liang & Zeger 1986).
     """
     shared = [
         free_parameter
@@ -51,7 +51,7 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
 
 
 def _information(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
-    """(g, g) Fisher information of white noise, and what the segments' scores scatter by instead."""
+    """(g, g) Fisher information of white noise, and the scatter of the segments' scores."""
     shared = sum(not free_parameter.per_run for free_parameter in trial.model.free_parameters)
     information, scores = np.zeros((shared, shared)), []
     for columns in trial.fitted.derivatives:

@@ -23,7 +23,7 @@ _CLEARLY = 0.98
 def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = None) -> Point:
     """Each run's phases (of ``keys``, or all) where they fit best of a few, the present included.
 
-    A fit finds its way over an eighth of a turn, not over half of one. All are judged from the
+    A fit gets over an eighth of a turn, not over half of one. All are judged from the
     states read off the data: fitted ones have made up for the present phase.
     """
     turned = [
@@ -74,7 +74,7 @@ def _cost_read_off(problem: Problem, run: int, shared, own: np.ndarray) -> float
 def with_phases_followed(problem: Problem, point: Point) -> Point:
     """Each run's phases where they fit best once its segments' states have followed them.
 
-    What states read off the data leave may hide a phase: some fifty segmented runs a run tell more.
+    What states read off the data leave may hide a phase: some fifty simulations of a run tell more.
     """
     turned = [
         j

@@ -131,7 +131,7 @@ def thinned(run: MeasuredRun) -> MeasuredRun:
 
 
 def _cycles(run: MeasuredRun) -> int:
-    """How many are looked at: long sticks of a fast oscillator cost the model many steps."""
+    """How many are used: long sticks of a fast oscillator cost the model many steps."""
     first = run.motion.time[0]
     swings = np.array([s.start - first for s in run.sticks]) * run.natural_frequency / (2.0 * np.pi)
     return int(np.clip(np.searchsorted(swings, MOST_SWINGS), FEWEST_CYCLES, MOST_CYCLES))

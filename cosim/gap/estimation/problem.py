@@ -1,4 +1,4 @@
-"""Residuals of some runs as a function of the free parameters to turn and of the segments' states."""
+"""Residuals of some runs as a function of free parameters and of the segments' states."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 
 
 class Problem:
-    """Some runs, the free parameters to turn and what else is set."""
+    """Some runs, the free parameters to be fitted and what else is set."""
 
     def __init__(
         self,
@@ -133,7 +133,7 @@ class Problem:
     def tried(
         self, point: Point, step: np.ndarray, columns: Sequence[Columns]
     ) -> tuple[Point, tuple[np.ndarray, ...]]:
-        """The point after a step of the campaign's free parameters, the runs following, and its residuals."""
+        """The point after a step of the shared free parameters, the runs following; residuals."""
         shared = self.inside(point.shared + step)
         own, states, residuals = [], [], []
         for i, c in enumerate(columns):

@@ -1,8 +1,9 @@
-"""A first look at a law on top of a fitted model, by that model's own derivatives.
+"""Screening: a law fitted on top of a model by the derivatives that are known of that model.
 
-A law that sets out as next to nothing hardly changes what a motion answers to the free parameters that were
-there before. Only the answers to its own are taken anew in a round (the chord method): a fifth of
-the work, and good enough to tell which laws are worth a fit.
+A law that sets out as next to nothing hardly changes how a motion responds to the free parameters
+that were there before. Derivatives by these are taken once, at the linearisation point; only those
+by the law's own are taken anew in a round (the chord method): a fifth of the work, and good enough
+to tell which laws are worth a fit.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ _TRIES = 4
 
 
 def linearised(data: Data, model: Model, fitted: Fitted, other: bool = False) -> Fitted:
-    """A fit in short segments with derivatives at its end.
+    """A linearisation point: a fit in short segments with derivatives at its end.
 
     other : ``model`` has other settings than the fitted one; segments whose states have made up for
     those start from what was read off the data.
@@ -42,7 +43,7 @@ def linearised(data: Data, model: Model, fitted: Fitted, other: bool = False) ->
 
 
 def screening_fit(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
-    """A few rounds in short segments from where the simpler model ``base`` ended (a `ground`)."""
+    """A few rounds in short segments from where the simpler model ``base`` ended (`linearised`)."""
     problem = Problem(data.short, model.free_parameters, model.settings)
     before = {free_parameter.key for free_parameter in base.free_parameters}
     shared = [base.values.get(k.key, k.start) if k.prior else k.start for k in problem.shared]
@@ -62,7 +63,7 @@ def screening_fit(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted
 
 
 def _columns(problem: Problem, run: int, at: Point, residuals: np.ndarray, base: Fitted) -> Columns:
-    """Derivatives of one run: those by the base's free parameters and the states as they were there."""
+    """Derivatives of one run: by the base's free parameters and the states as they were there."""
     then = base.derivatives[run]
     point = at.shared, at.own[run], at.states[run]
     known = [

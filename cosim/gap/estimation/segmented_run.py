@@ -66,7 +66,7 @@ class SegmentedRun:
         return self._simulated(simulate_restarted, values, states)
 
     def places(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        """As `fly`, but x, y and phi alone (n, 3)."""
+        """As `simulate`, but x, y and phi alone (n, 3)."""
         return self._simulated(track_restarted, values, states)
 
     def force(self, values: Mapping[str, float]) -> Force | None:

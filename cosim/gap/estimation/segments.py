@@ -97,9 +97,9 @@ def _fastest(track, due: float, speed: float, period: float) -> int:
     if seen.size < 2 * _REACH:
         return int(np.searchsorted(track.time, due))
     steps = np.arange(_REACH, seen.size - _REACH + 1)
-    way = track.x[seen[steps + _REACH - 1]] - track.x[seen[steps - _REACH]]
+    moved = track.x[seen[steps + _REACH - 1]] - track.x[seen[steps - _REACH]]
     time = track.time[seen[steps + _REACH - 1]] - track.time[seen[steps - _REACH]]
-    return int(seen[steps[np.abs(way / time - speed).argmax()]])
+    return int(seen[steps[np.abs(moved / time - speed).argmax()]])
 
 
 def _segment(track, first: int, last: int, stick, speed: float, planar: bool) -> Segment:

@@ -79,7 +79,7 @@ def coarse_fit(data: Data, model: Model, rounds: int, before: Fitted | None = No
 
 
 def try_model(data: Data, model: Model, coarse: Fitted, rounds: int = MOST_ROUNDS) -> Trial:
-    """Fit in long segments from a coarse fit, and judge; in no ``rounds`` the coarse fit is judged."""
+    """Fit in long segments from a coarse fit, and judge; with no ``rounds`` that is judged."""
     problem = Problem(data.fit, model.free_parameters, model.settings)
     point = _carried_over(problem, data.short, coarse.point)
     if rounds:  # states first: parameters would make up for those that are not of this model
@@ -105,9 +105,9 @@ def _judged(data: Data, model: Model, fitted: Fitted, closely: bool = True) -> T
 
 
 def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted:
-    """The held-out runs with the campaign's free parameters as fitted; their states and phases are free.
+    """The held-out runs with the shared free parameters as fitted; states and phases are free.
 
-    closely : phases are followed, and lost segments looked for
+    closely : phases are followed, and lost segments searched for
     """
     short = Problem(data.held_out_short, model.free_parameters, model.settings)
     point = start(short.segmented_runs, model.free_parameters)
@@ -139,7 +139,7 @@ def _carried_over(problem: Problem, segmented_runs: Sequence[SegmentedRun], poin
 def _fit(problem: Problem, point: Point, rounds: int = MOST_ROUNDS) -> Fitted:
     """A fit; again from where phases, and lost segments, fit better, as long as it leads on.
 
-    In fewer ``rounds`` it is a first look, and is not repeated.
+    With fewer ``rounds`` it is not to the end, and is not repeated.
     """
     fitted = fit(problem, point, rounds)
     for _ in range(_REPEATS if rounds == MOST_ROUNDS else 0):

@@ -1,4 +1,4 @@
-"""How often chance alone makes the best of the catalogue look as good as it does.
+"""How often chance alone makes the best of the catalogue seem as good as it does.
 
 The parametric bootstrap: noise is drawn as the plain model has it, every law that came into the
 last round is fitted to it (linearised where it was fitted to the measurement), and the best of
@@ -23,7 +23,7 @@ DRAWS = 199
 
 @dataclass(frozen=True)
 class _Law:
-    """Derivatives by all free parameters, runs on end, without what the runs' own states take up."""
+    """Derivatives by all free parameters, runs on end, less what the runs' states take up."""
 
     fit: np.ndarray
     held_out: np.ndarray
@@ -78,7 +78,7 @@ def _best_gain(laws: Sequence[_Law], random: np.random.Generator) -> float:
 
 
 def _cost(law: _Law, turned: np.ndarray, noise: np.ndarray, kept_back: np.ndarray) -> float:
-    """Sum of squares on the held-out runs after a fit of the free parameters ``turned`` to the others."""
+    """Sum of squares on the held-out runs after the parameters ``turned`` are fitted to the others."""
     left = law.fit[:, turned]
     normal = left.T @ left + np.diag(law.weight[turned] ** 2)
     step = -np.linalg.lstsq(normal, left.T @ noise, rcond=1e-12)[0]

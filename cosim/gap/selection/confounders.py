@@ -1,4 +1,4 @@
-"""What is not in the catalogue and looks like something that is: whether it does better.
+"""Confounders: what is not in the catalogue and has the same signature as something that is.
 
 A rig that is tilted sideways pulls a block off its line as crooked springs do, but in proportion to
 its mass and whatever the springs; runs of several masses or stiffnesses tell.
@@ -16,7 +16,7 @@ from .criteria import as_good, excess_chi_square
 from .search import Search
 from .tried import ACROSS, Tried
 
-#: By effect of the catalogue: what looks like it.
+#: By effect of the catalogue: what is confounded with it.
 _CONFOUNDERS = {
     "spring_misalignment": tuple(
         Candidate(
@@ -35,7 +35,7 @@ _CONFOUNDERS = {
 def better_confounder(search: Search, plain: Trial, coarse: Fitted, best: Tried) -> Tried | None:
     """What does clearly better than an effect without being in the catalogue, or None.
 
-    fitted coarsely : the plain model in short segments
+    coarse : the plain model in short segments
     """
     laws = _CONFOUNDERS.get(best.candidate.effect, ())
     if not laws:

@@ -9,16 +9,16 @@ from cosim.gap.estimation.trial import Trial
 
 from .tried import ACROSS, Tried
 
-#: The plain model fits when its gap is at most this: what a real contact has beside any model
-#: (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
+#: The plain model fits when its root mean square residual, in units of the noise, is at most this:
+#: what a real contact has beside any model (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
 PLAIN_FITS = 1.3
-#: A repaired model fits when its gap is at most this, ...
+#: A repaired model fits when its root mean square residual is at most this, ...
 FITS = 1.5
-#: ... or when it has taken away this part of the excess over the noise, in squares: the law of a
+#: ... or when it has taken away this part of the excess chi-square: the law of a
 #: real effect is never quite the catalogue's.
 EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.92
 #: What takes away less than this part has no name, however little remains: what is not in the
-#: catalogue may be imitated that far.
+#: catalogue may be aliased that far.
 EXPLAINED_AT_LEAST = 0.9
 #: A law that leaves more than so many times as much of the runs held out as of those fitted is
 #: another law than theirs.
@@ -26,14 +26,14 @@ HOLDS = 2.5
 #: A number that is less than so many times its least has run to the end of its range.
 AT_AN_END = 1.02
 #: What has taken away less than this part is not fitted more closely, nor is what leaves more than
-#: so many times the best one's excess.
+#: so many times the best one's excess chi-square.
 WORTH_A_POLISH, IN_REACH = 0.5, 4.0
-#: Where the plain model fits in short segmented runs, what long ones show up to this gap may be the drift
-#: of a motion that is unstable by itself.
+#: Where the plain model fits in short segments, what long ones leave up to this may be the drift of
+#: a motion that is unstable by itself.
 DRIFT = 2.0
 #: So many times the part that is gone from the fitted runs may be gone from all.
 FELT_BY_FITTED = 2.0
-#: Effects cannot be told apart when their gaps, squared, differ by less than this ...
+#: Models are indistinguishable when their chi-squares per sample differ by less than this ...
 INDISTINGUISHABLE = 0.08
 #: ... and this part of what the better one leaves over the noise.
 INDISTINGUISHABLE_PART = 0.1
@@ -86,7 +86,7 @@ def in_reach(done: Sequence[Tried]) -> list[Tried]:
 
 
 def explained(plain: Trial, trial: Trial) -> float:
-    """Part of the plain model's excess that is gone from all runs.
+    """Part of the plain model's excess chi-square that is gone from all runs.
 
     It counts no more than so many times what is gone from those fitted: a number that they hardly
     feel may happen to help a run that was held out.
@@ -100,12 +100,12 @@ def explained(plain: Trial, trial: Trial) -> float:
 
 
 def gone(before: float, after: float) -> float:
-    """Part of a gap's excess over the noise that is gone."""
+    """Part of the excess chi-square that is gone, from root mean square residuals."""
     return 1.0 - max(after**2 - 1.0, 0.0) / (before**2 - 1.0) if before > 1.0 else 0.0
 
 
 def excess_chi_square(trial: Trial) -> float:
-    """Mean square residual over that of the noise."""
+    """Chi-square per sample less 1, that of the noise; 0 where it is less."""
     return max(trial.rms_residual**2 - 1.0, 0.0)
 
 
@@ -120,7 +120,7 @@ def indistinguishable(done: Sequence[Tried]) -> tuple[str, ...]:
 
 
 def as_good(best: Trial) -> float:
-    """Square of the gap that is as good as the best one."""
+    """Chi-square per sample that is as good as the best one's."""
     return (
         best.rms_residual**2 + INDISTINGUISHABLE + INDISTINGUISHABLE_PART * excess_chi_square(best)
     )

@@ -1,8 +1,8 @@
-"""A run's linear answer to a small wave of any rate: of the surface's speed, or of its friction.
+"""A run's linear response to a small wave of any rate: of the surface's speed, or of its friction.
 
-What a wave does inside a segment is a smooth function of its rate once its phase is counted from the
-segment's middle. Some rates are simulated; between them the answer follows by interpolation, and a run
-that is cut into many segments is known at many more rates than were simulated.
+What a wave does inside a segment is a smooth function of its rate once its phase is counted from
+the segment's middle. Some rates are simulated; between them the response follows by interpolation,
+and a run that is cut into many segments is known at many more rates than were simulated.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ _STEP = 0.6
 _RATES, _FEWEST = 32, 5
 #: No direction of a wave is felt less than this part of the whole.
 _LEAST = 0.02
-#: What a segment's answer is taken to be wrong by, as a part of a full wave's: where a small wave
+#: What a segment's response is taken to be wrong by, as a part of a full wave's: where a small wave
 #: changes much, as whether a block sticks, a larger one does not do so in proportion.
 _WRONG = 0.1
 #: The lowest of them stands for 0, in steps.
 _ALL_BUT_NONE = 1e-6
-#: A block that sticks all the time tells nothing of the surface's way: segments count as so many
+#: A block that sticks all the time tells nothing of the surface's travel: segments count as so many
 #: times the noise at least.
 _SHORTEST = 50.0
 #: A full ripple that moves the surface by less than so much of the noise is not to be seen.
@@ -41,11 +41,11 @@ _SEEN = 2.0
 
 @dataclass(frozen=True)
 class FrequencyResponse:
-    """The answer of one run; its coordinate is the time (s) or the way of the surface (m).
+    """The response of one run; its coordinate is the time (s) or the travel of the surface (m).
 
-    What the segments' states, the model's free parameters and the run's own can take up is left out. A segment
-    counts the less, the worse the model fits in it, as one thrown off course answers nothing
-    linearly, and the more violently it answers: else a few would outweigh all others.
+    What the segments' states, the model's free parameters and the run's own can take up is left
+    out. A segment counts the less, the worse the model fits in it, as one thrown off course responds
+    in no linear manner, and the more violently it responds: else a few would outweigh all others.
 
     Attributes
     ----------
@@ -53,9 +53,9 @@ class FrequencyResponse:
     length : of the run in its coordinate
     step : of the rates simulated: 0, step, 2 step ..., periods per unit of the coordinate
     centres : (w,) of the segments
-    products : (rates, w, c + 1) answer (complex: e^(i angle)) times columns of the free parameters, times the
-        residuals
-    squares, turned : (rates, w) sum of squares of the answer's modulus, and of the answer
+    products : (rates, w, c + 1) response (complex: e^(i angle)) times columns of the free
+        parameters, times the residuals
+    squares, turned : (rates, w) sum of squares of the response's modulus, and of the response
     misfit : sum of squares of the residuals, as they count here
     """
 
@@ -107,7 +107,7 @@ def _summed(
 ) -> np.ndarray:
     """(n, c) sums over segments of what lies between the rates simulated, turned.
 
-    values : (rates, w, c) at the rates simulated; first : (n,) the rate simulated below each; weights :
+    values : (rates, w, c) at the rates simulated; first : (n,) that below each; weights :
     (4, n) of that before, this and the two after it; turn : (n, w)
     """
     total = np.zeros((len(first), values.shape[2]), dtype=complex)
@@ -115,7 +115,7 @@ def _summed(
         rows = first == below
         for offset, weight in enumerate(weights[:, rows], start=-1):
             simulated = values[min(abs(below + offset), len(values) - 1)]
-            if below + offset < 0:  # the answer to a negative rate is the conjugate one
+            if below + offset < 0:  # the response to a negative rate is the conjugate one
                 simulated = np.conj(simulated)
             total[rows] += (weight[:, None] * turn[rows]) @ simulated
     return total
@@ -133,7 +133,7 @@ def _matrix(squares: np.ndarray, turned: np.ndarray) -> np.ndarray:
 def frequency_response(
     candidate: Candidate, model: Model, fitted: Fitted, segmented: SegmentedRun, run: int
 ) -> FrequencyResponse:
-    """Of a segmented run, at the fit of a model to it and others, of which it is number ``run``.
+    """Of one run, number ``run``, at the fit of a model to it and others.
 
     fitted : with derivatives
     """
@@ -221,7 +221,7 @@ def _wave(
 
 
 def _weight_and_basis(columns: Columns, segments) -> tuple[np.ndarray, np.ndarray]:
-    """(rows,) weight by segment, and what the free parameters take up, orthonormal, with the residuals."""
+    """(rows,) weight by segment; what free parameters take up, orthonormal, and the residuals."""
     left = columns.without_states(columns.residuals)
     weight = np.empty(left.size)
     for rows in segments:

@@ -1,7 +1,7 @@
 """A pair of effects fitted more closely, where it does most and does not fit.
 
 What was found first was found while the other effect was missing: its period, its law, or the
-effect itself may be its double.
+effect itself may be an alias of what was missing.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .tried import Tried, penalised
 
 #: A pair that has taken away this part is fitted more closely, if it does not fit.
 NEARLY = 0.8
-#: A pair that takes away this part in short segments and does not fit has its periods looked for
+#: A pair that takes away this part in short segments and does not fit has its periods searched for
 #: anew, in so many turns at most, each of which must leave less than this part of the squares.
 MOST, TURNS, LEADS_ON = 0.6, 2, 0.98
 
@@ -53,7 +53,7 @@ def alternated(search: Search, plain: Fitted, pair: Pair, candidates: Sequence[C
 
 
 def _anew(search: Search, pair: Pair, place: int, candidates: Sequence[Candidate]) -> Pair:
-    """A pair with one of its effects looked for anew, if it is periodic and that is better."""
+    """A pair with one of its effects searched for anew, if it is periodic and that is better."""
     law, now = pair[place].candidate, pair[1]
     found = search.anew(now, law, candidates) if law.periodic else None
     if found is None or penalised(found.coarse) >= penalised(now.coarse):

@@ -19,7 +19,7 @@ FIRSTS, WORTH_A_SECOND = 3, 0.2
 #: So many pairs are fitted in long segments.
 PAIRS = 3
 #: No other first effect is tried when a pair leaves less than this part in short segments, and
-#: hardly more than noise: else its first may be another's double.
+#: hardly more than noise: else its first may be an alias of another.
 REST, HARDLY = 0.05, 1.1
 #: Beside one that has taken away so much alone, another effect must take away this part of what it
 #: leaves, in squares: the first one's law may be a little wrong, and another law mend some of that.
@@ -35,7 +35,7 @@ def best_pair(
 ) -> Pair | None:
     """The two effects that together leave least, if each is needed beside the other.
 
-    fitted coarsely : the plain model in short segments
+    coarse : the plain model in short segments
     """
     alone = {t.candidate.effect: t.trial for t in done}
     coarse_pairs = _coarse_pairs(search, plain, coarse, done, candidates)

@@ -36,10 +36,10 @@ _STARTS = (0.02, 0.5)
 
 @dataclass(frozen=True)
 class Peak:
-    """A period, as the free parameter of the candidate has it (Hz or m), its amplitude, what it explains.
+    """A period, as its free parameter has it (Hz or m), its amplitude, what it explains.
 
     power : of the sum of squares
-    step : of the period on the scale of its free parameter (Hz, or relative), small against what is resolved
+    step : of the period on the scale of the fit (Hz, or relative), small against what is resolved
     """
 
     period: float
@@ -51,7 +51,7 @@ class Peak:
 def scan(candidate: Candidate, answers: Sequence[FrequencyResponse]) -> list[Peak]:
     """The strongest periods, strongest first; one, though it be feeble.
 
-    None where the runs are too short for any: a block that sticks all the time goes no way.
+    None where the runs are too short for any: a block that sticks all the time travels nowhere.
     """
     rates, power, amplitude = periodogram(candidate, answers)
     if rates.size < 2:
@@ -75,7 +75,7 @@ def periodogram(
     candidate: Candidate, answers: Sequence[FrequencyResponse]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Rates (n,) per second or per metre, what a wave of each explains, and its amplitude."""
-    # a ripple is answered to in time; that of a roller is one along the surface's way
+    # a ripple is answered to in time; that of a roller is one along the surface's travel
     roller = candidate.effect == "speed_ripple" and not candidate.periodic.endswith("frequency")
     scale = [answer.speed if roller else 1.0 for answer in answers]
     lengths = [a.length * s for a, s in zip(answers, scale, strict=True)]

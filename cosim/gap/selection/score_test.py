@@ -1,7 +1,7 @@
-"""A first sieve: what each law could take away from the misfit if its answer were linear.
+"""Score test (Rao 1948): what each law could take away from the misfit if it acted linearly.
 
-The law is put into the fitted model as next to nothing; its answer, less what the model's own free parameters
-and the runs' states can take up, is laid along the residuals (a score test, Rao 1948).
+The law is put into the fitted model as next to nothing; its response, less what the model's own
+free parameters and the runs' states can take up, is projected on the residuals.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
 from cosim.processes import Map
 
-#: Two laws are concealed by one another where together they explain this part, and so many times
+#: Two laws mask one another where together they explain this part, and so many times
 #: what either does alone: what one adds, the other takes away.
 _MASKING, _TIMES = 0.3, 1.5
 

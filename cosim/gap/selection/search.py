@@ -266,7 +266,7 @@ def _coarse(data: Data, tried: Tried) -> Tried:
 
 
 def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
-    """A model where one with more free parameters was fitted; the segments' states alone make up for them."""
+    """A model where one with more was fitted; only the segments' states make up for what is gone."""
     kept = {free_parameter.key for free_parameter in model.free_parameters}
     shared = [
         free_parameter.key in kept

@@ -1,4 +1,4 @@
-"""A law tried on top of a model, and which of several are worth another look."""
+"""A law tried on top of a model, and which of several are worth a closer fit."""
 
 from __future__ import annotations
 

@@ -33,14 +33,14 @@ from .pairs import across_alone, best_pair, needed_alone
 from .search import Search
 from .tried import ACROSS, Tried
 
-#: What takes away this part of the excess leaves nothing for a second effect, only its own law's
-#: small misfit.
+#: What takes away this part of the excess chi-square leaves nothing for a second effect, only
+#: its own law's small misfit.
 ALL = 0.99
 #: Where no second effect helps, one that does the most alone is named all the same, if no other
 #: comes near: it takes away this part, and none more than that part of what it does.
 DOES_MOST, RIVAL = 0.9, 0.5
 #: A plain model that fits leaves what a contact has beside any model. That is no wave: one that
-#: takes away this part of an excess over the noise of so much, and no other effect near it, is one.
+#: takes away this part of an excess chi-square of so much, and no other effect near it, is one.
 WAVE, SEEN = 0.8, 0.1
 #: So many effects are tried once more when the best one leaves more than noise.
 POLISHED = 2
@@ -93,7 +93,7 @@ def judge(search: Search, plain: Trial, coarse: Fitted, candidates: Sequence[Can
 
 
 def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
-    """Those with a trial, best first, and those that were ruled out by a shorter look."""
+    """Those with a trial, best first, and those that were ruled out by their coarse fits."""
     done = [t for t in ranking if t.judged is not None]
     early = [t for t in ranking if t.judged is None]
     return sorted(done, key=lambda t: t.trial.rms_residual), early

@@ -1,4 +1,4 @@
-"""The residual analysis as a figure: a row for each region, a panel for its runs and for each variable."""
+"""Residual analysis by regime: a row a region, a panel for its runs and one for each variable."""
 
 from __future__ import annotations
 
