@@ -9,26 +9,25 @@ import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import candidates
+from cosim.gap.candidates.plain import moves_across, plain_free_parameters
+from cosim.gap.candidates.scales import scales
 from cosim.gap.data import Campaign
 from cosim.gap.design import Member, next_experiment
 from cosim.gap.diagnostics import analyse_residuals, empirical_term, find_where
-from cosim.gap.estimation.fitted import Fitted
+from cosim.gap.estimation.fitted import Fitted, shared_of
+from cosim.gap.estimation.intervals import determined, intervals
 from cosim.gap.estimation.preparation import Data, prepared, thinned
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model, Trial, coarse_fit, try_model
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import FittedModel, Gap, Ranked
+from cosim.gap.selection.alternatives import other_starts
+from cosim.gap.selection.bootstrap import chance
+from cosim.gap.selection.search import COARSE, Search
+from cosim.gap.selection.tried import Tried
+from cosim.gap.selection.verdict import Finding, judge
 from cosim.processes import Map, processes
-
-from .candidates.plain import moves_across, plain_free_parameters
-from .candidates.scales import scales
-from .estimation.intervals import determined, intervals
-from .selection.alternatives import other_starts
-from .selection.bootstrap import chance
-from .selection.search import COARSE, Search
-from .selection.tried import Tried
-from .selection.verdict import Finding, judge
 
 #: Another start must leave less than this part of the sum of squares: mu_s may be felt nowhere.
 _CLEARLY = 0.99
@@ -155,11 +154,7 @@ def _ranked(plain: Trial, tried: Tried, noise: float) -> Ranked:
     trial = tried.trial
     rows = float(plain.rows.sum())
     gained = (plain.squares.sum() - trial.squares.sum()) / max(noise, 1.0) ** 2
-    added = {
-        free_parameter.key
-        for free_parameter in tried.candidate.free_parameters
-        if not free_parameter.per_run
-    }
+    added = {free.key for free in shared_of(tried.candidate.free_parameters)}
     values = {key: float(value) for key, value in trial.fitted.values.items() if key in added}
     wide = intervals(trial) if trial.fitted.columns else {}
     return Ranked(

@@ -21,12 +21,8 @@ _GROWN = 0.3
 def extended(base: Model, candidate: Candidate, fitted: Mapping[str, float]) -> Model:
     """The base, starting where it was fitted, with the candidate's free parameters."""
     candidate, fitted = _in_place_of_mu_s(base, candidate, _holding(fitted))
-    taken = {free_parameter.key for free_parameter in candidate.free_parameters}
-    kept = tuple(
-        moved(free_parameter, fitted)
-        for free_parameter in base.free_parameters
-        if free_parameter.key not in taken
-    )
+    taken = {free.key for free in candidate.free_parameters}
+    kept = tuple(moved(free, fitted) for free in base.free_parameters if free.key not in taken)
     return Model(
         kept + candidate.free_parameters, {**base.settings, **candidate.settings}, base.added + 1
     )
@@ -39,11 +35,9 @@ def reduced(
 
     keep : settings of it that others need
     """
-    gone = {free_parameter.key for free_parameter in candidate.free_parameters}
+    gone = {free.key for free in candidate.free_parameters}
     free_parameters = tuple(
-        moved(free_parameter, fitted)
-        for free_parameter in model.free_parameters
-        if free_parameter.key not in gone
+        moved(free, fitted) for free in model.free_parameters if free.key not in gone
     )
     settings = {
         key: value
@@ -59,8 +53,7 @@ def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: Mapping[str, fl
     On top of all of it, the first break-aways would come late, and the fit go elsewhere.
     """
     stated = any(
-        free_parameter.key == "friction.mu_s" and free_parameter.prior is not None
-        for free_parameter in base.free_parameters
+        free.key == "friction.mu_s" and free.prior is not None for free in base.free_parameters
     )
     over = fitted.get("friction.mu_s", 0.0) - fitted.get("friction.mu_k", 0.0)
     if not candidate.grows or stated or over <= 0.0:
@@ -78,20 +71,16 @@ def _holding(fitted: Mapping[str, float]) -> Mapping[str, float]:
     return {**fitted, "friction.mu_s": _USUAL * mu_k}
 
 
-def moved(free_parameter: FreeParameter, fitted: Mapping[str, float]) -> FreeParameter:
+def moved(free: FreeParameter, fitted: Mapping[str, float]) -> FreeParameter:
     """The free parameter starting where it was fitted, if that is inside its range.
 
     One with a prior stays centred on it.
     """
-    if free_parameter.prior is not None or free_parameter.key not in fitted:
-        return free_parameter
-    if (
-        not free_parameter.low * _INSIDE
-        < fitted[free_parameter.key]
-        < free_parameter.high / _INSIDE
-    ):
-        return free_parameter
+    if free.prior is not None or free.key not in fitted:
+        return free
+    if not free.low * _INSIDE < fitted[free.key] < free.high / _INSIDE:
+        return free
     return replace(
-        free_parameter,
-        start=min(max(fitted[free_parameter.key], free_parameter.low), free_parameter.high),
+        free,
+        start=min(max(fitted[free.key], free.low), free.high),
     )

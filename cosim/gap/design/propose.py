@@ -10,6 +10,7 @@ import numpy as np
 from stickslip import CATALOGUE
 
 from cosim.gap.data import Campaign
+from cosim.gap.estimation.fitted import shared_of
 from cosim.gap.estimation.segmented_run import SegmentedRun
 
 from .member import Member
@@ -84,10 +85,8 @@ def _most_telling(scored: Sequence[tuple[float, Experiment]]) -> list[tuple[floa
 def _side(member: Member) -> _Side:
     """A static friction that no run has felt is set to what is usual."""
     information = member.information()
-    shared = [
-        free_parameter for free_parameter in member.free_parameters if not free_parameter.per_run
-    ]
-    keys = [free_parameter.key for free_parameter in shared]
+    shared = shared_of(member.free_parameters)
+    keys = [free.key for free in shared]
     if {"friction.mu_s", "friction.mu_k"} <= set(keys):
         at = keys.index("friction.mu_s")
         if information[at, at] < _VAGUE**-2:

@@ -58,9 +58,9 @@ _WIDTHS = (0.08, 0.2)
 HELD = Feature("N while held", "1", lambda m: m.load * (m.direction == 0.0))
 
 #: A force by position (springs, magnets, a bent scale), by velocity (dampers, air), by sliding
-#: speed (films), each also growing with time (what softens or melts), with the distance slid, the
-#: load. The hold time is not among them: it decides when a stick ends, which is no force that acts in
-#: slip, and within one run it stands for the break-away force itself.
+#: speed (films), each also growing with time (what softens or melts), with the distance slid,
+#: the load. The hold time is not among them: it decides when a stick ends, which is no force that
+#: acts in slip, and within one run it stands for the break-away force itself.
 _FEATURES = (
     Feature("", "N", lambda m: 1.0 + 0.0 * m.x),
     Feature("N", "1", lambda m: m.load + 0.0 * m.x, both_ways=True),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cosim.gap.estimation.fitted import shared_of
 from cosim.gap.estimation.trial import Trial
 
 #: Standard deviations of a 95 % interval.
@@ -22,12 +23,8 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     have the residual's scatter (its mean square divides it), and the covariance of estimates whose
     residuals are independent from segment to segment only (Liang & Zeger 1986).
     """
-    shared = [
-        free_parameter
-        for free_parameter in trial.model.free_parameters
-        if not free_parameter.per_run
-    ]
-    weight = np.array([k.step / k.prior if k.prior else 0.0 for k in shared])
+    shared = shared_of(trial.model.free_parameters)
+    weight = np.array([free.step / free.prior if free.prior else 0.0 for free in shared])
     information, scatter = _information(trial)
     known = np.diag(weight**2)
     scarce = known + information / max(trial.fitted.rms_residual(), 1.0) ** 2
@@ -41,18 +38,18 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
     )
     reach[np.diag(scarce) <= _UNFELT] = np.inf
     result = {}
-    for free_parameter, at, wide in zip(shared, trial.fitted.point.shared, reach, strict=True):
+    for free, at, wide in zip(shared, trial.fitted.point.shared, reach, strict=True):
         ends = (
-            free_parameter.value(free_parameter.inside(at - wide)),
-            free_parameter.value(free_parameter.inside(at + wide)),
+            free.value(free.inside(at - wide)),
+            free.value(free.inside(at + wide)),
         )
-        result[free_parameter.key] = (float(min(ends)), float(max(ends)))
+        result[free.key] = (float(min(ends)), float(max(ends)))
     return result
 
 
 def _information(trial: Trial) -> tuple[np.ndarray, np.ndarray]:
     """(g, g) Fisher information of white noise, and the scatter of the segments' scores."""
-    shared = sum(not free_parameter.per_run for free_parameter in trial.model.free_parameters)
+    shared = len(shared_of(trial.model.free_parameters))
     information, scores = np.zeros((shared, shared)), []
     for columns in trial.fitted.derivatives:
         left, residuals = columns.left(columns.shared), columns.left(columns.residuals)

@@ -28,8 +28,8 @@ def with_phases(problem: Problem, point: Point, keys: Collection[str] | None = N
     """
     turned = [
         j
-        for j, free_parameter in enumerate(problem.own)
-        if free_parameter.key.endswith("phase_deg") and (keys is None or free_parameter.key in keys)
+        for j, free in enumerate(problem.own)
+        if free.key.endswith("phase_deg") and (keys is None or free.key in keys)
     ]
     if not turned:
         return point
@@ -76,11 +76,7 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
 
     What states read off the data leave may hide a phase: some fifty simulations of a run tell more.
     """
-    turned = [
-        j
-        for j, free_parameter in enumerate(problem.own)
-        if free_parameter.key.endswith("phase_deg")
-    ]
+    turned = [j for j, free in enumerate(problem.own) if free.key.endswith("phase_deg")]
     if not turned:
         return point
     ended = [_followed(problem, run, point, turned) for run in range(len(problem.segmented_runs))]
@@ -121,8 +117,8 @@ def _promising(problem: Problem, run: int, point: Point, turned: list[int]) -> l
 def best_states(problem: Problem, run: int, shared, own: np.ndarray, states: np.ndarray):
     """Each segment's state, fitted elsewhere, or as read off the data where that is better.
 
-    states : (segments, 6) fitted. Read off, a velocity may be so near the surface's that the segment
-    is lost.
+    states : (segments, 6) fitted. Read off, a velocity may be so near the surface's that the
+    segment is lost.
     """
     first = problem.segmented_runs[run].starts
     fitted = problem.by_segment(run, problem.residuals(run, shared, own, states))

@@ -35,7 +35,7 @@ class Problem:
 
     def inside(self, shared: np.ndarray) -> np.ndarray:
         """(g,) the campaign's free parameters, scaled, or the nearest that are allowed."""
-        return np.array([k.inside(s) for k, s in zip(self.shared, shared, strict=True)])
+        return np.array([free.inside(s) for free, s in zip(self.shared, shared, strict=True)])
 
     def residuals(self, run: int, shared, own, states) -> np.ndarray:
         """(rows,) of one run."""
@@ -52,8 +52,10 @@ class Problem:
     def _set_for(self, shared, own, states) -> tuple[dict[str, float], np.ndarray, dict]:
         """Parameters, segments' states (segments, 6) as the model has them, and tracker's zeros."""
         values = dict(self.settings)
-        values.update((k.key, k.value(s)) for k, s in zip(self.shared, shared, strict=True))
-        values.update((k.key, k.value(s)) for k, s in zip(self.own, own, strict=True))
+        values.update(
+            (free.key, free.value(s)) for free, s in zip(self.shared, shared, strict=True)
+        )
+        values.update((free.key, free.value(s)) for free, s in zip(self.own, own, strict=True))
         offsets = {key: values.pop(key) for key in OFFSETS if key in values}
         states = states.copy()
         for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
@@ -82,7 +84,7 @@ class Problem:
 
     def _owner(self, run: int) -> np.ndarray:
         """(rows,) segment of each row; what is known beforehand is put to the first."""
-        own = sum(k.prior is not None for k in self.own)
+        own = sum(free.prior is not None for free in self.own)
         return np.concatenate(
             [self.segmented_runs[run].segment_of_rows(), np.zeros(own, dtype=int)]
         )
@@ -104,14 +106,10 @@ class Problem:
         stacked = np.array(own).reshape(len(own), residuals.size).T
         return Columns(residuals, shared, stacked, self._by_state(run, at, residuals))
 
-    def difference(self, run, at, which, j, free_parameter: FreeParameter, residuals) -> np.ndarray:
+    def difference(self, run, at, which, j, free: FreeParameter, residuals) -> np.ndarray:
         """(rows,) derivative of one run by number j of its point's part ``which``."""
         moved = [a.copy() for a in at]
-        step = (
-            _PART
-            if moved[which][j] + _PART <= free_parameter.scaled(free_parameter.high)
-            else -_PART
-        )
+        step = _PART if moved[which][j] + _PART <= free.scaled(free.high) else -_PART
         moved[which][j] += step
         return (self.residuals(run, *moved) - residuals) / step
 
@@ -140,7 +138,10 @@ class Problem:
             own_step, state_steps = c.local_step(shared - point.shared)
             own.append(
                 np.array(
-                    [k.inside(s) for k, s in zip(self.own, point.own[i] + own_step, strict=True)]
+                    [
+                        free.inside(s)
+                        for free, s in zip(self.own, point.own[i] + own_step, strict=True)
+                    ]
                 )
             )
             move = self._state_step(i, state_steps)
@@ -185,6 +186,6 @@ class Problem:
 
     def prior(self, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Residuals and weights (1 per step) of what is known of the free parameters beforehand."""
-        weight = np.array([k.step / k.prior if k.prior else 0.0 for k in self.shared])
-        centre = np.array([k.scaled(k.start) for k in self.shared])
+        weight = np.array([free.step / free.prior if free.prior else 0.0 for free in self.shared])
+        centre = np.array([free.scaled(free.start) for free in self.shared])
         return weight * (shared - centre), weight

@@ -111,7 +111,9 @@ def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted
     """
     short = Problem(data.held_out_short, model.free_parameters, model.settings)
     point = start(short.segmented_runs, model.free_parameters)
-    own = tuple(np.array([k.scaled(k.start) for k in short.own]) for _ in short.segmented_runs)
+    own = tuple(
+        np.array([free.scaled(free.start) for free in short.own]) for _ in short.segmented_runs
+    )
     point = with_phases(short, Point(fitted.point.shared, own, point.states))
     point = fit(short, with_velocities(short, point), _ROUNDS_SHORT, fixed=True).point
     problem = Problem(data.held_out, model.free_parameters, model.settings)

@@ -15,19 +15,17 @@ from .tried import Tried
 def other_laws(tried: Tried, candidates: Sequence[Candidate]) -> list[Tried]:
     """The effect's other laws, as far as they can be said with the numbers fitted."""
     values = {**tried.model.settings, **tried.trial.fitted.values}
-    own = {free_parameter.key for free_parameter in tried.candidate.free_parameters}
+    own = {free.key for free in tried.candidate.free_parameters}
     base = reduced(tried.model, tried.candidate, values, ())
     laws: dict[tuple, Tried] = {}
     for law in candidates:
         if law.effect == tried.candidate.effect and law.form != tried.candidate.form:
             if law.periodic and law.periodic not in own:
                 continue
-            told = any(free_parameter.key in values for free_parameter in law.free_parameters[:1])
+            told = any(free.key in values for free in law.free_parameters[:1])
             law = replace(
                 law,
-                free_parameters=tuple(
-                    moved(free_parameter, values) for free_parameter in law.free_parameters
-                ),
+                free_parameters=tuple(moved(free, values) for free in law.free_parameters),
                 grows=0.0 if told else law.grows,
             )
             model = extended(base, law, values)
@@ -47,11 +45,9 @@ def other_starts(model: Model, values: Mapping[str, float]) -> list[Model]:
 
 def _from(model: Model, values: Mapping[str, float], mu_s: float) -> Model:
     free_parameters = []
-    for free_parameter in model.free_parameters:
-        if free_parameter.key == "friction.mu_s" and free_parameter.prior is None:
-            free_parameters.append(replace(free_parameter, start=mu_s))
+    for free in model.free_parameters:
+        if free.key == "friction.mu_s" and free.prior is None:
+            free_parameters.append(replace(free, start=mu_s))
         else:
-            free_parameters.append(
-                free_parameter if free_parameter.per_run else moved(free_parameter, values)
-            )
+            free_parameters.append(free if free.per_run else moved(free, values))
     return replace(model, free_parameters=tuple(free_parameters))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.estimation.fit import with_columns
-from cosim.gap.estimation.fitted import Fitted
+from cosim.gap.estimation.fitted import Fitted, shared_of
 from cosim.gap.estimation.preparation import Data
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.trial import Trial
@@ -33,7 +33,7 @@ class _Law:
 
 def chance(data: Data, plain: Trial, trials: Sequence[Trial], seed: int) -> dict[str, float]:
     """p of the best law's gain on the held-out runs, and the draws that it rests on."""
-    shared = sum(not free_parameter.per_run for free_parameter in plain.model.free_parameters)
+    shared = len(shared_of(plain.model.free_parameters))
     laws = [_law(data, trial, shared) for trial in trials]
     random = np.random.default_rng(seed)
     gains = [_best_gain(laws, random) for _ in range(DRAWS)]
@@ -51,18 +51,14 @@ def _gain(plain: Trial, trial: Trial) -> float:
 def _law(data: Data, trial: Trial, plain_free_parameters: int) -> _Law:
     problem = Problem(data.held_out, trial.model.free_parameters, trial.model.settings)
     held_out = with_columns(problem, trial.held_out)
-    shared = [
-        free_parameter
-        for free_parameter in trial.model.free_parameters
-        if not free_parameter.per_run
-    ]
+    shared = shared_of(trial.model.free_parameters)
     plain = np.arange(len(shared)) < plain_free_parameters
-    weight = np.array([k.step / k.prior if k.prior else 0.0 for k in shared])
+    weight = np.array([free.step / free.prior if free.prior else 0.0 for free in shared])
     return _Law(_stacked(trial.fitted), _stacked(held_out), plain, weight)
 
 
 def _stacked(fitted: Fitted) -> np.ndarray:
-    shared = sum(not free_parameter.per_run for free_parameter in fitted.free_parameters)
+    shared = len(shared_of(fitted.free_parameters))
     none = np.empty((0, shared))
     return np.concatenate([none, *(c.left(c.shared) for c in fitted.derivatives)])
 
@@ -78,7 +74,7 @@ def _best_gain(laws: Sequence[_Law], random: np.random.Generator) -> float:
 
 
 def _cost(law: _Law, turned: np.ndarray, noise: np.ndarray, kept_back: np.ndarray) -> float:
-    """Sum of squares on the held-out runs after the parameters ``turned`` are fitted to the others."""
+    """Sum of squares on the held-out runs, the parameters ``turned`` fitted to the others."""
     left = law.fit[:, turned]
     normal = left.T @ left + np.diag(law.weight[turned] ** 2)
     step = -np.linalg.lstsq(normal, left.T @ noise, rcond=1e-12)[0]

@@ -10,12 +10,13 @@ from cosim.gap.estimation.trial import Trial
 from .tried import ACROSS, Tried
 
 #: The plain model fits when its root mean square residual, in units of the noise, is at most this:
-#: what a real contact has beside any model (creep before sliding, a tracker's own errors) is worth about three quarters of the noise.
+#: what a real contact has beside any model (creep before sliding, a tracker's own errors) is worth
+#: about three quarters of the noise.
 PLAIN_FITS = 1.3
 #: A repaired model fits when its root mean square residual is at most this, ...
 FITS = 1.5
-#: ... or when it has taken away this part of the excess chi-square: the law of a
-#: real effect is never quite the catalogue's.
+#: ... or when it has taken away this part of the excess chi-square: the law of a real effect is
+#: never quite the catalogue's.
 EXPLAINED_BY_ONE, EXPLAINED_BY_TWO = 0.93, 0.92
 #: What takes away less than this part has no name, however little remains: what is not in the
 #: catalogue may be aliased that far.
@@ -74,7 +75,9 @@ def is_plain(trial: Trial) -> bool:
     """Whether a number of the effect has run to where it is a plain one by another name."""
     values = trial.fitted.values
     return any(
-        values[k.key] <= AT_AN_END * k.low for k in trial.model.free_parameters if k.plain_below
+        values[free.key] <= AT_AN_END * free.low
+        for free in trial.model.free_parameters
+        if free.plain_below
     )
 
 

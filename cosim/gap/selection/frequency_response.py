@@ -44,8 +44,8 @@ class FrequencyResponse:
     """The response of one run; its coordinate is the time (s) or the travel of the surface (m).
 
     What the segments' states, the model's free parameters and the run's own can take up is left
-    out. A segment counts the less, the worse the model fits in it, as one thrown off course responds
-    in no linear manner, and the more violently it responds: else a few would outweigh all others.
+    out. A segment counts the less, the worse the model fits in it, as one thrown off course does
+    not respond linearly, and the more violently it responds: else a few would outweigh all others.
 
     Attributes
     ----------

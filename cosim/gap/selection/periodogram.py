@@ -1,7 +1,7 @@
-"""Where a periodic effect's period lies: the periodogram of the misfit through the model's answer.
+"""Where a periodic effect's period lies: a periodogram of the misfit by the model's own response.
 
-Every run answers a wave of any rate with a phase of its own and an amplitude that is the same for
-all: what of the residuals such waves explain is the power.
+Every run responds to a wave of any rate with a phase of its own and an amplitude that is the same
+for all: what of the residuals such waves explain is the power.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ class Peak:
     step: float
 
 
-def scan(candidate: Candidate, answers: Sequence[FrequencyResponse]) -> list[Peak]:
+def scan(candidate: Candidate, responses: Sequence[FrequencyResponse]) -> list[Peak]:
     """The strongest periods, strongest first; one, though it be feeble.
 
     None where the runs are too short for any: a block that sticks all the time travels nowhere.
     """
-    rates, power, amplitude = periodogram(candidate, answers)
+    rates, power, amplitude = periodogram(candidate, responses)
     if rates.size < 2:
         return []
-    least = FEEBLE * sum(answer.misfit for answer in answers)
+    least = FEEBLE * sum(response.misfit for response in responses)
     first, *others = _peaks(np.where(amplitude < 1.0, power, 0.0))
     in_time = candidate.periodic.endswith("frequency")
     part = _STEP / _FINE * (rates[1] - rates[0])
@@ -72,19 +72,19 @@ def scan(candidate: Candidate, answers: Sequence[FrequencyResponse]) -> list[Pea
 
 
 def periodogram(
-    candidate: Candidate, answers: Sequence[FrequencyResponse]
+    candidate: Candidate, responses: Sequence[FrequencyResponse]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Rates (n,) per second or per metre, what a wave of each explains, and its amplitude."""
-    # a ripple is answered to in time; that of a roller is one along the surface's travel
+    # the response to a ripple is one in time; that of a roller is one along the surface's travel
     roller = candidate.effect == "speed_ripple" and not candidate.periodic.endswith("frequency")
-    scale = [answer.speed if roller else 1.0 for answer in answers]
-    lengths = [a.length * s for a, s in zip(answers, scale, strict=True)]
-    highest = max(a.highest / s for a, s in zip(answers, scale, strict=True))
+    scale = [response.speed if roller else 1.0 for response in responses]
+    lengths = [r.length * s for r, s in zip(responses, scale, strict=True)]
+    highest = max(r.highest / s for r, s in zip(responses, scale, strict=True))
     most = min(highest * max(lengths), _FEWEST + _POINTS * _FINE)
     rates = np.arange(_FEWEST, most, _FINE) / max(lengths)
     along, strength = np.zeros(rates.size), np.full(rates.size, _AMPLITUDE**-2)
-    for answer, s in zip(answers, scale, strict=True):
-        matrix, right = answer.normal(s * rates)
+    for response, s in zip(responses, scale, strict=True):
+        matrix, right = response.normal(s * rates)
         wave = np.linalg.solve(matrix + _NOTHING * np.eye(2), right[:, :, None])[:, :, 0]
         size = np.hypot(*wave.T)
         explained = np.maximum(np.sum(wave * right, axis=1), 0.0)

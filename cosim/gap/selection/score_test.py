@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.estimation.fitted import Fitted
+from cosim.gap.estimation.fitted import Fitted, shared_of
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
@@ -31,8 +31,8 @@ class ScoreTest:
     Attributes
     ----------
     laws : the laws
-    left : (1 + laws, 1 + laws) products of the residuals and of the laws' answers with one another,
-        less what the model's own free parameters and the runs' states take up
+    left : (1 + laws, 1 + laws) products of the residuals and of the laws' responses with one
+        another, less what the model's own free parameters and the runs' states take up
     """
 
     laws: tuple[Candidate, ...]
@@ -79,36 +79,34 @@ def score_test(
     """
     faint = tuple(law.faint() for law in laws)
     runs = [(segmented, base, fitted, i, faint) for i, segmented in enumerate(segmented_runs)]
-    products = np.sum(list(mapped(answers, runs)), axis=0)
+    products = np.sum(list(mapped(products_of_run, runs)), axis=0)
     count = products.shape[0] - 1 - len(laws)
     taken = np.linalg.lstsq(products[:count, :count], products[:count, count:], rcond=1e-10)[0]
     return ScoreTest(faint, products[count:, count:] - products[count:, :count] @ taken)
 
 
-def answers(
+def products_of_run(
     segmented: SegmentedRun, base: Model, fitted: Fitted, run: int, laws: Sequence[Candidate]
 ) -> np.ndarray:
-    """Products, over one run, of the free parameters' columns, the residuals and the laws' answers.
+    """Products, over one run, of free parameters' columns, residuals and laws' responses.
 
     (g + 1 + l, g + 1 + l) among g free parameters, the residuals and l laws.
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
     residuals, columns = fitted.residuals[run], fitted.derivatives[run]
-    found = [_answer(segmented, base, law, at) - residuals for law in laws]
+    found = [_with_law(segmented, base, law, at) - residuals for law in laws]
     left = columns.left(np.column_stack([columns.shared, residuals, *found]))
     return left.T @ left
 
 
-def _answer(segmented: SegmentedRun, base: Model, law: Candidate, at) -> np.ndarray:
+def _with_law(segmented: SegmentedRun, base: Model, law: Candidate, at) -> np.ndarray:
     """Residuals with the law, which is a faint one, in the model."""
-    faint = {free_parameter.key: free_parameter.start for free_parameter in law.free_parameters}
+    faint = {free.key: free.start for free in law.free_parameters}
     settings = {**base.settings, **law.settings, **faint}
-    free_parameters = tuple(
-        free_parameter for free_parameter in base.free_parameters if free_parameter.key not in faint
-    )
+    free_parameters = tuple(free for free in base.free_parameters if free.key not in faint)
     kept = [
         s
-        for k, s in zip([k for k in base.free_parameters if not k.per_run], at[0], strict=True)
-        if k.key not in faint
+        for free, s in zip(shared_of(base.free_parameters), at[0], strict=True)
+        if free.key not in faint
     ]
     return Problem([segmented], free_parameters, settings).residuals(0, np.array(kept), *at[1:])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.estimation.fitted import Fitted
+from cosim.gap.estimation.fitted import Fitted, shared_of
 from cosim.gap.estimation.trial import Model, Trial
 
 #: Where a law leaves less than this part of the misfit, others are out that leave more than that.
@@ -43,7 +43,7 @@ class Tried:
 def penalised(fitted: Fitted) -> float:
     """Sum of squares and the BIC's penalty for the campaign's free parameters."""
     rows = sum(r.size for r in fitted.residuals)
-    count = sum(not free_parameter.per_run for free_parameter in fitted.free_parameters)
+    count = len(shared_of(fitted.free_parameters))
     return fitted.cost + count * float(np.log(max(rows, 2)))
 
 

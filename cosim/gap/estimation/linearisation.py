@@ -12,6 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from cosim.gap.estimation.fitted import own_of, shared_of
+
 from .columns import Columns
 from .fit import fit, with_columns
 from .fitted import Fitted, Point
@@ -45,15 +47,20 @@ def linearised(data: Data, model: Model, fitted: Fitted, other: bool = False) ->
 def screening_fit(data: Data, model: Model, base: Fitted, rounds: int) -> Fitted:
     """A few rounds in short segments from where the simpler model ``base`` ended (`linearised`)."""
     problem = Problem(data.short, model.free_parameters, model.settings)
-    before = {free_parameter.key for free_parameter in base.free_parameters}
-    shared = [base.values.get(k.key, k.start) if k.prior else k.start for k in problem.shared]
+    before = {free.key for free in base.free_parameters}
+    shared = [
+        base.values.get(free.key, free.start) if free.prior else free.start
+        for free in problem.shared
+    ]
     own = tuple(
-        np.array([k.scaled(base.own_values(i).get(k.key, k.start)) for k in problem.own])
+        np.array(
+            [free.scaled(base.own_values(i).get(free.key, free.start)) for free in problem.own]
+        )
         for i in range(len(data.short))
     )
-    scaled = [k.scaled(value) for k, value in zip(problem.shared, shared, strict=True)]
+    scaled = [free.scaled(value) for free, value in zip(problem.shared, shared, strict=True)]
     point = Point(np.array(scaled), own, base.point.states)
-    new = {free_parameter.key for free_parameter in problem.own} - before
+    new = {free.key for free in problem.own} - before
     point = with_phases(problem, point, new)
 
     def derivatives(run: int, at: Point, residuals: np.ndarray) -> Columns:
@@ -66,22 +73,18 @@ def _columns(problem: Problem, run: int, at: Point, residuals: np.ndarray, base:
     """Derivatives of one run: by the base's free parameters and the states as they were there."""
     then = base.derivatives[run]
     point = at.shared, at.own[run], at.states[run]
-    known = [
-        free_parameter.key for free_parameter in base.free_parameters if not free_parameter.per_run
-    ]
+    known = [free.key for free in shared_of(base.free_parameters)]
     shared = np.empty((residuals.size, len(problem.shared)))
-    for j, free_parameter in enumerate(problem.shared):
-        if free_parameter.key in known:
-            shared[:, j] = then.shared[:, known.index(free_parameter.key)]
+    for j, free in enumerate(problem.shared):
+        if free.key in known:
+            shared[:, j] = then.shared[:, known.index(free.key)]
         else:
-            shared[:, j] = problem.difference(run, point, 0, j, free_parameter, residuals)
-    known = [
-        free_parameter.key for free_parameter in base.free_parameters if free_parameter.per_run
-    ]
+            shared[:, j] = problem.difference(run, point, 0, j, free, residuals)
+    known = [free.key for free in own_of(base.free_parameters)]
     own = np.empty((residuals.size, len(problem.own)))
-    for j, free_parameter in enumerate(problem.own):
-        if free_parameter.key in known:
-            own[:, j] = then.own[:, known.index(free_parameter.key)]
+    for j, free in enumerate(problem.own):
+        if free.key in known:
+            own[:, j] = then.own[:, known.index(free.key)]
         else:
-            own[:, j] = problem.difference(run, point, 1, j, free_parameter, residuals)
+            own[:, j] = problem.difference(run, point, 1, j, free, residuals)
     return Columns(residuals, shared, own, then.states)
