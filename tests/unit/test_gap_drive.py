@@ -232,7 +232,9 @@ def test_speed_of_every_run_is_found(tmp_path):
     free_parameters = plain_free_parameters(campaign, False)
     problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
     found = fit(problem, start(problem.segmented_runs, free_parameters))
-    assert found.rms_residual() == pytest.approx(1.0, abs=0.1)  # of 1600 samples: 0.02, and the fit's
+    assert found.rms_residual() == pytest.approx(
+        1.0, abs=0.1
+    )  # of 1600 samples: 0.02, and the fit's
     for run, offset in enumerate((offsets[0], offsets[2])):
         # a stick of half a second in 0.2 mm of noise: a part in a hundred of 0.03 m/s
         assert found.own_values(run)[SPEED_OFFSET] == pytest.approx(offset, abs=0.01)
@@ -255,7 +257,10 @@ def test_creep_is_found_again_by_the_fit(tmp_path):
     assert found.values[CREEP] == pytest.approx(CREEPING, rel=0.15)
     rigid = [free_parameter for free_parameter in free_parameters if free_parameter.key != CREEP]
     without = Problem(problem.segmented_runs, rigid)
-    assert fit(without, start(problem.segmented_runs, rigid)).rms_residual() > 1.2 * found.rms_residual()
+    assert (
+        fit(without, start(problem.segmented_runs, rigid)).rms_residual()
+        > 1.2 * found.rms_residual()
+    )
 
 
 def test_a_run_with_an_offset_is_one_on_a_faster_surface(tmp_path):

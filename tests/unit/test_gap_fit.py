@@ -127,7 +127,9 @@ def test_a_trial_counts_every_run_once(trials):
         run.size for run in (*trial.fitted.residuals, *trial.held_out.residuals)
     ]
     assert trial.rms_residuals[-1] == pytest.approx(trial.held_out_rms)
-    assert trial.rms_residual**2 == pytest.approx(np.average(trial.rms_residuals**2, weights=trial.rows))
+    assert trial.rms_residual**2 == pytest.approx(
+        np.average(trial.rms_residuals**2, weights=trial.rows)
+    )
 
 
 def test_only_what_the_data_determine_is_stated(trials, problem):
@@ -289,7 +291,9 @@ def test_phases_are_found_from_any_start(patterned, degrees):
         off = found.own_values(run)["surface_pattern.phase_deg"] - phase
         # of a wave of 0.2 in 600 samples whose noise is a thirtieth of it: well within 3 degrees
         assert abs((off + 180.0) % 360.0 - 180.0) < 3.0
-    assert found.rms_residual() == pytest.approx(1.0, abs=0.1)  # 1200 samples: 3.3 of 0.02, and the fit's
+    assert found.rms_residual() == pytest.approx(
+        1.0, abs=0.1
+    )  # 1200 samples: 3.3 of 0.02, and the fit's
 
 
 def test_phases_that_are_best_stay_where_they_are(patterned):

@@ -8,8 +8,8 @@ from cosim.gap import read_campaign
 from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.candidates.extend import extended
-from cosim.gap.estimation.preparation import prepared
 from cosim.gap.estimation.linearisation import linearised, screening_fit
+from cosim.gap.estimation.preparation import prepared
 from cosim.gap.estimation.trial import Model, coarse_fit, try_model
 from cosim.gap.selection.search import Search
 from cosim.gap.selection.tried import Tried

@@ -8,8 +8,8 @@ from gap_campaigns import motion, noisy, write_campaign
 
 from cosim.gap.candidates.catalogue import Scales, candidates
 from cosim.gap.data import read_campaign
-from cosim.gap.estimation.preparation import SHORT_CYCLES, Data, prepare
 from cosim.gap.estimation.linearisation import linearised
+from cosim.gap.estimation.preparation import SHORT_CYCLES, Data, prepare
 from cosim.gap.estimation.trial import Model, coarse_fit
 from cosim.gap.selection.frequency_response import frequency_response, sums
 from cosim.gap.selection.periodogram import periodogram, scan
