@@ -107,7 +107,7 @@ def size_lines(rows: Sequence[dict]) -> list[str]:
     """The same against the size of what is hidden."""
     lines = [
         "",
-        "| size, noise units | right name or class | `unknown` on strangers | both of two |",
+        "| size, noise units | right name or class | `unknown` out of catalogue | both of two |",
     ]
     lines += ["|---|---|---|---|"]
     found = [

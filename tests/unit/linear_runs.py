@@ -1,7 +1,7 @@
 """Runs whose model is linear: what a fit should come to is a matter of linear algebra.
 
-A segmented run's residuals are A shared + B own + C states - d. `Problem` asks for no more of a segmented run
-than this one has, so a fit of many segments and runs can be held against one joint least squares.
+A run's residuals are A shared + B own + C states - d. `Problem` asks for no more of a segmented
+run than this one has, so a fit of many segments and runs can be held against one least squares.
 """
 
 from dataclasses import dataclass, replace
@@ -68,7 +68,7 @@ def linear_run(random, free_parameters, data, segments=3):
 def joint(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """Matrix and right-hand side of everything at once, priors as rows.
 
-    Unknowns, unscaled: the campaign's free parameters, then of every run its own and its segments' states.
+    Unknowns, unscaled: the shared free parameters, then of every run its own and its states.
     """
     shared, own = problem.shared, problem.own
     per_run = [

@@ -15,15 +15,15 @@ from blind.hidden import Hidden, State  # noqa: E402
 from blind.motion import walk  # noqa: E402
 from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
 
-from cosim.gap.candidates.plain import plain_free_parameters
-from cosim.gap.data import read_campaign
+from cosim.gap.candidates.plain import plain_free_parameters  # noqa: E402
+from cosim.gap.data import read_campaign  # noqa: E402
 from cosim.gap.diagnostics import Term, empirical_term, library  # noqa: E402
-from cosim.gap.diagnostics.features import FRICTION, Moment
-from cosim.gap.diagnostics.force_term import forced, formula, key, moment_of
-from cosim.gap.diagnostics.slips import holding, rows_of, slips_of
-from cosim.gap.diagnostics.sparse_regression import formulas
-from cosim.gap.estimation.preparation import prepare, prepared
-from cosim.gap.estimation.trial import Model, coarse_fit, try_model
+from cosim.gap.diagnostics.features import FRICTION, Moment  # noqa: E402
+from cosim.gap.diagnostics.force_term import forced, formula, key, moment_of  # noqa: E402
+from cosim.gap.diagnostics.slips import holding, rows_of, slips_of  # noqa: E402
+from cosim.gap.diagnostics.sparse_regression import formulas  # noqa: E402
+from cosim.gap.estimation.preparation import prepare, prepared  # noqa: E402
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model  # noqa: E402
 
 SPEEDS = (0.05, 0.12, 0.08)
 BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}
@@ -127,8 +127,8 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
             0, len(rows), segmented.segments[0].state, (), np.nan
         )
         thin = forced(segmented, [BY_NAME[name]]).__class__(
-            segmented.name, segmented.known, segmented.speed, segmented.temperature, segmented.time[rows],
-            {}, {}, (segment,), features=(BY_NAME[name],))  # fmt: skip
+            segmented.name, segmented.known, segmented.speed, segmented.temperature,
+            segmented.time[rows], {}, {}, (segment,), features=(BY_NAME[name],))  # fmt: skip
         values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
         state = np.array([[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]])
         reference = thin.simulate(values | effect, state)[:, 0]

@@ -118,9 +118,9 @@ def test_intervals_of_a_linear_model_are_those_of_its_joint_least_squares():
 
 
 def deviations(problem, found):
-    """Standard deviations of the campaign's free parameters, from the matrix of all unknowns at once.
+    """Standard deviations of the shared free parameters, from the matrix of all unknowns at once.
 
-    With white noise of the gap's size, and with noise that is independent between segments only.
+    With white noise of the residual's size, and with noise independent between segments only.
     """
     matrix, right = joint(problem)
     count, known = len(problem.shared), len(problem.shared)

@@ -1,5 +1,4 @@
-"""Two effects on a campaign that has both: looks by a simpler model's derivatives, and what is left
-of a pair without one of them."""
+"""Two effects on a campaign that has both: screening, and what is left of a pair without one."""
 
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
@@ -115,9 +114,9 @@ def test_a_pair_repairs_what_neither_does_alone(both, search):
     assert both.trial.rms_residual < 1.1
     for dropped, kept in ((RATE, DRAG), (DRAG, RATE)):
         less = search.less(both, dropped, tuple(kept.settings))
-        keys = {free_parameter.key for free_parameter in less.model.free_parameters}
-        assert not keys & {free_parameter.key for free_parameter in dropped.free_parameters}
-        assert keys >= {free_parameter.key for free_parameter in kept.free_parameters}
+        keys = {free.key for free in less.model.free_parameters}
+        assert not keys & {free.key for free in dropped.free_parameters}
+        assert keys >= {free.key for free in kept.free_parameters}
         assert less.trial.rms_residual > 1.5 * both.trial.rms_residual
     assert RATE.settings.items() <= search.less(both, DRAG, ()).model.settings.items()
 
@@ -147,11 +146,11 @@ def test_another_effect_may_take_the_place_of_either_of_a_pair(
     pair = pair_of(data, plain, first, second)
     kept = second if wrong is first else first
     found, *others = search.instead(pair, wrong, [right], tuple(kept.settings))
-    keys = {free_parameter.key for free_parameter in found.model.free_parameters}
+    keys = {free.key for free in found.model.free_parameters}
     assert not others and found.candidate.effect == right.effect
     assert keys == {
-        free_parameter.key
-        for free_parameter in (
+        free.key
+        for free in (
             *PLAIN.free_parameters,
             *kept.free_parameters,
             *right.free_parameters,

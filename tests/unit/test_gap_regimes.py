@@ -1,4 +1,4 @@
-"""The residual analysis against misfits that are known: the model's exact track, moved by a known force."""
+"""Residual analysis by regime against known misfits: the model's exact track, moved by a force."""
 
 import dataclasses
 

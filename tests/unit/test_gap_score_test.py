@@ -14,9 +14,9 @@ def law(effect, start=0.1, low=0.0, high=1.0):
     return Candidate(effect, "law", (FreeParameter(f"{effect}.strength", start, 0.1, low, high),))
 
 
-def screen(residuals, answers, laws):
-    """Products of what was seen with the laws' answers to their starts."""
-    left = np.column_stack([residuals, *answers])
+def screen(residuals, responses, laws):
+    """Products of what was seen with the laws' responses to their starts."""
+    left = np.column_stack([residuals, *responses])
     return ScoreTest(tuple(laws), left.T @ left)
 
 
@@ -35,7 +35,7 @@ def test_a_law_explains_what_its_answer_takes_away(random):
 
 
 def test_two_laws_that_hide_one_another_are_found_with_their_strengths(random):
-    """Nearly opposite answers of nearly the same size: what one adds, the other takes away."""
+    """Nearly opposite responses of nearly the same size: what one adds, the other takes away."""
     common, rest, noise = random.standard_normal((3, ROWS))
     one, other = common + 0.1 * rest, 0.1 * rest - common
     residuals = 0.2 * noise - 20.0 * one - 20.0 * other  # 4 of the rest, nothing of the common

@@ -56,8 +56,8 @@ def test_friction_across_stands_for_one_effect_that_adds_nothing_to_it():
         ("spring_misalignment", 1.2, "named"),
         ("film_drag", 1.02, "named"),
     ],
-)  # nothing else looks like that
-def test_what_looks_like_an_effect_and_does_better_is_said(effect, gap, verdict):
+)  # nothing else is confounded with that
+def test_a_confounder_that_does_better_is_said(effect, gap, verdict):
     found, _ = finding([tried(effect, 1.21)], confounder=gap)
     assert (found.verdict, found.nearest.rms_residual) == (verdict, pytest.approx(1.21))
     assert found.confounder == ("a rig tilted sideways" if verdict == "unknown" else "")
@@ -123,15 +123,15 @@ def test_an_effect_beside_one_that_moves_the_block_off_its_line_is_kept_for_its_
 
 def ended(at, time):
     """A trial whose law has a time that ended here; at 0.03 s it is a plain number."""
-    free_parameter = FreeParameter(
+    free = FreeParameter(
         "static_strengthening.saturation_time", 0.1, 0.5, 0.03, 30.0, log=True, plain_below=True
     )
     fitted = Fitted(
-        (free_parameter,),
-        Point(np.array([free_parameter.scaled(time)]), (), ()),
+        (free,),
+        Point(np.array([free.scaled(time)]), (), ()),
         (np.full(ROWS, at),),
     )
-    return replace(trial(at), model=Model((free_parameter,), {}), fitted=fitted)
+    return replace(trial(at), model=Model((free,), {}), fitted=fitted)
 
 
 @pytest.mark.parametrize("time, verdict", [(0.03, "unknown"), (0.1, "named")])

@@ -19,14 +19,14 @@ from gap_campaigns import NOISE, noisy, write_campaign  # noqa: E402
 
 from cosim.gap.candidates.catalogue import candidates  # noqa: E402
 from cosim.gap.candidates.extend import extended  # noqa: E402
-from cosim.gap.candidates.plain import plain_free_parameters
-from cosim.gap.candidates.scales import scales
-from cosim.gap.data import read_campaign
-from cosim.gap.design import Member, next_experiment
-from cosim.gap.estimation.preparation import prepared
-from cosim.gap.estimation.trial import Model, coarse_fit, try_model
-from cosim.gap.selection.tried import Tried
-from cosim.gap.selection.verdict import FITS, indistinguishable
+from cosim.gap.candidates.plain import plain_free_parameters  # noqa: E402
+from cosim.gap.candidates.scales import scales  # noqa: E402
+from cosim.gap.data import read_campaign  # noqa: E402
+from cosim.gap.design import Member, next_experiment  # noqa: E402
+from cosim.gap.estimation.preparation import prepared  # noqa: E402
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model  # noqa: E402
+from cosim.gap.selection.criteria import indistinguishable  # noqa: E402
+from cosim.gap.selection.tried import Tried  # noqa: E402
 
 PAIR = ("film_drag", "structural_damping")
 HIDDEN = {
@@ -63,9 +63,13 @@ def fitted(folder, runs):
             model = extended(base, law, plain.values)
             coarse = coarse_fit(data, model, 8)
             tried = Tried(law, model, coarse, try_model(data, model, coarse))
-            if law.effect not in done or tried.trial.rms_residual < done[law.effect].trial.rms_residual:
-                done[law.effect] = tried
-    return campaign, sorted(done.values(), key=lambda t: t.trial.rms_residual)
+            done.setdefault(law.effect, []).append(tried)
+    best = [min(laws, key=residual_of) for laws in done.values()]
+    return campaign, sorted(best, key=residual_of)
+
+
+def residual_of(tried):
+    return tried.trial.rms_residual
 
 
 def proposed_for(campaign, done):
@@ -95,14 +99,14 @@ def test_one_more_run_names_what_one_speed_cannot(tmp_path, effect):
     (tmp_path / "after").mkdir()
     campaign, done = fitted(tmp_path / "before", one_speed(hidden))
     assert set(indistinguishable(done)) == set(PAIR)
-    assert done[0].trial.rms_residual < FITS
+    assert done[0].trial.rms_residual < 1.5
 
     proposed = proposed_for(campaign, done)
     assert proposed["predicted_separation"] > 2.0
     extra = as_proposed(hidden, proposed, seed=7)
     _, after = fitted(tmp_path / "after", [*one_speed(hidden), extra])
     assert indistinguishable(after) == (effect,)
-    assert after[0].trial.rms_residual < FITS
+    assert after[0].trial.rms_residual < 1.5
     # what the other effect leaves in the new run is about what was predicted: the prediction
     # stands on the campaign's numbers, which the new run then mends
     left = after[1].trial.rms_residuals[2]

@@ -55,7 +55,7 @@ def test_speeds_have_the_campaigns_direction(campaign):
     assert all(one.surface_speed < 0.0 for one in experiments(replace(campaign, runs=tuple(back))))
 
 
-def test_fewer_are_looked_at_by_leaving_the_rig_as_it_is(campaign):
+def test_fewer_are_tried_by_leaving_the_rig_as_it_is(campaign):
     every, some = experiments(campaign), experiments(campaign, most=20)
     assert len(some) < len(every)
     assert {one.changed for one in some} == {0}

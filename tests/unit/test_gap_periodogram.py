@@ -50,18 +50,18 @@ def scanned(request, tmp_path_factory):
     data = Data(segmented_runs, segmented_runs, (), ())
     fitted = linearised(data, PLAIN, coarse_fit(data, PLAIN, 8))
     law = LAWS[request.param]
-    answers = [
+    responses = [
         frequency_response(law, PLAIN, fitted, segmented, i)
         for i, segmented in enumerate(segmented_runs)
     ]
-    return request.param, law, answers
+    return request.param, law, responses
 
 
 def test_the_period_in_the_data_is_found_first(scanned):
-    case, law, answers = scanned
+    case, law, responses = scanned
     in_time = case == ("speed_ripple", "sine")
     true, length = (FREQUENCY, 8.0) if in_time else (1.0 / LENGTH, 8.0 * max(SPEEDS))
-    peaks = scan(law, answers)
+    peaks = scan(law, responses)
     best = peaks[0]
     off = abs((best.period if in_time else 1.0 / best.period) - true) * length
     # half a period more over the longest run would be out of step at its ends
@@ -72,7 +72,7 @@ def test_the_period_in_the_data_is_found_first(scanned):
     assert [p.power for p in peaks] == sorted((p.power for p in peaks), reverse=True)
 
 
-def test_normal_equations_between_the_rates_flown(scanned):
+def test_normal_equations_between_the_rates_simulated(scanned):
     """Those of a sum of squares where they are known, nothing where they are not."""
     for answer in scanned[2]:
         rates = (np.arange(3, 12) + 0.5) * answer.step
@@ -83,9 +83,9 @@ def test_normal_equations_between_the_rates_flown(scanned):
 
 
 def test_the_periodogram_is_nothing_where_there_is_no_misfit(scanned):
-    _, law, answers = scanned
+    _, law, responses = scanned
     silent = []
-    for answer in answers:
+    for answer in responses:
         products = answer.products.copy()
         products[:, :, -1] = 0.0
         silent.append(replace(answer, products=products))
@@ -93,7 +93,7 @@ def test_the_periodogram_is_nothing_where_there_is_no_misfit(scanned):
 
 
 def test_a_segment_that_answers_violently_does_not_outweigh_the_others():
-    """Of two segments of ten rows, the same but that one answers a thousand times as much."""
+    """Of two segments of ten rows, the same but that one responses a thousand times as much."""
     random = np.random.default_rng(2)
     part = random.standard_normal(10) + 1j * random.standard_normal(10)
     sizes, basis = np.array([10, 10]), np.ones((20, 2))
