@@ -125,7 +125,7 @@ class Screening:
     def _promising(
         self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
     ) -> list[Candidate]:
-        """Those whose response goes best with what is left, and all periodic ones: they have phases."""
+        """Those whose response goes best with what is left, and all that are periodic."""
         kept = [c for c in candidates if c.periodic]
         laws = [c for c in candidates if not c.periodic]
         explained = score_test(self.data.short, base, fitted, laws, self.mapped).gains()
