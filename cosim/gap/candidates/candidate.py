@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from cosim.gap.shooting.drive import SECOND
+from cosim.gap.estimation.drive import SECOND
 from cosim.gap.shooting.free_parameter import FreeParameter
 
 #: Part of its usual start that a faint effect has.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import log10
 
-from cosim.gap.shooting.drive import SECOND
+from cosim.gap.estimation.drive import SECOND
 from cosim.gap.shooting.free_parameter import FreeParameter
 
 from .candidate import Candidate

@@ -14,7 +14,7 @@ from typing import Any
 from scipy.stats import norm
 from stickslip.effects import CATALOGUE
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .models import PRINTED_RATIO, has_meaning
 

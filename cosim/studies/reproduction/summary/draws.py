@@ -15,8 +15,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from cosim.gap.errors import CampaignError
-from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.errors import CampaignError
 
 from .candidates import Candidate
 from .models import Motion, exact_motion, figures, study_motion

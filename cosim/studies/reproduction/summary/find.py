@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .candidates import Candidate, extensions, free_candidate, not_felt, plain_candidate
 from .draws import (
