@@ -7,14 +7,12 @@ beside a real file, and a changed kernel is a new module, so no run ever meets s
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import importlib.util
 import os
 import sys
 import tempfile
 from functools import cache
-from importlib import resources
 from pathlib import Path
 from types import FunctionType, ModuleType
 
@@ -22,26 +20,13 @@ import numba
 import platformdirs
 from numba.core.cpu import CPUTargetOptions
 
-from .kernel import MODULES
+from .generation.source import kernel_source
 
 # The kernel makes no arrays, so nobody need count who holds one: without the counting a call costs
 # a third. The option has no public name; where a version of numba drops it, only speed is lost.
 OPTIONS = {"cache": True, "error_model": "numpy"}
 if hasattr(CPUTargetOptions, "_nrt"):
     OPTIONS["_nrt"] = False
-
-
-def kernel_source() -> str:
-    """The kernel as the text of one module: its files in order, without their mutual imports."""
-    package = resources.files("stickslip.kernel")
-    parts = []
-    for name in MODULES:
-        tree = ast.parse((package / f"{name}.py").read_text(encoding="utf-8"))
-        tree.body = [
-            node for node in tree.body if not (isinstance(node, ast.ImportFrom) and node.level)
-        ]
-        parts.append(f"# {name}\n{ast.unparse(tree)}\n")
-    return "\n".join(parts)
 
 
 def is_cached() -> bool:

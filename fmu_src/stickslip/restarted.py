@@ -13,11 +13,11 @@ import numpy as np
 
 from .compiled import compiled_kernel
 from .kernel.layout import (
-    BLOCK,
     E_CAPACITY,
     E_FIRST,
     E_WIDTH,
     HOLD_SINCE,
+    INSTANT,
     MODE,
     O_SIZE,
     SHOWN,
@@ -126,7 +126,7 @@ def _record_forced(record, p, u, z, w, e, times: np.ndarray, o, rows, force: For
     for row in range(*rows):
         if record(p, u, z, w, e, times, o, row, 1) != 1:
             break
-        block = z[SHOWN : SHOWN + BLOCK].tolist()
+        block = z[SHOWN : SHOWN + INSTANT].tolist()
         now = u[U_FORCE_X] = force(block)
         if before is not None and mode == block[MODE] and row + 1 < len(times):
             growth = (now - before) / (times[row] - times[row - 1])

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from .compiled import compiled_kernel
-from .kernel import advance, layout, outputs, record
+from .kernel import advance, layout, outputs
 from .kernel.layout import (
     E_CAPACITY,
     E_COUNT,
@@ -23,9 +23,9 @@ from .kernel.layout import (
     W_SIZE,
     Z_SIZE,
 )
-from .kernel.status import WHY_NOT
 from .parameters import Parameters
 from .ports import OUTPUTS
+from .status import WHY_NOT
 from .trajectory import Trajectory
 
 EVENTS_PER_BLOCK = 4096
@@ -39,7 +39,7 @@ INTERPRETED = SimpleNamespace(
     initialise=advance.initialise,
     advance=advance.advance,
     show=outputs.show,
-    record=record.record,
+    record=outputs.record,
 )
 
 

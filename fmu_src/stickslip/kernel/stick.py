@@ -13,11 +13,14 @@ larger than mu_s, it takes the place of mu_s.
 
 The creep has no inertia, so that the velocity of a stick follows from its place: with inertia it
 would lag behind this by v_c / (mu_s g), and be stiff. What the block's momentum changes by is the
-surface's work, see `held_energy`. (The creep of `creep` is another: a slip.)
+surface's work, see `held_energy`. (The creep of `steady_sliding` is another: a slip.)
 """
+
+from __future__ import annotations
 
 from math import sqrt
 
+from . import Floats
 from .coefficient import holding_coefficient
 from .contact import set_contact, set_holding_load, set_sliding_velocity
 from .disc import disc_friction
@@ -32,8 +35,8 @@ from .layout import (
     P_LATERAL,
     P_MASS,
     P_NORMAL_FORCE,
+    P_PRESLIDING,
     P_RADIUS,
-    P_STICK_CREEP,
     P_STICK_RATIO,
     VX,
     VY,
@@ -48,10 +51,10 @@ from .layout import (
 from .surface import surface_motion
 
 
-def set_stick_velocity(p: "float[:]", u: "float[:]", w: "float[:]", creep: float):
+def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
     """Velocity of a block that sticks at the place in ``w[W_STATE:]``, where it is free.
 
-    ``creep`` is the sliding speed per load, m/(s N): P_STICK_CREEP, or 0 for the surface's own
+    ``steady_sliding`` is the sliding speed per load, m/(s N): P_STICK_CREEP, or 0 for the surface's own
     velocity. Leaves the surface's motion there and the sliding velocity in ``w``: the creep, and
     what guides keep from following.
     """
@@ -60,13 +63,13 @@ def set_stick_velocity(p: "float[:]", u: "float[:]", w: "float[:]", creep: float
     if p[P_LATERAL] > 0.0:
         w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
         w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
-    if creep != 0.0:
-        add_stick_creep(p, u, w, creep)
+    if presliding != 0.0:
+        add_presliding(p, u, w, presliding)
     else:
         set_sliding_velocity(w, W_STATE)
 
 
-def add_stick_creep(p: "float[:]", u: "float[:]", w: "float[:]", c: float):
+def add_presliding(p: Floats, u: Floats, w: Floats, c: float):
     """Add the creep to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
 
     Leaves the contact in ``w``, friction as of `set_holding_load`.
@@ -102,13 +105,13 @@ def add_stick_creep(p: "float[:]", u: "float[:]", w: "float[:]", c: float):
     set_holding_load(p, w)
 
 
-def set_creeping_stick(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+def set_presliding(p: Floats, u: Floats, w: Floats) -> float:
     """Velocity, contact, friction and mean sliding speed of a stick that creeps, into ``w``.
 
     Returns what the surface's power differs by from friction times its velocity, W, beside the
     change of `held_energy`: that of the surface's own acceleration is in both.
     """
-    set_stick_velocity(p, u, w, p[P_STICK_CREEP])
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
     ux = w[W_SLIDING]
     w[W_MEAN_SPEED] = abs(ux)
     power = -p[P_MASS] * w[W_SURFACE + 3] * w[W_STATE + VX]
@@ -124,27 +127,27 @@ def set_creeping_stick(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     return power
 
 
-def held_energy(p: "float[:]", z: "float[:]", block: int) -> float:
-    """Kinetic energy of the motions that the contact holds at a block of ``z``, J.
+def held_energy(p: Floats, z: Floats, instant: int) -> float:
+    """Kinetic energy of the motions that the contact holds at an instant in ``z``, J.
 
     In a stick that creeps, velocities follow from places without a force: what this changes by is
     the surface's work.
     """
-    vx = z[block + VX]
+    vx = z[instant + VX]
     energy = 0.5 * p[P_MASS] * vx * vx
     if p[P_LATERAL] > 0.0:
-        vy = z[block + VY]
-        omega = z[block + OMEGA]
+        vy = z[instant + VY]
+        omega = z[instant + OMEGA]
         energy += 0.5 * p[P_MASS] * vy * vy + 0.5 * p[P_INERTIA] * omega * omega
     return energy
 
 
-def fastest_creep(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+def fastest_presliding(p: Floats, u: Floats, w: Floats) -> float:
     """Scaled sliding speed that no stick at the moment in ``w[W_STATE:]`` exceeds, m/s.
 
     That of a load at the limit, and 4/3 of it where the load is all moment.
     """
-    if p[P_STICK_CREEP] == 0.0:
+    if p[P_PRESLIDING] == 0.0:
         return 0.0
     limit = holding_coefficient(p, u, w) * p[P_NORMAL_FORCE] / p[P_STICK_RATIO]
-    return 1.5 * p[P_STICK_CREEP] * limit
+    return 1.5 * p[P_PRESLIDING] * limit

@@ -28,8 +28,8 @@ from ..kernel.layout import (
     Z_STATUS,
     X,
 )
-from ..kernel.status import WHY_NOT
 from ..parameters import Parameters
+from ..status import WHY_NOT
 
 #: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
 STATE = 6

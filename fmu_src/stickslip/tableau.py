@@ -291,7 +291,7 @@ INTERPOLANT_WEIGHTS = (
 
 
 def flat_tableau() -> list[float]:
-    """The tableau in the order of `layout.T_A` ... `layout.T_D`; rows padded with zeros."""
+    """The tableau in the order of `kernel.layout.T_A` ... `kernel.layout.T_D`; rows padded with zeros."""
     stages = len(NODES)
     flat = []
     for row in STAGE_WEIGHTS:
