@@ -21,8 +21,8 @@ from pythonfmu.enums import Fmi2Status
 from stickslip.kernel import layout
 from stickslip.kernel.advance import advance, initialise
 from stickslip.kernel.outputs import show
-from stickslip.kernel.status import WHY_NOT
 from stickslip.packing import pack
+from stickslip.status import WHY_NOT
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 
 # A host computes its communication points in one way or another and may miss the end of the last

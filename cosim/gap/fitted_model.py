@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS
 from stickslip.kernel import layout
 
 from cosim.gap.atlas.from_fit import tracks_of
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.result import FittedModel, FittedRun
 from cosim.gap.shooting.fitted import Fitted
-from cosim.gap.shooting.free_parameter import OFFSETS
 from cosim.gap.shooting.problem import Problem
 
 _STATE = (layout.O_X, layout.O_Y, layout.O_PHI, layout.O_VX, layout.O_VY, layout.O_OMEGA)

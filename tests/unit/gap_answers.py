@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
 from cosim.gap.atlas import find_where, residual_atlas
@@ -12,7 +13,6 @@ from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import Gap, Ranked
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 

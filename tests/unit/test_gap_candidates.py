@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
 from stickslip import Parameters
+from stickslip.effects.candidate import OFFSETS, Candidate, FreeParameter, Scales
 
 from cosim.gap import read_campaign
-from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.naming.other_starts import other_starts
 from cosim.gap.naming.plain import plain_free_parameters
@@ -20,7 +20,6 @@ from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Fitted, Point, start
-from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, Trial, finished, try_model

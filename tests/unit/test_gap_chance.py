@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from linear_flights import linear_flight
 from scipy.stats import kstest
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.naming.chance import DRAWS, chance
 from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.trial import Model, try_model
 

@@ -7,6 +7,7 @@ import pytest
 from gap_campaigns import KNOWN, NOISE, noisy, write_campaign
 from linear_flights import trial_of
 from stickslip import Parameters
+from stickslip.effects.candidate import FreeParameter
 from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.gap import MeasuredRun, Stick, Track, read_campaign
@@ -27,7 +28,6 @@ from cosim.gap.shooting.drive import (
 )
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.experiment import Member, experiments, next_experiment
 from cosim.gap.experiment.rehearsal import problem_of, rehearse, setting_of
@@ -12,7 +13,6 @@ from cosim.gap.experiment.separation import separation
 from cosim.gap.read import read_campaign
 from cosim.gap.shooting.fit import with_columns
 from cosim.gap.shooting.fitted import Fitted, start
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem
 

@@ -8,13 +8,13 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 from linear_flights import trial_of
 from scipy.optimize import least_squares
 from scipy.stats import chi2
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
 from cosim.gap.naming.intervals import determined, intervals
 from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.fit import fit, with_columns
 from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.phases import with_phases
 from cosim.gap.shooting.preparation import prepare
 from cosim.gap.shooting.problem import Problem

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from linear_flights import FREE, joint, linear_flight, trial_of
 from scipy.optimize import lsq_linear
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.naming.intervals import intervals
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import start
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.problem import Problem
 
 SHARED = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 3.0))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from gap_campaigns import motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
 from cosim.gap.shooting.columns import Columns
@@ -10,7 +11,6 @@ from cosim.gap.shooting.data import prepared
 from cosim.gap.shooting.fit import fit
 from cosim.gap.shooting.fitted import Point, start
 from cosim.gap.shooting.flight import LOST
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.phases import with_phases, with_phases_followed
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.problem import Problem

@@ -3,15 +3,14 @@ of a pair without one of them."""
 
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import Candidate, FreeParameter, Scales
 
 from cosim.gap import read_campaign
-from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.extend import extended
 from cosim.gap.naming.search import Search
 from cosim.gap.naming.tried import Tried
 from cosim.gap.shooting.data import prepared
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.glance import glance, ground
 from cosim.gap.shooting.trial import Model, sketch, try_model
 

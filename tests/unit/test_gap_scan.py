@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter, Scales
 
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.naming.scan import periodogram, scan
 from cosim.gap.naming.wave_answer import sums, wave_answer
 from cosim.gap.read import read_campaign
 from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.glance import ground
 from cosim.gap.shooting.preparation import SHORT_CYCLES, prepare
 from cosim.gap.shooting.trial import Model, sketch

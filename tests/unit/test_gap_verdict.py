@@ -4,8 +4,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
+from stickslip.effects.candidate import Candidate, FreeParameter
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.naming.measures import (
     ALIKE,
     ALIKE_PART,
@@ -28,7 +28,6 @@ from cosim.gap.naming.tried import Tried
 from cosim.gap.naming.verdict import ALL, DOES_MOST, RIVAL, SEEN, WAVE, judge
 from cosim.gap.shooting.fitted import Fitted, Point
 from cosim.gap.shooting.flight import TILT
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Model, Trial
 
 ROWS = 1000

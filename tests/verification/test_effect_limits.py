@@ -7,7 +7,7 @@ that of the last halving, so it also says that nothing is left over at off.
 
 import numpy as np
 import pytest
-from stickslip import CATALOGUE, Parameters, simulate
+from stickslip import EFFECTS, Parameters, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel.layout import (
     E_COUNT,
@@ -78,8 +78,8 @@ STICKING = {
 def with_effect(base: dict, name: str, share: float, size: float, other: dict) -> Parameters:
     """The rig with one parameter at ``share`` of ``size`` away from off."""
     block, key = name.split(".")
-    entry = next(effect for effect in CATALOGUE if effect.id == block)
-    off = entry.block.model_fields[key].default
+    entry = next(effect for effect in EFFECTS if effect.id == block)
+    off = entry.table.model_fields[key].default
     return Parameters(**(base | {block: other | {key: off + share * size}}))
 
 
@@ -133,5 +133,5 @@ def test_break_away_tends_to_the_plain_one(name):
 
 
 def test_every_switch_of_every_effect_is_tried():
-    switches = {f"{effect.id}.{key}" for effect in CATALOGUE for key in effect.switch}
+    switches = {f"{effect.id}.{key}" for effect in EFFECTS for key in effect.switch}
     assert switches == set(SLIDING) | set(STICKING)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS
 from stickslip.kernel import layout
 
 from cosim.gap.atlas.model_track import ModelTrack
 from cosim.gap.read import MeasuredRun
 from cosim.gap.shooting.fitted import Fitted
-from cosim.gap.shooting.free_parameter import OFFSETS
 from cosim.gap.shooting.problem import Problem
 
 

@@ -7,13 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from stickslip.effects.candidate import Candidate, FreeParameter
 
 from cosim.gap.atlas.spectrum import Period, strongest_period
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
 from cosim.gap.read import Campaign, MeasuredRun
 from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Trial, sketch, try_model
 from cosim.processes import Map
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.shooting.fitted import Fitted, Point
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.problem import Problem
 
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS
 
 from cosim.gap.read import Campaign, MeasuredRun, Track, find_sticks
 from cosim.gap.shooting.flight import COLUMN, Flight
-from cosim.gap.shooting.free_parameter import OFFSETS
 from cosim.gap.shooting.preparation import known_parameters, prepare
 from cosim.gap.shooting.problem import Problem
 from cosim.gap.shooting.windows import Window

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
 from cosim.gap.atlas import find_where, residual_atlas
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.empirical import empirical_term
 from cosim.gap.experiment import Member, next_experiment

@@ -6,10 +6,10 @@ its mass and whatever the springs; runs of several masses or stiffnesses tell.
 
 from __future__ import annotations
 
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate, FreeParameter
+
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.flight import TILT
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.shooting.trial import Trial
 
 from .measures import as_good, excess

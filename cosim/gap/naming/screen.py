@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.shooting.fitted import Fitted
 from cosim.gap.shooting.flight import Flight
 from cosim.gap.shooting.problem import Problem

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended, reduced
 from cosim.gap.shooting.data import Data
 from cosim.gap.shooting.fit import fit

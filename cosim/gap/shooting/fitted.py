@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.effects.candidate import FreeParameter
 
 from .columns import Columns
 from .flight import Flight
-from .free_parameter import FreeParameter
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS, FreeParameter
 
 from .columns import Columns
 from .fitted import Point
 from .flight import Flight
-from .free_parameter import OFFSETS, FreeParameter
 
 #: Differences are taken over this part of a free parameter's step.
 _PART = 1e-2

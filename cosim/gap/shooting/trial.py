@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.effects.candidate import FreeParameter
 
 from .data import Data
 from .fit import MOST_ROUNDS, fit, with_columns
 from .fitted import Fitted, Point, start
 from .flight import Flight
-from .free_parameter import FreeParameter
 from .phases import best_states, with_phases, with_phases_followed
 from .problem import Problem
 from .rescue import with_lost_windows_found
