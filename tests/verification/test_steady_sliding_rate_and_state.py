@@ -24,6 +24,7 @@ from stickslip.kernel.layout import (
     P_LATERAL,
     P_MASS,
     P_RADIUS,
+    P_RATE_AND_STATE_DISTANCE,
     QUASI_STEADY,
     RATE_AND_STATE_AGE,
     SLIP,
@@ -78,6 +79,7 @@ def radau(memory, begin, end: float) -> np.ndarray:
     p, u, w = np.array(memory.p), np.array(memory.u), np.zeros(W_SIZE)
     scale = np.array([1.0, p[P_LATERAL], p[P_LATERAL] * p[P_RADIUS]])
     inertia = np.array([p[P_MASS], p[P_MASS], p[P_INERTIA]])
+    distance = p[P_RATE_AND_STATE_DISTANCE]
 
     def rates(t, y):
         w[W_STATE : W_STATE + INSTANT] = begin
@@ -88,7 +90,7 @@ def radau(memory, begin, end: float) -> np.ndarray:
         kernel.friction_in_slip(p, u, w, *(scale * w[W_SLIDING : W_SLIDING + 3]))
         force = w[W_LOAD : W_LOAD + 3] + w[W_FRICTION : W_FRICTION + 3]
         mean = w[W_MEAN_SPEED]
-        return [*y[3:6], *(force / inertia), kernel.ageing_rate(p, y[6], mean), mean]
+        return [*y[3:6], *(force / inertia), kernel.rate_and_state_age_rate(mean, y[6], distance), mean]
 
     start = np.array([*begin[X : X + 6], begin[RATE_AND_STATE_AGE], 0.0])
     start[VX - X : 6] += 1e-9 * begin[DIRECTION : DIRECTION + 3] / scale
