@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arrays import inputs
+from .arrays import interface_temperature as temperature_of
 from .compiled import compiled_kernel
-from .kernel.layout import P_NORMAL_FORCE, U_FILM, U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
+from .kernel.layout import P_NORMAL_FORCE, W_FRICTION, W_SIZE
 from .parameters import Parameters
 
 
@@ -29,11 +31,9 @@ def friction_coefficient(
     speeds = np.atleast_1d(np.asarray(speed, dtype=float))
     if not np.all(speeds > 0.0):
         raise ValueError(f"speed = {speeds.min():g} m/s: must be above 0")
-    if interface_temperature is None:
-        interface_temperature = parameters.temperature_dependence.reference_degC
-    kernel = compiled_kernel()
-    p, u, w = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(W_SIZE)
-    u[U_TEMPERATURE], u[U_FILM] = interface_temperature, film_thickness
+    temperature = temperature_of(parameters, interface_temperature)
+    kernel, u = compiled_kernel(), inputs(0.0, temperature, film_thickness)
+    p, w = np.array(parameters.pack()), np.zeros(W_SIZE)
     coefficients = np.empty(speeds.size)
     for i, value in enumerate(speeds):
         kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)
