@@ -78,7 +78,7 @@ def build_fmu(directory: str | Path) -> Path:
 
 def _packages() -> str:
     """Where the packages of this process lie, for one that is to import the same."""
-    homes = [str(Path(package.__file__).parents[1]) for package in (cosim, stickslip)]
+    homes = [str(Path(package.__path__[0]).parent) for package in (cosim, stickslip)]
     return os.pathsep.join([*homes, *filter(None, [os.environ.get("PYTHONPATH")])])
 
 

@@ -6,9 +6,9 @@ import pprint
 import uuid
 from typing import Any
 
-from pydantic import BaseModel
 from stickslip import Parameters, ports
 from stickslip.kernel import layout
+from stickslip.quantity import details
 
 Entry = dict[str, Any]
 
@@ -70,8 +70,7 @@ def _entry(name: str, start: float) -> Entry:
     entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
     if key in GUIDES:
         return entry | {"start": int(start)}
-    table = Parameters.model_fields[group].annotation
-    assert table is not None and issubclass(table, BaseModel)
+    table: Any = Parameters.model_fields[group].annotation
     field = table.model_fields[key.partition("[")[0]]
     bounds = {
         kind: getattr(bound, kind)
@@ -80,13 +79,11 @@ def _entry(name: str, start: float) -> Entry:
         if getattr(bound, kind, None) is not None
     }
     whole = field.annotation is int
-    extra = field.json_schema_extra
-    assert isinstance(extra, dict)
     return (
         entry
         | ({"start": int(start), "nominal": None} if whole else {})
         | {
-            "unit": None if whole else extra["unit"],
+            "unit": None if whole else details(field)["unit"],
             "min": bounds.get("gt", bounds.get("ge")),
             "max": bounds.get("le"),
             "above_min": "gt" in bounds,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from types import ModuleType, SimpleNamespace
 from typing import Any, Self
@@ -86,7 +86,7 @@ class RunArrays:
         interpreted: bool = False,
     ) -> Self:
         """A run that starts at the time ``start`` (s), with room for so many events in its log."""
-        array = list if interpreted else np.array
+        array: Callable[[Any], Any] = list if interpreted else np.array
         kernel = INTERPRETED if interpreted else compiled_kernel()
         e = array(np.zeros(E_FIRST + E_WIDTH * events))
         e[E_CAPACITY] = float(events)
@@ -96,7 +96,7 @@ class RunArrays:
         return run
 
     def copy(self) -> Self:
-        """The same instant, to go another way from."""
+        """The same instant, to go on differently from."""
         return replace(self, z=self.z.copy())
 
     @property

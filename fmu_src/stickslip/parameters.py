@@ -274,7 +274,7 @@ class Parameters(EffectTables):
 
     def _curve_values(self) -> dict[str, float]:
         """The curve at its full length: unused places repeat the last value, which ends it."""
-        values = {}
+        values: dict[str, float] = {}
         for key in ("force_curve_extension", "force_curve_force"):
             curve = getattr(self.springs, key)
             rest = curve[-1] if curve else 0.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic.fields import FieldInfo
 
 
 class Table(BaseModel):
@@ -42,3 +43,9 @@ def quantity(
     if tried is not None:
         extra["tried"] = tried
     return Field(default, description=description, json_schema_extra=extra, **bounds)
+
+
+def details(field: FieldInfo) -> dict[str, Any]:
+    """What `quantity` has noted of a field beside its description: unit, typical, tried."""
+    extra = field.json_schema_extra
+    return extra if isinstance(extra, dict) else {}

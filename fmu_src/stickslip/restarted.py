@@ -1,7 +1,7 @@
 """A run that is set to given states at given moments: model flights between measured states.
 
 Positions and velocities are set; what cannot be seen of a block - the heat and the age of its
-contact, the way slid, the place on the surface - goes on from the model's own past.
+contact, the distance slid, the place on the surface - goes on from the model's own past.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Force = Callable[[Sequence[float]], float]
 
 @dataclass(frozen=True)
 class Restart:
-    """One moment at which a run is set to a state.
+    """One instant at which a run is set to a state.
 
     Attributes
     ----------
@@ -130,14 +130,16 @@ def _record_forced(
 
 
 def _set(run: RunArrays, time: float, restart: Restart) -> None:
-    """Reach the moment by the model's own motion, then set the state and settle the contact."""
+    """Reach the instant by the model's own motion, then set the state and settle the contact."""
     z, past = run.z, run.z[Z_STARTED]
     if past:
         run.advance(time)
     z[SHOWN] = time
     given = np.isfinite(restart.state)
     z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
-    if np.isfinite(restart.hold_since):  # a stick's velocity is the surface's; it creeps from there
+    if np.isfinite(
+        restart.hold_since
+    ):  # a stick's velocity is the surface's; it preslides from there
         z[SHOWN + MODE], z[SHOWN + HOLD_SINCE] = STICK, restart.hold_since
         run.follow_surface()
     elif past and given[STATE.index("vx")]:  # how the model moved before must not decide

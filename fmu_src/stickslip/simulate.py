@@ -58,7 +58,8 @@ def simulate(
             if progress is not None:
                 progress(run.time_reached)
     except BaseException as stop:
-        stop.trajectory = run.trajectory(reason=f"stopped: {type(stop).__name__}")
+        kept = run.trajectory(reason=f"stopped: {type(stop).__name__}")
+        stop.trajectory = kept  # type: ignore[attr-defined]  # any exception can carry it
         raise
     return run.trajectory(run.reason)
 

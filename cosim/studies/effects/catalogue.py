@@ -7,6 +7,7 @@ from typing import Any
 
 from stickslip import EFFECTS
 from stickslip.effects.effect import Effect
+from stickslip.quantity import details
 
 
 class UnknownEffect(ValueError):
@@ -33,9 +34,9 @@ def described(entry: Effect) -> dict[str, Any]:
         "parameters": [
             {
                 "key": f"{entry.id}.{name}",
-                "unit": field.json_schema_extra["unit"],
+                "unit": details(field)["unit"],
                 "default": field.default,
-                "typical": field.json_schema_extra.get("typical"),
+                "typical": details(field).get("typical"),
                 "switches_on": name in entry.switch,
                 "description": field.description,
                 **_bounds(field.metadata),

@@ -50,15 +50,14 @@ def _draw(effect_id: str) -> Figure:
 
 
 def motion(effect_id: str, on: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n,) and x (n,), m; with the effect on an interface as warm and wet as its case says."""
+    """Times (n,) and x (n,), m; with the effect, the interface is as warm as its case says."""
     case = CASES[effect_id]
     reference = case.effect.get("reference_degC")
-    warmed = reference is not None and on
     run = simulate(
         case_parameters(effect_id, on),
         case.window[1],
         INTERVAL,
-        interface_temperature=reference + case.warmer if warmed else None,
+        interface_temperature=reference + case.warmer if on and reference is not None else None,
         film_thickness=case.water,
     )
     return run.time, run["x"]

@@ -1,4 +1,4 @@
-"""An effect as it is offered to a fit: its free parameters, where they start, what else it needs."""
+"""An effect as it is offered to a fit: free parameters, where they start, what else it needs."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""From one moment to another: internal steps, events, and the moments a caller asks for.
+"""From one instant to another: internal steps, events, and the instants a caller asks for.
 
-The integrator walks on its own grid, HERE to NEXT, and a moment asked for inside a step is
+The integrator walks on its own grid, HERE to NEXT, and an instant asked for inside a step is
 reached by a shorter step from HERE that leaves the grid alone. As long as the inputs do not
 change, the trajectory therefore does not depend on when anybody looks at it.
 """
@@ -104,7 +104,7 @@ def longest_step(p: Floats, z: Floats, w: Floats, rest: float) -> float:
 
 
 def sliding_along(p: Floats, z: Floats, w: Floats) -> float:
-    """Sliding velocity in ``w`` along the direction of sliding in HERE, m/s: below 0 if reversed."""
+    """Sliding velocity in ``w`` along the direction in HERE, m/s: below 0 if reversed."""
     along = w[W_SLIDING] * z[HERE + DIRECTION]
     along += p[P_LATERAL] * w[W_SLIDING + 1] * z[HERE + DIRECTION + 1]
     along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[HERE + DIRECTION + 2]

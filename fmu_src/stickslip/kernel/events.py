@@ -92,9 +92,9 @@ def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
 
 
 def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
-    """Decide whether the contact at a block sticks or slips, and make the block consistent.
+    """Decide whether the contact at an instant sticks or slips, and make the instant consistent.
 
-    A stick goes on where the block slides no faster than it may creep.
+    A stick goes on where the block slides no faster than presliding may be.
     """
     look_at(p, u, z, w, instant)
     before = z[instant + MODE]
@@ -186,7 +186,7 @@ def time_to_rest(p: Floats, w: Floats) -> float:
 
 
 def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
-    """Turn the sliding at a block that creeps to the direction in ``w[W_CREEP:]``.
+    """Turn quasi-steady sliding at an instant to the direction in ``w[W_STEADY:]``.
 
     What the block's kinetic energy gains is the surface's work: the energy of the sliding stays.
     """
@@ -201,14 +201,14 @@ def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
 
 
 def keep_direction_steady(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
-    """Give a block that creeps the direction that its load asks for."""
+    """Give quasi-steady sliding the direction that the load asks for."""
     look_at(p, u, z, w, instant)
     set_steady_direction(p, u, w, sqrt(sliding_energy(p, w)))
     turn(p, u, z, w, instant)
 
 
 def choose_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
-    """Decide whether the slip that goes on from HERE creeps; slopes and contact are in ``w``."""
+    """Decide whether the slip from HERE is quasi-steady; slopes and contact are in ``w``."""
     before = z[HERE + QUASI_STEADY]
     now = 0.0
     if before == 1.0 or may_slide_quasi_steadily(p, u, w):

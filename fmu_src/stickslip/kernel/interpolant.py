@@ -6,9 +6,9 @@ and four further coefficients from three more stages,
 
     y = y_0 + t (F_0 + (1 - t) (F_1 + t (F_2 + (1 - t) (F_3 + t (F_4 + (1 - t) (F_5 + t F_6)))))).
 
-It is made once for a step, when a moment inside it is asked for, and then tells how well it obeys
+It is made once for a step, when an instant inside it is asked for, and then tells how well it obeys
 the equations of motion. Where it does not, in the first instants of a slip that turns at once, such
-a moment is reached by steps of the integrator that leave its own grid alone.
+an instant is reached by steps of the integrator that leave its own grid alone.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def set_interpolant(p: Floats, u: Floats, z: Floats, w: Floats):
 
 
 def interpolate(p: Floats, u: Floats, z: Floats, w: Floats, target: int, time: float):
-    """The moment ``time`` of the step from HERE by the interpolant, into instant ``target``."""
+    """The instant ``time`` of the step from HERE by the interpolant, into instant ``target``."""
     t = (time - z[HERE + TIME]) / z[Z_SPAN]
     r = 1.0 - t
     copy_instant(z, HERE, target)
@@ -144,7 +144,7 @@ def defect(p: Floats, u: Floats, z: Floats, w: Floats, t: float) -> float:
 
 
 def approach(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
-    """The moment ``time`` of the step from HERE by steps that pass the error test, into SHOWN.
+    """The instant ``time`` of the step from HERE by steps that pass the error test, into SHOWN.
 
     They become no finer than 2^-12 of the integrator's own, which has passed that test as a whole.
     """
@@ -167,7 +167,7 @@ def approach(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
 
 
 def look_inside(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
-    """The moment ``time`` of the step from HERE to NEXT, into SHOWN.
+    """The instant ``time`` of the step from HERE to NEXT, into SHOWN.
 
     What only grows stays between its ends: where friction dies away within the step, either way of
     getting there errs by more than the step's last joules.

@@ -67,7 +67,8 @@ def set_slip_friction(p: Floats, u: Floats, w: Floats):
 def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
     """Rates of x, y, phi and of their velocities at ``w[W_STATE:]``, into ``w[out:]``.
 
-    Returns power of the surface beyond that of friction, W: 0 but in creep, of either kind.
+    Returns power of the surface beyond that of friction, W: 0 but in presliding and
+    in quasi-steady sliding.
     """
     if mode == STICK and p[P_PRESLIDING] != 0.0:
         power = set_presliding(p, u, w)
@@ -107,7 +108,7 @@ def set_rates_of_place(p: Floats, w: Floats, out: int):
 
 
 def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int):
-    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works
+    """All slopes at the instant in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works
     and the effects' states.
 
     Friction heat is what friction takes out of the relative motion; the surface's work is what

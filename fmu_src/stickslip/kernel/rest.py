@@ -62,9 +62,9 @@ def excess_load(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase:
 def stop_sliding(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float):
     """Take away what is left of the sliding velocity in ``w``, as friction would.
 
-    What a stick has of the ``steady_sliding`` per load, m/(s N), is left. The impulse -M d that takes d away
-    makes heat of M d^2 / 2, all of the sliding's energy where nothing creeps, and does work on the
-    velocity that is left: the ledger stays closed.
+    What a stick has by ``presliding`` per load, m/(s N), is left. The impulse -M d that takes d
+    away makes heat of M d^2 / 2, all of the sliding's energy where there is no presliding, and does
+    work on the velocity that is left: the ledger stays closed.
     """
     dx = w[W_SLIDING]
     dy = 0.0
@@ -86,7 +86,7 @@ def stop_sliding(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presl
 
 
 def stick_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
-    """`excess_load` of a block that were to stick, with the creep that it would then have."""
+    """`excess_load` of a block that were to stick, with the presliding that it would then have."""
     load_instant(p, z, w, instant)
     set_stick_velocity(p, u, w, p[P_PRESLIDING])
     for i in range(3):
@@ -95,9 +95,10 @@ def stick_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> fl
 
 
 def come_to_rest(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
-    """Bring a block that hardly slides to rest on the surface, or to its creep; its `excess_load`.
+    """Bring a block that hardly slides to rest on the surface, or to presliding; its `excess_load`.
 
-    One that is not to stick creeps no longer, but keeps what velocity it had from that.
+    One that is not to stick preslides no longer, but keeps what velocity it had from that. Leaves
+    the contact there in ``w``.
     """
     presliding = p[P_PRESLIDING]
     if presliding != 0.0:

@@ -54,7 +54,7 @@ from .terms import with_state_scale
 
 
 def load_instant(p: Floats, z: Floats, w: Floats, instant: int):
-    """Make an instant in ``z`` the moment that the laws of motion look at."""
+    """Make an instant in ``z`` the instant that the laws of motion look at."""
     for i in range(INSTANT):
         w[W_STATE + i] = z[instant + i]
     for i in range(3):
@@ -63,7 +63,7 @@ def load_instant(p: Floats, z: Floats, w: Floats, instant: int):
 
 
 def begin_step(p: Floats, u: Floats, z: Floats, w: Floats, start: int):
-    """First stage of the step from instant ``start``; every step size tried from there shares it."""
+    """First stage of the step from instant ``start``; every size tried from there shares it."""
     load_instant(p, z, w, start)
     set_slopes(p, u, w, z[start + MODE], W_SLOPES)
 
@@ -155,7 +155,7 @@ def close_step(p: Floats, u: Floats, z: Floats, w: Floats, end: int, h: float) -
 def follow_surface(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float):
     """Give the block the velocity with which it sticks exactly, where friction holds it.
 
-    Takes the creep and leaves the contact as `set_stick_velocity` does.
+    Takes ``presliding`` and leaves the contact as `set_stick_velocity` does.
     """
     for i in range(INSTANT):
         w[W_STATE + i] = z[instant + i]
@@ -167,7 +167,7 @@ def follow_surface(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, pre
 
 
 def finish_stick(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int):
-    """Velocity of a stick at instant ``end``, and the surface's work on it since instant ``start``."""
+    """Velocity of a stick at instant ``end``, and the surface's work on it since ``start``."""
     follow_surface(p, u, z, w, end, p[P_PRESLIDING])
     if p[P_PRESLIDING] != 0.0:
         z[end + WORK_SURFACE] += held_energy(p, z, end) - held_energy(p, z, start)

@@ -1,4 +1,4 @@
-"""Creep: a slip so slow that the load alone says where it goes.
+"""Quasi-steady sliding: a slip so slow that the load alone says where it goes.
 
 Where the sliding speed s is small, friction turns the sliding velocity at the rate mu g / s: the
 faster, the slower the slip. A contact loaded to just its limit (mu_k as large as mu_s, or friction
@@ -68,8 +68,8 @@ QUASI_STEADY_SPEED = 1e-4
 # The time over which the rate of turning is a difference quotient, per time of the motion: its
 # error of first order is below that of leaving out the second order.
 LOOK_AHEAD = 1e-4
-# Acceleration along the sliding, per friction over mass, up to which a slip creeps. An ordinary
-# slip begins with (mu_s - mu_k) / mu_k and ends with more.
+# Acceleration along the sliding, per friction over mass, up to which a slip is quasi-steady. An
+# ordinary slip begins with (mu_s - mu_k) / mu_k and ends with more.
 QUASI_STEADY_ACCELERATION = 0.01
 
 
@@ -91,7 +91,7 @@ def sliding_inertia(p: Floats, w: Floats, at: int) -> float:
 
 
 def mean_part(w: Floats) -> float:
-    """Mean local sliding speed over the scaled sliding speed, along ``w[W_CREEP:]``."""
+    """Mean local sliding speed over the scaled sliding speed, along ``w[W_STEADY:]``."""
     sliding = sqrt(w[W_STEADY] * w[W_STEADY] + w[W_STEADY + 1] * w[W_STEADY + 1])
     spinning = abs(w[W_STEADY + 2])
     disc_friction(sliding, spinning, w)
@@ -101,11 +101,11 @@ def mean_part(w: Floats) -> float:
 def solve_direction(
     p: Floats, u: Floats, w: Floats, speed: float, qx: float, qy: float, qr: float
 ) -> float:
-    """Direction n under the loads in ``w``, into ``w[W_CREEP:]``; returns a, m/s^2.
+    """Direction n under the loads in ``w``, into ``w[W_STEADY:]``; returns a, m/s^2.
 
     ``speed`` is the mean local sliding speed, (qx, qy, qr) is s n', in the velocities of the
     block. The search ends where a comes to a tenth of
-    what friction gives: that is no creep.
+    what friction gives: that is not quasi-steady.
     """
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
@@ -142,7 +142,10 @@ def solve_direction(
 
 
 def set_steady_direction(p: Floats, u: Floats, w: Floats, sigma: float) -> float:
-    """Direction n of a quasi-steady slide at the moment in ``w``, into ``w[W_CREEP:]``; returns a, m/s^2."""
+    """Direction n of quasi-steady sliding at the instant in ``w``; returns a, m/s^2.
+
+    n goes into ``w[W_STEADY:]``.
+    """
     a = solve_direction(p, u, w, 0.0, 0.0, 0.0, 0.0)
     speed = sigma / sqrt(sliding_inertia(p, w, W_STEADY))
     if speed <= 0.0:
@@ -187,7 +190,7 @@ def sliding_energy(p: Floats, w: Floats) -> float:
 
 
 def set_quasi_steady_motion(p: Floats, u: Floats, w: Floats, out: int) -> float:
-    """Rates of the velocities in creep, into ``w[out:]``, from the contact in ``w``.
+    """Rates of the velocities in quasi-steady sliding, into ``w[out:]``, from the contact in ``w``.
 
     Puts the velocity with which the block really moves into ``w[W_STATE:]``, its friction and its
     sliding into ``w``. Returns what the surface's power differs by from friction times velocity, W:
@@ -237,10 +240,10 @@ def set_quasi_steady_motion(p: Floats, u: Floats, w: Floats, out: int) -> float:
 
 
 def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> bool:
-    """Does the slip at the moment in ``w``, with its contact and direction, creep?
+    """Does the slip at the instant in ``w``, with its contact and direction, slide quasi-steadily?
 
-    ``before`` is 1 where it has crept so far; then it may be twice as fast, so that it does not
-    change back and forth. Leaves the direction in ``w[W_CREEP:]``.
+    ``before`` is 1 where it has done so; then it may be twice as fast, so that it does not
+    change back and forth. Leaves the direction in ``w[W_STEADY:]``.
     """
     speed = scaled_sliding_speed(p, w)
     if speed > (1.0 + before) * QUASI_STEADY_SPEED * speed_scale(p, u):
@@ -257,7 +260,7 @@ def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> boo
 
 
 def may_slide_quasi_steadily(p: Floats, u: Floats, w: Floats) -> bool:
-    """Is the acceleration along the sliding small enough for a creep? From the slopes in ``w``.
+    """Is the acceleration along the sliding small enough for that? From the slopes in ``w``.
 
     A cheap look that spares ordinary slips the search for the direction.
     """
@@ -281,7 +284,7 @@ def may_slide_quasi_steadily(p: Floats, u: Floats, w: Floats) -> bool:
 
 
 def turn_to_steady_direction(p: Floats, w: Floats):
-    """Turn the velocities in ``w[W_STATE:]`` to ``w[W_CREEP:]``, at the same energy of sliding."""
+    """Turn the velocities in ``w[W_STATE:]`` to ``w[W_STEADY:]``, at the same energy of sliding."""
     kappa = p[P_LATERAL]
     speed = sqrt(sliding_energy(p, w) / sliding_inertia(p, w, W_STEADY))
     w[W_STATE + VX] = w[W_SURFACE] + speed * w[W_STEADY]

@@ -1,19 +1,19 @@
-"""Motion of a contact that sticks: with the surface, or creeping against it under its load.
+"""Motion of a contact that sticks: with the surface, or presliding against it under its load.
 
-A contact is sheared before it slides. With a stick creep v_c the surface leaves the block behind
-as if the contact were a film (regularised Coulomb friction) of the viscosity eta = mu_s N / v_c:
+A contact is sheared before it slides. With a presliding speed v_c the surface leaves the block
+behind as if the contact were a film (regularised Coulomb friction) of the viscosity eta = mu_s N / v_c:
 
     F_x = -eta U_x,   F_y = -kappa^2 eta U_y,   M = -kappa^2 eta (a^2 / 2) Omega.
 
 (U_x, U_y, Omega) is the sliding velocity and (F_x, F_y, M) the friction that holds the block: mass
-times the surface's acceleration, less springs, damping and external loads. So v_c is the creep
+times the surface's acceleration, less springs, damping and external loads. So v_c is the speed
 under the load mu_s N along x; on one linear spring x' = V - v_c K x / (mu_s N). A contact that has
-grown stronger by its age creeps no slower, and breaks away at what it then holds. Where mu_k is
+grown stronger by its age preslides no slower, and breaks away at what it then holds. Where mu_k is
 larger than mu_s, it takes the place of mu_s.
 
-The creep has no inertia, so that the velocity of a stick follows from its place: with inertia it
+Presliding has no inertia, so that the velocity of a stick follows from its place: with inertia it
 would lag behind this by v_c / (mu_s g), and be stiff. What the block's momentum changes by is the
-surface's work, see `held_energy`. (The creep of `steady_sliding` is another: a slip.)
+surface's work, see `held_energy`. (Quasi-steady sliding, see `steady_sliding`, is a slip.)
 """
 
 from __future__ import annotations
@@ -54,9 +54,9 @@ from .surface import surface_motion
 def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
     """Velocity of a block that sticks at the place in ``w[W_STATE:]``, where it is free.
 
-    ``steady_sliding`` is the sliding speed per load, m/(s N): P_STICK_CREEP, or 0 for the surface's own
-    velocity. Leaves the surface's motion there and the sliding velocity in ``w``: the creep, and
-    what guides keep from following.
+    ``presliding`` is the sliding speed per load, m/(s N): P_PRESLIDING, or 0 for the surface's own
+    velocity. Leaves the surface's motion there and the sliding velocity in ``w``: the presliding,
+    and what guides keep from following.
     """
     surface_motion(p, u, w, W_STATE)
     w[W_STATE + VX] = w[W_SURFACE]
@@ -70,11 +70,11 @@ def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
 
 
 def add_presliding(p: Floats, u: Floats, w: Floats, c: float):
-    """Add the creep to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
+    """Add presliding to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
 
     Leaves the contact in ``w``, friction as of `set_holding_load`.
     The friction that it answers to has a part of its own: damping, and on a turning surface the
-    acceleration of what creeps on it.
+    acceleration of what slides on it.
     """
     set_contact(p, u, w, W_STATE)
     set_holding_load(p, w)
@@ -106,7 +106,7 @@ def add_presliding(p: Floats, u: Floats, w: Floats, c: float):
 
 
 def set_presliding(p: Floats, u: Floats, w: Floats) -> float:
-    """Velocity, contact, friction and mean sliding speed of a stick that creeps, into ``w``.
+    """Velocity, contact, friction and mean sliding speed of a stick with presliding, into ``w``.
 
     Returns what the surface's power differs by from friction times its velocity, W, beside the
     change of `held_energy`: that of the surface's own acceleration is in both.
@@ -130,7 +130,7 @@ def set_presliding(p: Floats, u: Floats, w: Floats) -> float:
 def held_energy(p: Floats, z: Floats, instant: int) -> float:
     """Kinetic energy of the motions that the contact holds at an instant in ``z``, J.
 
-    In a stick that creeps, velocities follow from places without a force: what this changes by is
+    With presliding, velocities follow from places without a force: what this changes by is
     the surface's work.
     """
     vx = z[instant + VX]
@@ -143,7 +143,7 @@ def held_energy(p: Floats, z: Floats, instant: int) -> float:
 
 
 def fastest_presliding(p: Floats, u: Floats, w: Floats) -> float:
-    """Scaled sliding speed that no stick at the moment in ``w[W_STATE:]`` exceeds, m/s.
+    """Scaled sliding speed that no stick at the instant in ``w[W_STATE:]`` exceeds, m/s.
 
     That of a load at the limit, and 4/3 of it where the load is all moment.
     """

@@ -73,7 +73,7 @@ class LiveRun:
         return bool(self._run.z[SHOWN + MODE] == STICK)
 
     def copy(self) -> Self:
-        """The same instant, to go another way from."""
+        """The same instant, to go on differently from."""
         twin = object.__new__(type(self))
         twin._run = self._run.copy()
         return twin
