@@ -37,8 +37,8 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.checks import check_case, check_options
 from thermal import MeshError, ParameterError
-from thermal.air import NotLaminar
-from thermal.steady import NoSteadyState
+from thermal.belt.air import NotLaminar
+from thermal.steady_state import NoSteadyState
 
 DONE, FAILED = 0, 1
 REFUSED = (

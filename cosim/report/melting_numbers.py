@@ -25,7 +25,7 @@ from stickslip.kernel.layout import (
     P_RADIUS,
 )
 
-from thermal.melt_film import WATER_DENSITY
+from thermal.materials import WATER_DENSITY
 
 from .blocks import mechanics_of, value_of
 from .phases import SLIP

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, NOISE, SHARED, motion, noisy, write_campaign, write_csv
+from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign, write_csv
 from stickslip import Parameters
 
 from cosim.gap import CampaignError, read_campaign
@@ -304,18 +304,16 @@ def test_a_run_that_only_sticks_is_remarked_on(tmp_path):
     assert read.remarks[1:] == ("run01: no slip is seen, it says nothing of kinetic friction",)
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="measured data are not here")
 @pytest.mark.parametrize("name", ["e1", "e2", "e3", "e4", "e5"])
-def test_example_campaigns_are_read(name):
-    read = read_campaign(SHARED / "blind_examples" / name)
+def test_example_campaigns_are_read(name, shared):
+    read = read_campaign(shared(f"data/blind_examples/{name}"))
     assert [run.hold_out for run in read.runs].count(True) == 2
     assert all(run.track.outliers == {"x": 0, "y": 0} for run in read.runs)
     assert KNOWN["stiffness"] == read.runs[0].stiffness
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="measured data are not here")
-def test_measured_friction_of_paper_is_read():
-    read = read_campaign(SHARED / "paper_friction")
+def test_measured_friction_of_paper_is_read(shared):
+    read = read_campaign(shared("data/paper_friction"))
     assert read.noise_estimated == ("x",) and len(read.held_out_runs) == 2
     slow = read.runs[0]
     # a resolution of some nanometres to a micrometre, by eye; stick-slip in every second or two

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from gap_campaigns import NOISE, SHARED, motion, noisy, write_campaign
+from gap_campaigns import NOISE, motion, noisy, write_campaign
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -51,14 +51,14 @@ def test_noise_with_jitter_and_lost_rows(slow, seed, jitter, lost, size):
     assert found == pytest.approx(size, rel=tolerance(600))
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="measured data are not here")
 @pytest.mark.parametrize("name", ["e1", "e2", "e3", "e4", "e5"])
-def test_noise_of_the_examples(name, tmp_path):
-    text = (SHARED / "blind_examples" / name / "campaign.toml").read_text(encoding="utf-8")
+def test_noise_of_the_examples(name, shared, tmp_path):
+    example = shared(f"data/blind_examples/{name}")
+    text = (example / "campaign.toml").read_text(encoding="utf-8")
     start, end = text.index("[noise]"), text.index("[[run]]")
     folder = tmp_path / name
     folder.mkdir()
-    for file in (SHARED / "blind_examples" / name).glob("*.csv"):
+    for file in example.glob("*.csv"):
         (folder / file.name).symlink_to(file)
     (folder / "campaign.toml").write_text(text[:start] + text[end:], encoding="utf-8")
     read = read_campaign(folder)
