@@ -21,8 +21,8 @@ def friction_coefficient(
     """Friction over normal force of a contact that slides along x without turning, speeds (n,) m/s.
 
     Every effect of friction that is on has its say, with its memory as at the start of a run: no
-    recent heat, no distance slid. interface_temperature: degC; left out, the reference temperature of
-    ``temperature_dependence``. film_thickness: water in the contact, mean over it, m. Raises
+    recent heat, no distance slid. interface_temperature: degC; left out, the reference temperature
+    of ``temperature_dependence``. film_thickness: water in the contact, mean over it, m. Raises
     ValueError for a speed that is not positive.
 
     >>> friction_coefficient(Parameters(), [0.1])

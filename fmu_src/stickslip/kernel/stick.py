@@ -1,7 +1,8 @@
 """Motion of a contact that sticks: with the surface, or presliding against it under its load.
 
 A contact is sheared before it slides. With a presliding speed v_c the surface leaves the block
-behind as if the contact were a film (regularised Coulomb friction) of the viscosity eta = mu_s N / v_c:
+behind as if the contact were a film (regularised Coulomb friction) of the viscosity
+eta = mu_s N / v_c:
 
     F_x = -eta U_x,   F_y = -kappa^2 eta U_y,   M = -kappa^2 eta (a^2 / 2) Omega.
 

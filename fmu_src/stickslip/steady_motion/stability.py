@@ -48,8 +48,8 @@ class Stability:
     multipliers : (n,) moduli of the multipliers of one cycle, the largest first; n = 2 for each of
         y and phi that is free, none where the rig guides the block
     period : of a cycle, s
-    amplification : what a disturbance of the start grows by at most in the whole run, its speed ramp
-        included; NaN where the run's own motion was looked at
+    amplification : what a disturbance of the start grows by at most in the whole run, its speed
+        ramp included; NaN where the run's own motion was looked at
     straight : whether the motion along the x axis was looked at, as of a rig without imperfections
         that starts on its line; else the run's own motion, of a rig that has no such line
     """
