@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from stickslip import EFFECTS
 from stickslip.effects.candidate import Candidate, Scales
 
 
-def candidates(scales: Scales) -> tuple[Candidate, ...]:
-    """All laws of all effects, in the catalogue's order; several starts of one law are several."""
-    return tuple(candidate for effect in EFFECTS for candidate in effect.candidates(scales))
+def candidates(scales: Scales, also: Collection[str] = ()) -> tuple[Candidate, ...]:
+    """All laws of all effects, in the catalogue's order; several starts of one law are several.
+
+    also : effects that are not offered unless they are named
+    """
+    return tuple(
+        candidate
+        for effect in EFFECTS
+        if effect.offered or effect.id in also
+        for candidate in effect.candidates(scales)
+    )

@@ -86,6 +86,8 @@ class Effect:
     states : what it remembers
     core : parameters that the core of the kernel knows, and under which name (`P_...`)
     candidates : what a fit may turn in a campaign of such scales
+    offered : whether `gap` tries them by itself, or only where somebody names the effect: one more
+        law is one more chance to be wrong, and a campaign's answer is not to change by it
     """
 
     id: str
@@ -101,6 +103,7 @@ class Effect:
     states: tuple[State, ...] = ()
     core: Mapping[str, str] = field(default_factory=dict)
     candidates: Callable[[Scales], Iterable[Candidate]] = no_candidates
+    offered: bool = True
 
     @property
     def sentence(self) -> str:
