@@ -134,7 +134,8 @@ def _add_run(commands: argparse._SubParsersAction) -> None:
     run.add_argument(
         "--fmu",
         metavar="FILE",
-        help="the mechanical FMU (default: build/StickSlip3DOF.fmu, built when missing or stale)",
+        help="the mechanical FMU (default: that in build of a checkout, or else in the user's cache"
+        " folder, built when missing or stale)",
     )
     run.add_argument(
         "--animation",
@@ -162,6 +163,9 @@ def _add_build(commands: argparse._SubParsersAction) -> None:
         "stickslip build -o fmus",
     )
     build.add_argument(
-        "-o", "--output", metavar="DIR", default="build", help="folder of the FMU (default: build)"
+        "-o",
+        "--output",
+        metavar="DIR",
+        help="folder of the FMU (default: build of a checkout, else the user's cache folder)",
     )
     build.add_argument("--fmi", choices=["2"], default="2", help="version of FMI (default: 2)")

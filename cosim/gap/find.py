@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.plain import moves_across, plain_free_parameters
 from cosim.gap.candidates.scales import scales

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS
 from stickslip.kernel import layout
 
 from cosim.gap.data import Campaign, MeasuredRun
@@ -12,7 +13,6 @@ from cosim.gap.diagnostics.model_track import tracks_of
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.result import FittedModel, FittedRun
-from cosim.gap.shooting.free_parameter import OFFSETS
 
 _STATE = (layout.O_X, layout.O_Y, layout.O_PHI, layout.O_VX, layout.O_VY, layout.O_OMEGA)
 

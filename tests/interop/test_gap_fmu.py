@@ -7,10 +7,10 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from stickslip.effects.candidate import FreeParameter
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.show.model_file import model_text, scenario_of, shown_run
 from cosim.gap.show.reproduction import reproduce, reproduced_runs
 

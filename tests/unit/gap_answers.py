@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
 from cosim.gap.diagnostics import analyse_residuals, find_where
@@ -14,7 +15,6 @@ from cosim.gap.estimation.preparation import prepare
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import Gap, Ranked
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
 PLAIN = (

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.fitted import Fitted, Point
 from cosim.gap.estimation.segmented_run import TILT
 from cosim.gap.estimation.trial import Model, Trial

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from linear_runs import linear_run
 from scipy.stats import kstest
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import start
@@ -13,7 +14,6 @@ from cosim.gap.estimation.preparation import Data
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.trial import Model, try_model
 from cosim.gap.selection.bootstrap import chance
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 PLAIN = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 0.1))
 OWN = FreeParameter("a.own", 0.0, 0.1, per_run=True)

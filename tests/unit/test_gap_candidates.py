@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
 from stickslip import Parameters
+from stickslip.effects.candidate import OFFSETS, Candidate, FreeParameter, Scales
 
 from cosim.gap import read_campaign
-from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.extend import extended, moved
 from cosim.gap.candidates.plain import plain_free_parameters
 from cosim.gap.candidates.scales import scales
@@ -22,7 +22,6 @@ from cosim.gap.estimation.trial import Model, Trial, finished, try_model
 from cosim.gap.selection.alternatives import other_starts
 from cosim.gap.selection.search import Search
 from cosim.gap.selection.tried import ACROSS, Tried
-from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
 
 EFFECTS = (
     "lateral_friction",

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.data import read_campaign
 from cosim.gap.design import Member, experiments, next_experiment
@@ -14,7 +15,6 @@ from cosim.gap.estimation.fit import with_columns
 from cosim.gap.estimation.fitted import Fitted, start
 from cosim.gap.estimation.preparation import prepare
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 DRAG = FreeParameter("structural_damping.coefficient", 0.4, 0.2, 0.0)
 

@@ -7,6 +7,7 @@ import pytest
 from gap_campaigns import KNOWN, NOISE, noisy, write_campaign
 from linear_runs import trial_of
 from stickslip import Parameters
+from stickslip.effects.candidate import FreeParameter
 from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.gap import MeasuredRun, Stick, Track, read_campaign
@@ -23,7 +24,6 @@ from cosim.gap.estimation.fitted import start
 from cosim.gap.estimation.intervals import intervals
 from cosim.gap.estimation.preparation import prepare
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 SPEEDS = (0.02, 0.04, 0.08)
 #: Where blocks break away and stick again, m, and samples, s.

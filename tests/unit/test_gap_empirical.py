@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from stickslip.kernel import layout
-from stickslip.kernel.layout import BLOCK, MODE, SLIP, STICK
+from stickslip.kernel.layout import INSTANT, MODE, SLIP, STICK
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -210,7 +210,7 @@ def test_nothing_is_proposed_where_nothing_is_missing(plain):
 
 def test_a_fitted_speed_has_a_direction():
     """A speed that comes out of a fit is numpy's, whose truths have no difference."""
-    block = [0.0] * BLOCK
+    block = [0.0] * INSTANT
     block[MODE] = SLIP
     assert moment_of(block, np.float64(0.1), 6.0).direction == 1.0
     assert moment_of(block, np.float64(-0.1), 6.0).direction == -1.0

@@ -8,6 +8,7 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 from linear_runs import trial_of
 from scipy.optimize import least_squares
 from scipy.stats import chi2
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
 from cosim.gap.estimation.fit import fit, with_columns
@@ -17,7 +18,6 @@ from cosim.gap.estimation.phases import with_phases
 from cosim.gap.estimation.preparation import prepare, prepared
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.trial import Model, coarse_fit, try_model
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 SPEEDS = (0.06, 0.15, 0.10)
 MU_S, MU_K, LINEAR = 0.3, 0.2, 0.8

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from linear_runs import FREE, joint, linear_run, trial_of
 from scipy.optimize import lsq_linear
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import start
 from cosim.gap.estimation.intervals import intervals
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 SHARED = (FreeParameter("a.a", 0.0, 0.1), FreeParameter("a.b", 0.0, 3.0))
 OWN = FreeParameter("a.own", 0.0, 0.2, per_run=True)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from gap_campaigns import motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
 from cosim.gap.estimation.columns import Columns
@@ -13,7 +14,6 @@ from cosim.gap.estimation.phases import with_phases, with_phases_followed
 from cosim.gap.estimation.preparation import SHORT_CYCLES, prepare, prepared
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import LOST
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 SPEED, PHASE = 0.1, 130.0
 FREE_PARAMETERS = (

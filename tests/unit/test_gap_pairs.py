@@ -2,17 +2,16 @@
 
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import Candidate, FreeParameter, Scales
 
 from cosim.gap import read_campaign
-from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.extend import extended
 from cosim.gap.estimation.linearisation import linearised, screening_fit
 from cosim.gap.estimation.preparation import prepared
 from cosim.gap.estimation.trial import Model, coarse_fit, try_model
 from cosim.gap.selection.search import Search
 from cosim.gap.selection.tried import Tried
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 SPEEDS = (0.06, 0.15, 0.10)
 PLAIN = Model(

@@ -5,15 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter, Scales
 
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.data import read_campaign
 from cosim.gap.estimation.linearisation import linearised
 from cosim.gap.estimation.preparation import SHORT_CYCLES, Data, prepare
 from cosim.gap.estimation.trial import Model, coarse_fit
 from cosim.gap.selection.frequency_response import frequency_response, sums
 from cosim.gap.selection.periodogram import periodogram, scan
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 SPEEDS, AMPLITUDE, PHASES = (0.04, 0.07), 0.08, (40.0, 190.0)
 PLAIN = Model(

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
+from stickslip.effects.candidate import Candidate, FreeParameter
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.selection.score_test import ScoreTest
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 ROWS = 400
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_trials import ACROSS, FAR, LESS, MORE, ROWS, after, finding, trial, tried
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.fitted import Fitted, Point
 from cosim.gap.estimation.trial import Model
 from cosim.gap.selection.criteria import PART_OF_OTHERS, excess_chi_square, repaired
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 #: Where the decisions lie.
 PLAIN_FITS = 1.3  # a plain model fits up to this root mean square residual

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from cosim.gap.estimation.trial import Model
-from cosim.gap.shooting.free_parameter import FreeParameter
+from stickslip.effects.candidate import Candidate, FreeParameter
 
-from .candidate import Candidate
+from cosim.gap.estimation.trial import Model
 
 #: A fit that ended nearer to a bound than this has run into it.
 _INSIDE = 1.02

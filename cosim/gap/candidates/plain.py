@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from stickslip.effects.candidate import FreeParameter
 from stickslip.packing import GRAVITY
 
 from cosim.gap.data import Campaign, MeasuredRun, cycle_features
 from cosim.gap.data.stick_remarks import SPEED_ERRORS, SPEED_PART, never_slips
 from cosim.gap.estimation.drive import SPEED_OFFSET
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 #: Speed at which the surface leaves a block behind that sticks and is about to break away, m/s.
 CREEP = "friction.stick_creep"

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from stickslip.effects.candidate import Scales
 from stickslip.packing import GRAVITY
 
-from cosim.gap.candidates.catalogue import Scales
 from cosim.gap.data import MeasuredRun
 
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.fitted import Fitted, Point
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations, permutations
 
 import numpy as np
-from stickslip import CATALOGUE
+from stickslip import EFFECTS
 
 from cosim.gap.data import Campaign
 from cosim.gap.estimation.fitted import shared_of
@@ -145,7 +145,7 @@ def _text(setting: Setting, one: Experiment, least: Sequence) -> str:
         else f"pulled to x = {1e3 * one.pull:.3g} mm and let go"
     )
     a, b, units = least
-    known = {entry.id for entry in CATALOGUE}
+    known = {entry.id for entry in EFFECTS}
     pair = f"{a} and {b}" if {a, b} <= known else f"{a} against {b}"
     return (
         f"{one.mass:.4g} kg, springs of {one.stiffness:.4g} N/m, surface at "

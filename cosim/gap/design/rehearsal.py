@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS
 
 from cosim.gap.data import Campaign, MeasuredRun, Track, find_sticks
 from cosim.gap.estimation.preparation import known_parameters, prepare
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import COLUMN, SegmentedRun
 from cosim.gap.estimation.segments import Segment
-from cosim.gap.shooting.free_parameter import OFFSETS
 
 from .member import Member, without_zero
 from .range import Experiment, tracked

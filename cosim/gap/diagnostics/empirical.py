@@ -7,14 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from stickslip.effects.candidate import Candidate, FreeParameter
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.diagnostics.spectrum import Period, strongest_period
 from cosim.gap.estimation.preparation import Data
 from cosim.gap.estimation.trial import Trial, coarse_fit, try_model
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.processes import Map
 
 from .features import HELD, Feature, library

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from stickslip.effects.candidate import OFFSETS
 from stickslip.kernel import layout
 
 from cosim.gap.data import MeasuredRun, Stick, find_sticks
 from cosim.gap.data.measured import Track
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.shooting.free_parameter import OFFSETS
 
 STICK, SLIP = 0.0, 1.0
 

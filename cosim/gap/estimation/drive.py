@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from stickslip.effects.candidate import SECOND
+
 #: Part by which a run's surface is faster than its set-point.
 SPEED_OFFSET = "offset.speed"
 
 #: Travel of the surface in one period of a ripple that a roller makes, m: at another speed it has
 #: another frequency.
 RIPPLE_LENGTH = "speed_ripple.wavelength"
-#: Parts of a second harmonic in phase with the first and a quarter of its own period ahead: unlike
-#: amplitude and phase, which they are fitted for, they have a meaning where there is none of it.
-SECOND = ("second_in_phase", "second_ahead")
 
 
 def model_parameters(set_point: float, values: Mapping[str, float]) -> dict[str, float]:

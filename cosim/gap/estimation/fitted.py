@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-
-from cosim.gap.shooting.free_parameter import FreeParameter
+from stickslip.effects.candidate import FreeParameter
 
 from .columns import Columns
 from .segmented_run import SegmentedRun

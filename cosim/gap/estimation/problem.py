@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-
-from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
+from stickslip.effects.candidate import OFFSETS, FreeParameter
 
 from .columns import Columns
 from .fitted import Point, own_of, shared_of

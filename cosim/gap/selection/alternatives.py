@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate
+
 from cosim.gap.candidates.extend import extended, moved, reduced
 from cosim.gap.estimation.trial import Model
 

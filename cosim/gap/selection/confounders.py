@@ -6,11 +6,11 @@ its mass and whatever the springs; runs of several masses or stiffnesses tell.
 
 from __future__ import annotations
 
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate, FreeParameter
+
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.segmented_run import TILT
 from cosim.gap.estimation.trial import Trial
-from cosim.gap.shooting.free_parameter import FreeParameter
 
 from .criteria import as_good, excess_chi_square
 from .search import Search

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 from stickslip.kernel import layout
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.columns import Columns
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate
+
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.trial import Trial
 

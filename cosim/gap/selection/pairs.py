@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate
+
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.trial import Trial
 

@@ -10,8 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate
 
 from .frequency_response import FrequencyResponse
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.fitted import Fitted, shared_of
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import SegmentedRun

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.candidates.extend import extended
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.linearisation import linearised, screening_fit

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from cosim.gap.candidates.candidate import Candidate
+from stickslip.effects.candidate import Candidate
+
 from cosim.gap.candidates.extend import extended, reduced
 from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import Fitted, Point, own_of, shared_of

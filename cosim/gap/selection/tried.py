@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.candidate import Candidate
 from cosim.gap.estimation.fitted import Fitted, shared_of
 from cosim.gap.estimation.trial import Model, Trial
 

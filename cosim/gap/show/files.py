@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from cosim.atomic import write_bytes, write_text
-from cosim.coupling.coupled_case import own_fmu
+from cosim.fmu.build import own_fmu
 from cosim.gap.diagnostics import analyse_residuals
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts

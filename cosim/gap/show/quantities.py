@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.gap.estimation.drive import SECOND
+from stickslip.effects.candidate import SECOND
+
 from cosim.scenario import Scenario
 
 #: Of the tracker and the drive, not of the model.

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from stickslip.restarted import STATE, Restart, simulate_restarted
+from stickslip.arrays import STATE
+from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.coupling import FmuParticipant
 from cosim.gap.estimation.segmented_run import COLUMN

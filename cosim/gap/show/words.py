@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from stickslip import CATALOGUE
+from stickslip import EFFECTS
 
 from cosim.gap.result import Gap
 from cosim.studies.reproduction.summary import SummaryGap
@@ -15,7 +15,7 @@ from .reproduced import Reproduced
 #: Of the tracker; said where everything is.
 ZEROS = ("offset.x", "offset.y")
 Answer = Gap | SummaryGap
-SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in CATALOGUE}
+SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
 
 
 def verdict(gap: Answer) -> str:

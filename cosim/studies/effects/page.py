@@ -6,17 +6,22 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip import Parameters, simulate
+from stickslip import EFFECTS, Parameters, simulate
+from stickslip.effects.effect import Case
 
 from cosim.report.output import Picture, render
 from cosim.report.style import BLUE, GREY, panels, picture
 
-from .cases import CASES
 from .catalogue import allowed
 
 INTERVAL = 0.005  # s
-WARMER = 3.0  # K above the reference: what temperature_dependence is shown at
-WATER = 5e-6  # m in the contact: what mixed_lubrication is shown at
+#: A rig that sticks and slips from the start: pretensioned springs, friction along x.
+PLAIN: dict[str, dict[str, Any]] = {
+    "rig": {"spring_natural_length": 0.17},
+    "surface": {"speed": 0.15},
+    "initial": {"vx": 0.15},
+}
+CASES: dict[str, Case] = {effect.id: effect.case for effect in EFFECTS}
 
 
 def page(entries: list[dict[str, Any]], pictures: dict[str, Picture]) -> str:
@@ -40,23 +45,19 @@ def effect_figure(effect_id: str) -> Picture:
         for name, value in keys.items()
     )
     where = f"; both with {rig}" if rig else ""
-    if effect_id == "temperature_dependence":
-        where += f"; interface {WARMER:g} K above the reference"
-    if effect_id == "mixed_lubrication":
-        where += f"; {1e6 * WATER:g} µm of water in the contact"
+    if case.warmer:
+        where += f"; interface {case.warmer:g} K above the reference"
+    if case.water:
+        where += f"; {1e6 * case.water:g} µm of water in the contact"
     draw = picture(effect_id, f"Motion without and with the effect ({sizes}){where}.")(_draw)
     return draw(effect_id)
 
 
 def _draw(effect_id: str) -> Figure:
-    case = CASES[effect_id]
-    begin, end = case.window
+    begin, end = CASES[effect_id].window
     figure, ((ax,),) = panels(1, 1, height=2.5, width=8.0)
-    for name, parameters, colour in (
-        ("without", case.parameters(None), GREY),
-        ("with", case.parameters(effect_id), BLUE),
-    ):
-        time, x = _motion(parameters, end)
+    for name, on, colour in (("without", False, GREY), ("with", True, BLUE)):
+        time, x = motion(effect_id, on)
         shown = time >= begin
         ax.plot(time[shown], 1e3 * x[shown], color=colour, label=name)
     ax.set(xlabel="time [s]", ylabel="x [mm]", xlim=(begin, end), title=effect_id)
@@ -64,15 +65,26 @@ def _draw(effect_id: str) -> Figure:
     return figure
 
 
-def _motion(parameters: Parameters, end: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n,) and x (n,), m; on a warmer and wet interface where friction feels that."""
-    law = parameters.temperature_dependence
-    warmer = WARMER if law.sensitivity > 0.0 else 0.0
+def motion(effect_id: str, on: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Times (n,) and x (n,), m; with the effect, the interface is as warm as its case says."""
+    case = CASES[effect_id]
+    reference = case.effect.get("reference_degC")
     run = simulate(
-        parameters,
-        end,
+        case_parameters(effect_id, on),
+        case.window[1],
         INTERVAL,
-        interface_temperature=law.reference_degC + warmer,
-        film_thickness=WATER,
+        interface_temperature=reference + case.warmer if on and reference is not None else None,
+        film_thickness=case.water,
     )
     return run.time, run["x"]
+
+
+def case_parameters(effect_id: str, on: bool) -> Parameters:
+    """The rig of an effect's case, with the effect or without."""
+    case = CASES[effect_id]
+    tables = {
+        name: PLAIN.get(name, {}) | dict(case.rig.get(name, {})) for name in PLAIN | dict(case.rig)
+    }
+    if on:
+        tables[effect_id] = tables.get(effect_id, {}) | dict(case.effect)
+    return Parameters.model_validate(tables)

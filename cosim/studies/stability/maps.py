@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.effects import EffectBlocks
+from stickslip.parameters import EffectTables
 from stickslip.packing import GRAVITY
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
@@ -211,7 +211,7 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
     Imperfections of a hundredth move the borders by as much.
     """
     plain = Parameters()
-    effects = set(EffectBlocks.model_fields) - HARMLESS
+    effects = set(EffectTables.model_fields) - HARMLESS
     return (
         all(getattr(parameters, name) == getattr(plain, name) for name in effects)
         and parameters.rig.surface == "belt"

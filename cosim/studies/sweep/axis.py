@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from stickslip import Parameters
+from stickslip.quantity import details
 
 from cosim.scenario.faults import known_keys, nearest
 
@@ -120,8 +121,7 @@ def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
         coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
     for key, values in columns.items():
         field = KEYS[key]
-        declared: Any = field.json_schema_extra or {}
-        attributes = {"units": declared.get("unit", "1"), "long_name": field.description or key}
+        attributes = {"units": details(field).get("unit", "1"), "long_name": field.description or key}
         kind = int if field.annotation is int else float
         coordinates[key] = (_column(values, kind), attributes)
     return coordinates

@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 from stickslip import Parameters, Trajectory, simulate
-from stickslip.compiled import compiled_kernel, kernel_source
+from stickslip.compiled import compiled_kernel
+from stickslip.generation.source import kernel_source
 
 from cosim.interrupts import held_interrupts
 

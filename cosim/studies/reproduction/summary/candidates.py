@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 from scipy.stats import norm
-from stickslip.effects import CATALOGUE
+from stickslip.effects import EFFECTS
+from stickslip.quantity import details
 
 from cosim.gap.data import Campaign
 
@@ -65,7 +65,7 @@ class Candidate:
     @property
     def off(self) -> dict[str, float]:
         """Values of what is searched with which the last effect is not there."""
-        blocks = {entry.id: entry.block for entry in CATALOGUE}
+        blocks = {entry.id: entry.table for entry in EFFECTS}
         keys = [span.key.split(".") for span in self.spans] if self.effects else []
         return {
             f"{block}.{name}": float(blocks[block].model_fields[name].default)
@@ -135,7 +135,7 @@ _RANGES = {
 def extensions(campaign: Campaign, base: Candidate) -> tuple[Candidate, ...]:
     """``base`` with each effect that is not in it, in the catalogue's order, form by form."""
     found = []
-    for effect in CATALOGUE:
+    for effect in EFFECTS:
         if effect.id in base.effects:
             continue
         for form, (numbers, settings) in _FORMS.get(effect.id, {}).items():
@@ -179,7 +179,6 @@ def _span(effect: str, number: str) -> Span:
     key = f"{effect}.{name}"
     if key in _RANGES:
         return Span(key, *_RANGES[key], log=scale == "log")
-    blocks = {entry.id: entry.block for entry in CATALOGUE}
-    declared: Any = blocks[effect].model_fields[name].json_schema_extra
-    low, high = declared["typical"]
+    tables = {entry.id: entry.table for entry in EFFECTS}
+    low, high = details(tables[effect].model_fields[name])["typical"]
     return Span(key, low, high, log=scale == "log")

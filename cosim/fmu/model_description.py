@@ -8,7 +8,7 @@ from stickslip.ports import INPUTS, OUTPUTS, Port
 
 # FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
 # whole numbers, which FMI cannot state
-UNITS = {
+UNITS: dict[str, dict[str, float] | None] = {
     "1": {},
     "m": {"m": 1},
     "m/s": {"m": 1, "s": -1},
@@ -41,7 +41,7 @@ UNITS = {
 }
 # Initial value of an output -> the parameters that it follows from. Totals start from zero;
 # of the outputs not named here all parameters and inputs have a say.
-STARTS = {
+STARTS: dict[str, tuple[str, ...]] = {
     name: (f"initial.{name}",) for name in ("x", "y", "phi", "vx", "vy", "omega")
 } | dict.fromkeys(
     (
@@ -62,18 +62,26 @@ def complete(xml: bytes, parameters: Iterable[Port]) -> bytes:
     """pythonfmu's modelDescription.xml with everything added; no date, so that builds repeat."""
     root = fromstring(xml)
     del root.attrib["generationDateAndTime"]
-    variables = root.find("ModelVariables")
+    variables = _part(root, "ModelVariables")
     known = {port.name: port for port in (*INPUTS, *OUTPUTS, *parameters)}
     for variable in variables:
-        _describe(variable, known[variable.get("name")])
+        _describe(variable, known[variable.attrib["name"]])
     used = {real.get("unit") for real in variables.iter("Real")}
-    root.insert(list(root).index(root.find("CoSimulation")) + 1, _unit_definitions(used))
-    root.remove(root.find("ModelStructure"))
-    root.append(_structure([variable.get("name") for variable in variables]))
+    units = _unit_definitions(sorted(filter(None, used)))
+    root.insert(list(root).index(_part(root, "CoSimulation")) + 1, units)
+    root.remove(_part(root, "ModelStructure"))
+    root.append(_structure([variable.attrib["name"] for variable in variables]))
     for element in root.iter():
         element.text = element.tail = None
     indent(root)
     return tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _part(root: Element, tag: str) -> Element:
+    part = root.find(tag)
+    if part is None:
+        raise ValueError(f"pythonfmu wrote a model description without {tag}")
+    return part
 
 
 def _describe(variable: Element, known: Port) -> None:
@@ -87,12 +95,13 @@ def _describe(variable: Element, known: Port) -> None:
             kind.set(key, value if isinstance(value, str) else repr(value))
 
 
-def _unit_definitions(used: set[str]) -> Element:
+def _unit_definitions(used: Iterable[str]) -> Element:
     definitions = Element("UnitDefinitions")
-    for name in sorted(used):
+    for name in used:
         unit = SubElement(definitions, "Unit", name=name)
-        if UNITS[name] is not None:
-            SubElement(unit, "BaseUnit", {key: repr(value) for key, value in UNITS[name].items()})
+        base = UNITS[name]
+        if base is not None:
+            SubElement(unit, "BaseUnit", {key: repr(value) for key, value in base.items()})
     return definitions
 
 

@@ -1,6 +1,6 @@
 """Why `advance` gave up, in sentences with the remedy."""
 
-from .layout import NOT_FINITE, SPRING_COLLAPSED, STEP_VANISHED, TOO_STIFF
+from .kernel.layout import NOT_FINITE, SPRING_COLLAPSED, STEP_VANISHED, TOO_STIFF
 
 WHY_NOT = {
     STEP_VANISHED: "the integrator's step fell below the resolution of time; check mass, "

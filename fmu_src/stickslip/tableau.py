@@ -291,12 +291,12 @@ INTERPOLANT_WEIGHTS = (
 
 
 def flat_tableau() -> list[float]:
-    """The tableau in the order of `layout.T_A` ... `layout.T_D`; rows padded with zeros."""
+    """The tableau in the order of `kernel.layout.TABLEAU`; rows padded with zeros."""
     stages = len(NODES)
-    flat = []
+    flat: list[float] = []
     for row in STAGE_WEIGHTS:
         flat += list(row) + [0.0] * (stages - len(row))
     flat += [*NODES, *ERROR_WEIGHTS_5, *ERROR_WEIGHTS_3]
-    for row in INTERPOLANT_WEIGHTS:
-        flat += row
+    for weights in INTERPOLANT_WEIGHTS:
+        flat += weights
     return flat

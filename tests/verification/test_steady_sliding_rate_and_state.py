@@ -11,14 +11,12 @@ from scipy.integrate import solve_ivp
 from stickslip import Parameters
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel.layout import (
-    AGE,
-    BLOCK,
-    CREEPING,
     DIRECTION,
     DISTANCE,
     DONE,
     E_FIRST,
     HERE,
+    INSTANT,
     MODE,
     NEXT,
     P_FREE_PHI,
@@ -26,6 +24,9 @@ from stickslip.kernel.layout import (
     P_LATERAL,
     P_MASS,
     P_RADIUS,
+    P_RATE_AND_STATE_DISTANCE,
+    QUASI_STEADY,
+    RATE_AND_STATE_AGE,
     SLIP,
     TIME,
     VX,
@@ -65,11 +66,11 @@ def creep_from(memory, duration: float):
     while begin is None or z[HERE + TIME] < begin[TIME] + duration:
         before = z[HERE + MODE]
         assert kernel.internal_step(p, u, z, w, e, 0.0) == DONE
-        kernel.copy_block(z, NEXT, HERE)
+        kernel.copy_instant(z, NEXT, HERE)
         if begin is None and before != SLIP and z[HERE + MODE] == SLIP:
-            begin = z[HERE : HERE + BLOCK].copy()
-        crept += begin is not None and z[HERE + CREEPING] == 1.0
-    return begin, z[HERE : HERE + BLOCK], crept
+            begin = z[HERE : HERE + INSTANT].copy()
+        crept += begin is not None and z[HERE + QUASI_STEADY] == 1.0
+    return begin, z[HERE : HERE + INSTANT], crept
 
 
 def radau(memory, begin, end: float) -> np.ndarray:
@@ -78,19 +79,25 @@ def radau(memory, begin, end: float) -> np.ndarray:
     p, u, w = np.array(memory.p), np.array(memory.u), np.zeros(W_SIZE)
     scale = np.array([1.0, p[P_LATERAL], p[P_LATERAL] * p[P_RADIUS]])
     inertia = np.array([p[P_MASS], p[P_MASS], p[P_INERTIA]])
+    distance = p[P_RATE_AND_STATE_DISTANCE]
 
     def rates(t, y):
-        w[W_STATE : W_STATE + BLOCK] = begin
+        w[W_STATE : W_STATE + INSTANT] = begin
         w[W_STATE + TIME] = t
         w[W_STATE + X : W_STATE + X + 6] = y[:6]
-        w[W_STATE + AGE] = y[6]
+        w[W_STATE + RATE_AND_STATE_AGE] = y[6]
         kernel.set_contact(p, u, w, W_STATE)
         kernel.friction_in_slip(p, u, w, *(scale * w[W_SLIDING : W_SLIDING + 3]))
         force = w[W_LOAD : W_LOAD + 3] + w[W_FRICTION : W_FRICTION + 3]
         mean = w[W_MEAN_SPEED]
-        return [*y[3:6], *(force / inertia), kernel.ageing_rate(p, y[6], mean), mean]
+        return [
+            *y[3:6],
+            *(force / inertia),
+            kernel.rate_and_state_age_rate(mean, y[6], distance),
+            mean,
+        ]
 
-    start = np.array([*begin[X : X + 6], begin[AGE], 0.0])
+    start = np.array([*begin[X : X + 6], begin[RATE_AND_STATE_AGE], 0.0])
     start[VX - X : 6] += 1e-9 * begin[DIRECTION : DIRECTION + 3] / scale
     atol = [1e-13] * 3 + [1e-12] * 3 + [1e-8, 1e-13]
     run = solve_ivp(rates, (begin[TIME], end), start, method="Radau", rtol=1e-8, atol=atol)

@@ -4,7 +4,7 @@ import random
 
 import numpy as np
 import pytest
-from effect_cases import draw_block
+from effect_cases import draw_table
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kernel_steps import memory_of
@@ -14,20 +14,20 @@ from stickslip.kernel import advance
 from stickslip.kernel.contact import set_contact, set_onset_direction
 from stickslip.kernel.disc import disc_friction
 from stickslip.kernel.friction import friction_in_slip
-from stickslip.kernel.interpolant import copy_block
+from stickslip.kernel.interpolant import copy_instant
 from stickslip.kernel.layout import (
-    BLOCK,
-    CREEPING,
     DIRECTION,
     DONE,
     E_FIRST,
     HERE,
+    INSTANT,
     MODE,
     NEXT,
     P_INERTIA,
     P_MASS,
     P_NORMAL_FORCE,
     P_RADIUS,
+    QUASI_STEADY,
     SLIP,
     TIME,
     U_SIZE,
@@ -114,14 +114,14 @@ def test_creep_is_the_stiff_motion_itself():
     while z[HERE + TIME] < 3.0 and (begin is None or z[HERE + TIME] < begin[TIME] + 0.1):
         before = z[HERE + MODE]
         assert advance.internal_step(p, u, z, w, e, 0.0) == DONE
-        copy_block(z, NEXT, HERE)
+        copy_instant(z, NEXT, HERE)
         if begin is None and before != SLIP and z[HERE + MODE] == SLIP:
-            begin = z[HERE : HERE + BLOCK]
-        crept += begin is not None and z[HERE + CREEPING] == 1.0
+            begin = z[HERE : HERE + INSTANT]
+        crept += begin is not None and z[HERE + QUASI_STEADY] == 1.0
     assert crept > 0
 
     def rates(t, y):
-        w[W_STATE : W_STATE + BLOCK] = begin
+        w[W_STATE : W_STATE + INSTANT] = begin
         w[W_STATE + TIME] = t
         w[W_STATE + X : W_STATE + X + 6] = [float(value) for value in y]
         set_contact(p, u, w, W_STATE)
@@ -143,7 +143,7 @@ def test_creep_is_the_stiff_motion_itself():
 def draw_rig(seed: int) -> dict:
     """A planar rig whose friction loses nothing on breaking away, or is weaker across."""
     draw = random.Random(f"rig {seed}")
-    creeps, mu = draw.random() < 0.5, draw.uniform(0.02, 0.6)
+    slides_quasi_steadily, mu = draw.random() < 0.5, draw.uniform(0.02, 0.6)
     return dict(
         rig={
             "mass": draw.uniform(0.2, 3.0),
@@ -151,8 +151,11 @@ def draw_rig(seed: int) -> dict:
             "contact_radius": draw.uniform(0.01, 0.08),
         },
         springs={"stiffness": 10.0 ** draw.uniform(0.7, 2.5)},
-        friction={"mu_s": mu, "mu_k": mu * (draw.choice([1.0, 1.05]) if creeps else 0.8)},
-        lateral_friction={"ratio": 1.0 if creeps else draw.uniform(0.05, 0.95)},
+        friction={
+            "mu_s": mu,
+            "mu_k": mu * (draw.choice([1.0, 1.05]) if slides_quasi_steadily else 0.8),
+        },
+        lateral_friction={"ratio": 1.0 if slides_quasi_steadily else draw.uniform(0.05, 0.95)},
         turning_surface={"curvature": draw.choice([0.0, 0.0, 0.1, 2.0])},
         surface={"speed": 10.0 ** draw.uniform(-2.5, 0.0)},
         initial={
@@ -168,7 +171,7 @@ def draw_rig(seed: int) -> dict:
 def _effects(seed: int) -> dict:
     draw = random.Random(seed)
     ids = ("velocity_weakening", "static_strengthening", "spring_hardening", "surface_scatter")
-    return {name: draw_block(name, draw) for name in ids if draw.random() < 0.15}
+    return {name: draw_table(name, draw) for name in ids if draw.random() < 0.15}
 
 
 def test_hardly_any_rig_creeps_for_ever():
