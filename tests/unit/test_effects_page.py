@@ -20,7 +20,10 @@ def test_every_effect_has_a_case():
 @pytest.mark.parametrize("effect", IDS)
 def test_the_case_shows(effect):
     """The motion differs by more than a tenth of its swing: the figure has something to say."""
-    (times, plain), (_, shown) = effects_page.motion(effect, False), effects_page.motion(effect, True)
+    (times, plain), (_, shown) = (
+        effects_page.motion(effect, False),
+        effects_page.motion(effect, True),
+    )
     assert times[-1] == CASES[effect].window[1]  # neither run gave up
     assert np.max(np.abs(plain - shown)) > 0.1 * np.ptp(plain)
 

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.parameters import EffectTables
 from stickslip.packing import GRAVITY
+from stickslip.parameters import EffectTables
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension

@@ -121,7 +121,10 @@ def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
         coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
     for key, values in columns.items():
         field = KEYS[key]
-        attributes = {"units": details(field).get("unit", "1"), "long_name": field.description or key}
+        attributes = {
+            "units": details(field).get("unit", "1"),
+            "long_name": field.description or key,
+        }
         kind = int if field.annotation is int else float
         coordinates[key] = (_column(values, kind), attributes)
     return coordinates
