@@ -18,7 +18,7 @@ from tqdm import tqdm
 
 from cosim.atomic import write_atomically
 from cosim.folders import OutputRefused, writable
-from cosim.report.output import Picture
+from cosim.report.page import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.belt_length import (

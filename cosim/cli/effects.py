@@ -13,7 +13,7 @@ from tqdm import tqdm
 from cosim.atomic import write_bytes, write_text
 from cosim.folders import OutputRefused, writable
 from cosim.interrupts import held_interrupts
-from cosim.report.output import Picture
+from cosim.report.page import Picture
 from cosim.studies.effects import UnknownEffect, allowed, chosen, described
 
 DONE, FAILED = 0, 1

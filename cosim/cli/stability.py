@@ -18,7 +18,7 @@ from tqdm import tqdm
 from cosim.atomic import write_bytes, write_text
 from cosim.folders import OutputRefused, writable
 from cosim.report.assessment import regime_sentence, stability_sentence
-from cosim.report.output import Picture
+from cosim.report.page import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.stability import Case, NotAMotion, case_of, pretension_map, regime_map

@@ -17,7 +17,7 @@ from tqdm import tqdm
 
 from cosim.atomic import write_bytes
 from cosim.folders import OutputRefused, not_taken
-from cosim.report.output import write_netcdf
+from cosim.report.files import write_netcdf
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.sweep import (

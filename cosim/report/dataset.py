@@ -14,7 +14,7 @@ from stickslip import Parameters, Trajectory
 from stickslip.ports import OUTPUTS
 
 from .contents import blocks_of
-from .output import provenance
+from .files import provenance
 
 # name -> (unit, long name); the mechanical ones as the model itself describes them
 MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUTS}

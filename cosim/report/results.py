@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 
 from .assessment import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
 from .contents import stored_blocks
+from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
-from .output import Picture, render, write_csv, write_json, write_netcdf
+from .page import Picture, render
 from .quantities import digits, spelled, told, with_unit, worded
 from .summary import summary
 

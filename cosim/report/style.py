@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
-from .output import DPI, Picture
+from .page import DPI, Picture
 
 if TYPE_CHECKING:
     from matplotlib.typing import RcKeyType

@@ -12,7 +12,7 @@ from blind.score import large, of_kind
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.report.output import DPI
+from cosim.report.page import DPI
 from cosim.report.style import BLUE, GREEN, GREY, INK, ORANGE, RC, RED
 
 KIND_COLOURS = {"effects": BLUE, "unknown": RED, "two": GREEN, "none": GREY}

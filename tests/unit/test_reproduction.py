@@ -12,7 +12,7 @@ from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
 
 from cosim.cli import main
 from cosim.cli import reproduce as reproduction_command
-from cosim.report.output import number
+from cosim.report.page import number
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
 from cosim.studies.reproduction.cases import DATASET_1, exact_figures, scheme_figures
 from cosim.studies.reproduction.claim import (

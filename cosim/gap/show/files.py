@@ -11,7 +11,7 @@ from cosim.fmu.build import own_fmu
 from cosim.gap.diagnostics import analyse_residuals
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
-from cosim.report.output import Picture
+from cosim.report.page import Picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .model_file import model_text

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from cosim.gap.result import Gap
-from cosim.report.output import Picture, render
+from cosim.report.page import Picture, render
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .model_file import model_text

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from cosim.gap.estimation.preparation import period
 from cosim.gap.result import FittedRun, Gap
-from cosim.report.output import Picture
+from cosim.report.page import Picture
 from cosim.report.style import BLUE, GREEN, GREY, INK, PURPLE, RED, panels, picture
 
 #: Runs that a figure shows: more rows than these nobody reads.

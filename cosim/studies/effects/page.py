@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from stickslip import EFFECTS, Parameters, simulate
 from stickslip.effects.effect import Case
 
-from cosim.report.output import Picture, render
+from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, panels, picture
 
 from .catalogue import allowed

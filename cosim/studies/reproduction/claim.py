@@ -8,7 +8,7 @@ from itertools import combinations
 
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
-from cosim.report.output import Picture
+from cosim.report.page import Picture
 
 from .printed import Printed
 

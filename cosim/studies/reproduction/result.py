@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from stickslip.reference.faults import DESCRIPTIONS
 
-from cosim.report.output import render
+from cosim.report.page import render
 
 from .attributions import Attribution, Datasets
 from .claim import (

@@ -30,7 +30,7 @@ from stickslip.steady_motion.regimes import (
 )
 from stickslip.steady_motion.stability import growth_in_a_cycle, guided
 
-from cosim.report.output import Picture, render
+from cosim.report.page import Picture, render
 from cosim.scenario import Scenario
 
 #: Length of a run after the surface has its speed, s, and in natural periods.

@@ -21,7 +21,7 @@ import xarray as xr
 
 from cosim.atomic import OutputError, write_text
 from cosim.folders import OutputRefused, writable
-from cosim.report.output import provenance
+from cosim.report.files import provenance
 
 from .combination import (
     COMPLETE,
