@@ -7,7 +7,7 @@ import pytest
 from disc_integral import law_over_disc
 from stickslip import Parameters, friction_coefficient
 from stickslip.effects.candidate import Scales
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import P_NORMAL_FORCE, U_SIZE, W_FRICTION, W_SIZE
 
 from cosim.gap.candidates.catalogue import candidates
