@@ -85,8 +85,12 @@ def film_of(dataset: xr.Dataset) -> Film:
         np.nan,
     )
     friction = pressure * friction_coefficient(dataset)
-    couette = pressure * p[P_MIXED_LUBRICATION_COUETTE] * dataset["sliding_speed"].values / thickness
-    flooded = p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + p[P_MIXED_LUBRICATION_ROUGHNESS])
+    couette = (
+        pressure * p[P_MIXED_LUBRICATION_COUETTE] * dataset["sliding_speed"].values / thickness
+    )
+    flooded = (
+        p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + p[P_MIXED_LUBRICATION_ROUGHNESS])
+    )
     return Film(
         thickness,
         friction,

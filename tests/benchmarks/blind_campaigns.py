@@ -32,9 +32,9 @@ from baseline import Figure, arguments, write  # noqa: E402
 from blind.campaign import KINDS, Campaign, draw_campaign  # noqa: E402
 from blind.effects import EFFECTS  # noqa: E402
 from blind.next_experiment import separation  # noqa: E402
+from blind.out_of_catalogue import OUT_OF_CATALOGUE  # noqa: E402
 from blind.score import is_right  # noqa: E402
 from blind.score_table import markdown  # noqa: E402
-from blind.strangers import STRANGERS  # noqa: E402
 from blind.writing import write_campaign  # noqa: E402
 from blind_figure import score_figure  # noqa: E402
 
@@ -60,7 +60,7 @@ def cells(kinds, count, first: int, ids, sizes) -> Iterator[Cell]:
     """All campaigns of a benchmark: hidden effect, size, quality of the recording, repetition."""
     lists = {
         "effects": [(name,) for name in EFFECTS],
-        "unknown": [(name,) for name in STRANGERS],
+        "unknown": [(name,) for name in OUT_OF_CATALOGUE],
         "single_speed": [("film_drag",), ("structural_damping",)],
         "two": [tuple(ids) if len(ids) == 2 else ()],
         "none": [()],
@@ -194,7 +194,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="answers, table and figure; continued if begun")
     parser.add_argument("--kind", nargs="+", choices=KINDS, default=KINDS)
     parser.add_argument("--count", type=int, help="campaigns of each cell")
-    parser.add_argument("--effects", nargs="+", choices=[*EFFECTS, *STRANGERS], default=())
+    parser.add_argument("--effects", nargs="+", choices=[*EFFECTS, *OUT_OF_CATALOGUE], default=())
     parser.add_argument("--size", nargs=2, type=float, action="append", help="band, noise units")
     parser.add_argument("--seed", type=int, help="drawn afresh in a new folder")
     parser.add_argument("--jobs", type=int, default=2)

@@ -6,9 +6,10 @@ noise, friction falling with speed hidden in them.
 
 from pathlib import Path
 
+from cosim.gap.naming.find import find_gap
+
 from cosim.gap import read_campaign
 from cosim.gap.example import write_example
-from cosim.gap.naming.find import find_gap
 
 campaign = read_campaign(write_example(Path("cold_room")))
 gap = find_gap(campaign, jobs=2)

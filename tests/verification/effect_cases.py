@@ -1,7 +1,7 @@
 """Random sizes of every effect, and rigs in which every effect shows: what several tests draw on.
 
-The range of a parameter is the "typical" one that its field states, or the "tried" one of those that
-say where or how an effect acts and have no size of their own.
+The range of a parameter is the "typical" one that its field states, or the "tried" one of those
+that say where or how an effect acts and have no size of their own.
 """
 
 from __future__ import annotations

@@ -151,7 +151,10 @@ def draw_rig(seed: int) -> dict:
             "contact_radius": draw.uniform(0.01, 0.08),
         },
         springs={"stiffness": 10.0 ** draw.uniform(0.7, 2.5)},
-        friction={"mu_s": mu, "mu_k": mu * (draw.choice([1.0, 1.05]) if slides_quasi_steadily else 0.8)},
+        friction={
+            "mu_s": mu,
+            "mu_k": mu * (draw.choice([1.0, 1.05]) if slides_quasi_steadily else 0.8),
+        },
         lateral_friction={"ratio": 1.0 if slides_quasi_steadily else draw.uniform(0.05, 0.95)},
         turning_surface={"curvature": draw.choice([0.0, 0.0, 0.1, 2.0])},
         surface={"speed": 10.0 ** draw.uniform(-2.5, 0.0)},

@@ -90,7 +90,12 @@ def radau(memory, begin, end: float) -> np.ndarray:
         kernel.friction_in_slip(p, u, w, *(scale * w[W_SLIDING : W_SLIDING + 3]))
         force = w[W_LOAD : W_LOAD + 3] + w[W_FRICTION : W_FRICTION + 3]
         mean = w[W_MEAN_SPEED]
-        return [*y[3:6], *(force / inertia), kernel.rate_and_state_age_rate(mean, y[6], distance), mean]
+        return [
+            *y[3:6],
+            *(force / inertia),
+            kernel.rate_and_state_age_rate(mean, y[6], distance),
+            mean,
+        ]
 
     start = np.array([*begin[X : X + 6], begin[RATE_AND_STATE_AGE], 0.0])
     start[VX - X : 6] += 1e-9 * begin[DIRECTION : DIRECTION + 3] / scale

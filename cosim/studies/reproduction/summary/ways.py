@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from scipy.stats import norm
 from stickslip.effects import EFFECTS
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .study_model import PRINTED_RATIO, has_meaning
 
