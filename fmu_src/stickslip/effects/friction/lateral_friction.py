@@ -1,6 +1,6 @@
 """Friction along the local relative velocity: lateral and spin components.
 
-The contact feels the scaled sliding velocity (U_x, kappa U_y, kappa Omega), see `kernel.friction.force`.
+The contact feels the scaled sliding velocity (U_x, kappa U_y, kappa Omega), see `kernel.friction`.
 Every law of the contact is made of kappa, so the core of the kernel knows it by name, as it knows
 the mass.
 """
