@@ -14,8 +14,7 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from cosim.cli.errors import BadInput, warnings_in_one_line
-from cosim.cli.interruption import interruptible
-from cosim.interrupts import held_interrupts
+from cosim.interrupts import held_interrupts, interruptible
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 

@@ -10,7 +10,7 @@ from stickslip.compiled import is_cached
 from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import PATIENCE, deadline
 
-from cosim.cli.patience import Patience
+from cosim.interrupts import Patience
 from cosim.report.assessment import attach_assessment
 from cosim.scenario import Scenario
 

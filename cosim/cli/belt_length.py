@@ -16,8 +16,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
-from cosim.report.drawing import OutputRefused, Picture, writable
+from cosim.files import OutputRefused, writable, write_atomically
+from cosim.report.drawing import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.belt_length import (

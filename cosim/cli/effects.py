@@ -10,8 +10,7 @@ from typing import Any
 
 from tqdm import tqdm
 
-from cosim.atomic import write_bytes, write_text
-from cosim.folders import OutputRefused, writable
+from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.report.drawing import Picture
 from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from cosim.cli.errors import refusing
-from cosim.folders import OutputRefused, writable
+from cosim.files import OutputRefused, writable
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario.faults import ScenarioError
 

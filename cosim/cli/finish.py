@@ -13,8 +13,8 @@ import xarray as xr
 from stickslip.steady_motion.regimes import CREEPING, OWN
 from stickslip.steady_motion.stability import UNSTABLE
 
-from cosim.cli.patience import Patience
 from cosim.cli.progress import progress_over_files
+from cosim.interrupts import Patience
 from cosim.report import Views, summary, write_results
 from cosim.report.motion_words import regime_sentence, run_up_sentence, unstable_line
 

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
 from cosim.coupling import CouplingError
-from cosim.report.drawing import DPI, OutputRefused, writable
+from cosim.files import OutputRefused, writable, write_atomically
+from cosim.report.drawing import DPI
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.friction_map import FrictionMap, NotSteady, draw_map, friction_map

@@ -14,8 +14,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from cosim.atomic import write_text
-from cosim.folders import OutputRefused, writable
+from cosim.files import OutputRefused, writable, write_text
 from cosim.gap import Campaign, CampaignError, read_campaign
 from cosim.gap.example import write_example
 from cosim.interrupts import held_interrupts

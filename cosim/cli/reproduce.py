@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 
 from tqdm import tqdm
 
-from cosim.atomic import write_bytes, write_text
-from cosim.folders import OutputRefused, writable
+from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
 

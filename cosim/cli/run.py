@@ -10,10 +10,10 @@ from cosim.cli.assessing import attach, compile_model
 from cosim.cli.errors import BadInput, refusing
 from cosim.cli.files import results_folder, scenario_to_run, writable_folder
 from cosim.cli.finish import finish
-from cosim.cli.patience import patient_interrupts
 from cosim.cli.progress import progress_over
 from cosim.coupling import CouplingError, FmuError, ParticipantError
 from cosim.coupling.coupled_case import CoupledRun, run_scenario
+from cosim.interrupts import patient_interrupts
 from cosim.report import run_dataset
 from cosim.scenario import Scenario
 from thermal import ParameterError

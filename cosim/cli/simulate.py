@@ -10,8 +10,8 @@ from stickslip import Trajectory, simulate
 from cosim.cli.assessing import attach, compile_model
 from cosim.cli.files import results_folder, scenario_to_run
 from cosim.cli.finish import finish
-from cosim.cli.patience import Patience, patient_interrupts
 from cosim.cli.progress import progress_over
+from cosim.interrupts import Patience, patient_interrupts
 from cosim.report import trajectory_dataset
 from cosim.scenario import Scenario
 

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from cosim.atomic import write_bytes, write_text
-from cosim.report.drawing import OutputRefused, Picture, writable
+from cosim.files import OutputRefused, writable, write_bytes, write_text
+from cosim.report.drawing import Picture
 from cosim.report.motion_words import regime_sentence, stability_sentence
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError

@@ -15,8 +15,7 @@ from pathlib import Path
 import xarray as xr
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
-from cosim.folders import OutputRefused, not_taken
+from cosim.files import OutputRefused, not_taken, write_atomically
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.sweep import (

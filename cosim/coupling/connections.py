@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from cosim.coupling.errors import CouplingError, unknown_name
+from cosim.coupling.errors import CouplingError
 from cosim.coupling.participant import Participant
 from cosim.coupling.ports import Causality, Port
+from cosim.names import unknown_name
 
 ENERGY_UNIT = "J"
 

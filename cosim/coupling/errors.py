@@ -1,7 +1,4 @@
-"""What can go wrong in a coupled run, and how a name that does not exist is answered."""
-
-import difflib
-from collections.abc import Iterable
+"""What can go wrong in a coupled run."""
 
 
 class CouplingError(ValueError):
@@ -23,18 +20,3 @@ class ParticipantError(RuntimeError):
         super().__init__(f"{participant}: failed {when}: {message}")
         self.participant = participant
         self.time = time
-
-
-def unknown_name(kind: str, name: str, known: Iterable[str]) -> str:
-    """One line on a name that does not exist, with the nearest that does.
-
-    >>> unknown_name("parameter of brake", "mas", ["mass", "length"])
-    "no parameter of brake is named 'mas'; nearest: 'mass'"
-    """
-    known = sorted(known)
-    nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    if nearest:
-        return f"no {kind} is named {name!r}; nearest: {nearest[0]!r}"
-    if len(known) > 12:
-        known = [*known[:12], "..."]
-    return f"no {kind} is named {name!r}; known: {', '.join(known) or 'none'}"

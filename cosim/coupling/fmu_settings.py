@@ -6,7 +6,8 @@ from numbers import Real
 
 from fmpy.model_description import ModelVariable
 
-from cosim.coupling.errors import FmuError, unknown_name
+from cosim.coupling.errors import FmuError
+from cosim.names import unknown_name
 
 Setting = float | int | bool | str
 

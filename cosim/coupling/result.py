@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from cosim.coupling.errors import unknown_name
 from cosim.coupling.ledger import Ledger
+from cosim.names import unknown_name
 
 Status = Literal["complete", "interrupted", "failed"]
 

@@ -8,12 +8,12 @@ from typing import Protocol
 from cosim.coupling.errors import CouplingError, ParticipantError
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.initial import initial_exchange
-from cosim.coupling.interrupt import deferred_interrupt
 from cosim.coupling.ledger import ledger_of
 from cosim.coupling.macro_grid import macro_grid
 from cosim.coupling.recording import Recording
 from cosim.coupling.result import CoupledResult, Status
 from cosim.coupling.system import CoupledSystem
+from cosim.interrupts import deferred_interrupt
 
 Progress = Callable[[float], None]
 

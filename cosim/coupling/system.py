@@ -4,8 +4,9 @@ from collections.abc import Iterable, Sequence
 from types import MappingProxyType
 
 from cosim.coupling.connections import Address, Connection, check_connections, output_in_joule
-from cosim.coupling.errors import CouplingError, unknown_name
+from cosim.coupling.errors import CouplingError
 from cosim.coupling.participant import Participant
+from cosim.names import unknown_name
 
 
 class CoupledSystem:

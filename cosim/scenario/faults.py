@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+
+from cosim.names import nearest_key
 
 LONGEST_VALUE = 60
 BOUNDS = {
@@ -36,12 +37,6 @@ WRONG = {
 
 class ScenarioError(ValueError):
     """A scenario cannot be read or makes no sense; one line: file, key, what, what is allowed."""
-
-
-def nearest(name: str, known: Iterable[str]) -> str | None:
-    """The known name that is most like another one, if any is."""
-    near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
-    return near[0] if near else None
 
 
 def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
@@ -106,15 +101,12 @@ def _of_several_keys(block: str, message: str, keys: dict[str, FieldInfo]) -> st
 
 
 def _known_instead(key: str, keys: dict[str, FieldInfo]) -> str:
-    """The key that was meant: of that name elsewhere, the most like in the block, or anywhere."""
-    block, _, entry = key.rpartition(".")
+    """The key that was meant, or all that its table has."""
     if key == "contact.radius":
         return "the contact's radius is rig.contact_radius"
-    siblings = [known for known in keys if known.rpartition(".")[0] == block]
-    namesakes = [known for known in keys if known.rpartition(".")[2] == entry]
-    near = next(iter(namesakes), None) or nearest(key, siblings) or nearest(key, keys)
-    if near:
+    if near := nearest_key(key, keys):
         return f"nearest known: {near}"
+    siblings = [known for known in keys if known.rpartition(".")[0] == key.rpartition(".")[0]]
     return f"known: {', '.join(known.rpartition('.')[2] for known in siblings)}"
 
 

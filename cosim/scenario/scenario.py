@@ -21,7 +21,8 @@ from stickslip import Parameters
 from stickslip.packing import GRAVITY
 from stickslip.parameters import Block, quantity
 
-from cosim.scenario.faults import ScenarioError, describe_faults, nearest
+from cosim.names import nearest
+from cosim.scenario.faults import ScenarioError, describe_faults
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 
 SUFFIX = ".toml"

@@ -1,14 +1,8 @@
-"""The end of a run: Ctrl-C that loses nothing, and the last lines."""
+"""The end of a run: its last lines."""
 
-import signal
 from pathlib import Path
 
-import pytest
-
 from cosim.cli.finish import closing_lines
-from cosim.cli.interruption import interruptible
-from cosim.cli.patience import patient_interrupts
-from cosim.interrupts import REQUESTS, held_interrupts
 
 MECHANICS = {
     "name": "case",
@@ -49,51 +43,3 @@ def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency()
     short = MECHANICS | {"after_run_up": {"frequency": None, "slip_share": None}}
     lines = closing_lines(short, Path("out"), 6.0)
     assert len(lines) == 4 and "not known" in lines[1]
-
-
-def test_ctrl_c_works_at_once_while_there_is_nothing_to_lose():
-    before = signal.getsignal(signal.SIGINT)
-    with pytest.raises(KeyboardInterrupt), patient_interrupts():
-        signal.raise_signal(signal.SIGINT)
-    assert signal.getsignal(signal.SIGINT) is before
-
-
-@pytest.mark.parametrize("wanted", REQUESTS)
-def test_what_asks_to_end_does_as_ctrl_c_does(wanted):
-    before = {number: signal.getsignal(number) for number in REQUESTS}
-    with pytest.raises(KeyboardInterrupt), interruptible(ending=False):
-        signal.raise_signal(wanted)
-    with interruptible(ending=False), patient_interrupts() as patience:
-        patience.hold()
-        signal.raise_signal(wanted)
-        assert patience.requested
-    assert {number: signal.getsignal(number) for number in REQUESTS} == before
-
-
-def test_a_key_held_down_interrupts_once():
-    with interruptible(ending=False):
-        with pytest.raises(KeyboardInterrupt):
-            signal.raise_signal(signal.SIGINT)
-        signal.raise_signal(signal.SIGINT)
-
-
-def test_held_interrupts_come_at_the_end_of_the_block():
-    reached = []
-    before = signal.getsignal(signal.SIGINT)
-    with pytest.raises(KeyboardInterrupt):
-        with held_interrupts():
-            signal.raise_signal(signal.SIGINT)
-            reached.append("the end of the block")
-        reached.append("what follows")
-    assert reached == ["the end of the block"] and signal.getsignal(signal.SIGINT) is before
-
-
-def test_ctrl_c_waits_until_the_results_are_saved():
-    with patient_interrupts() as patience:
-        patience.hold()
-        signal.raise_signal(signal.SIGINT)
-        signal.raise_signal(signal.SIGINT)
-        with pytest.raises(KeyboardInterrupt):
-            patience.release()
-        with pytest.raises(KeyboardInterrupt):  # the figures can be had again
-            signal.raise_signal(signal.SIGINT)

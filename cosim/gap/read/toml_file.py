@@ -11,7 +11,8 @@ from pydantic import BaseModel, ValidationError
 
 from cosim.gap.errors import CampaignError
 from cosim.gap.read.tables import CampaignTable, RunTable
-from cosim.scenario.faults import describe_faults, nearest
+from cosim.names import nearest
+from cosim.scenario.faults import describe_faults
 
 FILE_NAME = "campaign.toml"
 Table = TypeVar("Table", bound=BaseModel)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import Any
 
 from stickslip import CATALOGUE
 from stickslip.effects import Effect
+
+from cosim.names import nearest
 
 
 class UnknownEffect(ValueError):
@@ -18,7 +19,7 @@ def chosen(ids: list[str]) -> list[Effect]:
     known = [entry.id for entry in CATALOGUE]
     for name in ids:
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            near = nearest(name, known, alike=0.0)
             raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
     return [entry for entry in CATALOGUE if not ids or entry.id in ids]
 
