@@ -12,7 +12,7 @@ from cosim.cli.files import results_folder, scenario_to_run, writable_folder
 from cosim.cli.finish import finish
 from cosim.cli.progress import progress_over
 from cosim.coupling import CouplingError, FmuError, ParticipantError
-from cosim.coupling.coupled_case import CoupledRun, run_scenario
+from cosim.coupling.case import CoupledRun, run_scenario
 from cosim.interrupts import patient_interrupts
 from cosim.report import run_dataset
 from cosim.scenario import Scenario

@@ -14,7 +14,7 @@ FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rg
 FORBIDDEN = {
     "stickslip": ("thermal", "cosim"),
     "thermal": ("stickslip", "cosim"),
-    "cosim.coupling": ("stickslip", "thermal", "cosim.coupling.coupled_case", "cosim.scenario"),
+    "cosim.coupling": ("stickslip", "thermal", "cosim.coupling.case", "cosim.scenario"),
 }
 # parts that nobody imports but those named
 PRIVATE = {
@@ -76,7 +76,7 @@ def test_the_check_sees_the_imports_that_there_are():
     seen = {module_of(*entry)[0]: set(imports_of(*entry)) for entry in FILES}
     assert "stickslip.parameters.Parameters" in seen["stickslip.simulate"]
     assert "cosim.cli.arguments.parser" in seen["cosim.cli"]
-    assert "thermal.BeltIceModel" in seen["cosim.coupling.coupled_case"]
+    assert "thermal.BeltIceModel" in seen["cosim.coupling.case"]
 
 
 def test_the_kernel_travels_alone():

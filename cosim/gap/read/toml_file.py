@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from cosim.gap.errors import CampaignError
 from cosim.gap.read.tables import CampaignTable, RunTable
 from cosim.names import nearest
-from cosim.scenario.faults import describe_faults
+from cosim.scenario.faults import ScenarioError, checked
 
 FILE_NAME = "campaign.toml"
 Table = TypeVar("Table", bound=BaseModel)
@@ -55,13 +55,6 @@ def _parse(path: Path) -> dict[str, Any]:
 
 def _checked(model: type[Table], tables: Mapping[str, Any], where: str) -> Table:
     try:
-        return model.model_validate(_tuples(tables), strict=True)
-    except ValidationError as report:
-        raise CampaignError(f"{where}: {describe_faults(report, model)}") from None
-
-
-def _tuples(value: Any) -> Any:
-    """TOML's lists as the tuples that the models hold."""
-    if isinstance(value, Mapping):
-        return {key: _tuples(entry) for key, entry in value.items()}
-    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
+        return checked(model, tables)
+    except ScenarioError as fault:
+        raise CampaignError(f"{where}: {fault}") from None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from cosim.coupling.coupled_case import own_fmu
+from cosim.coupling.case import own_fmu
 from cosim.files import write_bytes, write_text
 from cosim.gap.atlas import draw_atlas, residual_atlas
 from cosim.gap.result import Gap
