@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from cosim.cli.finish import closing_lines
+from cosim.cli.running import closing_lines
 
 MECHANICS = {
     "name": "case",
