@@ -1,7 +1,8 @@
 """How a coupled run advances: its communication points, and the macro step between two of them.
 
 A scheme is a small class of the shape `Scheme`: it reads and writes values through the exchange
-alone, so that a further one needs no change elsewhere.
+alone, so that a further one needs no change elsewhere. One that makes a step twice asks its
+participants for their state (`Restorable`).
 """
 
 import math

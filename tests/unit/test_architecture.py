@@ -287,7 +287,7 @@ COMPUTES = {
     "from cosim.studies.stability import regime_map": {"matplotlib", "IPython"},
     "from cosim.studies.friction_map import friction_map": {"matplotlib", "IPython"},
     "from cosim.studies.reproduction import reproduce": {"matplotlib", "IPython"},
-    "from cosim.gap.naming import find_gap": {"matplotlib", "IPython"},
+    "from cosim.gap.find import find_gap": {"matplotlib", "IPython"},
 }
 
 

@@ -43,7 +43,7 @@ def test_an_interrupt_ends_calls_that_do_not_look_up(tmp_path):
 
 
 def test_what_is_used_of_loky_and_is_not_public_is_there():
-    """cosim/processes.py empties the queue of waiting calls; pyproject.toml bounds joblib for it."""
+    """cosim/processes.py empties the queue of waiting calls; joblib is bounded for its sake."""
     executor = ProcessPoolExecutor(1)
     try:
         for name in ("_work_ids", "_pending_work_items"):
@@ -64,7 +64,7 @@ def test_what_is_used_of_loky_and_is_not_public_is_there():
 
 
 def test_what_is_used_of_numba_and_is_not_public_is_there():
-    """Without it every call of the compiled kernel counts references; pyproject.toml bounds numba."""
+    """Without it a call of the compiled kernel counts references; numba is bounded for its sake."""
     assert hasattr(CPUTargetOptions, "_nrt"), (
         f"numba {numba.__version__} has no option _nrt: measure the kernel without it and mend "
         "stickslip/compiled.py, or lower the upper bound of numba in pyproject.toml"
