@@ -5,19 +5,19 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-#: How alike two spellings are, 0 to 1 (Ratcliff and Obershelp), before one is offered for another.
-ALIKE = 0.6
+#: Least similarity of two spellings, 0 to 1 (Ratcliff and Obershelp), to offer one for the other.
+SIMILARITY = 0.6
 #: So many known names are told where none is near; more would not be read.
 MOST_NAMES = 12
 
 
-def nearest(name: str, known: Iterable[str], alike: float = ALIKE) -> str | None:
-    """The known name that is most like another one, None where none is as much ``alike``.
+def nearest(name: str, known: Iterable[str], similarity: float = SIMILARITY) -> str | None:
+    """The known name that is most like another one, None below that ``similarity``.
 
     >>> nearest("rig.mas", ["rig.mass", "springs.stiffness"])
     'rig.mass'
     """
-    near = difflib.get_close_matches(name, list(known), n=1, cutoff=alike)
+    near = difflib.get_close_matches(name, list(known), n=1, cutoff=similarity)
     return near[0] if near else None
 
 
@@ -41,7 +41,7 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> str:
     "no parameter of brake is named 'mas'; nearest: 'mass'"
     """
     known = sorted(known)
-    near = nearest(name, known, alike=0.5)
+    near = nearest(name, known, similarity=0.5)
     if near:
         return f"no {kind} is named {name!r}; nearest: {near!r}"
     if len(known) > MOST_NAMES:

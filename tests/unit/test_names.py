@@ -21,10 +21,10 @@ def test_a_key_is_looked_for_by_name_then_in_its_table_then_anywhere(given, mean
     assert nearest_key(given, KEYS) == meant
 
 
-def test_how_much_alike_two_names_must_be_is_the_askers_choice():
+def test_how_similar_two_names_must_be_is_the_askers_choice():
     assert nearest("run_inn", ["run_in", "film_drag"]) == "run_in"
     assert nearest("zzz", ["run_in"]) is None
-    assert nearest("zzz", ["run_in"], alike=0.0) == "run_in"
+    assert nearest("zzz", ["run_in"], similarity=0.0) == "run_in"
 
 
 def test_where_nothing_is_near_what_there_is_is_told_up_to_a_dozen():

@@ -19,7 +19,7 @@ def chosen(ids: list[str]) -> list[Effect]:
     known = [entry.id for entry in CATALOGUE]
     for name in ids:
         if name not in known:
-            near = nearest(name, known, alike=0.0)
+            near = nearest(name, known, similarity=0.0)
             raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
     return [entry for entry in CATALOGUE if not ids or entry.id in ids]
 
