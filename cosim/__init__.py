@@ -3,11 +3,14 @@
 In a notebook:
 
 >>> from cosim import read_scenario, run_scenario
->>> scenario = read_scenario("reference").changed({"rig.mass": 1.2, "run.duration": 15.0})
->>> run = run_scenario(scenario)                                  # doctest: +SKIP
->>> run.result.time, run.result["mechanics.x"]                    # doctest: +SKIP
->>> from cosim.report import run_dataset                          # doctest: +SKIP
->>> run_dataset(run.result, scenario, scenario.to_toml(), snapshots=run.snapshots)  # doctest: +SKIP
+>>> scenario = read_scenario("reference").changed({"rig.mass": 1.2, "run.duration": 1.0})
+>>> run = run_scenario(scenario)
+>>> run.result.time.shape, run.result["mechanics.x"].shape
+((101,), (101,))
+>>> from cosim.report import run_dataset
+>>> dataset = run_dataset(run.result, scenario, scenario.to_toml(), snapshots=run.snapshots)
+>>> dataset["interface_temperature"].attrs["units"]
+'degC'
 """
 
 from importlib import import_module

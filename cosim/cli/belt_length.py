@@ -37,8 +37,8 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.checks import check_case, check_options
 from thermal import MeshError, ParameterError
-from thermal.air import NotLaminar
-from thermal.steady import NoSteadyState
+from thermal.belt.air import NotLaminar
+from thermal.steady_state import NoSteadyState
 
 EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
 RESULT, TABLE = "belt_length.json", "belt_length.csv"

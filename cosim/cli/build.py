@@ -14,7 +14,9 @@ FMU = "StickSlip3DOF.fmu"
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    add_output(parser, "folder of the FMU (default: build)", default="build")
+    add_output(
+        parser, "folder of the FMU (default: build of a checkout, else the user's cache folder)"
+    )
     parser.add_argument("--fmi", choices=["2"], default="2", help="version of FMI (default: 2)")
 
 
@@ -28,7 +30,8 @@ def refused() -> tuple[type[Exception], ...]:
 def execute(arguments: Namespace) -> int:
     """Build the FMU afresh and say where it is."""
     from cosim.files import writable
-    from cosim.fmu.build import build_fmu
+    from cosim.fmu.build import build_fmu, own_folder
 
-    print(build_fmu(writable(Path(arguments.output), [FMU])))
+    folder = Path(arguments.output) if arguments.output else own_folder()
+    print(build_fmu(writable(folder, [FMU])))
     return DONE

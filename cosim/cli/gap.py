@@ -138,7 +138,7 @@ def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[..., None]) -
         from cosim.studies.reproduction.summary import find_summary_gap
 
         return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
-    from cosim.gap.naming import find_gap
+    from cosim.gap.find import find_gap
 
     return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
 

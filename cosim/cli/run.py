@@ -24,7 +24,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--fmu",
         metavar="FILE",
-        help="the mechanical FMU (default: build/StickSlip3DOF.fmu, built when missing or stale)",
+        help="the mechanical FMU (default: that in build of a checkout, or else in the user's cache"
+        " folder, built when missing or stale)",
     )
     parser.add_argument(
         "--animation",

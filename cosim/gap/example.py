@@ -53,8 +53,12 @@ def _campaign(names: Sequence[str]) -> str:
 
 
 def _parameters(speed: float) -> Parameters:
-    return Parameters(
-        rig={"mass": MASS, "spring_natural_length": NATURAL_LENGTH},
-        springs={"stiffness": STIFFNESS}, friction={"mu_s": 0.30, "mu_k": 0.22},
-        surface={"speed": speed}, **HIDDEN,
-    )  # fmt: skip
+    return Parameters.model_validate(
+        {
+            "rig": {"mass": MASS, "spring_natural_length": NATURAL_LENGTH},
+            "springs": {"stiffness": STIFFNESS},
+            "friction": {"mu_s": 0.30, "mu_k": 0.22},
+            "surface": {"speed": speed},
+            **HIDDEN,
+        }
+    )

@@ -17,9 +17,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from stickslip import Parameters
-from stickslip.kernel.layout import P_COUETTE, P_FLOODED, P_NORMAL_FORCE, P_RADIUS, P_ROUGHNESS
+from stickslip.kernel.layout import (
+    P_MIXED_LUBRICATION_COUETTE,
+    P_MIXED_LUBRICATION_ROUGHNESS,
+    P_MIXED_LUBRICATION_SHARE,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+)
 
-from thermal.melt_film import WATER_DENSITY
+from thermal.materials import WATER_DENSITY
 
 from .blocks import mechanics_of, value_of
 from .phases import SLIP
@@ -79,8 +85,12 @@ def film_of(dataset: xr.Dataset) -> Film:
         np.nan,
     )
     friction = pressure * friction_coefficient(dataset)
-    couette = pressure * p[P_COUETTE] * dataset["sliding_speed"].values / thickness
-    flooded = p[P_FLOODED] * thickness / (thickness + p[P_ROUGHNESS])
+    couette = (
+        pressure * p[P_MIXED_LUBRICATION_COUETTE] * dataset["sliding_speed"].values / thickness
+    )
+    flooded = (
+        p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + p[P_MIXED_LUBRICATION_ROUGHNESS])
+    )
     return Film(
         thickness,
         friction,

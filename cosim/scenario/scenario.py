@@ -19,7 +19,7 @@ import tomli_w
 from pydantic import Field, PrivateAttr, create_model, model_validator
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
-from stickslip.parameters import Block, quantity
+from stickslip.quantity import Table, quantity
 
 from cosim.names import nearest
 from cosim.scenario.faults import ScenarioError, checked
@@ -39,13 +39,13 @@ _HEAT_OF_CONTACT: dict[str, Any] = {
 }
 ContactHeat = create_model(
     "ContactHeat",
-    __base__=Block,
+    __base__=Table,
     __doc__="Contact conductance, and how finely the contact's heat flux is resolved.",
     **_HEAT_OF_CONTACT,
 )
 
 
-class Run(Block):
+class Run(Table):
     """How long a run is and how often it is looked at."""
 
     duration: float = quantity(30.0, "s", "length of the run", gt=0)
@@ -55,7 +55,7 @@ class Run(Block):
     )
 
 
-class Coupling(Block):
+class Coupling(Table):
     """How the coupled models talk to each other."""
 
     macro_step: float = quantity(0.01, "s", "time between two exchanges of heat and travel", gt=0)

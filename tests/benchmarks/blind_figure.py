@@ -44,7 +44,7 @@ def draw_shares(axes: Axes, rows: Sequence[dict]) -> None:
     series = (
         ("effects", "right name or class", BLUE, score.is_right),
         ("effects", "right name alone", ORANGE, score.is_exact),
-        ("unknown", "stranger: unknown", RED, lambda row: score.verdict_of(row) == "unknown"),
+        ("unknown", "law unknown: unknown", RED, lambda row: score.verdict_of(row) == "unknown"),
         (
             "two",
             "two effects: both",

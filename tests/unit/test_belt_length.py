@@ -29,7 +29,7 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.friction_effect import linear_sensitivity
 from cosim.studies.belt_length.length_speed_map import LENGTHS, SPEEDS
-from thermal.air import moving_belt
+from thermal.belt.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)

@@ -91,7 +91,7 @@ def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(fmu, tmp_p
     def full(self, time):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("thermal.fields.FieldSeries.write", full)
+    monkeypatch.setattr("thermal.output.FieldSeries.write", full)
     run = run_scenario(case(), fmu=fmu, fields=tmp_path)
     assert run.result.status == "failed" and "No space left" in run.result.reason
 

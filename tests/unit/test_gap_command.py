@@ -36,7 +36,7 @@ def test_command_leaves_its_files(found, tmp_path, capsys):
     out = capsys.readouterr().out
     assert out.startswith("cold room, week 3: Named: velocity_weakening")
     assert str(tmp_path / "out" / "model.toml") in out
-    assert "fmu        gap in its runs' first windows: run03" in out
+    assert "fmu        gap in its runs' first segments: run03" in out
 
 
 def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, monkeypatch):

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.gap.errors import CampaignError
-from cosim.gap.read import Campaign, MeasuredRun, read_campaign
-from cosim.gap.read.tables import Rig
+from cosim.gap.data import Campaign, MeasuredRun, read_campaign
+from cosim.gap.data.campaign_file import Rig
+from cosim.gap.data.errors import CampaignError
 from cosim.studies.reproduction.summary import (
     draw_figures,
     find,

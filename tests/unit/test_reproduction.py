@@ -29,7 +29,7 @@ from cosim.studies.reproduction.motion import Motion, figures
 from cosim.studies.reproduction.page import number, page
 from cosim.studies.reproduction.printed import Printed
 from cosim.studies.reproduction.result import as_json
-from thermal.single_pass import PRINTED as PRINTED_PASS
+from thermal.belt.single_pass import PRINTED as PRINTED_PASS
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.gap.read import read_campaign
+from cosim.gap.data import read_campaign
 from cosim.studies.reproduction.summary import find, find_summary_gap, rows, search
 
 STUDY = Path(__file__).parents[2] / "cosim" / "gap" / "campaigns" / "study.toml"

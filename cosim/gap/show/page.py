@@ -14,9 +14,9 @@ from cosim.report.drawing import Picture
 from cosim.report.inline import inline
 from cosim.studies.reproduction.summary import SummaryGap
 
-from .flown import Reproduced
 from .model_file import model_text
 from .quantities import quantities
+from .reproduced import Reproduced
 from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, reason
 
 

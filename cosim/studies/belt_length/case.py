@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
-from thermal.air import convection, laminar_span, moving_belt, radiation
-from thermal.block import standing_block
-from thermal.constants import GRAVITY
-from thermal.footprint import Footprint
-from thermal.ice_body import IceBody
-from thermal.moisture import Frost, frost
-from thermal.single_pass import SinglePass
+from thermal.belt.air import convection, laminar_span, moving_belt, radiation
+from thermal.belt.frost import Frost, frost
+from thermal.belt.single_pass import SinglePass
+from thermal.contact.footprint import Footprint
+from thermal.ice.block import standing_block
+from thermal.ice.body import IceBody
+from thermal.materials import GRAVITY
 
 from .protocol import Protocol, StudyError
 

@@ -8,7 +8,7 @@ from argparse import Namespace
 from cosim.studies.belt_length import AIR, FEWEST_SAMPLES, Case, StudyError
 from cosim.studies.belt_length.case import OWN_KEYS
 from thermal import Belt, ParameterError
-from thermal.steady import NoSteadyState
+from thermal.steady_state import NoSteadyState
 
 #: Option -> field of a case, unit, above this or, where True follows, also this; at most that.
 BOUNDS = {

@@ -60,7 +60,7 @@ def drift(case: Case) -> Drift:
         interface_drift=run.mean_interface - before.mean_interface,
         interface_run_endless=endless.mean_interface,
         interface_drift_endless=endless.mean_interface - endless_before.mean_interface,
-        flash_run=run.flash_interface,
+        flash_run=run.hottest_interface,
         belt_share=run.belt_share_so_far,
         belt_share_steady=steady.belt_share,
         steady_melts=steady.melting > 0.0,

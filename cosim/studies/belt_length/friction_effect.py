@@ -14,7 +14,7 @@ from functools import lru_cache
 
 from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
 
-from thermal.constants import MELTING_POINT_DEGC
+from thermal.materials import MELTING_POINT_DEGC
 
 from .case import Case
 

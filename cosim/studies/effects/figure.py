@@ -5,15 +5,13 @@ from __future__ import annotations
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip import Parameters, simulate
+from stickslip import simulate
 
 from cosim.report.drawing import BLUE, GREY, RC, Picture, picture
 
-from .cases import CASES
+from .cases import CASES, case_parameters
 
 INTERVAL = 0.005  # s
-WARMER = 3.0  # K above the reference: what temperature_dependence is shown at
-WATER = 5e-6  # m in the contact: what mixed_lubrication is shown at
 
 
 def effect_figure(effect_id: str) -> Picture:
@@ -26,25 +24,24 @@ def effect_figure(effect_id: str) -> Picture:
         for name, value in keys.items()
     )
     where = f"; both with {rig}" if rig else ""
-    if effect_id == "temperature_dependence":
-        where += f"; interface {WARMER:g} K above the reference"
-    if effect_id == "mixed_lubrication":
-        where += f"; {1e6 * WATER:g} µm of water in the contact"
+    if case.warmer:
+        where += f"; interface {case.warmer:g} K above the reference"
+    if case.water:
+        where += f"; {1e6 * case.water:g} µm of water in the contact"
     draw = picture(effect_id, f"Motion without and with the effect ({sizes}){where}.")(_draw)
     return draw(effect_id)
 
 
 def _draw(effect_id: str) -> Figure:
-    case = CASES[effect_id]
-    begin, end = case.window
+    begin, end = CASES[effect_id].window
     with matplotlib.rc_context(RC):
         figure = Figure(figsize=(8.0, 2.5), layout="constrained")
         ax = figure.subplots()
-        for name, parameters, colour in (
-            ("without", case.parameters(None), GREY),
-            ("with", case.parameters(effect_id), BLUE),
+        for name, on, colour in (
+            ("without", False, GREY),
+            ("with", True, BLUE),
         ):
-            time, x = _motion(parameters, end)
+            time, x = motion(effect_id, on)
             shown = time >= begin
             ax.plot(time[shown], 1e3 * x[shown], color=colour, label=name)
         ax.set(xlabel="time [s]", ylabel="x [mm]", xlim=(begin, end), title=effect_id)
@@ -52,15 +49,15 @@ def _draw(effect_id: str) -> Figure:
     return figure
 
 
-def _motion(parameters: Parameters, end: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n,) and x (n,), m; on a warmer and wet interface where friction feels that."""
-    law = parameters.temperature_dependence
-    warmer = WARMER if law.sensitivity > 0.0 else 0.0
+def motion(effect_id: str, on: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Times (n,) and x (n,), m; with the effect, the interface is as warm as its case says."""
+    case = CASES[effect_id]
+    reference = case.effect.get("reference_degC")
     run = simulate(
-        parameters,
-        end,
+        case_parameters(effect_id, on),
+        case.window[1],
         INTERVAL,
-        interface_temperature=law.reference_degC + warmer,
-        film_thickness=WATER,
+        interface_temperature=reference + case.warmer if on and reference is not None else None,
+        film_thickness=case.water,
     )
     return run.time, run["x"]

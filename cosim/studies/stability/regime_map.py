@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.effects import EffectBlocks
 from stickslip.packing import GRAVITY
+from stickslip.parameters import EffectTables
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Interface, RunEnded
@@ -96,7 +96,7 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
     Imperfections of a hundredth move the borders by as much.
     """
     plain = Parameters()
-    effects = set(EffectBlocks.model_fields) - HARMLESS
+    effects = set(EffectTables.model_fields) - HARMLESS
     return (
         all(getattr(parameters, name) == getattr(plain, name) for name in effects)
         and parameters.rig.surface == "belt"

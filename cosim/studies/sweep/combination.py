@@ -13,7 +13,7 @@ from importlib import resources
 from typing import Any, NamedTuple
 
 from stickslip import Parameters, Trajectory, simulate
-from stickslip.compiled import kernel_source
+from stickslip.generation.source import kernel_source
 
 from . import features as feature_module
 from .features import FEATURES, features

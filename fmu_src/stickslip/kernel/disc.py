@@ -13,13 +13,16 @@ Ruina & Papadopoulos, Wear 143, 1991; Farkas et al., Phys. Rev. Lett. 90, 2003).
 over the contact is needed where mu is uniform, and none of its noise reaches the integrator.
 """
 
+from __future__ import annotations
+
 from math import pi, sqrt
 
+from . import Floats
 from .coefficient import local_coefficient
 from .layout import DEPTHS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
 
 
-def elliptic_pair(kc2: float, w: "float[:]"):
+def elliptic_pair(kc2: float, w: Floats):
     """B = int cos^2/D and kc^2 times int sin^2/D, with kc^2 = 1 - k^2, into ``w[W_PAIR:]``.
 
     Arithmetic-geometric mean (Abramowitz & Stegun 17.6); the c_n are carried by
@@ -70,7 +73,7 @@ def sine_cosine_integral(k2: float, b: float, d: float) -> float:
     return total
 
 
-def disc_friction(sliding: float, spinning: float, w: "float[:]"):
+def disc_friction(sliding: float, spinning: float, w: Floats):
     """Force f and moment m (both per mu N, the moment also per radius) into ``w[W_PAIR:]``.
 
     ``sliding`` is U >= 0 and ``spinning`` is a |omega| >= 0, in m/s, not both zero.
@@ -96,14 +99,14 @@ def disc_friction(sliding: float, spinning: float, w: "float[:]"):
 
 
 def add_local_law(
-    p: "float[:]",
-    u: "float[:]",
+    p: Floats,
+    u: Floats,
     mu: float,
     aged: float,
     reference: float,
     sliding: float,
     spinning: float,
-    w: "float[:]",
+    w: Floats,
 ):
     """Add to ``w[W_PAIR:]`` what a coefficient that varies with the local speed changes.
 
@@ -120,14 +123,14 @@ def add_local_law(
 
 
 def add_law_over_strips(
-    p: "float[:]",
-    u: "float[:]",
+    p: Floats,
+    u: Floats,
     mu: float,
     aged: float,
     reference: float,
     sliding: float,
     k: float,
-    w: "float[:]",
+    w: Floats,
 ):
     """The centre of rotation lies outside: |u| = U (cos theta + k tau cos psi)."""
     force = 0.0
@@ -138,7 +141,7 @@ def add_law_over_strips(
         for i in range(DEPTHS):
             tau = p[P_QUADRATURE + Q_DEPTH + i]
             q = along + k * tau * c
-            excess = max(0.0, local_coefficient(p, u, mu, sliding * q) + aged) - reference
+            excess = max(0.0, local_coefficient(p, u, w, mu, sliding * q) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * c * c * excess / RAYS
             force += share * q
             moment += share * c * tau * q / along
@@ -147,14 +150,14 @@ def add_law_over_strips(
 
 
 def add_law_over_rays(
-    p: "float[:]",
-    u: "float[:]",
+    p: Floats,
+    u: Floats,
     mu: float,
     aged: float,
     reference: float,
     spinning: float,
     k: float,
-    w: "float[:]",
+    w: Floats,
 ):
     """The centre of rotation lies inside, k radii from the centre of the disc."""
     force = 0.0
@@ -164,7 +167,7 @@ def add_law_over_rays(
         reach = k * c + sqrt(1.0 - k * k * p[P_QUADRATURE + Q_RAY + RAYS + j])
         for i in range(DEPTHS):
             s = 0.5 * reach * (1.0 + p[P_QUADRATURE + Q_DEPTH + i])
-            excess = max(0.0, local_coefficient(p, u, mu, spinning * s) + aged) - reference
+            excess = max(0.0, local_coefficient(p, u, w, mu, spinning * s) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * reach * s * excess / RAYS
             force += share * c
             moment += share * (s - k * c)

@@ -7,20 +7,19 @@ along x alone. The scaling is that of an elliptic dissipation potential, so fric
 motion for every kappa.
 """
 
+from __future__ import annotations
+
 from math import sqrt
 
+from . import Floats
 from .coefficient import (
-    dry_share,
-    has_state_law,
     kinetic_coefficient,
     local_coefficient,
-    rate_and_state,
     slow_coefficient,
+    state_coefficient,
 )
 from .disc import add_local_law, disc_friction
 from .layout import (
-    AGE,
-    P_FILM,
     P_LATERAL,
     P_LOCAL_LAW,
     P_NORMAL_FORCE,
@@ -28,11 +27,11 @@ from .layout import (
     W_FRICTION,
     W_MEAN_SPEED,
     W_PAIR,
-    W_STATE,
 )
+from .terms import with_contact_drag
 
 
-def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, sliding: float):
+def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding: float):
     """Friction from the coefficients in ``w[W_PAIR:]`` (force, moment), into ``w[W_FRICTION:]``.
 
     (sx, sy, sr) is the scaled sliding velocity, of which only the direction counts here;
@@ -53,7 +52,7 @@ def set_friction(p: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, 
 
 
 def friction_at_onset(
-    p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float, speed: float
+    p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float, speed: float
 ):
     """Friction against a slip that has a direction, but next to no ``speed`` (m/s) yet.
 
@@ -67,7 +66,7 @@ def friction_at_onset(
     set_friction(p, w, sx, sy, sr, sliding)
 
 
-def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy: float, sr: float):
+def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float):
     """Friction against the scaled sliding velocity (sx, sy, sr), not zero; sr is a rim speed.
 
     Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local
@@ -82,19 +81,18 @@ def friction_in_slip(p: "float[:]", u: "float[:]", w: "float[:]", sx: float, sy:
     w[W_MEAN_SPEED] = mean_speed
     reference = mu
     if p[P_LOCAL_LAW] == 1.0:
-        reference = local_coefficient(p, u, mu, mean_speed)
-    aged = 0.0
-    if has_state_law(p):
-        aged = dry_share(p, u) * rate_and_state(p, w[W_STATE + AGE], mean_speed)
+        reference = local_coefficient(p, u, w, mu, mean_speed)
+    aged = state_coefficient(p, u, w, mean_speed)
     whole = max(0.0, reference + aged)
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
         add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
     set_friction(p, w, sx, sy, sr, sliding)
-    if p[P_FILM] != 0.0:
+    drag = with_contact_drag(p, 0.0)
+    if drag != 0.0:
         kappa = p[P_LATERAL]
-        w[W_FRICTION] -= p[P_FILM] * sx
-        w[W_FRICTION + 1] -= p[P_FILM] * kappa * sy
+        w[W_FRICTION] -= drag * sx
+        w[W_FRICTION + 1] -= drag * kappa * sy
         # a uniform film: the mean of r^2 over the disc is a^2/2
-        w[W_FRICTION + 2] -= p[P_FILM] * kappa * 0.5 * p[P_RADIUS] * sr
+        w[W_FRICTION + 2] -= drag * kappa * 0.5 * p[P_RADIUS] * sr

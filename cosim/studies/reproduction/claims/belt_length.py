@@ -7,7 +7,7 @@ from functools import cache
 
 from cosim.report.drawing import panels, picture
 from thermal import Belt, BeltIceModel, ThermalParameters
-from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
+from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn
 from ..drawing import COLOURS, LABELS, study_line

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .chance import BOOTSTRAPS, p_of_the_best
 from .observations import Observation, observations

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.gap.errors import CampaignError
-from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.errors import CampaignError
 
 from .exact_model import exact_motion
 from .motion import Motion, figures

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .observations import Observation
 from .result import FittedSummary, Ranked, Where

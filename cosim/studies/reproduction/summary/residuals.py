@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.data import Campaign, MeasuredRun
 
 from .exact_model import exact_motion
 from .motion import figures

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .observations import Observation
 

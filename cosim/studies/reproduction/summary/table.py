@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .observations import Observation, predict
 from .ways import Way

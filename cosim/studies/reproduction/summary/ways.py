@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from scipy.stats import norm
-from stickslip.effects import CATALOGUE
+from stickslip.effects import EFFECTS
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
 from .study_model import PRINTED_RATIO, has_meaning
 
@@ -64,7 +64,7 @@ class Way:
     @property
     def off(self) -> dict[str, float]:
         """Values of what is searched with which the last effect is not there."""
-        blocks = {entry.id: entry.block for entry in CATALOGUE}
+        blocks = {entry.id: entry.table for entry in EFFECTS}
         keys = [span.key.split(".") for span in self.spans] if self.effects else []
         return {
             f"{block}.{name}": float(blocks[block].model_fields[name].default)
@@ -133,7 +133,7 @@ _RANGES = {
 def ways(campaign: Campaign, base: Way) -> tuple[Way, ...]:
     """``base`` with each effect that is not in it, in the catalogue's order, form by form."""
     found = []
-    for effect in CATALOGUE:
+    for effect in EFFECTS:
         if effect.id in base.effects:
             continue
         for form, (numbers, settings) in _FORMS.get(effect.id, {}).items():
@@ -175,6 +175,6 @@ def _span(effect: str, number: str) -> Span:
     key = f"{effect}.{name}"
     if key in _RANGES:
         return Span(key, *_RANGES[key], log=scale == "log")
-    blocks = {entry.id: entry.block for entry in CATALOGUE}
+    blocks = {entry.id: entry.table for entry in EFFECTS}
     low, high = blocks[effect].model_fields[name].json_schema_extra["typical"]
     return Span(key, low, high, log=scale == "log")
