@@ -10,9 +10,6 @@ from functools import wraps
 import matplotlib
 from matplotlib.figure import Figure
 
-from cosim.folders import OutputRefused as OutputRefused
-from cosim.folders import writable as writable
-
 GREY, INK = "#7A7A7A", "#222222"
 # Okabe and Ito's palette: told apart with any kind of colour vision
 BLUE, RED, GREEN, PURPLE, ORANGE, SKY = SERIES = (

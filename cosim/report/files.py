@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from cosim.atomic import write_atomically, write_text
+from cosim.files import write_atomically, write_text
 
 
 def write_netcdf(dataset: xr.Dataset, path: Path) -> Path:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from cosim.atomic import write_bytes, write_text
+from cosim.files import write_bytes, write_text
 
 from .animation import Views, animation
 from .figures import plates_of

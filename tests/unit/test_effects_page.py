@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from stickslip import EFFECTS
 
-from cosim.cli import effects as effects_command
 from cosim.cli import main
 from cosim.studies.effects import effect_figure
 from cosim.studies.effects.cases import CASES
@@ -47,7 +46,7 @@ def test_what_was_drawn_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, dra
             raise KeyboardInterrupt
         return effect_figure(effect_id)
 
-    monkeypatch.setattr(effects_command, "effect_figure", interrupted)
+    monkeypatch.setattr("cosim.studies.effects.effect_figure", interrupted)
     assert main(["effects", "run_in", "film_drag", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert (out, err) == ("", f"error: interrupted; {drawn} of 2 figures are in {tmp_path}\n")

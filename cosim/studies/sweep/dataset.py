@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from cosim.atomic import write_atomically
+from cosim.files import write_atomically
 
 from .combination import COMPLETE, STATUS_MEANINGS, Row, Run, model_version
 from .features import FEATURES

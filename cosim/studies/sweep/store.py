@@ -14,8 +14,7 @@ import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
-from cosim.atomic import OutputError, write_text
-from cosim.folders import OutputRefused, writable
+from cosim.files import OutputError, OutputRefused, writable, write_text
 
 from .combination import ERROR, Row, model_version
 from .errors import SweepError, SweepStopped
