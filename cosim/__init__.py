@@ -17,14 +17,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cosim.coupling.coupled_case import CoupledRun, run_scenario
+    from cosim.coupling.case import CoupledRun, run_scenario
     from cosim.scenario import Scenario, read_scenario
 
 __all__ = ["CoupledRun", "Scenario", "read_scenario", "run_scenario"]
 
 _HOME = {
-    "CoupledRun": "cosim.coupling.coupled_case",
-    "run_scenario": "cosim.coupling.coupled_case",
+    "CoupledRun": "cosim.coupling.case",
+    "run_scenario": "cosim.coupling.case",
     "Scenario": "cosim.scenario",
     "read_scenario": "cosim.scenario",
 }

@@ -17,7 +17,7 @@ from stickslip.kernel.layout import constants
 #: of the kernel come from.
 AS_THEY_ARE = ("packing.py", "status.py", "tableau.py")
 PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."""\n'
-_KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.\w+ import")
+_KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
 
 
 def sources() -> dict[str, bytes]:

@@ -9,8 +9,7 @@ import numpy as np
 import tomli_w
 from stickslip import Parameters, simulate
 
-from cosim.atomic import write_text
-from cosim.folders import writable
+from cosim.files import writable, write_text
 
 #: Of the tracker, m.
 NOISE = 2e-4

@@ -3,7 +3,7 @@
 >>> from cosim.report import run_dataset, trajectory_dataset, write_results
 """
 
-from cosim.atomic import OutputError
+from cosim.files import OutputError
 
 from .dataset import run_dataset, trajectory_dataset
 from .results import Views, write_data, write_results

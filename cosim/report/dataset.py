@@ -82,11 +82,16 @@ class BeltSnapshots(Protocol):
     contact_length m, along the belt.
     """
 
-    time: Any
-    position: Any
-    temperature: Any
-    contact: Any
-    contact_length: float
+    @property
+    def time(self) -> Array: ...
+    @property
+    def position(self) -> Array: ...
+    @property
+    def temperature(self) -> Array: ...
+    @property
+    def contact(self) -> Array: ...
+    @property
+    def contact_length(self) -> float: ...
 
 
 def run_dataset(

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 import xarray as xr
 
-from cosim.atomic import write_atomically, write_text
+from cosim.files import write_atomically, write_text
 
 PACKAGES = (
     "stickslip",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import xarray as xr
 
-from cosim.atomic import write_bytes, write_text
+from cosim.files import write_bytes, write_text
 
 if TYPE_CHECKING:
     from thermal import RigView

@@ -17,7 +17,7 @@ from baseline import Figure, arguments, write
 from mechanics import median_seconds
 from stickslip import Parameters
 from stickslip.compiled import OPTIONS, compiled_kernel
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import (
     DEPTHS,
     OMEGA,

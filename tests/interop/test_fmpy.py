@@ -19,7 +19,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Error
 from fmpy.validation import validate_fmu
 
-from cosim.coupling.fmu_log import FmuLog
+from cosim.coupling.fmu_calls import FmuLog
 from cosim.fmu import stickslip3dof as recipe
 from cosim.fmu.sources import sources
 

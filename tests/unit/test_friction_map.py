@@ -86,7 +86,7 @@ def test_what_the_command_leaves(tmp_path, capsys):
 def test_what_cannot_slide_steadily_is_refused_in_one_line(changes, speed, ambient, line):
     with pytest.raises(ValueError, match=line) as refused:
         friction_map(CASE.changed(changes), [speed], [ambient], 0.1)
-    assert isinstance(refused.value, friction_regimes_command.REFUSED)
+    assert isinstance(refused.value, friction_regimes_command.refused())
     assert "\n" not in str(refused.value)
 
 

@@ -363,7 +363,7 @@ def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, ju
         return reproduce(ids)
 
     seen = []
-    monkeypatch.setattr(reproduction_command, "reproduce", interrupted)
+    monkeypatch.setattr("cosim.studies.reproduction.reproduce", interrupted)
     status = main(["reproduce", "C1", "C2", "-o", str(tmp_path)])
     out, err = capsys.readouterr()
     assert (status, out, err.count("\n")) == (1, "", 1)
@@ -376,13 +376,13 @@ def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, ju
 
 
 def test_command_refuses_before_it_computes(tmp_path):
-    with pytest.raises(reproduction_command.REFUSED, match="C99"):
+    with pytest.raises(reproduction_command.refused(), match="C99"):
         reproduction_command.execute(arguments("C99", "-o", str(tmp_path / "out")))
     assert not (tmp_path / "out").exists()
     (tmp_path / "file").write_text("")
-    with pytest.raises(reproduction_command.REFUSED, match="cannot be written to"):
+    with pytest.raises(reproduction_command.refused(), match="cannot be written to"):
         reproduction_command.execute(arguments("C1", "-o", str(tmp_path / "file")))
-    with pytest.raises(reproduction_command.REFUSED, match="is a folder, allowed is a file"):
+    with pytest.raises(reproduction_command.refused(), match="is a folder, allowed is a file"):
         reproduction_command.execute(
             arguments("C1", "--json", str(tmp_path), "-o", str(tmp_path / "out"))
         )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from stickslip import Parameters, simulate
-from stickslip.kernel.coefficient import surface_factor
+from stickslip.kernel.friction.coefficient import surface_factor
 from stickslip.kernel.layout import U_SIZE, W_SIZE, W_STATE, X
 
 PLANAR = {"lateral_friction": {"ratio": 1.0}}

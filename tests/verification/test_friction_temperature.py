@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import dblquad, quad, solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.compiled import compiled_kernel
-from stickslip.kernel.coefficient import holding_coefficient, local_coefficient
+from stickslip.kernel.friction.coefficient import holding_coefficient, local_coefficient
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_SIZE
 
 MASS, RADIUS, DRY, COLD = 0.67, 0.04, 0.5, -8.0

@@ -11,7 +11,7 @@ from stickslip import Parameters, Surface, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel import layout
 from stickslip.kernel.contact import limit_surface_ratio
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 
 GRAVITY = 9.81
 seeds = st.integers(0, 2**31)

@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
 from stickslip.kernel import advance
 from stickslip.kernel.contact import set_contact, set_onset_direction
-from stickslip.kernel.disc import disc_friction
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.disc import disc_friction
+from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.interpolant import copy_instant
 from stickslip.kernel.layout import (
     DIRECTION,

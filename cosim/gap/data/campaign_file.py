@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar
 
 import stickslip
-from pydantic import BaseModel, Field, ValidationError, create_model, model_validator
+from pydantic import BaseModel, Field, create_model, model_validator
 from stickslip.quantity import Table, quantity
 
 from cosim.gap.data.errors import CampaignError
-from cosim.scenario.faults import describe_faults, nearest
+from cosim.names import nearest
+from cosim.scenario.faults import ScenarioError, checked
 
 if TYPE_CHECKING:
     Rig = stickslip.Rig  # for those who read its keys: they are the same
@@ -192,13 +193,6 @@ def _parse(path: Path) -> dict[str, Any]:
 
 def _checked(model: type[Checked], tables: Mapping[str, Any], where: str) -> Checked:
     try:
-        return model.model_validate(_tuples(tables), strict=True)
-    except ValidationError as report:
-        raise CampaignError(f"{where}: {describe_faults(report, model)}") from None
-
-
-def _tuples(value: Any) -> Any:
-    """TOML's lists as the tuples that the models hold."""
-    if isinstance(value, Mapping):
-        return {key: _tuples(entry) for key, entry in value.items()}
-    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
+        return checked(model, tables)
+    except ScenarioError as fault:
+        raise CampaignError(f"{where}: {fault}") from None

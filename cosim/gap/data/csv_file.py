@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from cosim.gap.data.errors import CampaignError
-from cosim.scenario.faults import nearest
+from cosim.names import nearest
 
 TIME = "t"
 UNITS = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from cosim.atomic import write_bytes, write_text
+from cosim.files import write_bytes, write_text
 from cosim.fmu.build import own_fmu
 from cosim.gap.diagnostics import analyse_residuals
 from cosim.gap.result import Gap

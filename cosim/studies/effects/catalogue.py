@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import Any
 
 from stickslip import EFFECTS
 from stickslip.effects.effect import Effect
 from stickslip.quantity import details
+
+from cosim.names import nearest
 
 
 class UnknownEffect(ValueError):
@@ -19,7 +20,7 @@ def chosen(ids: list[str]) -> list[Effect]:
     known = [entry.id for entry in EFFECTS]
     for name in ids:
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            near = nearest(name, known, similarity=0.0)
             raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
     return [entry for entry in EFFECTS if not ids or entry.id in ids]
 

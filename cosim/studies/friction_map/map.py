@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickslip import Parameters, friction_coefficient
 from stickslip.packing import GRAVITY
 
-from cosim.coupling.coupled_case import run_scenario
+from cosim.coupling.case import run_scenario
 from cosim.scenario import Scenario
 
 #: Damping over what the fall of friction with the speed drives.

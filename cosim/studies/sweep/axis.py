@@ -11,7 +11,8 @@ import numpy as np
 from stickslip import Parameters
 from stickslip.quantity import details
 
-from cosim.scenario.faults import known_keys, nearest
+from cosim.names import nearest_key
+from cosim.scenario.faults import known_keys
 
 from .combination import SweepError
 
@@ -78,8 +79,7 @@ def labelled_axis(
 def _check_key(key: str) -> None:
     if key in KEYS:
         return
-    namesakes = [known for known in KEYS if known.partition(".")[2] == key.rpartition(".")[2]]
-    near = next(iter(namesakes), None) or nearest(key, KEYS)
+    near = nearest_key(key, KEYS)
     block = key.partition(".")[0]
     siblings = [known for known in KEYS if known.partition(".")[0] == block]
     blocks = f"a key of {', '.join(dict.fromkeys(known.partition('.')[0] for known in KEYS))}"

@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cosim.atomic import OutputError, write_text
-from cosim.folders import OutputRefused, writable
+from cosim.files import OutputError, OutputRefused, writable, write_text
 from cosim.report.files import provenance
 
 from .combination import (

@@ -29,5 +29,6 @@ FILES = (
     "friction.melt_film",
     "contact.rate_and_state",
     "friction.mixed_lubrication",
+    "friction.viscoelastic_peak",
 )
 EFFECTS: tuple[Effect, ...] = tuple(import_module(f"{__name__}.{file}").EFFECT for file in FILES)

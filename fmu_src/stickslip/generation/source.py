@@ -13,7 +13,6 @@ from ..effects import EFFECTS
 from ..effects.effect import Effect
 from ..kernel import MODULES
 from ..kernel.layout import constants
-from .derived import derived_source
 from .terms import terms_source
 
 #: How the core spells an array of floats, and how the text does: pyccel's way, a string to others.
@@ -33,15 +32,9 @@ def layout_source(effects: Sequence[Effect] = EFFECTS) -> str:
     return "\n".join(f"{name} = {value!r}" for name, value in constants(effects).items()) + "\n"
 
 
-def packing_source(effects: Sequence[Effect] = EFFECTS) -> str:
-    """`packing.py` and what it is made of besides the kernel's text, as one module."""
-    text = (resources.files("stickslip") / "packing.py").read_text(encoding="utf-8")
-    names = ", ".join(constants(effects))
-    return f"from .kernel import {names}\n{derived_source(effects)}\n{text}"
-
-
 def _core(name: str) -> str:
-    tree = ast.parse((resources.files("stickslip.kernel") / f"{name}.py").read_text("utf-8"))
+    file = f"{name.replace('.', '/')}.py"
+    tree = ast.parse((resources.files("stickslip.kernel") / file).read_text("utf-8"))
     tree.body = [node for node in tree.body if not _is_for_files_only(node)]
     for node in ast.walk(tree):
         if isinstance(node, ast.arg) and isinstance(node.annotation, ast.Name):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from math import isfinite
 
 from . import Floats
-from .coefficient import holding_coefficient, is_felt
 from .contact import rest_speed, scaled_sliding_speed
 from .events import (
     break_away,
@@ -20,6 +19,7 @@ from .events import (
     settle,
     time_to_rest,
 )
+from .friction.coefficient import holding_coefficient, is_felt
 from .interpolant import copy_instant, look_inside, set_interpolant
 from .layout import (
     DIRECTION,

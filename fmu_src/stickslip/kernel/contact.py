@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .coefficient import holding_coefficient, onset_coefficient
-from .disc import disc_friction
+from .friction.coefficient import holding_coefficient, onset_coefficient
+from .friction.disc import disc_friction
 from .layout import (
     OMEGA,
     P_FREE_PHI,

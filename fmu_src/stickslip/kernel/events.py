@@ -5,13 +5,13 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .coefficient import holding_coefficient
 from .contact import (
     rest_speed,
     scaled_sliding_speed,
     set_holding_load,
     set_onset_direction,
 )
+from .friction.coefficient import holding_coefficient
 from .layout import (
     DIRECTION,
     E_CAPACITY,

@@ -127,7 +127,7 @@ PARAMETERS = (
     ("P_SHORTEST", 1),  # length below which a spring counts as collapsed, m
     ("P_INITIAL", 6),  # x, y, phi, vx, vy, omega
     ("P_FEEDING", 1),  # integrated numbers that the motion depends on: MOVING or REMEMBERED
-    ("P_QUADRATURE", sum(size for _, size in QUADRATURE)),  # see disc
+    ("P_QUADRATURE", sum(size for _, size in QUADRATURE)),  # see friction.disc
     ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see tableau
     ("P_PRESLIDING", 1),  # sliding speed of a stick per load, m/(s N), see stick
     ("P_RELATIVE_STIFFNESS", 4),  # of each spring: what its force is multiplied by

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from . import Floats
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
-from .friction import friction_at_onset, friction_in_slip
+from .friction.force import friction_at_onset, friction_in_slip
 from .layout import (
     DAMPED,
     DISTANCE,

@@ -22,7 +22,6 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .coefficient import onset_coefficient, slow_coefficient
 from .contact import (
     rest_speed,
     scaled_sliding_speed,
@@ -31,8 +30,9 @@ from .contact import (
     set_yielding_motion,
     speed_scale,
 )
-from .disc import disc_friction
-from .friction import friction_at_onset, friction_in_slip
+from .friction.coefficient import onset_coefficient, slow_coefficient
+from .friction.disc import disc_friction
+from .friction.force import friction_at_onset, friction_in_slip
 from .layout import (
     OMEGA,
     P_CURVATURE,

@@ -22,9 +22,9 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .coefficient import holding_coefficient
 from .contact import set_contact, set_holding_load, set_sliding_velocity
-from .disc import disc_friction
+from .friction.coefficient import holding_coefficient
+from .friction.disc import disc_friction
 from .layout import (
     OMEGA,
     P_CURVATURE,

@@ -14,8 +14,8 @@ from cosim.coupling import (
     GaussSeidel,
     run,
 )
-from cosim.coupling.snapshots import Snapshots
-from cosim.coupling.thermal_participant import ThermalParticipant
+from cosim.coupling.case.snapshots import Snapshots
+from cosim.coupling.case.thermal_participant import ThermalParticipant
 from cosim.fmu.build import own_fmu
 from cosim.scenario import Scenario, read_scenario
 from thermal import BeltIceModel
@@ -82,7 +82,7 @@ def run_scenario(
         inputs={"surface_speed": scenario.surface.speed},
     )
     heat = ThermalParticipant(
-        BeltIceModel(scenario.thermal), THERMAL, look=snapshots, melts=feels_melting(scenario)
+        BeltIceModel(scenario.thermal), THERMAL, observer=snapshots, melts=feels_melting(scenario)
     )
     with CoupledSystem([mechanics, heat], CONNECTIONS, RESIDUALS) as system:
         result = run(

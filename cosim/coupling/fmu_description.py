@@ -1,19 +1,28 @@
-"""Opening an FMU file: what it declares, as ports and parameters."""
+"""What an FMU file declares: ports, and the values that may be given to it before it starts."""
 
+import math
 import zipfile
 import zlib
+from collections.abc import Mapping
+from numbers import Real
 from pathlib import Path
 
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable, ValidationError
 from lxml.etree import XMLSyntaxError
 
-from cosim.coupling.errors import FmuError
-from cosim.coupling.ports import Causality, Port
+from cosim.coupling.participant import Causality, Port
+from cosim.names import unknown_name
 
 # FMI 2 types that fit a port: a number. Strings do not.
 NUMERIC = ("Real", "Integer", "Boolean", "Enumeration")
 PLAIN_NUMBER = "1"
+
+Setting = float | int | bool | str
+
+
+class FmuError(ValueError):
+    """A file is not an FMU that can be used here, or a value given to it is refused."""
 
 
 def describe(path: Path) -> ModelDescription:
@@ -59,3 +68,46 @@ def unit_of(variable: ModelVariable) -> str:
     if declared is None and variable.declaredType is not None:
         declared = variable.declaredType.unit
     return declared or PLAIN_NUMBER
+
+
+def check_settings(
+    fmu_name: str,
+    variables: Mapping[str, ModelVariable],
+    settings: Mapping[str, Setting],
+    causality: str,
+) -> None:
+    """Every name is a variable of the causality, every value has its type and range.
+
+    causality: "parameter" or "input". Raises FmuError with the nearest name or the range.
+    """
+    known = [name for name, variable in variables.items() if variable.causality == causality]
+    for name, value in settings.items():
+        variable = variables.get(name)
+        if variable is None:
+            raise FmuError(unknown_name(f"{causality} of {fmu_name}", name, known))
+        if variable.causality != causality:
+            raise FmuError(f"{fmu_name}.{name} is a {variable.causality}, not a {causality}")
+        _check_value(f"{fmu_name}.{name}", variable, value)
+
+
+def _check_value(label: str, variable: ModelVariable, value: Setting) -> None:
+    if variable.type == "String":
+        if not isinstance(value, str):
+            raise FmuError(f"{label} = {value!r}: must be a text")
+        return
+    if variable.type == "Boolean":
+        if not isinstance(value, bool):
+            raise FmuError(f"{label} = {value!r}: must be true or false")
+        return
+    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+        raise FmuError(f"{label} = {value!r}: must be a finite number")
+    if variable.type != "Real" and float(value) != int(value):
+        raise FmuError(f"{label} = {value!r}: must be a whole number")
+    _check_range(label, variable, float(value))
+
+
+def _check_range(label: str, variable: ModelVariable, value: float) -> None:
+    low = -math.inf if variable.min is None else float(variable.min)
+    high = math.inf if variable.max is None else float(variable.max)
+    if not low <= value <= high:
+        raise FmuError(f"{label} = {value:g}: must lie in [{low:g}, {high:g}]")

@@ -1,54 +1,17 @@
-"""The end of a run: Ctrl-C that loses nothing, and the last lines."""
+"""Ctrl-C, and the signals that ask for the same, at a time that suits."""
 
 import signal
-from pathlib import Path
+import threading
 
 import pytest
 
-from cosim.cli.finish import closing_lines
-from cosim.cli.interruption import interruptible
-from cosim.cli.patience import patient_interrupts
-from cosim.interrupts import REQUESTS, held_interrupts
-
-MECHANICS = {
-    "name": "case",
-    "time_reached": 30.0,
-    "wall_time": 2.34,
-    "after_run_up": {"frequency": 2.3, "slip_share": 0.9},
-    "ledger": {"mechanics": {"relative_residual": 1e-13}},
-}
-HEAT = {
-    "temperatures": {"interface": {"end_degC": -7.9432, "end_rise": 0.0568}},
-    "heat_shares": {"belt": 0.31, "ice": 0.48, "air": 0.21},
-}
-HEAT_LEDGERS = {
-    "heat": {"received": 5.126, "relative_residual": 2e-14},
-    "coupling": {"relative_difference": 0.0},
-}
-
-
-def test_a_coupled_run_ends_in_six_lines():
-    ledgers = {"ledger": MECHANICS["ledger"] | HEAT_LEDGERS}
-    lines = closing_lines(MECHANICS | HEAT | ledgers, Path("out"), 6.0)
-    assert len(lines) == 6
-    for said in (
-        "30 s in 6.0 s",
-        "2.300 break-aways",
-        "0.900",
-        "-7.9432 degC",
-        "+0.0568 K",
-        "5.126 J",
-        "belt 0.310",
-        "1.0e-13 of the work",
-        "out/report.html",
-    ):
-        assert any(said in line for line in lines), said
-
-
-def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency():
-    short = MECHANICS | {"after_run_up": {"frequency": None, "slip_share": None}}
-    lines = closing_lines(short, Path("out"), 6.0)
-    assert len(lines) == 4 and "not known" in lines[1]
+from cosim.interrupts import (
+    REQUESTS,
+    deferred_interrupt,
+    held_interrupts,
+    interruptible,
+    patient_interrupts,
+)
 
 
 def test_ctrl_c_works_at_once_while_there_is_nothing_to_lose():
@@ -97,3 +60,46 @@ def test_ctrl_c_waits_until_the_results_are_saved():
             patience.release()
         with pytest.raises(KeyboardInterrupt):  # the figures can be had again
             signal.raise_signal(signal.SIGINT)
+
+
+def test_the_first_ctrl_c_of_a_run_waits_and_the_second_does_not():
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt), deferred_interrupt() as interrupt:
+        assert not interrupt.requested
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.requested
+        signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_command_that_ends_its_process_hears_nothing_afterwards():
+    before = {number: signal.getsignal(number) for number in REQUESTS}
+    try:
+        with interruptible(ending=True):
+            pass
+        assert {signal.getsignal(number) for number in REQUESTS} == {signal.SIG_IGN}
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@pytest.mark.parametrize(
+    "guard",
+    [held_interrupts, deferred_interrupt, patient_interrupts, lambda: interruptible(ending=True)],
+)
+def test_outside_the_main_thread_nothing_is_changed(guard):
+    """Python refuses to install a handler there; a notebook's kernel or a server may call us so."""
+    before = signal.getsignal(signal.SIGINT)
+    failed = []
+
+    def work():
+        try:
+            with guard():
+                pass
+        except ValueError as error:
+            failed.append(error)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert not failed and signal.getsignal(signal.SIGINT) is before

@@ -7,8 +7,8 @@ bears part of the load; last, what speed and state of the whole contact add.
 
 from __future__ import annotations
 
-from . import Floats
-from .layout import (
+from .. import Floats
+from ..layout import (
     HOLD_SINCE,
     MODE,
     P_MU_K,
@@ -19,7 +19,7 @@ from .layout import (
     U_TEMPERATURE,
     W_STATE,
 )
-from .terms import (
+from ..terms import (
     feels_film,
     feels_temperature,
     has_state_law,

@@ -17,9 +17,9 @@ from __future__ import annotations
 
 from math import pi, sqrt
 
-from . import Floats
+from .. import Floats
+from ..layout import DEPTHS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
 from .coefficient import local_coefficient
-from .layout import DEPTHS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
 
 
 def elliptic_pair(kc2: float, w: Floats):

@@ -57,8 +57,9 @@ class Snapshots:
         self._taken.append((time, temperature, model.contact_position))
 
     def _keep_view(self, time: float, model: BeltIceModel) -> None:
-        view = rig_view(model)
-        self.views.append((time, RigView(*(np.float32(part) for part in view))))
+        # half the memory, and more digits than a picture shows
+        view = RigView(*(np.float32(part) for part in rig_view(model)))  # type: ignore[arg-type]
+        self.views.append((time, view))
         if len(self.views) > MOST_VIEWS:
             del self.views[1::2]
             self._view_every *= 2

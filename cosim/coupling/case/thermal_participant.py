@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cosim.coupling import inputs, outputs, port_table
 from thermal import BeltIceModel
 
@@ -33,7 +36,7 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     heat_residual="J",
 )
 
-Look = Callable[[float, BeltIceModel], None]
+Observer = Callable[[float, BeltIceModel], None]
 
 
 class UnfeltMelting(RuntimeError):
@@ -41,23 +44,33 @@ class UnfeltMelting(RuntimeError):
 
 
 class Handed(NamedTuple):
-    """What the mechanical side has handed over since the start: heat in J, ways in m."""
+    """What the mechanical side has handed over since the start: heat in J, travel in m."""
 
     heat: float = 0.0
     surface_travel: float = 0.0
     x: float = 0.0
 
 
+class State(NamedTuple):
+    """All that a continuation depends on: the model's own state, and what has crossed the ports."""
+
+    model: NDArray[np.float64]
+    taken: Handed
+    now: Handed
+    railed: float
+    time: float
+
+
 class ThermalParticipant:
     """`BeltIceModel` with the ports of a coupled run.
 
-    Heat and ways arrive as totals since the start, and a step takes what was added: exactly the
-    joules and the metres of the step, whatever its size. The belt's way under the contact is
-    what the surface has travelled more than the block; its way over the railing is all of it, for
-    it goes on where the block sticks.
+    Heat and travel arrive as totals since the start, and a step takes what was added: exactly the
+    joules and the metres of the step, whatever its size. The belt's travel under the contact is
+    what the surface has travelled more than the block; its travel over the railing is all of it,
+    for it goes on where the block sticks.
 
-    look: called as look(time, model) with every state that a step starts from, so never with
-    one that a coupling scheme takes back; `look_now` does the same for the last one.
+    observer: called as observer(time, model) with every state that a step starts from, so never
+    with one that a coupling scheme takes back; `observe` does the same for the last one.
     melts: whether the ice may; a step in which it does is else refused by UnfeltMelting.
     """
 
@@ -65,14 +78,14 @@ class ThermalParticipant:
         self,
         model: BeltIceModel,
         name: str = "thermal",
-        look: Look | None = None,
+        observer: Observer | None = None,
         melts: bool = True,
     ):
         self.name = name
         self._melts = melts
         self.model = model
         self.ports = port_table(PORTS)
-        self._look = look
+        self._observer = observer
         self._time = 0.0
         self._now = self._taken = Handed()
         self._railed = 0.0
@@ -99,27 +112,27 @@ class ThermalParticipant:
         return self.model.outputs()
 
     def step(self, time: float, size: float) -> None:
-        """Advance from time by size (s) with the heat and the ways added since the last step."""
+        """Advance from time by size (s) with the heat and the travel added since the last step."""
         self._time = time
-        self.look_now()
+        self.observe()
         now, taken = self._now, self._taken
         travelled = now.surface_travel
         heat = now.heat - taken.heat
         if -ROUNDING * abs(now.heat) <= heat < 0.0:
             # not taken yet: the total stays that of the mechanical side
             heat, now = 0.0, now._replace(heat=taken.heat)
-        way = (now.surface_travel - taken.surface_travel) - (now.x - taken.x)
-        if abs(way) <= ROUNDING * (abs(now.surface_travel) + abs(now.x)):
+        slid = (now.surface_travel - taken.surface_travel) - (now.x - taken.x)
+        if abs(slid) <= ROUNDING * (abs(now.surface_travel) + abs(now.x)):
             # stick; taken as it is, its sign would tell the belt to run backwards
-            way, now = 0.0, now._replace(surface_travel=taken.surface_travel, x=taken.x)
-        self._advance(size, heat, way, travelled - self._railed)
+            slid, now = 0.0, now._replace(surface_travel=taken.surface_travel, x=taken.x)
+        self._advance(size, heat, slid, travelled - self._railed)
         self._taken, self._railed = now, travelled
         self._time = time + size
 
-    def _advance(self, size: float, heat: float, way: float, railed: float) -> None:
+    def _advance(self, size: float, heat: float, slid: float, railed: float) -> None:
         """Step the model; back again where it may not melt and does."""
         before = None if self._melts else self.model.state()
-        self.model.step(size, heat, way, railed)
+        self.model.step(size, heat, slid, railed)
         if before is not None and self.model.meltwater.melted > 0.0:
             self.model.restore(before)
             raise UnfeltMelting(
@@ -128,21 +141,21 @@ class ThermalParticipant:
                 " temperature_dependence"
             )
 
-    def look_now(self) -> None:
-        """Show the present state to `look`."""
-        if self._look is not None:
-            self._look(self._time, self.model)
+    def observe(self) -> None:
+        """Show the present state to the observer."""
+        if self._observer is not None:
+            self._observer(self._time, self.model)
 
-    def get_state(self) -> object:
+    def get_state(self) -> State:
         """Temperatures, ledger and what was taken so far."""
-        return self.model.state(), self._taken, self._now, self._railed, self._time
+        return State(self.model.state(), self._taken, self._now, self._railed, self._time)
 
-    def set_state(self, state: object) -> None:
+    def set_state(self, state: State) -> None:
         """Go back to a state that `get_state` gave."""
-        temperatures, self._taken, self._now, self._railed, self._time = state
-        self.model.restore(temperatures)
+        model, self._taken, self._now, self._railed, self._time = state
+        self.model.restore(model)
 
-    def free_state(self, state: object) -> None:
+    def free_state(self, state: State) -> None:
         """States are plain arrays; nothing to free."""
 
     def close(self) -> None:

@@ -11,15 +11,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from . import Floats
-from .coefficient import (
-    kinetic_coefficient,
-    local_coefficient,
-    slow_coefficient,
-    state_coefficient,
-)
-from .disc import add_local_law, disc_friction
-from .layout import (
+from .. import Floats
+from ..layout import (
     P_LATERAL,
     P_LOCAL_LAW,
     P_NORMAL_FORCE,
@@ -28,7 +21,14 @@ from .layout import (
     W_MEAN_SPEED,
     W_PAIR,
 )
-from .terms import with_contact_drag
+from ..terms import with_contact_drag
+from .coefficient import (
+    kinetic_coefficient,
+    local_coefficient,
+    slow_coefficient,
+    state_coefficient,
+)
+from .disc import add_local_law, disc_friction
 
 
 def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding: float):
