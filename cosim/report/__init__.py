@@ -5,8 +5,9 @@
 
 from cosim.files import OutputError
 
+from .contents import Views
 from .dataset import run_dataset, trajectory_dataset
-from .results import Views, write_data, write_results
+from .results import write_data, write_results
 from .summary import summary
 
 __all__ = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,8 +15,10 @@ from stickslip import Parameters
 from stickslip.packing import GRAVITY
 
 if TYPE_CHECKING:
-    from thermal import ThermalParameters
+    from thermal import RigView, ThermalParameters
 
+#: Times (s) and what is seen of belt and ice.
+Views = Sequence[tuple[float, "RigView"]]
 Blocks = dict[str, dict[str, dict[str, Any]]]
 
 

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import xarray as xr
 
 from cosim.files import write_bytes, write_text
 
-if TYPE_CHECKING:
-    from thermal import RigView
-
 from .assessment import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
-from .contents import stored_blocks
+from .contents import Views, stored_blocks
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .page import Picture, render
@@ -23,8 +20,6 @@ from .quantities import digits, spelled, told, with_unit, worded
 from .summary import summary
 
 Progress = Callable[[str], None]
-#: Times (s) and what is seen of belt and ice.
-Views = Sequence[tuple[float, "RigView"]]
 
 ANIMATION = "temperature.gif"
 OWN_FILES = {

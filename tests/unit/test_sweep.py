@@ -17,8 +17,8 @@ from stickslip import Friction, Parameters, Rig, Surface, simulate
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
-from cosim.studies.sweep.local import LocalWorkers
 from cosim.studies.sweep.store import Store
+from cosim.studies.sweep.workers import LocalWorkers
 
 BASE = Parameters(rig=Rig(degrees_of_freedom=("x",)), surface=Surface(run_up_time=0.5))
 SHORT = {"duration": 2.0, "output_interval": 0.02, "jobs": 1}
@@ -266,7 +266,7 @@ def test_workers_use_one_thread_each(monkeypatch):
     """Else two processes of numba or BLAS on two cores would be four."""
     names = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"]
     monkeypatch.setattr(
-        "cosim.studies.sweep.local._compute",
+        "cosim.studies.sweep.workers._compute",
         lambda work, names: [os.getenv(name) for name in names],
     )
     assert list(LocalWorkers(2).run(None, [names, names])) == [["1", "1", "1"]] * 2

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
-from cosim.report.results import Views
+from cosim.report.contents import Views
 from cosim.report.style import GREY, INK, RC, SKY, plain_ticks, readable
 from thermal import RigView
 

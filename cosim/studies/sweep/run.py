@@ -12,7 +12,6 @@ from typing import Any, Protocol
 import xarray as xr
 from stickslip import Parameters
 
-from .cluster import DaskWorkers
 from .combination import (
     Row,
     Run,
@@ -25,8 +24,8 @@ from .combination import (
     model_version,
 )
 from .grid import Grid, product_grid
-from .local import LocalWorkers
 from .store import Store, sweep_dataset
+from .workers import DaskWorkers, LocalWorkers
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
 CHUNK_SECONDS = 0.5
