@@ -23,12 +23,7 @@ from cosim.cli import DONE, FAILED
 from cosim.files import writable
 from cosim.interrupts import Patience
 from cosim.report import Views, summary, write_results
-from cosim.report.assessment import (
-    attach_assessment,
-    regime_sentence,
-    run_up_sentence,
-    unstable_line,
-)
+from cosim.report.contents import attach_assessment, regime_sentence, run_up_sentence, unstable_line
 from cosim.scenario import Scenario, ScenarioError, read_scenario
 
 RESULTS = "results"

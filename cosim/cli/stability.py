@@ -60,7 +60,7 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
-    from cosim.report.assessment import regime_sentence, stability_sentence
+    from cosim.report.contents import regime_sentence, stability_sentence
     from cosim.scenario import read_scenario
     from cosim.studies.stability import NotAMotion, case_of
     from cosim.studies.stability.maps import as_json

@@ -4,8 +4,8 @@ It knows of a participant nothing but its ports; which models there are is none 
 What couples the models of this product is in `cosim.coupling.case`.
 """
 
-from cosim.coupling.fmu_description import FmuError
 from cosim.coupling.fmu_participant import FmuParticipant
+from cosim.coupling.fmu_unit import FmuError
 from cosim.coupling.ledger import EnergyFlow, Ledger
 from cosim.coupling.participant import (
     Causality,

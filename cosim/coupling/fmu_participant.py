@@ -8,8 +8,8 @@ from pathlib import Path
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Fatal
 
-from cosim.coupling import fmu_calls
-from cosim.coupling.fmu_description import (
+from cosim.coupling import fmu_unit as fmu_calls
+from cosim.coupling.fmu_unit import (
     FmuError,
     Setting,
     check_settings,

@@ -3,6 +3,10 @@
 The same content gives the same FMU, byte for byte. A build is known by the hash of its content, and
 the Python modules inside carry that hash in their names: a process keeps one module of a name, so
 two builds in it would otherwise run the code of the one that came first.
+
+What travels inside is pure Python of the standard library: the slave, the kernel as
+`stickslip.generation.source` makes it, and how parameters enter it. The effects' declarations stay
+behind, and pydantic with them.
 """
 
 from __future__ import annotations
@@ -16,15 +20,53 @@ import sys
 import tempfile
 import zipfile
 import zlib
+from importlib import resources
 from importlib.metadata import version
 from pathlib import Path
 
 from stickslip import ports
+from stickslip.generation.source import kernel_source
+from stickslip.kernel.layout import constants
 
-from .model_description import complete
-from .pythonfmu_library import corrected
-from .sources import sources
-from .variables import Entry, as_ports, parameter_table, variables_module
+from cosim.fmu.model_description import Entry, as_ports, complete, parameter_table, variables_module
+from cosim.fmu.pythonfmu_library import corrected
+
+#: Beside the kernel's text: files of the package `stickslip` as they are, but for where the names
+#: of the kernel come from.
+AS_THEY_ARE = ("packing.py", "status.py", "tableau.py")
+PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."""\n'
+_KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
+
+
+def sources() -> dict[str, bytes]:
+    """Path inside the FMU's resources -> content, before anything is renamed."""
+    texts = {
+        "slave.py": slave_file().read_text(encoding="utf-8"),
+        "stickslip/__init__.py": PACKAGE_DOC,
+        "stickslip/kernel.py": kernel_source(),
+        "stickslip/derived.py": _derived(),
+    }
+    for name in AS_THEY_ARE:
+        texts[f"stickslip/{name}"] = (resources.files("stickslip") / name).read_text("utf-8")
+    return {
+        name: _KERNEL.sub(r"from \1kernel import", text).encode() for name, text in texts.items()
+    }
+
+
+def slave_file() -> Path:
+    """The slave: in fmu_src in a checkout, beside this file in an installed package."""
+    here = Path(__file__).resolve()
+    checkout = here.parents[2] / "fmu_src" / "slave.py"
+    return checkout if checkout.is_file() else here.with_name("slave.py")
+
+
+def _derived() -> str:
+    from stickslip.derived import TEXT
+
+    used = [name for name in constants() if re.search(rf"\b{name}\b", TEXT)]
+    head = '"""The effects\' numbers in ``p``, made from their declarations."""\n\n'
+    return f"{head}from .kernel import {', '.join(used)}\n{TEXT}"
+
 
 FMU = "StickSlip3DOF.fmu"
 MODULE = "stickslip3dof"

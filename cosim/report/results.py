@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from cosim.files import write_bytes, write_text
+from cosim.report.contents import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
 
-from .assessment import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
 from .contents import Views, stored_blocks
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC

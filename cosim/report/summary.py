@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from .assessment import assessment_numbers
+from cosim.report.contents import assessment_numbers
+
 from .contents import break_aways, run_up_time, slip_share
 from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, melting, melts, temperatures
 from .quantities import Quantity, ratio, split_units

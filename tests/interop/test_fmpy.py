@@ -19,9 +19,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Error
 from fmpy.validation import validate_fmu
 
-from cosim.coupling.fmu_calls import FmuLog
+from cosim.coupling.fmu_unit import FmuLog
 from cosim.fmu import stickslip3dof as recipe
-from cosim.fmu.sources import sources
+from cosim.fmu.stickslip3dof import sources
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED}

@@ -8,8 +8,7 @@ import pythonfmu  # noqa: F401  before any FMU is loaded: one that imports it fi
 
 from cosim import Scenario, run_scenario
 from cosim.coupling import FmuError
-from cosim.coupling.case.snapshots import Snapshots
-from cosim.coupling.case.thermal_participant import ThermalParticipant
+from cosim.coupling.case.thermal_participant import Snapshots, ThermalParticipant
 from cosim.fmu.build import build_fmu
 from cosim.scenario.faults import ScenarioError
 from thermal import BeltIceModel

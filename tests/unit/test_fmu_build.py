@@ -11,7 +11,7 @@ import pytest
 from cosim.fmu import pythonfmu_library
 from cosim.fmu import stickslip3dof as recipe
 from cosim.fmu.build import FmuBuildError, build_fmu, ensure_fmu, own_folder
-from cosim.fmu.sources import sources
+from cosim.fmu.stickslip3dof import sources
 
 STANDARD_LIBRARY_USED = {
     "__future__",

@@ -14,7 +14,7 @@ from cosim.gap.show.numbers import as_json
 from cosim.gap.show.words import closing_lines
 from cosim.studies.reproduction.summary.draws import observations
 from cosim.studies.reproduction.summary.result import Ranked, SummaryGap, Where
-from cosim.studies.reproduction.summary.trial import FittedSummary
+from cosim.studies.reproduction.summary.search import FittedSummary
 
 PLAIN = {"friction.mu_s": 0.28, "friction.mu_k": 0.21}
 EXTENDED = {**PLAIN, "stick_stiffness.ratio": 0.9}

@@ -14,7 +14,7 @@ from cosim.cli import main
 from cosim.cli import reproduce as reproduction_command
 from cosim.report.page import number
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
-from cosim.studies.reproduction.cases import DATASET_1, exact_figures, scheme_figures
+from cosim.studies.reproduction.cases import DATASET_1, Printed, exact_figures, scheme_figures
 from cosim.studies.reproduction.claim import (
     FAR,
     OPEN,
@@ -27,7 +27,6 @@ from cosim.studies.reproduction.claim import (
 from cosim.studies.reproduction.claims.belt_length import repeated
 from cosim.studies.reproduction.claims.friction_level import OBSERVATIONS, Variant
 from cosim.studies.reproduction.motion import Motion, figures
-from cosim.studies.reproduction.printed import Printed
 from cosim.studies.reproduction.result import as_json, page
 from thermal.belt.single_pass import PRINTED as PRINTED_PASS
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from cosim.studies.reproduction.printed import Printed, every
+from cosim.studies.reproduction.cases import Printed, every
 
 SECTION = re.compile(r"§(\d+(?:\.\d+)+)")
 HEADING = re.compile(r"^(\d+(?:\.\d+)+)\.?\s", re.MULTILINE)

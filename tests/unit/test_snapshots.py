@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from cosim.coupling.case.snapshots import MOST_VIEWS, Snapshots
+from cosim.coupling.case.thermal_participant import MOST_VIEWS, Snapshots
 from cosim.report.figures.animation import LASTS, animation
 from thermal import Belt, BeltIceModel, ThermalParameters
 

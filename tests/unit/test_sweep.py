@@ -17,8 +17,7 @@ from stickslip import Friction, Parameters, Rig, Surface, simulate
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
-from cosim.studies.sweep.store import Store
-from cosim.studies.sweep.workers import LocalWorkers
+from cosim.studies.sweep.chunks import LocalWorkers, Store
 
 BASE = Parameters(rig=Rig(degrees_of_freedom=("x",)), surface=Surface(run_up_time=0.5))
 SHORT = {"duration": 2.0, "output_interval": 0.02, "jobs": 1}
@@ -110,7 +109,7 @@ def test_another_version_of_the_model_is_computed_anew(tmp_path, computed, monke
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
     for module in (combination_module, run_module):
         monkeypatch.setattr(module, "model_version", lambda: "0" * 32)
-    monkeypatch.setattr("cosim.studies.sweep.store.model_version", lambda: "0" * 32)
+    monkeypatch.setattr("cosim.studies.sweep.chunks.model_version", lambda: "0" * 32)
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
     assert len(computed) == 12
 
@@ -266,7 +265,7 @@ def test_workers_use_one_thread_each(monkeypatch):
     """Else two processes of numba or BLAS on two cores would be four."""
     names = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"]
     monkeypatch.setattr(
-        "cosim.studies.sweep.workers._compute",
+        "cosim.studies.sweep.chunks._compute",
         lambda work, names: [os.getenv(name) for name in names],
     )
     assert list(LocalWorkers(2).run(None, [names, names])) == [["1", "1", "1"]] * 2

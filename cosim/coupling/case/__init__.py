@@ -14,8 +14,7 @@ from cosim.coupling import (
     GaussSeidel,
     run,
 )
-from cosim.coupling.case.snapshots import Snapshots
-from cosim.coupling.case.thermal_participant import ThermalParticipant
+from cosim.coupling.case.thermal_participant import Snapshots, ThermalParticipant
 from cosim.fmu.build import own_fmu
 from cosim.scenario import Scenario, read_scenario
 from thermal import BeltIceModel

@@ -1,5 +1,83 @@
-"""The catalogue of effects as a table, as JSON and as a page with a figure for each."""
+"""The catalogue of effects: what it says of each, as plain data for table, JSON and page."""
 
-from .catalogue import UnknownEffect, allowed, chosen, described
+from __future__ import annotations
+
+from typing import Any
+
+from stickslip import EFFECTS
+from stickslip.effects.effect import Effect
+from stickslip.quantity import details
+
+from cosim.names import nearest
 
 __all__ = ["UnknownEffect", "allowed", "chosen", "described"]
+
+
+class UnknownEffect(ValueError):
+    """An id that the catalogue does not have; the message is one line."""
+
+
+def chosen(ids: list[str]) -> list[Effect]:
+    """Entries by their ids in the catalogue's order, all of them for none."""
+    known = [entry.id for entry in EFFECTS]
+    for name in ids:
+        if name not in known:
+            near = nearest(name, known, similarity=0.0)
+            raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
+    return [entry for entry in EFFECTS if not ids or entry.id in ids]
+
+
+def described(entry: Effect) -> dict[str, Any]:
+    """An entry of the catalogue with its parameters: unit, default (off), bounds, typical range."""
+    return {
+        "id": entry.id,
+        "sentence": entry.sentence,
+        "enters": entry.enters,
+        "source": entry.source,
+        "parameters": [
+            {
+                "key": f"{entry.id}.{name}",
+                "unit": details(field)["unit"],
+                "default": field.default,
+                "typical": details(field).get("typical"),
+                "switches_on": name in entry.switch,
+                "description": field.description,
+                **_bounds(field.metadata),
+            }
+            for name, field in entry.table.model_fields.items()
+        ],
+    }
+
+
+def allowed(parameter: dict[str, Any]) -> str:
+    """The bounds of a described parameter as an interval: [0, 2), (-inf, inf).
+
+    >>> allowed({"ge": 0.0, "lt": 2.0})
+    '[0, 2)'
+    """
+    lower = next(
+        (
+            f"{mark}{parameter[kind]:g}"
+            for kind, mark in (("ge", "["), ("gt", "("))
+            if kind in parameter
+        ),
+        "(-inf",
+    )
+    upper = next(
+        (
+            f"{parameter[kind]:g}{mark}"
+            for kind, mark in (("le", "]"), ("lt", ")"))
+            if kind in parameter
+        ),
+        "inf)",
+    )
+    return f"{lower}, {upper}"
+
+
+def _bounds(metadata: list[Any]) -> dict[str, float]:
+    return {
+        kind: getattr(bound, kind)
+        for bound in metadata
+        for kind in ("gt", "ge", "lt", "le")
+        if getattr(bound, kind, None) is not None
+    }

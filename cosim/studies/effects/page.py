@@ -11,8 +11,7 @@ from stickslip.effects.effect import Case
 
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, panels, picture
-
-from .catalogue import allowed
+from cosim.studies.effects import allowed
 
 INTERVAL = 0.005  # s
 #: A rig that sticks and slips from the start: pretensioned springs, friction along x.

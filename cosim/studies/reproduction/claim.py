@@ -9,8 +9,7 @@ from itertools import combinations
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.report.page import Picture
-
-from .printed import Printed
+from cosim.studies.reproduction.cases import Printed
 
 CLAIM_IDS = tuple(f"C{n}" for n in range(1, 16))
 

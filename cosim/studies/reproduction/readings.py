@@ -13,9 +13,10 @@ from functools import cache
 import numpy as np
 from stickslip.reference.faults import PRINTED, Faults
 
+from cosim.studies.reproduction.cases import STUDY
+
 from .cases import DATASET_1, DATASET_2, SCATTER, SEEDS, WEAKENING, Case, many, scheme
 from .motion import Motion, MotionFigures, average, figures
-from .printed import STUDY
 
 SETTLING_CYCLES = 10  # section 5 of the study
 STEADY = 20.0  # s

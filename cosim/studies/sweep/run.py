@@ -12,6 +12,9 @@ from typing import Any, Protocol
 import xarray as xr
 from stickslip import Parameters
 
+from cosim.studies.sweep.chunks import DaskWorkers, LocalWorkers
+
+from .chunks import Store, sweep_dataset
 from .combination import (
     Row,
     Run,
@@ -24,8 +27,6 @@ from .combination import (
     model_version,
 )
 from .grid import Grid, product_grid
-from .store import Store, sweep_dataset
-from .workers import DaskWorkers, LocalWorkers
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
 CHUNK_SECONDS = 0.5

@@ -8,12 +8,12 @@ from functools import cache
 from matplotlib.figure import Figure
 
 from cosim.report.style import panels, picture
+from cosim.studies.reproduction.cases import STUDY, TEMPERATURES
 from thermal import Belt, BeltIceModel, ThermalParameters
 from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn
 from ..drawing import COLOURS, LABELS, study_line
-from ..printed import STUDY, TEMPERATURES
 
 #: Temperature of the belt after one pass, degC, as printed; length in m
 TABLE = {length: one.number for length, one in TEMPERATURES.items()}

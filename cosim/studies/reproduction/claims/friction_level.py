@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.report.style import GREY, panels, picture
+from cosim.studies.reproduction.cases import STUDY, Printed
 
 from ..cases import (
     DATASET_1,
@@ -29,7 +30,6 @@ from ..cases import (
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS, study_line
 from ..motion import MotionFigures
-from ..printed import STUDY, Printed
 
 Y_STIFFNESS = 38.50  # the mean of y is known for these springs
 ENOUGH = 1.5  # one fault explains by itself what others do not lessen by a third

@@ -10,6 +10,7 @@ import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED
 
 from cosim.report.style import panels, picture
+from cosim.studies.reproduction.cases import STUDY
 
 from ..cases import (
     DATASET_2,
@@ -26,7 +27,6 @@ from ..cases import (
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn
 from ..drawing import COLOURS, LABELS
 from ..motion import MotionFigures
-from ..printed import STUDY
 from ..readings import ENOUGH, Reading, outcomes, steady_figures
 
 RATIOS = (0.5, 0.77, 1.0)

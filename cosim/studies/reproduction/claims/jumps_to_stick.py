@@ -8,12 +8,11 @@ import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.report.style import INK, panels, picture
-from cosim.studies.reproduction.cases import ASSUMED, CASE, cases
+from cosim.studies.reproduction.cases import ASSUMED, CASE, STUDY, cases
 
 from ..cases import CYCLES, Case, exact_motion, exact_parameters, longest, many, scheme
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS
-from ..printed import STUDY
 
 NAMED = tuple(CASE.changed(stiffness=68.22, mass=2.03, speed=v) for v in (0.50, 0.63, 0.82))
 # a block of 10 ms changes x' by at most 10 ms of the largest acceleration, omega v; a jump is more

@@ -8,7 +8,7 @@ import numpy as np
 from stickslip.reference.faults import PRINTED
 
 from cosim.report.style import SERIES, panels, picture
-from cosim.studies.reproduction.cases import ASSUMED, CASE, Grid, grid
+from cosim.studies.reproduction.cases import ASSUMED, CASE, STUDY, Grid, grid
 
 from ..cases import (
     EXTRA_STIFFNESS,
@@ -27,7 +27,6 @@ from ..cases import (
 )
 from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS
-from ..printed import STUDY
 from .trends import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)

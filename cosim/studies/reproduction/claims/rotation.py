@@ -6,6 +6,7 @@ import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.report.style import panels, picture
+from cosim.studies.reproduction.cases import STUDY
 
 from ..cases import (
     DATASET_1,
@@ -21,7 +22,6 @@ from ..cases import (
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS, LABELS, study_line
 from ..motion import Motion, MotionFigures, figures
-from ..printed import STUDY
 from ..readings import AS_PRINTED, MARKS, READINGS, outcomes, reading_figures
 
 SEEDS = tuple(range(8))

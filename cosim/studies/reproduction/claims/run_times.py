@@ -12,9 +12,10 @@ from stickslip import simulate
 from stickslip.reference.faults import PRINTED
 from stickslip.reference.interpreted_scheme import interpreted_run
 
+from cosim.studies.reproduction.cases import STUDY as PRINTED_TIMES
+
 from ..cases import DATASET_1, exact_parameters, scheme
 from ..claim import Check, Claim, Margin, Row, Turn
-from ..printed import STUDY as PRINTED_TIMES
 
 # one stick and one slip, then the next ones begin: what a script needs grows with the slips
 DURATION = 0.7

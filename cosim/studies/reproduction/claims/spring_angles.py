@@ -7,6 +7,7 @@ from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
 from cosim.report.style import SERIES, panels, picture
+from cosim.studies.reproduction.cases import STUDY
 
 from ..cases import (
     DATASET_1,
@@ -19,7 +20,6 @@ from ..cases import (
 )
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible, responsible_pairs
 from ..motion import Motion
-from ..printed import STUDY
 
 CYCLES = 40
 SEED = 0

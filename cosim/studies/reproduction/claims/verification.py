@@ -16,10 +16,11 @@ from stickslip.reference.spring_angles import (
     stiffness_over_k,
 )
 
+from cosim.studies.reproduction.cases import MATRICES, STUDY
+
 from ..cases import DATASET_1, PRETENSION, Case, exact_parameters, scheme
 from ..claim import Check, Claim, Margin, Row, Turn
 from ..motion import oscillation_rate
-from ..printed import MATRICES, STUDY
 
 DIGITS = 5
 NAMES = "xyφ"

@@ -8,6 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.gap.data import Campaign
+from cosim.studies.reproduction.summary.search import (
+    BOOTSTRAPS,
+    WITHIN,
+    Trial,
+    fitted,
+    p_of_the_best,
+)
 
 from .candidates import Candidate, extensions, free_candidate, not_felt, plain_candidate
 from .draws import (
@@ -35,7 +42,6 @@ from .search import (
     widen,
     with_all_seeds,
 )
-from .trial import BOOTSTRAPS, WITHIN, Trial, fitted, p_of_the_best
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32

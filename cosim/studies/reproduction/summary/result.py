@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cosim.gap.data import Campaign
+from cosim.studies.reproduction.summary.search import FittedSummary, Trial
 
 from .draws import Observation
-from .trial import FittedSummary, Trial
 
 
 @dataclass(frozen=True)
