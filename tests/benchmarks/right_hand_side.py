@@ -37,7 +37,7 @@ from stickslip.kernel.layout import (
     Y,
 )
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
 from disc_integral import law_over_disc  # noqa: E402
 
 LOOPS = 200_000

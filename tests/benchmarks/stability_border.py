@@ -15,7 +15,8 @@ import numpy as np
 from baseline import Figure, arguments, write
 from stickslip.steady_motion import pretension_borders, stability, with_pretension
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification" / "reference"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
 from test_stability import DURATION, drawn_rig, grows  # noqa: E402
 
 RELATIVE, ABSOLUTE = 0.05, 1e-4

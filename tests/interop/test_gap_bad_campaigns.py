@@ -1,17 +1,12 @@
 """What the command says of campaigns that are bad, or hold too little: a line, or a verdict."""
 
 import json
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.cli import main
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "unit"))
-
-from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
 
 KNOWN_NOISE = {"x": NOISE}
 

@@ -1,23 +1,18 @@
 """The extended model in the FMU: it does there what was measured, and what the fit did."""
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
+from gap_answers import PLAIN, answer, fitted
+from gap_campaigns import NOISE, motion, noisy, write_campaign
 from stickslip.effects.candidate import FreeParameter
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
 from cosim.gap.show.model_file import model_text, scenario_of, shown_run
 from cosim.gap.show.reproduction import reproduce, reproduced_runs
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "unit"))
-
-from gap_answers import PLAIN, answer, fitted  # noqa: E402
-from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
 
 CREEP = 2e-3
 

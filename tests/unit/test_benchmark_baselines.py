@@ -1,13 +1,8 @@
 """Two baselines of a benchmark, compared: what is worse, and what is merely different."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "benchmarks"))
-from baseline import Figure, read, write  # noqa: E402
-from compare import change, main  # noqa: E402
+from baseline import Figure, read, write
+from compare import change, main
 
 OLD = {"step": Figure(2.0, "ms"), "peer / ours": Figure(100.0, better="more"), "error": Figure(0.0)}
 

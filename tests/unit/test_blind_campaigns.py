@@ -1,24 +1,19 @@
 """Hidden campaigns: every ingredient shows, sizes mean something, answers do not leak."""
 
 import json
-import sys
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from blind.campaign import BLURRED, draw_campaign, pick_pair  # noqa: E402
-from blind.effect_size import effect_size  # noqa: E402
-from blind.effects import EFFECTS  # noqa: E402
-from blind.hidden import Hidden, State  # noqa: E402
-from blind.layouts import Plan, Run, draw_plan  # noqa: E402
-from blind.motion import COARSE, move, needs_plane  # noqa: E402
-from blind.out_of_catalogue import OUT_OF_CATALOGUE  # noqa: E402
-from blind.tracker import Tracker, frame_times, frames  # noqa: E402
-from blind.writing import write_campaign  # noqa: E402
+from blind.campaign import BLURRED, draw_campaign, pick_pair
+from blind.effect_size import effect_size
+from blind.effects import EFFECTS
+from blind.hidden import Hidden, State
+from blind.layouts import Plan, Run, draw_plan
+from blind.motion import COARSE, move, needs_plane
+from blind.out_of_catalogue import OUT_OF_CATALOGUE
+from blind.tracker import Tracker, frame_times, frames
+from blind.writing import write_campaign
 
 ALL = EFFECTS | OUT_OF_CATALOGUE
 

@@ -2,19 +2,13 @@
 
 import json
 import math
-import sys
-from pathlib import Path
 
+import blind_campaigns as benchmark
 import pytest
-
-TESTS = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(TESTS), str(TESTS / "benchmarks")]
-
-import blind_campaigns as benchmark  # noqa: E402
-from blind import score  # noqa: E402
-from blind.campaign import draw_campaign  # noqa: E402
-from blind.next_experiment import separation  # noqa: E402
-from blind.score_table import markdown  # noqa: E402
+from blind import score
+from blind.campaign import draw_campaign
+from blind.next_experiment import separation
+from blind.score_table import markdown
 
 
 def row(kind, hidden, verdict, effects=(), size=8.0, after=1.1):

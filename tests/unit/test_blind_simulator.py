@@ -8,15 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from blind.coulomb import plain_motion
+from blind.disc import disc_points
+from blind.hidden import Hidden, State
+from blind.motion import FINE, walk
+from blind.plane import ANGLES, anchors, spring_load
 
 TESTS = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(TESTS))
-
-from blind.coulomb import plain_motion  # noqa: E402
-from blind.disc import disc_points  # noqa: E402
-from blind.hidden import Hidden, State  # noqa: E402
-from blind.motion import FINE, walk  # noqa: E402
-from blind.plane import ANGLES, anchors, spring_load  # noqa: E402
 
 PRODUCT = {"stickslip", "thermal", "cosim"}
 NOISE = 1e-4  # m, of the best tracker that a campaign draws

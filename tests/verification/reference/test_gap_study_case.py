@@ -14,7 +14,7 @@ import pytest
 from cosim.gap.data import read_campaign
 from cosim.studies.reproduction.summary import find, find_summary_gap, search
 
-STUDY = Path(__file__).parents[2] / "cosim" / "gap" / "campaigns" / "study.toml"
+STUDY = Path(__file__).parents[3] / "cosim" / "gap" / "campaigns" / "study.toml"
 
 
 @pytest.fixture(scope="module")

@@ -5,28 +5,22 @@ mu_k can stand for. Here the hidden law is simulated by the blind simulator, the
 models are fitted, the proposed run is made (again by the blind simulator), and the fit is repeated.
 """
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from blind.hidden import Hidden, State
+from blind.motion import walk
+from gap_campaigns import NOISE, noisy, write_campaign
 
-sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[1] / "unit")]
-
-from blind.hidden import Hidden, State  # noqa: E402
-from blind.motion import walk  # noqa: E402
-from gap_campaigns import NOISE, noisy, write_campaign  # noqa: E402
-
-from cosim.gap.candidates.catalogue import candidates  # noqa: E402
-from cosim.gap.candidates.extend import extended  # noqa: E402
-from cosim.gap.candidates.plain import plain_free_parameters  # noqa: E402
-from cosim.gap.candidates.scales import scales  # noqa: E402
-from cosim.gap.data import read_campaign  # noqa: E402
-from cosim.gap.design import Member, next_experiment  # noqa: E402
-from cosim.gap.estimation.preparation import prepared  # noqa: E402
-from cosim.gap.estimation.trial import Model, coarse_fit, try_model  # noqa: E402
-from cosim.gap.selection.criteria import indistinguishable  # noqa: E402
-from cosim.gap.selection.tried import Tried  # noqa: E402
+from cosim.gap.candidates.catalogue import candidates
+from cosim.gap.candidates.extend import extended
+from cosim.gap.candidates.plain import plain_free_parameters
+from cosim.gap.candidates.scales import scales
+from cosim.gap.data import read_campaign
+from cosim.gap.design import Member, next_experiment
+from cosim.gap.estimation.preparation import prepared
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model
+from cosim.gap.selection.criteria import indistinguishable
+from cosim.gap.selection.tried import Tried
 
 PAIR = ("film_drag", "structural_damping")
 HIDDEN = {

@@ -1,29 +1,24 @@
 """The empirical formula: regression on the measured slips, the force in the model's own loop."""
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from blind.hidden import Hidden, State
+from blind.motion import walk
+from gap_campaigns import NOISE, motion, noisy, write_campaign
 from stickslip.kernel import layout
 from stickslip.kernel.layout import INSTANT, MODE, SLIP, STICK
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
-from blind.hidden import Hidden, State  # noqa: E402
-from blind.motion import walk  # noqa: E402
-from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
-
-from cosim.gap.candidates.plain import plain_free_parameters  # noqa: E402
-from cosim.gap.data import read_campaign  # noqa: E402
-from cosim.gap.diagnostics import Term, empirical_term, library  # noqa: E402
-from cosim.gap.diagnostics.features import FRICTION, Moment  # noqa: E402
-from cosim.gap.diagnostics.force_term import forced, formula, key, moment_of  # noqa: E402
-from cosim.gap.diagnostics.slips import holding, rows_of, slips_of  # noqa: E402
-from cosim.gap.diagnostics.sparse_regression import formulas  # noqa: E402
-from cosim.gap.estimation.preparation import prepare, prepared  # noqa: E402
-from cosim.gap.estimation.trial import Model, coarse_fit, try_model  # noqa: E402
+from cosim.gap.candidates.plain import plain_free_parameters
+from cosim.gap.data import read_campaign
+from cosim.gap.diagnostics import Term, empirical_term, library
+from cosim.gap.diagnostics.features import FRICTION, Moment
+from cosim.gap.diagnostics.force_term import forced, formula, key, moment_of
+from cosim.gap.diagnostics.slips import holding, rows_of, slips_of
+from cosim.gap.diagnostics.sparse_regression import formulas
+from cosim.gap.estimation.preparation import prepare, prepared
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model
 
 SPEEDS = (0.05, 0.12, 0.08)
 BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}

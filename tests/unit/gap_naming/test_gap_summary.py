@@ -91,7 +91,7 @@ def test_a_known_number_is_spread_as_it_is_known():
 
 
 def test_every_effect_of_the_catalogue_is_tried_or_left_out_for_a_reason():
-    study = read_campaign(Path(__file__).parents[2] / "cosim/gap/campaigns/study.toml")
+    study = read_campaign(Path(__file__).parents[3] / "cosim/gap/campaigns/study.toml")
     tried = {candidate.effects[-1] for candidate in extensions(study, plain_candidate(study))}
     assert len(tried | set(not_felt(study))) == 14
     assert not tried & set(not_felt(study))
