@@ -8,12 +8,13 @@ import pytest
 
 from cosim.cli.gap import CAMPAIGNS
 from cosim.gap import read_campaign
+from cosim.gap.result import Ranked
 from cosim.gap.show.files import write_page
 from cosim.gap.show.model_file import model_text
 from cosim.gap.show.numbers import as_json
 from cosim.gap.show.words import closing_lines
 from cosim.studies.reproduction.summary.draws import observations
-from cosim.studies.reproduction.summary.result import Ranked, SummaryGap, Where
+from cosim.studies.reproduction.summary.result import SummaryGap, Where
 from cosim.studies.reproduction.summary.search import FittedSummary
 
 PLAIN = {"friction.mu_s": 0.28, "friction.mu_k": 0.21}

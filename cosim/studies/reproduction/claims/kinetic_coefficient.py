@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from stickslip.reference.faults import PRINTED
 
-from cosim.report.style import SERIES, panels, picture
+from cosim.report.style import panels, picture
 from cosim.studies.reproduction.cases import ASSUMED, CASE, STUDY, Grid, grid
 
 from ..cases import (
@@ -26,7 +26,7 @@ from ..cases import (
     scheme_figures,
 )
 from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
-from ..drawing import LABELS, MODELS
+from ..drawing import MODELS, over_mass
 from .trends import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)
@@ -294,23 +294,5 @@ def _draw(mu: Grid):
     figure, axes = panels(
         len(MODELS), len(ALL_STIFFNESSES), height=2.1, width=10.0, sharex=True, sharey=True
     )
-    for row, model in enumerate(MODELS):
-        for column, k in enumerate(ALL_STIFFNESSES):
-            ax = axes[row, column]
-            for i, v in enumerate(SPEEDS):
-                ax.plot(
-                    MASSES,
-                    mu[model][column, :, i],
-                    "o-",
-                    ms=2.5,
-                    color=SERIES[i],
-                    label=f"v {v:.2f} m/s",
-                )
-            if row == 0:
-                ax.set_title(f"k {k:.2f} N/m")
-        axes[row, 0].set_ylabel(f"{LABELS[model]}\nmean µ_k")
-    for ax in axes[-1]:
-        ax.set_xlabel("mass, kg")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncols=6, loc="outside upper center")
+    over_mass(figure, axes, MASSES, ALL_STIFFNESSES, SPEEDS, mu, "mean µ_k")
     return figure

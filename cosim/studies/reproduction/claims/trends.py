@@ -6,7 +6,7 @@ import numpy as np
 from scipy.stats import spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
-from cosim.report.style import INK, SERIES, panels, picture
+from cosim.report.style import INK, panels, picture
 from cosim.studies.reproduction.cases import ASSUMED, CASE, Grid, grid
 
 from ..cases import (
@@ -20,7 +20,7 @@ from ..cases import (
     three_models,
 )
 from ..claim import FAR, PUT_IN, Check, Claim, Margin, Row, Turn
-from ..drawing import LABELS, MODELS, by_model
+from ..drawing import MODELS, by_model, over_mass
 
 LINE = CASE.changed(stiffness=38.50, speed=0.37)
 LINE_MASSES = tuple(0.1 + 0.2 * i for i in range(16))
@@ -145,25 +145,8 @@ def _no_weakening() -> Turn:
 )
 def _draw_grid(means: Grid):
     figure, axes = panels(len(MODELS), len(STIFFNESSES), height=2.2, sharex=True, sharey="row")
-    for row, model in enumerate(MODELS):
-        for column, k in enumerate(STIFFNESSES):
-            ax = axes[row, column]
-            for i, v in enumerate(SPEEDS):
-                ax.plot(
-                    MASSES,
-                    100 * means[model][column, :, i],
-                    "o-",
-                    ms=2.5,
-                    color=SERIES[i],
-                    label=f"v {v:.2f} m/s",
-                )
-            if row == 0:
-                ax.set_title(f"k {k:.2f} N/m")
-        axes[row, 0].set_ylabel(f"{LABELS[model]}\nmean x, cm")
-    for ax in axes[-1]:
-        ax.set_xlabel("mass, kg")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncols=6, loc="outside upper center")
+    shown = {model: 100.0 * values for model, values in means.items()}
+    over_mass(figure, axes, MASSES, STIFFNESSES, SPEEDS, shown, "mean x, cm")
     return figure
 
 

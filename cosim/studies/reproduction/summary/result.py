@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cosim.gap.data import Campaign
+from cosim.gap.result import Ranked
 from cosim.studies.reproduction.summary.search import FittedSummary, Trial
 
 from .draws import Observation
@@ -21,23 +22,6 @@ class Where:
     regime: str
     runs: tuple[str, ...]
     text: str
-
-
-@dataclass(frozen=True)
-class Ranked:
-    """An effect tried: gaps in standard deviations, BIC of the plain model less its own.
-
-    held_out_gap: each figure predicted by the fit to the others. intervals: parameter -> range of
-    the draws within 95 % of the best.
-    """
-
-    effect: str
-    form: str
-    held_out_gap: float
-    fit_gap: float
-    delta_bic: float
-    parameters: Mapping[str, float]
-    intervals: Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
