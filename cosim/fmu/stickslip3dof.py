@@ -75,7 +75,7 @@ RECIPE_FILES = (
     Path(__file__),
     *(
         Path(__file__).with_name(f"{name}.py")
-        for name in ("model_description", "pythonfmu_library", "sources", "variables")
+        for name in ("model_description", "pythonfmu_library")
     ),
     Path(ports.__file__),
 )
