@@ -25,11 +25,11 @@ FILES = (
     "friction.load_dependence",
     "springs.spring_misalignment",
     "contact.stick_stiffness",
-    "friction.temperature_dependence",
-    "friction.asperity_melting",
-    "friction.melt_film",
+    "melting.temperature_dependence",
+    "melting.asperity_melting",
+    "melting.melt_film",
     "contact.rate_and_state",
-    "friction.mixed_lubrication",
+    "melting.mixed_lubrication",
     "friction.viscoelastic_peak",
 )
 
