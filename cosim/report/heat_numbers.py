@@ -24,6 +24,7 @@ from stickslip.kernel.layout import (
     P_NORMAL_FORCE,
     P_RADIUS,
 )
+from stickslip.kernel.terms import feels_film
 
 from .contents import SLIP, mechanics_of, value_of
 from .quantities import Quantity, ratio
@@ -284,4 +285,4 @@ def mean_of(values: Array) -> float | None:
 
 def floods(parameters: Parameters) -> bool:
     """Whether the friction of a rig feels the film."""
-    return parameters.mixed_lubrication.share > 0.0
+    return bool(feels_film(parameters.pack()))
