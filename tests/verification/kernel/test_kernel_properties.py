@@ -99,7 +99,7 @@ def test_friction_used_up_by_age_and_speed():
 def test_stick_stays_inside_the_limit_surface(seed, on):
     """|(F_x, F_y / kappa)| and M / (kappa a), per mu_s N, inside or on the disc's limit surface."""
     parameters = draw_parameters(on, random.Random(seed))
-    # without a run-up, whose end is looked at below
+    # without a speed ramp, whose end is looked at below
     steady = Surface(speed=parameters.surface.speed)
     parameters = parameters.model_copy(update={"surface": steady})
     run = simulate(parameters, 5.0, 0.005)
