@@ -116,12 +116,13 @@ class Effect:
         fields = self.table.model_fields
         if not self.switch:
             raise ValueError(f"effect {self.id}: no switch: which parameters turn it on?")
-        for name in (*self.switch, *self.feels_melting):
-            if name not in fields:
-                raise ValueError(
-                    f"effect {self.id}: switch {name!r} is no parameter; "
-                    f"there are {', '.join(fields)}"
-                )
+        for named in ("switch", "core", "feels_melting"):
+            for name in getattr(self, named):
+                if name not in fields:
+                    raise ValueError(
+                        f"effect {self.id}: {named} {name!r} is no parameter; "
+                        f"there are {', '.join(fields)}"
+                    )
         for name, each in fields.items():
             said = details(each)
             if not said.get("unit"):

@@ -98,6 +98,11 @@ def test_a_sound_one_becomes_text(declared):
         "switch, a word": ('("much",)', '"much"', "switch is no tuple"),
         "switch, none": ('("much",)', "()", "no switch"),
         "switch, unknown": ('("much",)', '("mush",)', "switch 'mush' is no parameter; there are"),
+        "core, unknown": (
+            "    case=",
+            '    core={"mush": "M"},\n    case=',
+            "core 'mush' is no param",
+        ),
         "terms, a function": ("(dry_factor,)", "dry_factor", "terms is no tuple"),
         "no unit": ('quantity(0.0, "1"', 'quantity(0.0, ""', "much has no unit"),
         "no quantity": ('quantity(0.0, "1", "how much", typical=(0.1, 1.0))', "0.0", "no unit"),

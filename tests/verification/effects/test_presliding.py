@@ -1,6 +1,6 @@
-"""A contact that creeps in stick: closed forms, the regularised law, the ledger, any way to observe it.
+"""A contact that creeps in stick: closed forms, the regularised law, the ledger, however observed.
 
-On one linear spring the block's way is x = x_e (1 - exp(-V t / x_e)), x_e = mu_s N V / (v_c K): it
+On one linear spring the block moves as x = x_e (1 - exp(-V t / x_e)), x_e = mu_s N V / (v_c K): it
 breaks away where K x = mu_s N, unless the surface is slower than the creep at that load.
 """
 
