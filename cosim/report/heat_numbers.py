@@ -16,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from stickslip import Parameters
 from stickslip.kernel.layout import (
     P_MIXED_LUBRICATION_COUETTE,
     P_MIXED_LUBRICATION_ROUGHNESS,
@@ -24,7 +23,6 @@ from stickslip.kernel.layout import (
     P_NORMAL_FORCE,
     P_RADIUS,
 )
-from stickslip.kernel.terms import feels_film
 
 from .contents import SLIP, mechanics_of, value_of
 from .quantities import Quantity, ratio
@@ -281,8 +279,3 @@ def mean_of(values: Array) -> float | None:
     """Mean of what is a number; None where nothing is."""
     known = values[np.isfinite(values)]
     return float(known.mean()) if known.size else None
-
-
-def floods(parameters: Parameters) -> bool:
-    """Whether the friction of a rig feels the film."""
-    return bool(feels_film(parameters.pack()))
