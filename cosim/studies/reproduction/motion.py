@@ -121,7 +121,7 @@ def figures(motion: Motion) -> MotionFigures:
         slip_time=_slip_time(motion.phases),
         max_rotation=float(np.degrees(np.abs(motion.phi).max())),
         max_rotation_rate=float(np.degrees(np.abs(motion.omega).max())),
-        mean_y=time_mean(motion.y, motion.time),
+        mean_y=time_mean(motion.time, motion.y),
         range_y=float(np.ptp(motion.y)),
         mean_friction=_mean_friction(motion),
         swing_rate=_swing_rate(motion),
@@ -136,14 +136,14 @@ def average(many: list[MotionFigures]) -> MotionFigures:
     return MotionFigures(*mean.tolist())
 
 
-def time_mean(values: np.ndarray, time: np.ndarray) -> float:
+def time_mean(time: np.ndarray, values: np.ndarray) -> float:
     """Mean over time, samples at uneven times."""
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
 def upward_crossings(time: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Times at which x has risen through a band about its mean, one an oscillation."""
-    away = x - time_mean(x, time)
+    away = x - time_mean(time, x)
     band = BAND * float(np.ptp(x))
     side = np.where(away > band, 1, np.where(away < -band, -1, 0))
     seen = np.flatnonzero(side)
@@ -161,9 +161,9 @@ def cycle_mean(time: np.ndarray, x: np.ndarray) -> float:
     """Mean over whole oscillations, so that a cut one does not tilt it; else over all the time."""
     upward = upward_crossings(time, x)
     if len(upward) < 2:
-        return time_mean(x, time)
+        return time_mean(time, x)
     whole = (time >= upward[0]) & (time <= upward[-1])
-    return time_mean(x[whole], time[whole])
+    return time_mean(time[whole], x[whole])
 
 
 def _slip_share(phases: np.ndarray) -> float:

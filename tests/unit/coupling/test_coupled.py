@@ -4,23 +4,16 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-import pythonfmu  # noqa: F401  before any FMU is loaded: one that imports it first spoils its copy
 
 from cosim import Scenario, run_scenario
 from cosim.coupling import FmuError
 from cosim.coupling.case.thermal_participant import Snapshots, ThermalParticipant
-from cosim.fmu.build import build_fmu
 from cosim.scenario.faults import ScenarioError
 from thermal import BeltIceModel
 
 SHORT = {"run.duration": 2.0, "run.snapshot_interval": 0.5}
 #: Coarse enough to be quick; conservation does not depend on the mesh.
 COARSE = {"belt.cell_length": 5e-3, "belt.elements": 3, "ice.axial_elements": 4}
-
-
-@pytest.fixture(scope="module")
-def fmu(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("fmu"))
 
 
 def case(**changes):
@@ -86,11 +79,10 @@ def test_pictures_at_every_interval_and_at_the_end(fmu, tmp_path):
     assert len(list(tmp_path.glob("*.vtu"))) == 4
 
 
-def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(fmu, tmp_path, monkeypatch):
-    def full(self, time):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("thermal.output.FieldSeries.write", full)
+def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(
+    fmu, tmp_path, monkeypatch, full_disk
+):
+    monkeypatch.setattr("thermal.output.FieldSeries.write", full_disk)
     run = run_scenario(case(), fmu=fmu, fields=tmp_path)
     assert run.result.status == "failed" and "No space left" in run.result.reason
 

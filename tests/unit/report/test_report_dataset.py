@@ -218,13 +218,10 @@ def test_unwritable_folder_is_one_clear_line(tmp_path):
     assert "\n" not in str(caught.value)
 
 
-def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatch):
+def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatch, full_disk):
     dataset = mechanics_dataset()
     write_data(dataset, tmp_path)
     before = (tmp_path / "result.csv").read_bytes()
-
-    def full_disk(*_, **__):
-        raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(pd.DataFrame, "to_csv", full_disk)
     with pytest.raises(OutputError, match="No space left"):
