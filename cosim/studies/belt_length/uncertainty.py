@@ -187,11 +187,6 @@ class Uncertainty:
     interface_high: float
     interface_unexplained: float
 
-    @property
-    def widest_interval(self) -> float:
-        """Largest half-width of the indices' 95 % intervals."""
-        return max(max(one.first_order_half_width, one.total_half_width) for one in self.influences)
-
     def table(self) -> list[dict[str, object]]:
         """Single change and indices of each unknown, side by side."""
         indices = {one.key: asdict(one) for one in self.influences}

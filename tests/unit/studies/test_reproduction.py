@@ -168,7 +168,6 @@ def test_figures_of_a_known_motion():
         x,
         0.001 + 0 * x,
         0.1 * np.sin(time),
-        0.1 * np.cos(time),
         0 * x,
         (time > 1.0).astype(float),
         phases,
