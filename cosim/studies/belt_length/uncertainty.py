@@ -40,6 +40,13 @@ from cosim.studies.belt_length.unknowns import (
 
 Array = NDArray[np.float64]
 
+#: Interval that is told, quantiles.
+INTERVAL = (0.05, 0.95)
+#: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
+SEQUENCE = 2**13
+#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
+FEWEST_SAMPLES = 32
+_TESTED = 0.25
 #: Degrees and norms that are tried; a fit takes at most this part of the points for its terms.
 _DEGREES, _NORMS, _MOST_TERMS = (1, 2, 3, 4, 5), (0.5, 0.75, 1.0), 0.6
 #: Points that are evaluated at once.
@@ -124,15 +131,6 @@ def _within(dimensions: int, degree: int, norm: float, left: float) -> Iterator[
             break
         for others in _within(dimensions - 1, degree, norm, rest):
             yield (n, *others)
-
-
-#: Interval that is told, quantiles.
-INTERVAL = (0.05, 0.95)
-#: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
-SEQUENCE = 2**13
-#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
-FEWEST_SAMPLES = 32
-_TESTED = 0.25
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,7 @@ from typing import Any, Protocol
 import xarray as xr
 from stickslip import Parameters
 
-from cosim.studies.sweep.chunks import DaskWorkers, LocalWorkers
-
-from .chunks import Store, sweep_dataset
+from .chunks import DaskWorkers, LocalWorkers, Store
 from .combination import (
     Row,
     Run,
@@ -26,6 +24,7 @@ from .combination import (
     compute_chunk,
     model_version,
 )
+from .dataset import sweep_dataset
 from .grid import Grid, product_grid
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.

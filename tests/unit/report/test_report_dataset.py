@@ -35,7 +35,7 @@ def coupled(surface: str = "belt") -> tuple[CoupledResult, SimpleNamespace]:
 
 @cache
 def made_scenario(surface: str) -> Scenario:
-    """Five seconds with a short run-up: a dozen stick-slip cycles on a coarse belt."""
+    """Five seconds with a short speed ramp: a dozen stick-slip cycles on a coarse belt."""
     return Scenario.from_tables(
         {
             "name": "short",
@@ -163,7 +163,7 @@ def test_parameters_come_back_from_the_dataset(surface):
     assert stored["springs"]["stiffness"]["unit"] == "N/m"
 
 
-def test_mechanics_alone_does_not_list_the_blocks_of_the_heat():
+def test_mechanics_alone_does_not_list_the_tables_of_the_heat():
     stored = json.loads(mechanics_dataset().attrs["parameters"])
     assert "run" in stored and "rig" in stored
     assert not {"belt", "ice", "coupling"} & set(stored)

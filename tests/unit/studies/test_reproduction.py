@@ -416,5 +416,5 @@ def test_belt_check_mended_is_near_the_finite_elements():
     from cosim.studies.reproduction.claims.belt_length import all_mended, finite_elements
 
     assert all_mended(1.0) == pytest.approx(finite_elements(1.0)[0], rel=0.05)
-    # the run-up of 10 s before the run: 0.082 K at the slowest speed
+    # the speed ramp of 10 s before the run: 0.082 K at the slowest speed
     assert finite_elements(1.0, speed=0.15, ramp=10.0)[0] == pytest.approx(0.082, rel=0.02)
