@@ -107,7 +107,7 @@ def test_scatter_has_its_mean_deviation_and_correlation():
 
 
 def test_scatter_along_one_surface():
-    """One seed over a long travel: waves of one field have the mean, and about the deviation, too."""
+    """One seed, long travel: waves of one field have the mean and nearly the deviation too."""
     along = field(scattered(seed=3), np.linspace(0.0, 400.0, 20001)) - 1.0
     assert abs(along.mean()) < 0.003
     assert along.std() == pytest.approx(0.1, rel=0.01)

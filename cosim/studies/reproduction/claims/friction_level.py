@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.style import GREY, panels, picture
+from cosim.report.style import GREY, LIGHT_GREY, panels, picture
 from cosim.studies.reproduction.cases import STUDY, Printed
 
 from ..cases import (
@@ -297,7 +297,7 @@ def _draw_observations(of: dict[str, Variant]):
     names = [variant.name for variant in of.values()]
     places = range(len(names))
     for i, (ax, o) in enumerate(zip(axes[0], OBSERVATIONS, strict=True)):
-        ax.axvspan(o.value - o.spread, o.value + o.spread, color="#E3E3E3")
+        ax.axvspan(o.value - o.spread, o.value + o.spread, color=LIGHT_GREY)
         ax.axvline(o.value, color=GREY, lw=1.0)
         for place, variant in zip(places, of.values(), strict=True):
             ax.plot(variant.values[i], place, "o", color=_colour(variant.name))
