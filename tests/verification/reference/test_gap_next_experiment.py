@@ -7,8 +7,8 @@ models are fitted, the proposed run is made (again by the blind simulator), and 
 
 import numpy as np
 import pytest
-from blind.hidden import Hidden, State
 from blind.motion import walk
+from blind.simulator.hidden import Hidden, State
 from gap_campaigns import NOISE, noisy, write_campaign
 
 from cosim.gap.candidates.catalogue import candidates
