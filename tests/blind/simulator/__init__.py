@@ -1,1 +1,1 @@
-"""The simulator: forces at the contact points of a hidden rig, and its motion in tiny fixed steps."""
+"""The simulator: forces on a hidden rig, and its motion in tiny fixed steps."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.report.style import GREY, LIGHT_GREY, panels, picture
@@ -292,7 +293,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     "Every variant beside the five known observations; grey: as close as "
     "the wording of the observation tells.",
 )
-def _draw_observations(of: dict[str, Variant]):
+def _draw_observations(of: dict[str, Variant]) -> Figure:
     figure, axes = panels(1, len(OBSERVATIONS), height=3.9, width=10.0, sharey=True)
     names = [variant.name for variant in of.values()]
     places = range(len(names))
@@ -323,7 +324,7 @@ def _colour(name: str) -> str:
     "x(t), steady, m 0.67 kg, k 20.17 N/m, v 0.15 m/s. Dashed: the "
     "measured mean of x. Study: figures 4.18a and b.",
 )
-def _draw_motion():
+def _draw_motion() -> Figure:
     shown = (
         ("#1: as printed, µ full", scheme_motion(DATASET_1, PRINTED), COLOURS["printed"]),
         ("#2: as printed, µ quarter", scheme_motion(DATASET_2, PRINTED), COLOURS["printed"]),
