@@ -1,6 +1,7 @@
 """Every example runs from top to bottom, and says what it should."""
 
 import runpy
+from math import exp, pi
 from pathlib import Path
 
 import pytest
@@ -65,3 +66,11 @@ def test_every_example_is_run_here():
         *EXAMPLES,
         "every_example_is_run_here",
     }
+
+
+def test_own_participant(ran):
+    """The force is a macro step h old, half of one in the mean: exp(pi^2 h / T) a period."""
+    got = ran("own_participant")
+    assert got["result"].status == "complete"
+    grown = exp(pi**2 * got["STEP"] / got["PERIOD"])
+    assert got["end"] == pytest.approx(0.01 * grown, rel=2e-6)
