@@ -186,7 +186,7 @@ def scheme(case: Case, faults: Faults, **changes) -> Scheme:
     )
 
 
-def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) -> Parameters:
+def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables) -> Parameters:
     """The exact model for a case, planar friction; starts at rest on the surface, barely turned.
 
     pretension: m by which the springs are stretched as installed.
@@ -208,7 +208,7 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) ->
         "surface": {"speed": case.speed},
         "initial": {"vx": case.speed, "phi": TURNED},
     }
-    for name, values in blocks.items():
+    for name, values in tables.items():
         parameters[name] = parameters.get(name, {}) | values
     if parameters["rig"].get("degrees_of_freedom") == ("x",):
         parameters["initial"] = parameters["initial"] | {"phi": 0.0}
@@ -252,9 +252,9 @@ def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -
     return average(many)
 
 
-def exact_figures(case: Case, *, pretension: float = PRETENSION, **blocks) -> MotionFigures:
+def exact_figures(case: Case, *, pretension: float = PRETENSION, **tables) -> MotionFigures:
     """Steady figures of the exact model."""
-    return _exact_figures(exact_parameters(case, pretension=pretension, **blocks))
+    return _exact_figures(exact_parameters(case, pretension=pretension, **tables))
 
 
 @cache
