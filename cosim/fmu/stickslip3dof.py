@@ -14,7 +14,6 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import os
 import re
 import sys
 import tempfile
@@ -28,6 +27,7 @@ from stickslip import ports
 from stickslip.generation.source import kernel_source
 from stickslip.kernel.layout import constants
 
+from cosim.files import write_bytes
 from cosim.fmu.model_description import Entry, as_ports, complete, parameter_table, variables_module
 from cosim.fmu.pythonfmu_library import corrected
 
@@ -118,12 +118,7 @@ def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
     with tempfile.TemporaryDirectory(prefix="stickslip3dof-") as scratch:
         raw = _build_with_pythonfmu(Path(scratch), files, table, content)
         finished = _finish(raw, table)
-    target = directory / FMU
-    with tempfile.NamedTemporaryFile(dir=directory, prefix=".fmu-", delete=False) as beside:
-        beside.write(finished)
-    os.chmod(beside.name, 0o644)
-    os.replace(beside.name, target)
-    return target
+    return write_bytes(finished, directory / FMU)
 
 
 def _build_with_pythonfmu(

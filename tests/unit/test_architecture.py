@@ -323,3 +323,22 @@ def test_importing_what_computes_does_not_import_what_draws(statement):
     )
     loaded = done.stdout.split()
     assert not loaded, f"`{statement}` loads {', '.join(loaded)}: import it where it is used"
+
+
+def bound_twice(file: Path) -> set[str]:
+    """Names that a module gives to two things, one after the other, at its top level."""
+    names = [
+        name.id
+        for node in ast.parse(file.read_text(encoding="utf-8")).body
+        if isinstance(node, (ast.Assign, ast.AnnAssign))
+        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
+        for name in ast.walk(target)
+        if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
+    ]
+    return {name for name in names if names.count(name) > 1}
+
+
+def test_a_constant_is_given_once():
+    """The second would be what functions above it see, too, and no checker of names says so."""
+    twice = {f"{file.relative_to(ROOT)}: {name}" for _, file in FILES for name in bound_twice(file)}
+    assert not twice

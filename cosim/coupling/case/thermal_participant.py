@@ -15,6 +15,11 @@ from thermal import BeltIceModel, FieldSeries, RigView, rig_view
 
 #: Change of a total that is rounding, as a part of the total: it was added up from 1e4 steps.
 ROUNDING = 1e-12
+#: Times closer than this part of the interval are the same: 3 macro steps of 0.1 s make 0.3 s.
+SAME_TIME = 1e-6
+
+#: Most views that are kept; then every other one is dropped, and from there on not taken.
+MOST_VIEWS = 400
 
 PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     interface_temperature="degC",
@@ -164,13 +169,6 @@ class ThermalParticipant:
         """Nothing is held open."""
 
 
-#: Times closer than this part of the interval are the same: 3 macro steps of 0.1 s make 0.3 s.
-ROUNDING = 1e-6
-
-#: Most views that are kept; then every other one is dropped, and from there on not taken.
-MOST_VIEWS = 400
-
-
 class Snapshots:
     """Keeps the belt's contact face and, when a folder is given, writes the fields there.
 
@@ -193,7 +191,7 @@ class Snapshots:
 
     def __call__(self, time: float, model: BeltIceModel) -> None:
         """Take a picture when one is due."""
-        number = math.floor(time / self._interval + ROUNDING)
+        number = math.floor(time / self._interval + SAME_TIME)
         if number > self._number:
             self._number = number
             self.take(time, model)

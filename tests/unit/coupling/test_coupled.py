@@ -182,6 +182,19 @@ def test_stick_is_no_movement_whatever_rounding_says():
     assert part.model.contact_position == pytest.approx(at - 0.05, abs=1e-14)
 
 
+def test_a_creep_far_below_a_millimetre_a_second_is_movement():
+    """1 um in a step after 3 m of travel: a contact that creeps at 0.1 mm/s."""
+    part = ThermalParticipant(model())
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    part.write({"surface_travel": 3.0, "x": 0.1})
+    part.step(0.0, 0.1)
+    at = part.model.contact_position
+    part.write({"surface_travel": 3.1, "x": 0.2 - 1e-6})
+    part.step(0.1, 0.01)
+    assert part.model.contact_position == pytest.approx(at - 1e-6, abs=1e-14)
+
+
 def test_a_participant_goes_back_and_on_bit_for_bit():
     part = ThermalParticipant(model())
     part.enter_initialisation(0.0, 1.0)

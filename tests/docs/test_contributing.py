@@ -1,0 +1,42 @@
+"""The effect that the guide for contributors adds: its file and a line in the list, no more."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from importlib import resources
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+GUIDE = (ROOT / ".github" / "CONTRIBUTING.md").read_text(encoding="utf-8")
+ASKED = """
+from stickslip import EFFECTS, Parameters, simulate
+rig = {"rig": {"spring_natural_length": 0.17}, "initial": {"vx": 0.15}}
+plain, on = (
+    simulate(Parameters(**rig, logarithmic_weakening={"fall": fall}), 0.8, 0.1, interpreted=True)
+    for fall in (0.0, 0.1)
+)
+ledger = max(abs(run["energy_residual"]).max() for run in (plain, on))
+print(EFFECTS[-1].id, abs(plain["x"] - on["x"]).max() > 1e-4, ledger < 1e-9)
+"""
+
+
+def test_the_guide_s_effect_is_one(tmp_path):
+    code = re.search(r"```python\n(.*?)```", GUIDE, re.DOTALL)[1]
+    name = re.search(r'id="(\w+)"', code)[1]
+    package = Path(shutil.copytree(resources.files("stickslip"), tmp_path / "stickslip"))
+    (package / "effects" / "friction" / f"{name}.py").write_text(code, encoding="utf-8")
+    listed = package / "effects" / "__init__.py"
+    text = listed.read_text(encoding="utf-8")
+    listed.write_text(
+        text.replace(")\nEFFECTS", f'    "friction.{name}",\n)\nEFFECTS'), encoding="utf-8"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", ASKED],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"PYTHONPATH": str(tmp_path)},
+    )
+    assert done.stdout.split() == [name, "True", "True"]
