@@ -116,7 +116,7 @@ def grows(parameters, duration=DURATION):
 
 
 def can_tell(found, undamped):
-    """Not within `MARGIN` of 1, and not swerved in the run-up, after which the line may be stable.
+    """Not within `MARGIN` of 1, and not swerved in the ramp, after which the line may be stable.
 
     Undamped rigs are Hamiltonian across their line: there a multiplier of 1 is not near the border.
     """
