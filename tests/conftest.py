@@ -11,6 +11,10 @@ import pytest
 for library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
+# Before any FMU is loaded: an FMU that is the first to import pythonfmu imports its own copy of it,
+# and that cannot build.
+import pythonfmu  # noqa: E402, F401
+
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 
@@ -28,6 +32,32 @@ def shared():
         return path
 
     return find
+
+
+@pytest.fixture(scope="session")
+def fmu(tmp_path_factory):
+    """The FMU, built once a session from what is here now."""
+    from cosim.fmu.build import build_fmu  # numba: only for who asks for it
+
+    return build_fmu(tmp_path_factory.mktemp("fmu"))
+
+
+@pytest.fixture(scope="session")
+def gap(tmp_path_factory):
+    """An answer of the gap workflow: a named effect, found in three runs."""
+    from gap_answers import answer
+
+    return answer(tmp_path_factory.mktemp("campaign"))
+
+
+@pytest.fixture
+def full_disk():
+    """A function that fails as writing to a full disk does, whatever it is called with."""
+
+    def write(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    return write
 
 
 @pytest.fixture(scope="session")

@@ -110,9 +110,10 @@ def _write(
     """Numbers first, then figures, then the page."""
     from stickslip.reference.faults import DESCRIPTIONS
 
-    from cosim.studies.reproduction.result import as_json, page
+    from cosim.report.files import write_json
+    from cosim.studies.reproduction.result import as_data, page
 
-    write_text(as_json(claims, wall_time, datasets), result)
+    write_json(as_data(claims, wall_time, datasets), result)
     for claim in claims:
         for picture in claim.pictures:
             write_bytes(picture.png, folder / f"{picture.name}.png")

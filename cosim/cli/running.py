@@ -23,7 +23,7 @@ from cosim.cli import DONE, FAILED
 from cosim.files import writable
 from cosim.interrupts import Patience
 from cosim.report import Views, summary, write_results
-from cosim.report.contents import attach_assessment, regime_sentence, run_up_sentence, unstable_line
+from cosim.report.contents import attach_assessment, ramp_sentence, regime_sentence, unstable_line
 from cosim.scenario import Scenario, ScenarioError, read_scenario
 
 RESULTS = "results"
@@ -184,7 +184,7 @@ def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
     lines = []
     if numbers["stability"]["verdict"] == UNSTABLE:
         lines.append(f"  unstable     {unstable_line(numbers)}")
-    elif ramp := run_up_sentence(numbers):
+    elif ramp := ramp_sentence(numbers):
         lines.append(f"  unstable     {ramp}")
     if numbers["other_regimes"] or numbers["regimes"][OWN]["name"] == CREEPING:
         lines.append(f"  regimes      {regime_sentence(numbers)}")

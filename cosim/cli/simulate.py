@@ -52,7 +52,7 @@ def execute(arguments: Namespace) -> int:
 def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     """The trajectory, up to where a Ctrl-C stopped it.
 
-    Ctrl-C is looked at between two blocks of rows only, so that rows and events of a block are
+    Ctrl-C is looked at between two batches of rows only, so that rows and events of a batch are
     both kept or both not there.
     """
     from stickslip import simulate

@@ -8,14 +8,16 @@ from pathlib import Path
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Fatal
 
-from cosim.coupling import fmu_unit as fmu_calls
 from cosim.coupling.fmu_unit import (
     FmuError,
+    FmuLog,
+    Reader,
     Setting,
     check_settings,
     describe,
     extract,
     ports_of,
+    set_variables,
 )
 from cosim.coupling.participant import Causality, port_table
 
@@ -53,13 +55,13 @@ class FmuParticipant:
         check_settings(self.name, self._variables, self._parameters, "parameter")
         check_settings(self.name, self._variables, self._inputs, "input")
         self._tolerance = tolerance
-        self._outputs = fmu_calls.Reader(
+        self._outputs = Reader(
             self._variables[port.name]
             for port in self.ports.values()
             if port.causality is Causality.OUTPUT
         )
         self._directory: tempfile.TemporaryDirectory | None = None
-        self._log: fmu_calls.FmuLog | None = None
+        self._log: FmuLog | None = None
         self._fmu: FMU2Slave | None = None
         self._running = False
         self._dead = False
@@ -69,11 +71,11 @@ class FmuParticipant:
         self._free_instance()
         self._instantiate()
         with self._calling() as fmu:
-            fmu_calls.write(fmu, self._variables, self._parameters)
+            set_variables(fmu, self._variables, self._parameters)
         with self._calling() as fmu:
             fmu.setupExperiment(tolerance=self._tolerance, startTime=start, stopTime=stop)
             fmu.enterInitializationMode()
-            fmu_calls.write(fmu, self._variables, self._inputs)
+            set_variables(fmu, self._variables, self._inputs)
 
     def exit_initialisation(self) -> None:
         """The FMU checks its parameters here; a combination that cannot be is refused."""
@@ -84,7 +86,7 @@ class FmuParticipant:
     def write(self, values: Mapping[str, float]) -> None:
         """Set inputs by name."""
         with self._calling() as fmu:
-            fmu_calls.write(fmu, self._variables, values)
+            set_variables(fmu, self._variables, values)
 
     def read(self) -> dict[str, float]:
         """All outputs by name."""
@@ -136,7 +138,7 @@ class FmuParticipant:
         if self._directory is None:
             self._directory = tempfile.TemporaryDirectory(prefix="fmu-")
             extract(self.path, Path(self._directory.name))
-        self._log = fmu_calls.FmuLog()
+        self._log = FmuLog()
         try:
             self._fmu = FMU2Slave(
                 guid=self.description.guid,

@@ -157,7 +157,7 @@ class Reader:
         return values
 
 
-def write(
+def set_variables(
     fmu: FMU2Slave, variables: Mapping[str, ModelVariable], values: Mapping[str, object]
 ) -> None:
     """Set variables by name, one FMI call for each type."""

@@ -42,16 +42,6 @@ class Ledger:
         parts = [flow.in_transit for flow in self.flows] + list(self.residuals.values())
         return np.sum(parts, axis=0) if parts else np.zeros(0)
 
-    @property
-    def largest_residual(self) -> float:
-        """Largest magnitude of the residual over the run, J."""
-        return float(np.max(np.abs(self.residual), initial=0.0))
-
-    @property
-    def exchanged(self) -> float:
-        """Joules handed over on all connections in the run, to measure a residual by."""
-        return float(sum(abs(flow.handed[-1]) for flow in self.flows if flow.handed.size))
-
 
 def ledger_of(system: CoupledSystem, values: Mapping[str, np.ndarray]) -> Ledger:
     """The ledger that the recorded values (`participant.port` -> (n,)) contain."""

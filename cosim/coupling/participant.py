@@ -103,7 +103,10 @@ class Participant(Protocol):
 
 @runtime_checkable
 class Restorable(Protocol):
-    """A participant that can be put back to where it was."""
+    """A participant that can be put back to where it was.
+
+    For masters that repeat a step, smaller or iterated: the schemes here do not.
+    """
 
     def get_state(self) -> Any:
         """Everything that the future depends on, as an opaque object."""

@@ -24,16 +24,59 @@ if TYPE_CHECKING:
 
 #: Times (s) and what is seen of belt and ice.
 Views = Sequence[tuple[float, "RigView"]]
-Blocks = dict[str, dict[str, dict[str, Any]]]
+#: Table -> key -> value, unit and description.
+Tables = dict[str, dict[str, dict[str, Any]]]
+Array = NDArray[np.float64]
+
+SLIP = 1.0
+ATTRIBUTE = "assessment"
+STABILITY_UNITS = {
+    "growth": "1",
+    "cycle": "s",
+    "time_to_grow": "s",
+    "amplification": "1",
+    "pretension": "m",
+    "least_pretension": "m",
+}
+REGIME_UNITS = {
+    "frequency": "Hz",
+    "slip_share": "1",
+    "mean_x": "m",
+    "half_range_x": "m",
+    "max_y": "m",
+    "max_rotation_deg": "deg",
+}
+#: Beside the line by more than this, m and degrees, a motion is told to be.
+BENT_LENGTH, BENT_ANGLE_DEG = 2e-3, 2.0
+SHORT = {
+    DISTURBED: "disturbed",
+    REST: "from rest",
+    RIDING: "riding on the surface",
+    RAMP: "from a speed ramp",
+}
+EXPLAINED_NOUN = {
+    "stick-slip": "stick and slip",
+    "sliding": "slide",
+    "sticking": "stick",
+    CREEPING: "creep",
+}
+#: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
+MUCH = 100.0
+EXPLAINED = {
+    "stick-slip": "sticks and slips",
+    "sliding": "slides without ever sticking",
+    "sticking": "sticks and never slips",
+    CREEPING: "creeps as fast as the surface, and never breaks away",
+}
 
 
-def blocks_of(scenario: BaseModel) -> Blocks:
-    """Block -> key -> value, unit and description, from a pydantic model.
+def tables_of(scenario: BaseModel) -> Tables:
+    """Table -> key -> value, unit and description, from a pydantic model.
 
-    A block is a model that holds numbers; models that only group blocks are seen through, so
-    the blocks are found at any depth. Numbers beside blocks are left out.
+    A table is a model that holds numbers; models that only group tables are seen through, so
+    the tables are found at any depth. Numbers beside tables are left out.
     """
-    return {name: _entries(block) for name, block in _walk(scenario)}
+    return {name: _entries(table) for name, table in _walk(scenario)}
 
 
 def _walk(model: BaseModel) -> Iterator[tuple[str, BaseModel]]:
@@ -47,10 +90,10 @@ def _walk(model: BaseModel) -> Iterator[tuple[str, BaseModel]]:
             yield name, value
 
 
-def _entries(block: BaseModel) -> dict[str, dict[str, Any]]:
-    values = block.model_dump(mode="json")
+def _entries(table: BaseModel) -> dict[str, dict[str, Any]]:
+    values = table.model_dump(mode="json")
     entries = {}
-    for key, field in type(block).model_fields.items():
+    for key, field in type(table).model_fields.items():
         extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
         unit = str(extra.get("unit", ""))
         description = (field.description or "").removesuffix(f"[{unit}]").strip()
@@ -58,14 +101,14 @@ def _entries(block: BaseModel) -> dict[str, dict[str, Any]]:
     return entries
 
 
-def stored_blocks(dataset: xr.Dataset) -> Blocks:
-    """The blocks that a dataset carries."""
+def stored_tables(dataset: xr.Dataset) -> Tables:
+    """The tables of parameters that a dataset carries."""
     return json.loads(dataset.attrs["parameters"])
 
 
-def value_of(dataset: xr.Dataset, block: str, key: str) -> Any:
-    """One parameter's value; None where the scenario has no such block or key."""
-    return stored_blocks(dataset).get(block, {}).get(key, {}).get("value")
+def value_of(dataset: xr.Dataset, table: str, key: str) -> Any:
+    """One parameter's value; None where the scenario has no such table or key."""
+    return stored_tables(dataset).get(table, {}).get(key, {}).get("value")
 
 
 def mechanics_of(dataset: xr.Dataset) -> Parameters:
@@ -83,26 +126,22 @@ def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
     """
     from thermal import ThermalParameters  # finite elements: only for who asks for them
 
-    blocks = _selected(dataset, ThermalParameters)
+    tables = _selected(dataset, ThermalParameters)
     radius, mass = (value_of(dataset, "rig", key) for key in ("contact_radius", "mass"))
     if radius is not None:
-        blocks["contact"] = {"radius": radius, "load": GRAVITY * mass} | blocks.get("contact", {})
-    return ThermalParameters.model_validate(blocks)
+        tables["contact"] = {"radius": radius, "load": GRAVITY * mass} | tables.get("contact", {})
+    return ThermalParameters.model_validate(tables)
 
 
 def _selected(dataset: xr.Dataset, model: type[BaseModel]) -> dict[str, dict[str, Any]]:
     return {
         name: {key: entry["value"] for key, entry in entries.items()}
-        for name, entries in stored_blocks(dataset).items()
+        for name, entries in stored_tables(dataset).items()
         if name in model.model_fields
     }
 
 
-Array = NDArray[np.float64]
-SLIP = 1.0
-
-
-def run_up_time(dataset: xr.Dataset) -> float:
+def ramp_end(dataset: xr.Dataset) -> float:
     """End of the surface's speed ramp, s; 0 without one."""
     return float(value_of(dataset, "surface", "run_up_time") or 0.0)
 
@@ -164,25 +203,6 @@ def break_aways(dataset: xr.Dataset) -> Array:
     return np.repeat(middles, np.maximum(np.diff(count), 0.0).astype(int))
 
 
-ATTRIBUTE = "assessment"
-STABILITY_UNITS = {
-    "growth": "1",
-    "cycle": "s",
-    "time_to_grow": "s",
-    "amplification": "1",
-    "pretension": "m",
-    "least_pretension": "m",
-}
-REGIME_UNITS = {
-    "frequency": "Hz",
-    "slip_share": "1",
-    "mean_x": "m",
-    "half_range_x": "m",
-    "max_y": "m",
-    "max_rotation_deg": "deg",
-}
-
-
 def attach_assessment(dataset: xr.Dataset, assessment: Assessment | None) -> None:
     """Let a dataset carry the assessment of its motion; None: there is none."""
     if assessment is not None:
@@ -209,30 +229,6 @@ def _with_units(numbers: dict[str, Any], units: dict[str, str]) -> dict[str, Any
     }
 
 
-#: Beside the line by more than this, m and degrees, a motion is told to be.
-BENT_LENGTH, BENT_ANGLE_DEG = 2e-3, 2.0
-SHORT = {
-    DISTURBED: "disturbed",
-    REST: "from rest",
-    RIDING: "riding on the surface",
-    RAMP: "from a speed ramp",
-}
-EXPLAINED_NOUN = {
-    "stick-slip": "stick and slip",
-    "sliding": "slide",
-    "sticking": "stick",
-    CREEPING: "creep",
-}
-#: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
-MUCH = 100.0
-EXPLAINED = {
-    "stick-slip": "sticks and slips",
-    "sliding": "slides without ever sticking",
-    "sticking": "sticks and never slips",
-    CREEPING: "creeps as fast as the surface, and never breaks away",
-}
-
-
 def stability_sentence(numbers: Mapping[str, Any]) -> str:
     """Whether a rig could make the motion; from the summary's ``stability``."""
     found = numbers["stability"]
@@ -245,7 +241,7 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
         return (
             f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
             f"{fares}, by the factor {found['growth']:.3g} in {found['cycle']:.3g} s. "
-            f"{run_up_sentence(numbers)}".rstrip()
+            f"{ramp_sentence(numbers)}".rstrip()
             + _further(found)
             + bent
         )
@@ -256,7 +252,7 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
 
 
 def unstable_line(numbers: Mapping[str, Any]) -> str:
-    """The same of an unstable motion, for a terminal."""
+    """That an unstable motion is not kept to, how fast, and what would help; for a terminal."""
     found = numbers["stability"]
     least, now = found["least_pretension"], found["pretension"]
     remedy = (
@@ -281,7 +277,7 @@ def _remedy(found: Mapping[str, Any]) -> str:
     )
 
 
-def run_up_sentence(numbers: Mapping[str, Any]) -> str:
+def ramp_sentence(numbers: Mapping[str, Any]) -> str:
     """What the ramp to a stable motion makes of a disturbance, where that is much; else nothing."""
     amplification = numbers["stability"]["amplification"] or 0.0
     if amplification < MUCH:

@@ -13,7 +13,7 @@ from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
 from stickslip.ports import OUTPUTS
 
-from .contents import blocks_of
+from .contents import tables_of
 from .files import provenance
 
 # name -> (unit, long name); the mechanical ones as the model itself describes them
@@ -71,7 +71,7 @@ Array = NDArray[np.float64]
 _COUNTS = {"mode": np.int8, "slip_count": np.int64}
 
 
-# blocks of a scenario that a run without heat makes use of
+# tables of a scenario that a run without heat makes use of
 MECHANICS_ALONE = {*Parameters.model_fields, "run"}
 
 
@@ -111,7 +111,7 @@ def run_dataset(
     columns["coupling_residual"] = result.ledger.residual
     dataset = _dataset(result.time, columns, units)
     _describe(dataset, scenario, toml, result.status, result.reason, result.wall_time)
-    dataset.attrs.update(case="coupled", parameters=json.dumps(blocks_of(scenario)))
+    dataset.attrs.update(case="coupled", parameters=json.dumps(tables_of(scenario)))
     dataset.attrs["events"] = (
         "mode and slip_count are sampled at the communication points: break-away and re-stick "
         "are known to one interval of time; the motion itself was computed with exact events"
@@ -134,7 +134,7 @@ def trajectory_dataset(
     dataset = _dataset(trajectory.time, trajectory.columns, units)
     status, reason = _outcome(trajectory)
     _describe(dataset, scenario, toml, status, reason, wall_time)
-    used = {name: block for name, block in blocks_of(scenario).items() if name in MECHANICS_ALONE}
+    used = {name: table for name, table in tables_of(scenario).items() if name in MECHANICS_ALONE}
     dataset.attrs.update(case="mechanics", parameters=json.dumps(used))
     dataset.attrs["events"] = "event_time: break-away and re-stick, located to rounding"
     return dataset.merge(_events(trajectory.events))

@@ -72,7 +72,11 @@ def write_csv(dataset: xr.Dataset, path: Path) -> Path:
     return write_atomically(path, lambda partial: table.to_csv(partial))
 
 
+def json_text(content: Mapping[str, Any]) -> str:
+    """JSON for a file; NaN is refused, a missing number is null."""
+    return json.dumps(content, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+
+
 def write_json(content: Mapping[str, Any], path: Path) -> Path:
-    """A JSON file; NaN is refused, a missing number is null."""
-    text = json.dumps(content, indent=2, allow_nan=False, ensure_ascii=False)
-    return write_text(text + "\n", path)
+    """A JSON file, as `json_text` has it."""
+    return write_text(json_text(content), path)

@@ -12,7 +12,7 @@ import xarray as xr
 from cosim.files import write_bytes, write_text
 from cosim.report.contents import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
 
-from .contents import Views, stored_blocks
+from .contents import Views, stored_tables
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .page import Picture, render
@@ -120,7 +120,7 @@ def page(
         assessed=assessed(numbers),
         regimes=regime_rows(numbers),
         figures=pictures,
-        blocks=parameter_tables(dataset),
+        parameters=parameter_tables(dataset),
         files=own | dict(files or {}),
         command=command,
         coupled=numbers["case"] == "coupled",
@@ -204,16 +204,16 @@ def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 
 def parameter_tables(dataset: xr.Dataset) -> list[Table]:
-    """Every parameter with value, unit and description, block by block."""
+    """Every parameter with value, unit and description, table by table."""
     return [
         Table(
-            block,
+            name,
             [
                 (key, _valued(entry["value"], entry["unit"]), entry["description"])
                 for key, entry in entries.items()
             ],
         )
-        for block, entries in stored_blocks(dataset).items()
+        for name, entries in stored_tables(dataset).items()
     ]
 
 

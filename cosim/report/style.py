@@ -31,7 +31,17 @@ BLUE, RED, GREEN, PURPLE, ORANGE, SKY = SERIES = (
     "#E69F00",
     "#56B4E9",
 )
-INK, GREY, SLIP = "#222222", "#7A7A7A", "#F8EAD0"
+LIGHT_BLUE, PALE_BLUE, FAINT_BLUE = "#8FBFDD", "#CFE3F1", "#D3E5F0"
+INK, GREY = "#222222", "#7A7A7A"
+# from dark to pale, for what stands behind or is of no weight
+DULL_GREY, SOFT_GREY, GRID_GREY, LIGHT_GREY, PALE_GREY = (
+    "#BBBBBB",
+    "#CFCFCF",
+    "#D9D9D9",
+    "#E3E3E3",
+    "#EDEDED",
+)
+SAND, SLIP = "#F3D9A4", "#F8EAD0"
 
 RC: dict[RcKeyType, Any] = {
     "font.family": "DejaVu Sans",
@@ -45,7 +55,7 @@ RC: dict[RcKeyType, Any] = {
     "axes.spines.right": False,
     "axes.axisbelow": True,
     "axes.grid": True,
-    "grid.color": "#D9D9D9",
+    "grid.color": GRID_GREY,
     "grid.linewidth": 0.6,
     "xtick.labelsize": 9.0,
     "ytick.labelsize": 9.0,

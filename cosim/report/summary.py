@@ -11,19 +11,19 @@ from numpy.typing import NDArray
 
 from cosim.report.contents import assessment_numbers
 
-from .contents import break_aways, run_up_time, slip_share
+from .contents import break_aways, ramp_end, slip_share
 from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, melting, melts, temperatures
 from .quantities import Quantity, ratio, split_units
 
 Array = NDArray[np.float64]
 
 
-def after_run_up(dataset: xr.Dataset) -> dict[str, Quantity]:
+def after_ramp(dataset: xr.Dataset) -> dict[str, Quantity]:
     """What the stick-slip motion is like once the surface has its speed.
 
     frequency: break-aways over the window. mean_period: between the first and the last of them.
     """
-    begin, end = run_up_time(dataset), float(dataset["time"][-1])
+    begin, end = ramp_end(dataset), float(dataset["time"][-1])
     window = end - begin
     late = dataset.sel(time=slice(begin, None))
     starts = break_aways(dataset)
@@ -132,7 +132,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         numbers["temperatures"] = temperatures(dataset)
         if melts(dataset):
             numbers["melting"] = melting(dataset)
-    numbers["after_run_up"] = after_run_up(dataset)
+    numbers["after_run_up"] = after_ramp(dataset)
     numbers["whole_run"] = whole_run(dataset)
     numbers |= assessment_numbers(dataset)
     return numbers
@@ -158,8 +158,8 @@ def _last(dataset: xr.Dataset, name: str) -> float:
     return float(dataset[name].values[-1])
 
 
-def _plain(blocks: dict[str, Any]) -> dict[str, Any]:
+def _plain(tables: dict[str, Any]) -> dict[str, Any]:
     return {
-        block: {key: entry["value"] for key, entry in entries.items()}
-        for block, entries in blocks.items()
+        name: {key: entry["value"] for key, entry in entries.items()}
+        for name, entries in tables.items()
     }

@@ -43,9 +43,10 @@ COMMANDS = {
     "reproduce": "reproduce -o {out}",
     "build": "build -o {out}",
 }
-#: Keys of JSON and attributes of NetCDF files that say when, where and by what, not what.
+#: Keys of JSON that say when, where, by what and of what input (its list grows with every effect),
+#: not what came out.
 VOLATILE = re.compile(
-    r"version|elapsed|seconds|created|history|date|path|folder|file|host|command|guid|started"
+    r"^(scenario|parameters)$|version|elapsed|seconds|created|history|date|path|folder|file|host|command|guid|started"
     r"|python|platform|packages|wall|build$|duration_of|took",
     re.IGNORECASE,
 )

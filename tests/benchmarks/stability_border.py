@@ -4,7 +4,7 @@
 
 Draws rigs at random, looks for the least pretension at which each keeps to its line, and simulates
 the rig, turned by 1e-7 rad at its start, with 5 % and 0.1 mm less and more. Rigs that need none, or
-are unstable again so near above the border, or swerve in their run-up already, are drawn anew.
+are unstable again so near above the border, or swerve in their speed ramp already, are drawn anew.
 Prints those on the wrong side, and how many are on the right one.
 """
 
@@ -33,7 +33,7 @@ def sides(parameters):
     ):
         return None
     below, above = (with_pretension(parameters, borders.least + side * margin) for side in (-1, 1))
-    # a run that has swerved in its run-up says nothing of the line at constant speed
+    # a run that has swerved in its speed ramp says nothing of the line at constant speed
     if stability(above, DURATION).amplification > 1e3:
         return None
     return borders.least, margin, grows(below), grows(above)

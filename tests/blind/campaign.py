@@ -9,11 +9,11 @@ import numpy as np
 
 from .effect_size import Known, Size, effect_size
 from .effects import EFFECTS
-from .hidden import State
 from .ingredients import Ingredient
 from .layouts import Plan, draw_plan
 from .motion import COARSE, FINE, Motion, move, needs_plane
 from .out_of_catalogue import OUT_OF_CATALOGUE
+from .simulator.hidden import State
 from .tracker import Tracker, draw_tracker
 
 KINDS = ("effects", "none", "unknown", "two", "single_speed")

@@ -17,9 +17,9 @@ from typing import Self
 import numpy as np
 from scipy.optimize import minimize
 
-from .coulomb import replay
-from .hidden import Hidden, State
 from .motion import COARSE, DENSE, Motion, walk
+from .simulator.coulomb import replay
+from .simulator.hidden import Hidden, State
 
 THIN = 10  # every so manieth dense row is compared: 100 Hz
 ZERO = 2e-3  # m, how far off the zero of a tracker may be

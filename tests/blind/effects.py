@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .hidden import Hidden, State
 from .ingredients import Ingredient, between, either
+from .simulator.hidden import Hidden, State
 
 Draw = Callable[[np.random.Generator], Ingredient]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .hidden import Hidden, State
+from .simulator.hidden import Hidden, State
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .hidden import Hidden, State
+from .simulator.hidden import Hidden, State
 
 MASSES = (0.67, 0.87, 1.07, 1.32, 1.5, 1.78, 2.03)
 STIFFNESSES = (20.17, 38.5, 68.22)

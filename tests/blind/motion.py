@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .disc import disc_points
-from .hidden import Hidden, State
 from .ingredients import Ingredient
 from .layouts import Plan, Run
-from .line import walk_line
-from .plane import walk_plane
+from .simulator.disc import disc_points
+from .simulator.hidden import Hidden, State
+from .simulator.line import walk_line
+from .simulator.plane import walk_plane
 
 DENSE = 1e-3  # s between the rows of a motion
 # s, step along the line and in the plane; the walks are of first order, and every break-away that

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from .campaign import Campaign
-from .hidden import Hidden
 from .layouts import Run, start_of
 from .motion import FINE, built, walk
+from .simulator.hidden import Hidden
 
 ROWS = 20000  # 20 s
 

@@ -51,7 +51,7 @@ class MeltingBlock:
     stiffness: float = 6000.0  # of all springs
     damping: float = 100.0
     speed: float = 3.0
-    run_up: float = 3.0
+    ramp: float = 3.0
     roughness: float = 2e-6
     loop: float = 4.0
     area: float = 4.93316e-3  # of a disc of 40 mm that lies on a belt of 75 mm
@@ -84,8 +84,8 @@ class MeltingBlock:
 
     def move(self) -> tuple[float, float]:
         """One step of the block: sliding speed and friction force over it."""
-        surface = self.speed * min(1.0, self.time / self.run_up)
-        rate = self.speed / self.run_up * (self.time < self.run_up)
+        surface = self.speed * min(1.0, self.time / self.ramp)
+        rate = self.speed / self.ramp * (self.time < self.ramp)
         if not self.slips:
             self.vx = surface
             held = self.stiffness * self.x + self.damping * surface + self.mass * rate
@@ -151,7 +151,7 @@ class MeltingBlock:
 
     def _advance_ice(self, into: float) -> None:
         recession = max(0.0, self.melting) / (LOAD_DENSITY["ice"] * LATENT)
-        # cells move with the face: of the ice beyond each the warmth of the next flows in
+        # cells move with the face: of the ice beyond each the heat of the next flows in
         moved = recession * LOAD_DENSITY["ice"] * ICE_C * np.diff(self.ice, append=self.air)
         gain = self.ice * self.ice_capacity / self.dt + moved
         gain[0] += into

@@ -5,7 +5,7 @@ from dataclasses import replace
 import fmpy
 import numpy as np
 import pytest
-from gap_answers import PLAIN, answer, fitted
+from gap_answers import PLAIN, fitted
 from gap_campaigns import NOISE, motion, noisy, write_campaign
 from stickslip.effects.candidate import FreeParameter
 
@@ -15,11 +15,6 @@ from cosim.gap.show.model_file import model_text, scenario_of, shown_run
 from cosim.gap.show.reproduction import reproduce, reproduced_runs
 
 CREEP = 2e-3
-
-
-@pytest.fixture(scope="module")
-def gap(tmp_path_factory):
-    return answer(tmp_path_factory.mktemp("campaign"))
 
 
 def test_the_fmu_reproduces_the_runs_that_were_held_out(gap, fmu):

@@ -8,10 +8,10 @@ import pytest
 from blind.campaign import BLURRED, draw_campaign, pick_pair
 from blind.effect_size import effect_size
 from blind.effects import EFFECTS
-from blind.hidden import Hidden, State
 from blind.layouts import Plan, Run, draw_plan
 from blind.motion import COARSE, move, needs_plane
 from blind.out_of_catalogue import OUT_OF_CATALOGUE
+from blind.simulator.hidden import Hidden, State
 from blind.tracker import Tracker, frame_times, frames
 from blind.writing import write_campaign
 

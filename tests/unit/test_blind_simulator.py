@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from blind.coulomb import plain_motion
-from blind.disc import disc_points
-from blind.hidden import Hidden, State
 from blind.motion import FINE, walk
-from blind.plane import ANGLES, anchors, spring_load
+from blind.simulator.coulomb import plain_motion
+from blind.simulator.disc import disc_points
+from blind.simulator.hidden import Hidden, State
+from blind.simulator.plane import ANGLES, anchors, spring_load
 
 TESTS = Path(__file__).resolve().parents[1]
 

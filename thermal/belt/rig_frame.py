@@ -21,7 +21,7 @@ from thermal.contact.footprint import Footprint
 from thermal.relaxation import decay, mean_decay, mean_response
 
 from .parameters import Belt
-from .supports import Eliminated, each_strip, eliminate, supports
+from .supports import Eliminated, each_strip, eliminate, supports, take_heat
 from .thickness import thickness_of
 
 Array = NDArray[np.float64]
@@ -158,6 +158,6 @@ class BeltSeries:
         return float(self._modes.rates[0])
 
     @property
-    def supports_take_heat(self) -> bool:
+    def takes_heat(self) -> bool:
         """Does a support take heat?"""
-        return bool(np.any(self._conductances > 0.0))
+        return take_heat(self._conductances)

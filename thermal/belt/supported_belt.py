@@ -13,7 +13,7 @@ from thermal.contact.footprint import Footprint, strip_loads
 
 from .material_frame import BACK, CONTACT, BeltField, FluxPatch, Response
 from .parameters import Belt
-from .supports import Eliminated, each_strip, eliminate, supports
+from .supports import Eliminated, each_strip, eliminate, supports, take_heat
 
 Array = NDArray[np.float64]
 
@@ -65,7 +65,7 @@ class SupportedBelt:
     @property
     def takes_heat(self) -> bool:
         """Does a support take heat?"""
-        return bool(np.any(self._conductances > 0.0))
+        return take_heat(self._conductances)
 
     def step_response(
         self,

@@ -51,6 +51,11 @@ def each_strip(supports: Sequence[Support], value: Callable[[Support], float]) -
     return np.concatenate([np.zeros(0)] + [np.full(s.strips, value(s)) for s in supports])
 
 
+def take_heat(conductances: Array) -> bool:
+    """Does a support take heat? conductances (strips,) W/m2K."""
+    return bool(np.any(conductances > 0.0))
+
+
 def supports(belt: Belt, strip: float, lane: float) -> list[Support]:
     """All supports of a belt, cut into strips not longer than `strip` (m); lane: its width, m."""
 

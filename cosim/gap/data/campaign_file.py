@@ -54,16 +54,25 @@ class Noise(Table):
         return {channel: getattr(self, channel) for channel in sorted(self.model_fields_set)}
 
 
-def _coefficient(description: str):
+class Measured(Table):
+    """Numbers that are known with a standard deviation; others are not among ``given``."""
+
+    @property
+    def given(self) -> dict[str, tuple[float, float]]:
+        """quantity -> (value, standard deviation), of those that the file names."""
+        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
+
+
+def _measured(unit: str, description: str) -> Any:
     """A value with its standard deviation; one that is not known has an infinite one."""
-    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": "1"})
+    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
 
 
-class Friction(Table):
+class Friction(Measured):
     """Coefficients that were measured by themselves: value and standard deviation."""
 
-    mu_s: tuple[float, float] = _coefficient("static friction coefficient")
-    mu_k: tuple[float, float] = _coefficient("kinetic friction coefficient")
+    mu_s: tuple[float, float] = _measured("1", "static friction coefficient")
+    mu_k: tuple[float, float] = _measured("1", "kinetic friction coefficient")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -75,30 +84,20 @@ class Friction(Table):
                 )
         return self
 
-    @property
-    def given(self) -> dict[str, tuple[float, float]]:
-        """coefficient -> (value, standard deviation), of those that the file names."""
-        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
 
-
-def _figure(unit: str, description: str):
-    """A value with its standard deviation; one that is not known has an infinite one."""
-    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
-
-
-class Summary(Table):
+class Summary(Measured):
     """Figures of a run whose time series is not at hand: value and standard deviation."""
 
-    mean_x: tuple[float, float] = _figure("m", "mean of x")
-    mean_y: tuple[float, float] = _figure("m", "mean of y")
-    amplitude_x: tuple[float, float] = _figure("m", "half the range of x")
-    frequency: tuple[float, float] = _figure("Hz", "oscillations of x per second")
-    slip_share: tuple[float, float] = _figure("1", "share of the time in slip")
-    slip_duration: tuple[float, float] = _figure("s", "mean length of a slip")
-    stick_duration: tuple[float, float] = _figure("s", "mean length of a stick")
-    break_away_x: tuple[float, float] = _figure("m", "mean of x at break-away")
-    restick_x: tuple[float, float] = _figure("m", "mean of x at re-stick")
-    max_rotation_deg: tuple[float, float] = _figure("deg", "largest rotation either way")
+    mean_x: tuple[float, float] = _measured("m", "mean of x")
+    mean_y: tuple[float, float] = _measured("m", "mean of y")
+    amplitude_x: tuple[float, float] = _measured("m", "half the range of x")
+    frequency: tuple[float, float] = _measured("Hz", "oscillations of x per second")
+    slip_share: tuple[float, float] = _measured("1", "share of the time in slip")
+    slip_duration: tuple[float, float] = _measured("s", "mean length of a slip")
+    stick_duration: tuple[float, float] = _measured("s", "mean length of a stick")
+    break_away_x: tuple[float, float] = _measured("m", "mean of x at break-away")
+    restick_x: tuple[float, float] = _measured("m", "mean of x at re-stick")
+    max_rotation_deg: tuple[float, float] = _measured("deg", "largest rotation either way")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -111,11 +110,6 @@ class Summary(Table):
             if key == "slip_share" and not 0.0 <= value <= 1.0:
                 raise ValueError(f"slip_share = {value:g} is not a share, allowed is 0 to 1")
         return self
-
-    @property
-    def given(self) -> dict[str, tuple[float, float]]:
-        """figure -> (value, standard deviation), of those that the file names."""
-        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
 
 
 class RunTable(Table):

@@ -68,11 +68,11 @@ def _in_part(
     period = 2.0 * math.pi / omega
     if len(time) < 8:
         return []
-    block = max(int(period / np.median(np.diff(time)) / DENSITY), 1)
-    coarse_time, coarse_x = _averaged(time, block), _averaged(x, block)
-    pieces = partition(coarse_time, coarse_x, speed, omega, noise / math.sqrt(block))
+    samples = max(int(period / np.median(np.diff(time)) / DENSITY), 1)
+    coarse_time, coarse_x = _averaged(time, samples), _averaged(x, samples)
+    pieces = partition(coarse_time, coarse_x, speed, omega, noise / math.sqrt(samples))
     ranges = [
-        (start * block, min(end * block, len(time)) if end < len(coarse_time) else len(time))
+        (start * samples, min(end * samples, len(time)) if end < len(coarse_time) else len(time))
         for kind, start, end in pieces
         if kind == STICK
     ]
@@ -81,9 +81,9 @@ def _in_part(
     return [_refined(time, x, ranges, place, speed, omega, noise) for place in range(len(ranges))]
 
 
-def _averaged(values: np.ndarray, block: int) -> np.ndarray:
-    whole = len(values) // block * block
-    return values[:whole].reshape(-1, block).mean(axis=1)
+def _averaged(values: np.ndarray, samples: int) -> np.ndarray:
+    whole = len(values) // samples * samples
+    return values[:whole].reshape(-1, samples).mean(axis=1)
 
 
 def _merged(

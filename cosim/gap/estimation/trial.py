@@ -55,11 +55,6 @@ class Trial:
         return float(np.sqrt(self.squares.sum() / self.rows.sum()))
 
     @property
-    def rms_residuals(self) -> np.ndarray:
-        """(runs,) the same, run by run."""
-        return np.sqrt(self.squares / self.rows)
-
-    @property
     def held_out_rms(self) -> float:
         """Of the runs that were kept back; of all where none was."""
         return (

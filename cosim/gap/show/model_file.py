@@ -74,9 +74,9 @@ def model_text(gap: Gap | SummaryGap) -> str:
         scenario, run = scenario_of(gap, shown), shown.name
     given = scenario.model_dump(exclude_unset=True)
     lines = [*_header(gap, run), "", *_entries({"name": given.pop("name")})]
-    for block in sorted(given, key=lambda block: block not in FIRST):
-        if given[block]:
-            lines += ["", f"[{block}]", *_entries(given[block], block)]
+    for table in sorted(given, key=lambda table: table not in FIRST):
+        if given[table]:
+            lines += ["", f"[{table}]", *_entries(given[table], table)]
     return "\n".join(lines) + "\n"
 
 
@@ -96,19 +96,19 @@ def _known(campaign: Campaign, run: MeasuredRun) -> dict[str, dict[str, Any]]:
 
 
 def _put(tables: dict[str, dict[str, Any]], values: Mapping[str, float]) -> None:
-    """`block.parameter` -> value into the tables; on a slab the curvature is the rig's."""
+    """`table.parameter` -> value into the tables; on a slab the curvature is the rig's."""
     for key, value in values.items():
-        block, _, name = key.partition(".")
+        table, _, name = key.partition(".")
         if key == "turning_surface.curvature" and tables["rig"]["surface"] == "slab":
             tables["rig"]["slab_radius"] = 1.0 / float(value)
         else:
-            tables.setdefault(block, {})[name] = float(value)
+            tables.setdefault(table, {})[name] = float(value)
 
 
 def _scenario(campaign: Campaign, tables: dict[str, dict[str, Any]]) -> Scenario:
     rounded = {
-        block: {key: _rounded(value) for key, value in entries.items()}
-        for block, entries in tables.items()
+        table: {key: _rounded(value) for key, value in entries.items()}
+        for table, entries in tables.items()
     }
     with warnings.catch_warnings(action="ignore"):  # of friction that the fit decided on
         return Scenario.from_tables({"name": f"{safe_name(campaign.name)}-model", **rounded})
@@ -148,19 +148,19 @@ def _header(gap: Gap | SummaryGap, run: str) -> list[str]:
     return [f"# {line}".rstrip() for line in [*lines, *usage]]
 
 
-def _entries(entries: Mapping[str, Any], block: str = "") -> list[str]:
+def _entries(entries: Mapping[str, Any], table: str = "") -> list[str]:
     """`key = value   # meaning, unit` for each entry."""
     lines = []
     for key, value in entries.items():
         text = tomli_w.dumps({key: list(value) if isinstance(value, tuple) else value}).strip()
         text = re.sub(r"\s*\n\s*", " ", text).replace("[ ", "[").replace(", ]", "]")
-        lines.append(f"{text:<34}{_comment(block, key)}".rstrip())
+        lines.append(f"{text:<34}{_comment(table, key)}".rstrip())
     return lines
 
 
-def _comment(block: str, key: str) -> str:
-    if not block:
+def _comment(table: str, key: str) -> str:
+    if not table:
         return ""
-    unit, meaning = unit_and_meaning(f"{block}.{key}")
+    unit, meaning = unit_and_meaning(f"{table}.{key}")
     meaning = re.split(r"[:;\[]", meaning)[0].strip()
     return f"  # {meaning}{f', {unit}' if unit else ''}"

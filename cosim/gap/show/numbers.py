@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from cosim.gap.result import FittedModel, Gap
+from cosim.report.files import json_text
 from cosim.studies.reproduction.summary import SummaryGap
 
 #: Significant digits of every number: more than any fit to noisy data knows, fewer than what the
@@ -20,7 +20,7 @@ DIGITS = 6
 
 def as_json(gap: Gap | SummaryGap, model: str) -> str:
     """JSON text without NaN; the same answer gives the same bytes. model: name of its file."""
-    return json.dumps(as_data(gap, model), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json_text(as_data(gap, model))
 
 
 def as_data(gap: Gap | SummaryGap, model: str) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.report.style import INK, RED, panels, picture
+from cosim.report.style import INK, PALE_GREY, RED, panels, picture
 
 from .reproduced import Reproduced
 from .run_figures import SCALES, channels
@@ -40,7 +40,7 @@ def draw_reproduction(gap: Gap, reproduced: Sequence[Reproduced]) -> Figure:
         left.plot(one.time, factor * one.motion[channel], color=RED, label="FMU")
         left.set_ylabel(label)
         left.set_title(f"{one.name}: gap {one.gap:.3g}")
-        right.axhspan(-2.0, 2.0, color="#EDEDED", zorder=0)
+        right.axhspan(-2.0, 2.0, color=PALE_GREY, zorder=0)
         right.plot(
             one.time,
             (one.measured[channel] - one.motion[channel]) / noise,

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from cosim.gap.estimation.preparation import period
 from cosim.gap.result import FittedRun, Gap
 from cosim.report.page import Picture
-from cosim.report.style import BLUE, GREEN, GREY, INK, PURPLE, RED, panels, picture
+from cosim.report.style import BLUE, GREEN, GREY, INK, PALE_GREY, PURPLE, RED, panels, picture
 
 #: Runs that a figure shows: more rows than these nobody reads.
 MOST_RUNS = 8
@@ -146,7 +146,7 @@ def draw_residuals(gap: Gap) -> Figure:
     for row, name in zip(axes, names, strict=True):
         for axis, (label, model) in zip(row, models, strict=True):
             run = model.of(name)
-            axis.axhspan(-2.0, 2.0, color="#EDEDED", zorder=0)
+            axis.axhspan(-2.0, 2.0, color=PALE_GREY, zorder=0)
             for channel in run.track.channels:
                 axis.plot(
                     run.track.time,

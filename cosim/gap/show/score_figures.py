@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.report.style import BLUE, GREY, INK, ORANGE, RED, panels, picture
+from cosim.report.style import BLUE, DULL_GREY, GREY, INK, ORANGE, RED, panels, picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .quantities import unit_and_meaning
@@ -65,7 +65,7 @@ def draw_ranking(gap: Gap | SummaryGap) -> Figure:
 
 def _colour(gap: Gap | SummaryGap, effect: str) -> str:
     if effect not in gap.effects:
-        return "#BBBBBB"
+        return DULL_GREY
     return ORANGE if any(effect in group for group in gap.classes) else RED
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.report.style import BLUE, GREY, INK, RED, panels, picture
+from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 CAPTION = (
@@ -23,7 +23,7 @@ def draw_observations(gap: SummaryGap) -> Figure:
         models.append(("extended model", RED, gap.extended))
     figure, axes = panels(1, 1, height=1.1 + 0.5 * len(gap.observations), width=8.5)
     axis = axes[0, 0]
-    axis.axvspan(-2.0, 2.0, color="#EDEDED", zorder=0)
+    axis.axvspan(-2.0, 2.0, color=PALE_GREY, zorder=0)
     axis.axvline(0.0, color=INK, linewidth=0.8)
     places = np.arange(len(gap.observations))
     for shift, (label, colour, model) in zip((-0.18, 0.0, 0.18), models, strict=False):

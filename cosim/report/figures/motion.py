@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from stickslip.kernel.layout import P_MU_K, P_MU_S, P_NORMAL_FORCE
 
-from cosim.report.contents import mechanics_of, run_up_time
+from cosim.report.contents import mechanics_of, ramp_end
 from cosim.report.style import (
     BLUE,
     GREEN,
@@ -115,10 +115,10 @@ def _path(
 def _parts(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_], str, float]]:
     """Name, rows (n,), colour and width of the parts of a run."""
     time = dataset["time"].values
-    run_up, zoom = run_up_time(dataset), zoom_of(dataset)
-    rising = time <= run_up if run_up else np.zeros(time.size, bool)
+    ramp, zoom = ramp_end(dataset), zoom_of(dataset)
+    rising = time <= ramp if ramp else np.zeros(time.size, bool)
     late = (time >= zoom.begin) & (time <= zoom.end) if zoom else np.zeros(time.size, bool)
-    rest = "after the speed ramp" if run_up else "run"
+    rest = "after the speed ramp" if ramp else "run"
     return [
         ("speed ramp", rising & ~late, GREY, 0.7),
         (rest, ~rising & ~late, BLUE, 0.9),

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from cosim.report.contents import break_aways, mechanics_of, run_up_time, slip_intervals
+from cosim.report.contents import break_aways, mechanics_of, ramp_end, slip_intervals
 from cosim.report.style import INK, SLIP, plain_ticks
 
 Array = NDArray[np.float64]
@@ -127,17 +127,17 @@ def _limits(dataset: xr.Dataset, axes: NDArray[Any], zoom: Zoom | None) -> None:
     time = dataset["time"].values
     begin, end = (time[0], time[-1]) if time.size else (0.0, 0.0)
     margin = 0.0 if end > begin else 0.5
-    run_up = run_up_time(dataset)
+    ramp = ramp_end(dataset)
     for panel in axes[:, 0]:
         panel.set_xlim(begin - margin, end + margin)
-        if begin < run_up < end:
-            panel.axvline(run_up, color=INK, linewidth=0.9, linestyle=":")
+        if begin < ramp < end:
+            panel.axvline(ramp, color=INK, linewidth=0.9, linestyle=":")
     for panel in axes[-1]:
         panel.set_xlabel("time [s]")
-    if begin < run_up < end:
+    if begin < ramp < end:
         axes[0, 0].annotate(
             "speed ramp ends",
-            (run_up, 1.0),
+            (ramp, 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(0, 2),
             textcoords="offset points",

@@ -15,7 +15,7 @@ from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 
 from cosim.report.contents import mechanics_of, value_of
-from cosim.report.style import BLUE, GREY, INK, RED, plain_ticks, styled
+from cosim.report.style import BLUE, GREY, INK, PALE_BLUE, PALE_GREY, RED, plain_ticks, styled
 
 from .motion import SMALLEST_ANGLE_DEG
 from .over_time import title
@@ -60,7 +60,6 @@ def coil(begin: Array, end: Array, turns: int = 9, width: float = 0.006) -> Arra
 MARGIN = 0.03  # m around everything drawn
 FARTHEST_CENTRE = 1.0  # m; a slab's centre beyond it would shrink the rig to a dot
 SHEET_WIDTH, SHEET_HEIGHT = 11.0, 8.5  # inches at most
-SURFACE = "#EDEDED"
 ARROW = 0.06  # m, length of the arrow for the surface's direction
 
 
@@ -168,7 +167,7 @@ def _draw_surface(
     belt = parameters.pack()[P_CURVATURE] == 0.0
     width = value_of(dataset, "belt", "width") if belt else None
     low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
-    axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=SURFACE, zorder=0))
+    axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=PALE_GREY, zorder=0))
     if centre is not None:
         _draw_centre(axes, centre)
     if speed != 0.0:
@@ -249,7 +248,7 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
         Circle(
             (pose.x, pose.y),
             parameters.rig.contact_radius,
-            facecolor="#CFE3F1",
+            facecolor=PALE_BLUE,
             edgecolor=BLUE,
             linewidth=1.6,
             zorder=2,

@@ -176,23 +176,23 @@ class Case:
 
     def thermal(self, *, fine: bool = False) -> ThermalParameters:
         """Parameters of the thermal model; fine: at the rig's own resolution."""
-        blocks = self.rig.model_dump()
-        belt, contact = blocks["belt"], blocks["contact"]
+        tables = self.rig.model_dump()
+        belt, contact = tables["belt"], tables["contact"]
         belt |= {"length": self.length, "air_heat_transfer": self.h, "still_air_speed": 0.0}
         if belt["railing_load"] == 0.0:
             belt["railing_load"] = self.mass * GRAVITY
         for owner, name in ((belt, "conductivity"), (belt, "thickness"), (contact, "conductance")):
             if getattr(self, name) is not None:
                 owner[name] = getattr(self, name)
-        blocks["ambient"]["temperature_degC"] = self.ambient_degC
+        tables["ambient"]["temperature_degC"] = self.ambient_degC
         if not fine:
             belt["elements"], contact["strips"] = ELEMENTS, STRIPS
-            blocks["ice"] |= {"radial_elements": RADIAL, "axial_elements": AXIAL}
+            tables["ice"] |= {"radial_elements": RADIAL, "axial_elements": AXIAL}
         if self.h is None:
             # the length is checked first, for the air's number needs one that can be
-            ThermalParameters.checked(blocks | {"belt": belt | {"air_heat_transfer": 1.0}})
+            ThermalParameters.checked(tables | {"belt": belt | {"air_heat_transfer": 1.0}})
             belt["air_heat_transfer"] = self.film
-        return ThermalParameters.checked(blocks)
+        return ThermalParameters.checked(tables)
 
     def sliding(self, sensitivity: float = 0.0) -> SteadySliding:
         """Belt and ice before the first run.

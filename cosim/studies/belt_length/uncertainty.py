@@ -40,6 +40,13 @@ from cosim.studies.belt_length.unknowns import (
 
 Array = NDArray[np.float64]
 
+#: Interval that is told, quantiles.
+INTERVAL = (0.05, 0.95)
+#: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
+SEQUENCE = 2**13
+#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
+FEWEST_SAMPLES = 32
+_TESTED = 0.25
 #: Degrees and norms that are tried; a fit takes at most this part of the points for its terms.
 _DEGREES, _NORMS, _MOST_TERMS = (1, 2, 3, 4, 5), (0.5, 0.75, 1.0), 0.6
 #: Points that are evaluated at once.
@@ -126,15 +133,6 @@ def _within(dimensions: int, degree: int, norm: float, left: float) -> Iterator[
             yield (n, *others)
 
 
-#: Interval that is told, quantiles.
-INTERVAL = (0.05, 0.95)
-#: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
-SEQUENCE = 2**13
-#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
-FEWEST_SAMPLES = 32
-_TESTED = 0.25
-
-
 @dataclass(frozen=True)
 class Influence:
     """Sobol indices of one unknown, with half-widths of their 95 % intervals."""
@@ -186,11 +184,6 @@ class Uncertainty:
     interface_median: float
     interface_high: float
     interface_unexplained: float
-
-    @property
-    def widest_interval(self) -> float:
-        """Largest half-width of the indices' 95 % intervals."""
-        return max(max(one.first_order_half_width, one.total_half_width) for one in self.influences)
 
     def table(self) -> list[dict[str, object]]:
         """Single change and indices of each unknown, side by side."""

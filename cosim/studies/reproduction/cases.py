@@ -19,6 +19,53 @@ from stickslip.reference.linearised import GRAVITY, Scheme
 
 from cosim.studies.reproduction.motion import Motion, MotionFigures, average, figures
 
+Grid = dict[str, np.ndarray]  # model -> number (stiffness, mass, speed)
+
+PRINTED_MODEL, MENDED_MODEL, EXACT_MODEL = "printed", "mended", "exact"
+
+CYCLES = 25  # the study's run: 10 cycles to settle, 15 that count
+STEADY = 0.6
+LONGEST_SLIP = 1.0  # s, the study's; longer natural periods count as they are
+SEEDS = (0, 1, 2)
+# the exact model settles within its first seconds; the study's own speed ramp takes 10 s
+SETTLING, WINDOW = 10.0, 20.0
+SAMPLE = 5e-3
+
+MASSES = (0.67, 0.896667, 1.123333, 1.35, 1.576667, 1.803333, 2.03)
+STIFFNESSES = (20.17, 38.50, 53.36, 68.22)
+EXTRA_STIFFNESS = 136.44
+SPEEDS = (0.15, 0.25, 0.37, 0.50, 0.63, 0.82)
+MASSES_ASSUMED = "seven masses evenly from 0.67 to 2.03 kg (only the ends are printed)"
+STIFFNESS_ASSUMED = "53.36 N/m, midway, for the stiffness that is plotted but not stated"
+LENGTH, PRETENSION = 0.20, 0.01
+RIG_ASSUMED = (
+    f"exact model: springs of {1e3 * LENGTH:.0f} mm stretched by {1e3 * PRETENSION:.0f} mm as "
+    "installed (the pretension is not printed; without any, straight sliding is unstable), planar "
+    "friction, contact radius 0.04 m, J = m a²/2, started turned by 1°, 10 s of settling, then "
+    "20 s"
+)
+GUIDED_ASSUMED = (
+    "exact model: block guided along x, 10 s of settling, then 20 s (whether a free block turns at "
+    "high speed depends on the pretension, which is not printed)"
+)
+# rad: an ideal start would hide whether straight sliding is stable
+TURNED = math.radians(1.0)
+EXACT_START = " (exact: a block that only keeps its start shows the 1° of that)"
+GUIDED = {"degrees_of_freedom": ("x",)}
+SCATTER = 0.02
+SCATTER_ASSUMED = (
+    f"scatter of µ_k per strip: standard deviation {SCATTER} (not printed); mean of three seeds, "
+    "last 60 % of 25 cycles"
+)
+# mu_k falls by two fifths over the speeds of the study: its data points are drawn, not printed
+WEAKENING = 0.4
+LAW_ASSUMED = (
+    "µ_k falls linearly by 40 % of its value at 0.15 m/s between sliding speeds of 0.15 and 0.82 "
+    "m/s (the study's four data points are not printed) and does not scatter; last 60 % of 25 "
+    "cycles"
+)
+ASSUMED = (LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED)
+
 
 @dataclass(frozen=True)
 class Printed:
@@ -85,55 +132,10 @@ STUDY = {
 }  # fmt: skip
 
 
-def every() -> list[Printed]:
-    """All of them."""
+def printed_numbers() -> list[Printed]:
+    """Every number of the study that is compared with, each with its place."""
     entries = (one for matrix in MATRICES.values() for one in matrix.values())
     return [*entries, *TEMPERATURES.values(), *STUDY.values()]
-
-
-PRINTED_MODEL, MENDED_MODEL, EXACT_MODEL = "printed", "mended", "exact"
-
-CYCLES = 25  # the study's run: 10 cycles to settle, 15 that count
-STEADY = 0.6
-LONGEST_SLIP = 1.0  # s, the study's; longer natural periods count as they are
-SEEDS = (0, 1, 2)
-# the exact model settles within its first seconds; the study's own speed ramp takes 10 s
-SETTLING, WINDOW = 10.0, 20.0
-SAMPLE = 5e-3
-
-MASSES = (0.67, 0.896667, 1.123333, 1.35, 1.576667, 1.803333, 2.03)
-STIFFNESSES = (20.17, 38.50, 53.36, 68.22)
-EXTRA_STIFFNESS = 136.44
-SPEEDS = (0.15, 0.25, 0.37, 0.50, 0.63, 0.82)
-MASSES_ASSUMED = "seven masses evenly from 0.67 to 2.03 kg (only the ends are printed)"
-STIFFNESS_ASSUMED = "53.36 N/m, midway, for the stiffness that is plotted but not stated"
-LENGTH, PRETENSION = 0.20, 0.01
-RIG_ASSUMED = (
-    f"exact model: springs of {1e3 * LENGTH:.0f} mm stretched by {1e3 * PRETENSION:.0f} mm as "
-    "installed (the pretension is not printed; without any, straight sliding is unstable), planar "
-    "friction, contact radius 0.04 m, J = m a²/2, started turned by 1°, 10 s of settling, then "
-    "20 s"
-)
-GUIDED_ASSUMED = (
-    "exact model: block guided along x, 10 s of settling, then 20 s (whether a free block turns at "
-    "high speed depends on the pretension, which is not printed)"
-)
-# rad: an ideal start would hide whether straight sliding is stable
-TURNED = math.radians(1.0)
-EXACT_START = " (exact: a block that only keeps its start shows the 1° of that)"
-GUIDED = {"degrees_of_freedom": ("x",)}
-SCATTER = 0.02
-SCATTER_ASSUMED = (
-    f"scatter of µ_k per strip: standard deviation {SCATTER} (not printed); mean of three seeds, "
-    "last 60 % of 25 cycles"
-)
-# mu_k falls by two fifths over the speeds of the study: its data points are drawn, not printed
-WEAKENING = 0.4
-LAW_ASSUMED = (
-    "µ_k falls linearly by 40 % of its value at 0.15 m/s between sliding speeds of 0.15 and 0.82 "
-    "m/s (the study's four data points are not printed) and does not scatter; last 60 % of 25 "
-    "cycles"
-)
 
 
 @dataclass(frozen=True)
@@ -164,6 +166,8 @@ class Case:
 
 DATASET_1 = Case()
 DATASET_2 = Case(mu_s=0.065, mu_k=0.05)
+#: All of the series have the second set's friction, falling with the sliding speed.
+CASE = DATASET_2.changed(weakening=WEAKENING)
 
 
 def scheme(case: Case, faults: Faults, **changes) -> Scheme:
@@ -182,7 +186,7 @@ def scheme(case: Case, faults: Faults, **changes) -> Scheme:
     )
 
 
-def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) -> Parameters:
+def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables) -> Parameters:
     """The exact model for a case, planar friction; starts at rest on the surface, barely turned.
 
     pretension: m by which the springs are stretched as installed.
@@ -204,7 +208,7 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) ->
         "surface": {"speed": case.speed},
         "initial": {"vx": case.speed, "phi": TURNED},
     }
-    for name, values in blocks.items():
+    for name, values in tables.items():
         parameters[name] = parameters.get(name, {}) | values
     if parameters["rig"].get("degrees_of_freedom") == ("x",):
         parameters["initial"] = parameters["initial"] | {"phi": 0.0}
@@ -248,9 +252,9 @@ def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -
     return average(many)
 
 
-def exact_figures(case: Case, *, pretension: float = PRETENSION, **blocks) -> MotionFigures:
+def exact_figures(case: Case, *, pretension: float = PRETENSION, **tables) -> MotionFigures:
     """Steady figures of the exact model."""
-    return _exact_figures(exact_parameters(case, pretension=pretension, **blocks))
+    return _exact_figures(exact_parameters(case, pretension=pretension, **tables))
 
 
 @cache
@@ -262,7 +266,11 @@ def _exact_figures(parameters: Parameters) -> MotionFigures:
 
 
 def many(call, cases, *rest) -> list:
-    """``call(case, *rest)`` for each case, on two cores: the scheme's loop runs without the GIL."""
+    """``call(case, *rest)`` for each case, on two cores: the scheme's loop runs without the GIL.
+
+    Threads, not `cosim.processes`: runs are cached for the claims that follow, and a call may be a
+    closure, which no process can be sent.
+    """
     with ThreadPoolExecutor(max_workers=2) as pool:
         return list(pool.map(lambda case: call(case, *rest), cases))
 
@@ -276,15 +284,8 @@ def three_models(cases: list[Case]) -> dict[str, list[MotionFigures]]:
     }
 
 
-#: All of the series have the second set's friction, falling with the sliding speed.
-CASE = DATASET_2.changed(weakening=WEAKENING)
-ASSUMED = (LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED)
-
-Grid = dict[str, np.ndarray]  # model -> number (stiffness, mass, speed)
-
-
 def cases(stiffnesses: Sequence[float] = STIFFNESSES) -> list[Case]:
-    """The combinations, the speed running fastest."""
+    """Combinations of stiffness, mass and speed in the study's series, speed running fastest."""
     return [
         CASE.changed(stiffness=k, mass=m, speed=v)
         for k, m, v in product(stiffnesses, MASSES, SPEEDS)
@@ -295,9 +296,9 @@ def grid(
     number: Callable[[Case, MotionFigures], float], stiffnesses: Sequence[float] = STIFFNESSES
 ) -> Grid:
     """A number of every combination's steady motion, as each of the three models has it."""
-    every = cases(stiffnesses)
+    series = cases(stiffnesses)
     shape = len(stiffnesses), len(MASSES), len(SPEEDS)
     return {
-        model: np.reshape([number(*pair) for pair in zip(every, figures, strict=True)], shape)
-        for model, figures in three_models(every).items()
+        model: np.reshape([number(*pair) for pair in zip(series, figures, strict=True)], shape)
+        for model, figures in three_models(series).items()
     }

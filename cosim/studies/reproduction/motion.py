@@ -16,7 +16,7 @@ BAND = 0.1
 
 @dataclass(frozen=True)
 class Motion:
-    """time s, x m, y m, phi rad, omega rad/s, friction N (along x): (n,) each.
+    """time s, x m, y m, phi rad, friction N (along x): (n,) each.
 
     phases (k, 3): begin s, end s, mode (1 slip); jumps (k,): jump of x' at each phase's end, m/s.
     """
@@ -25,7 +25,6 @@ class Motion:
     x: np.ndarray
     y: np.ndarray
     phi: np.ndarray
-    omega: np.ndarray
     friction: np.ndarray
     mode: np.ndarray
     phases: np.ndarray
@@ -39,7 +38,6 @@ class Motion:
             run.q[:, 0],
             run.q[:, 1],
             run.q[:, 2],
-            run.velocity[:, 2],
             run.load[:, 0],
             run.mode,
             run.phases[:, :3],
@@ -59,7 +57,6 @@ class Motion:
             run["x"],
             run["y"],
             run["phi"],
-            run["omega"],
             run["friction_force_x"],
             run["mode"],
             phases,
@@ -86,7 +83,6 @@ class Motion:
             self.x[keep],
             self.y[keep],
             self.phi[keep],
-            self.omega[keep],
             self.friction[keep],
             self.mode[keep],
             cut,
@@ -104,9 +100,7 @@ class MotionFigures:
     slip_share: float
     slip_time: float  # mean duration of a slip
     max_rotation: float  # deg
-    max_rotation_rate: float  # deg/s
     mean_y: float
-    range_y: float
     mean_friction: float  # size of the force along x, in slip, N
     swing_rate: float  # of the fastest swing of phi: its angle by its duration, deg/s
 
@@ -120,9 +114,7 @@ def figures(motion: Motion) -> MotionFigures:
         slip_share=_slip_share(motion.phases),
         slip_time=_slip_time(motion.phases),
         max_rotation=float(np.degrees(np.abs(motion.phi).max())),
-        max_rotation_rate=float(np.degrees(np.abs(motion.omega).max())),
-        mean_y=time_mean(motion.y, motion.time),
-        range_y=float(np.ptp(motion.y)),
+        mean_y=time_mean(motion.time, motion.y),
         mean_friction=_mean_friction(motion),
         swing_rate=_swing_rate(motion),
     )
@@ -136,14 +128,14 @@ def average(many: list[MotionFigures]) -> MotionFigures:
     return MotionFigures(*mean.tolist())
 
 
-def time_mean(values: np.ndarray, time: np.ndarray) -> float:
+def time_mean(time: np.ndarray, values: np.ndarray) -> float:
     """Mean over time, samples at uneven times."""
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
 def upward_crossings(time: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Times at which x has risen through a band about its mean, one an oscillation."""
-    away = x - time_mean(x, time)
+    away = x - time_mean(time, x)
     band = BAND * float(np.ptp(x))
     side = np.where(away > band, 1, np.where(away < -band, -1, 0))
     seen = np.flatnonzero(side)
@@ -161,9 +153,9 @@ def cycle_mean(time: np.ndarray, x: np.ndarray) -> float:
     """Mean over whole oscillations, so that a cut one does not tilt it; else over all the time."""
     upward = upward_crossings(time, x)
     if len(upward) < 2:
-        return time_mean(x, time)
+        return time_mean(time, x)
     whole = (time >= upward[0]) & (time <= upward[-1])
-    return time_mean(x[whole], time[whole])
+    return time_mean(time[whole], x[whole])
 
 
 def _slip_share(phases: np.ndarray) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import asdict
 from typing import Any
@@ -44,18 +43,6 @@ def as_data(
             "faults": DESCRIPTIONS | OTHER_FAULTS,
             "wall_time": wall_time,
         }
-    )
-
-
-def as_json(
-    claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
-) -> str:
-    """The same as JSON text, without NaN."""
-    return (
-        json.dumps(
-            as_data(claims, wall_time, datasets), indent=2, ensure_ascii=False, allow_nan=False
-        )
-        + "\n"
     )
 
 

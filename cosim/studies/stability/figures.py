@@ -8,13 +8,13 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_SLIP
 
-from cosim.report.style import BLUE, INK, RED, panels, picture
+from cosim.report.style import BLUE, INK, RED, SAND, SOFT_GREY, panels, picture
 
 from .maps import MAPPED, Case, PretensionMap, RegimeMap
 
 TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a speed ramp"}
-KINDS = {STICK_SLIP: BLUE, SLIDING: "#F3D9A4"}
-OTHER = "#CFCFCF"
+KINDS = {STICK_SLIP: BLUE, SLIDING: SAND}
+OTHER = SOFT_GREY
 #: Growth of a cycle at which the colours of the map end.
 LOW, HIGH = 0.5, 2.0
 

@@ -82,8 +82,8 @@ def _check_key(key: str) -> None:
     near = nearest_key(key, KEYS)
     block = key.partition(".")[0]
     siblings = [known for known in KEYS if known.partition(".")[0] == block]
-    blocks = f"a key of {', '.join(dict.fromkeys(known.partition('.')[0] for known in KEYS))}"
-    hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings) or blocks}"
+    any_table = f"a key of {', '.join(dict.fromkeys(known.partition('.')[0] for known in KEYS))}"
+    hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings) or any_table}"
     raise SweepError(f"{key}: no such key of the mechanics, which a sweep runs alone, {hint}")
 
 

@@ -1,10 +1,9 @@
-"""Outcomes of a sweep: finished chunks on disk, found again by the next sweep, and one dataset.
+"""Chunks of a sweep: who computes them, and where they are kept for the next sweep.
 
 A chunk is one JSON file that appears under its name only when it is complete. Rows are found by
 their content key, so it does not matter which sweep they were computed for; chunks of another
-version of the model lie in another folder. The varied keys are the dataset's dimensions.
-
-Who computes chunks: the cores of this machine, or the workers of a Dask cluster.
+version of the model lie in another folder. They are computed by the cores of this machine, or by
+the workers of a Dask cluster.
 """
 
 from __future__ import annotations
@@ -15,24 +14,17 @@ import math
 import warnings
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
-from importlib.metadata import version
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import joblib
-import numpy as np
-import xarray as xr
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 from cosim.processes import BrokenProcessPool, as_finished, is_stopped
-from cosim.report.files import provenance
 from cosim.studies.sweep.combination import (
-    COMPLETE,
     ERROR,
-    STATUS_MEANINGS,
     Row,
-    Run,
     SweepError,
     SweepStopped,
     Task,
@@ -41,11 +33,11 @@ from cosim.studies.sweep.combination import (
     compute_chunk,
     model_version,
 )
-from cosim.studies.sweep.features import FEATURES
-from cosim.studies.sweep.grid import Grid
 
 FOLDER = "chunks"
 VERSION_DIGITS = 12
+#: A scheduler that does not answer in this time (s) is not there; a far one needs a few.
+CONNECT_SECONDS = 10.0
 
 
 class Store:
@@ -97,58 +89,6 @@ def _read(file: Path) -> list[Row]:
         return []
 
 
-CODES = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
-
-
-def sweep_dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
-    """``rows``, in the grid's order, as variables over the grid's dimensions."""
-    table = np.array([row.values for row in rows])
-    variables: dict[str, Any] = {
-        name: (grid.dims, table[:, i].reshape(grid.shape), {"units": unit, "long_name": text})
-        for i, (name, (unit, text)) in enumerate(FEATURES.items())
-    }
-    status = np.array([row.status for row in rows], dtype=np.int8)
-    reason = np.array([row.reason for row in rows], dtype=object)
-    variables["status"] = (
-        grid.dims,
-        status.reshape(grid.shape),
-        {
-            "units": "1",
-            "long_name": "how the run ended",
-            "flag_values": CODES,
-            "flag_meanings": STATUS_MEANINGS,
-        },
-    )
-    variables["reason"] = (
-        grid.dims,
-        reason.reshape(grid.shape),
-        {
-            "units": "1",
-            "long_name": "why the run is not complete; empty when it is",
-        },
-    )
-    coordinates = {
-        name: (axis.name, values, attributes)
-        for axis in grid.axes
-        for name, (values, attributes) in axis.coordinates.items()
-    }
-    return xr.Dataset(variables, coordinates, _attributes(grid, run, status))
-
-
-def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
-    failed = int(np.count_nonzero(status != COMPLETE))
-    return {
-        "title": " x ".join(f"{axis.name} ({len(axis)})" for axis in grid.axes),
-        "status": "complete" if not failed else f"{failed} of {status.size} combinations failed",
-        "duration": run.duration,
-        "output_interval": run.output_interval,
-        "parameters": json.dumps(grid.base.model_dump(mode="json")),
-        "model_version": model_version(),
-        "stickslip": version("stickslip"),
-        **provenance(),
-    }
-
-
 class LocalWorkers:
     """``jobs`` processes with one thread each; 1 is this process itself."""
 
@@ -180,10 +120,6 @@ class LocalWorkers:
 def _compute(work: Work, chunk: Sequence[Task]) -> list[Row]:
     """`compute_chunk`, which ends early where a process of the pool is to stop."""
     return compute_chunk(work, chunk, is_stopped)
-
-
-#: A scheduler that does not answer in this time (s) is not there; a far one needs a few.
-CONNECT_SECONDS = 10.0
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """What a researcher wants to know of one run, as a row of numbers.
 
 Means, extremes and spread are those of the constant-speed part: from the end of the surface's
-run-up to the end of the run. The samples carry velocities, so integrals and extremes come from
+speed ramp to the end of the run. The samples carry velocities, so integrals and extremes come from
 the cubic through positions and velocities of two neighbouring rows (fourth order in their
 distance); slip times and shares come from the located events.
 """

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosim.report.style import BLUE, picture
+from cosim.report.style import BLUE, FAINT_BLUE, LIGHT_BLUE, picture
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ SHOWN = {
 }
 # more lines than this in a panel are a tangle: their median and their range instead
 MOST_LINES = 7
-HALF, BAND = "#8FBFDD", "#D3E5F0"
+HALF, BAND = LIGHT_BLUE, FAINT_BLUE
 COLOURS = matplotlib.colormaps["viridis"]
 PANEL = (2.9, 1.75)  # inches
 SMALLEST_SPAN = 0.05

@@ -108,8 +108,8 @@ def product_grid(parameters: Parameters, vary: Mapping[Any, Sequence[Any]]) -> G
 
 def mechanics_of(parameters: Parameters) -> Parameters:
     """The mechanical part of a scenario, which is a Parameters and more."""
-    blocks = {name: getattr(parameters, name) for name in Parameters.model_fields}
-    return Parameters.model_construct(**blocks)
+    tables = {name: getattr(parameters, name) for name in Parameters.model_fields}
+    return Parameters.model_construct(**tables)
 
 
 def _warn_once(warned: Counter[str]) -> None:

@@ -1,21 +1,26 @@
-"""A sweep: what is missing is computed, every finished chunk is kept, all rows are returned."""
+"""A sweep: what is missing is computed, each finished chunk is kept, all rows are one dataset."""
 
 from __future__ import annotations
 
+import json
 import math
 import time
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Protocol
 
+import numpy as np
 import xarray as xr
 from stickslip import Parameters
 
-from cosim.studies.sweep.chunks import DaskWorkers, LocalWorkers
+from cosim.report.files import provenance
 
-from .chunks import Store, sweep_dataset
+from .chunks import DaskWorkers, LocalWorkers, Store
 from .combination import (
+    COMPLETE,
+    STATUS_MEANINGS,
     Row,
     Run,
     SweepError,
@@ -26,6 +31,7 @@ from .combination import (
     compute_chunk,
     model_version,
 )
+from .features import FEATURES
 from .grid import Grid, product_grid
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
@@ -38,6 +44,9 @@ SHARES = 4
 NOT_WORTH_PROCESSES = 1.5
 #: Starts with fresh workers after some were lost, before a sweep gives up.
 ATTEMPTS = 3
+
+#: How a run ended, as numbers.
+CODES = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
 
 Progress = Callable[[int, int], None]
 
@@ -117,7 +126,7 @@ def run_grid(
     if sweeper.missing():
         with LocalWorkers(jobs) if dask is None else DaskWorkers(dask) as workers:
             sweeper.finish(workers)
-    return sweep_dataset(grid, run, [rows[key] for key in keys])
+    return _dataset(grid, run, [rows[key] for key in keys])
 
 
 def _check(run: Run) -> None:
@@ -189,3 +198,52 @@ def _chunk_size(missing: Sequence[Task], seconds: float, workers: int) -> int:
     """Combinations in a chunk."""
     most = math.ceil(len(missing) / (SHARES * workers))
     return max(min(round(CHUNK_SECONDS / seconds), most, MOST_IN_CHUNK), 1)
+
+
+def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
+    """``rows``, in the grid's order, as variables over the grid's dimensions."""
+    table = np.array([row.values for row in rows])
+    variables: dict[str, Any] = {
+        name: (grid.dims, table[:, i].reshape(grid.shape), {"units": unit, "long_name": text})
+        for i, (name, (unit, text)) in enumerate(FEATURES.items())
+    }
+    status = np.array([row.status for row in rows], dtype=np.int8)
+    reason = np.array([row.reason for row in rows], dtype=object)
+    variables["status"] = (
+        grid.dims,
+        status.reshape(grid.shape),
+        {
+            "units": "1",
+            "long_name": "how the run ended",
+            "flag_values": CODES,
+            "flag_meanings": STATUS_MEANINGS,
+        },
+    )
+    variables["reason"] = (
+        grid.dims,
+        reason.reshape(grid.shape),
+        {
+            "units": "1",
+            "long_name": "why the run is not complete; empty when it is",
+        },
+    )
+    coordinates = {
+        name: (axis.name, values, attributes)
+        for axis in grid.axes
+        for name, (values, attributes) in axis.coordinates.items()
+    }
+    return xr.Dataset(variables, coordinates, _attributes(grid, run, status))
+
+
+def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
+    failed = int(np.count_nonzero(status != COMPLETE))
+    return {
+        "title": " x ".join(f"{axis.name} ({len(axis)})" for axis in grid.axes),
+        "status": "complete" if not failed else f"{failed} of {status.size} combinations failed",
+        "duration": run.duration,
+        "output_interval": run.output_interval,
+        "parameters": json.dumps(grid.base.model_dump(mode="json")),
+        "model_version": model_version(),
+        "stickslip": version("stickslip"),
+        **provenance(),
+    }

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -118,7 +119,7 @@ class LeineDisc:
         def restick(_time, y):
             return side * (y[1] + y[3] - self.belt_speed)
 
-        event = breakaway if mode == STICK else restick
+        event: Any = breakaway if mode == STICK else restick  # carries what solve_ivp asks
         event.terminal, event.direction = True, 1.0
         swing = math.sqrt(min(self.mass / self.stiffness, self._turning_time() ** 2))
         return solve_ivp(

@@ -3,18 +3,12 @@
 import json
 
 import pytest
-from gap_answers import answer
 from gap_campaigns import write_campaign
 
 from cosim.cli import gap as gap_command
 from cosim.cli import main
 from cosim.gap import read_campaign
 from cosim.gap.show import files
-
-
-@pytest.fixture(scope="module")
-def gap(tmp_path_factory):
-    return answer(tmp_path_factory.mktemp("campaign"))
 
 
 @pytest.fixture

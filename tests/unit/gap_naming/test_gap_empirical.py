@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blind.hidden import Hidden, State
 from blind.motion import walk
+from blind.simulator.hidden import Hidden, State
 from gap_campaigns import NOISE, motion, noisy, write_campaign
 from stickslip.kernel import layout
 from stickslip.kernel.layout import INSTANT, MODE, SLIP, STICK

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gap_answers import ADDED, SPEEDS, TRUE, answer
+from gap_answers import ADDED, SPEEDS, TRUE
 from gap_campaigns import NOISE
 from stickslip import simulate
 
@@ -23,11 +23,6 @@ from cosim.gap.show.words import closing_lines, fitted_quantities, reason
 PROMISED = (
     "verdict", "effects", "classes", "where", "ranking", "gap", "next_experiment", "model",
 )  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def gap(tmp_path_factory):
-    return answer(tmp_path_factory.mktemp("campaign"))
 
 
 def test_the_answer_made_by_hand_is_one(gap):

@@ -35,7 +35,7 @@ def coupled(surface: str = "belt") -> tuple[CoupledResult, SimpleNamespace]:
 
 @cache
 def made_scenario(surface: str) -> Scenario:
-    """Five seconds with a short run-up: a dozen stick-slip cycles on a coarse belt."""
+    """Five seconds with a short speed ramp: a dozen stick-slip cycles on a coarse belt."""
     return Scenario.from_tables(
         {
             "name": "short",
@@ -163,7 +163,7 @@ def test_parameters_come_back_from_the_dataset(surface):
     assert stored["springs"]["stiffness"]["unit"] == "N/m"
 
 
-def test_mechanics_alone_does_not_list_the_blocks_of_the_heat():
+def test_mechanics_alone_does_not_list_the_tables_of_the_heat():
     stored = json.loads(mechanics_dataset().attrs["parameters"])
     assert "run" in stored and "rig" in stored
     assert not {"belt", "ice", "coupling"} & set(stored)
@@ -218,13 +218,10 @@ def test_unwritable_folder_is_one_clear_line(tmp_path):
     assert "\n" not in str(caught.value)
 
 
-def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatch):
+def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatch, full_disk):
     dataset = mechanics_dataset()
     write_data(dataset, tmp_path)
     before = (tmp_path / "result.csv").read_bytes()
-
-    def full_disk(*_, **__):
-        raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(pd.DataFrame, "to_csv", full_disk)
     with pytest.raises(OutputError, match="No space left"):

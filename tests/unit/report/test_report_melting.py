@@ -8,7 +8,7 @@ import xarray as xr
 from test_report_dataset import coupled_dataset
 
 from cosim.report import summary
-from cosim.report.contents import blocks_of
+from cosim.report.contents import tables_of
 from cosim.report.figures import PLATES, plates_of
 from cosim.report.heat_numbers import film_of, melting, melts
 from cosim.scenario import Scenario
@@ -47,7 +47,7 @@ def melted(thickness=THICKNESS, **changes) -> xr.Dataset:
     return xr.Dataset(
         {name: ("time", values) for name, values in columns.items()},
         {"time": time},
-        {"parameters": json.dumps(blocks_of(case))},
+        {"parameters": json.dumps(tables_of(case))},
     )
 
 

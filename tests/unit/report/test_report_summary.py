@@ -11,16 +11,16 @@ from test_report_dataset import coupled_dataset, mechanics_dataset, trajectory
 from cosim.report import summary, trajectory_dataset
 from cosim.report.contents import break_aways, slip_intervals
 
-RUN_UP, PERIOD, SLIP, CYCLES = 2.0, 0.5, 0.3, 8
-END = RUN_UP + CYCLES * PERIOD
+RAMP, PERIOD, SLIP, CYCLES = 2.0, 0.5, 0.3, 8
+END = RAMP + CYCLES * PERIOD
 
 
 def made_up(parameters: Parameters | None = None) -> Trajectory:
-    """Eight cycles of 0.5 s after the run-up, each slipping in its last 0.3 s; numbers by hand."""
-    parameters = parameters or Parameters(surface=Surface(speed=0.1, run_up_time=RUN_UP))
+    """Eight cycles of 0.5 s after the ramp, each slipping in its last 0.3 s; numbers by hand."""
+    parameters = parameters or Parameters(surface=Surface(speed=0.1, run_up_time=RAMP))
     time = np.arange(601) * END / 600
     columns = {name: np.zeros(time.size) for name in (port.name for port in OUTPUTS)}
-    starts = RUN_UP + PERIOD - SLIP + PERIOD * np.arange(CYCLES)
+    starts = RAMP + PERIOD - SLIP + PERIOD * np.arange(CYCLES)
     events = [[[t, 1.0, 0.01], [t + SLIP, 0.0, 0.0]] for t in starts]
     events = np.array(events).reshape(-1, 3)[:-1]
     after = np.searchsorted(events[:, 0], time, side="right") - 1
@@ -41,13 +41,13 @@ def numbers(run: Trajectory) -> dict:
 
 def test_stick_slip_numbers_of_a_known_run():
     late = numbers(made_up())["after_run_up"]
-    assert late["begin"] == RUN_UP and late["duration"] == pytest.approx(END - RUN_UP)
+    assert late["begin"] == RAMP and late["duration"] == pytest.approx(END - RAMP)
     assert late["break_aways"] == CYCLES
     assert late["frequency"] == pytest.approx(1.0 / PERIOD)
     assert late["mean_period"] == pytest.approx(PERIOD)
     assert late["slip_share"] == pytest.approx(SLIP / PERIOD)
-    assert late["mean_x"] == pytest.approx(0.01 * (RUN_UP + END) / 2.0 / END)
-    assert (late["min_x"], late["max_x"]) == pytest.approx((0.01 * RUN_UP / END, 0.01))
+    assert late["mean_x"] == pytest.approx(0.01 * (RAMP + END) / 2.0 / END)
+    assert (late["min_x"], late["max_x"]) == pytest.approx((0.01 * RAMP / END, 0.01))
     assert late["max_rotation_deg"] == pytest.approx(12.0, rel=1e-4)
     assert late["mean_heat_flow"] == pytest.approx(0.5 / END)
 
@@ -71,7 +71,7 @@ def test_without_events_the_modes_tell_to_one_interval():
     )
 
 
-def test_a_run_that_ends_in_the_run_up_has_no_stick_slip_numbers():
+def test_a_run_that_ends_in_the_ramp_has_no_stick_slip_numbers():
     run = made_up(Parameters(surface=Surface(run_up_time=100.0)))
     late = numbers(run)["after_run_up"]
     assert late["frequency"] is None and late["slip_share"] is None and late["mean_x"] is None

@@ -77,7 +77,7 @@ REFUSED = {
     "negative friction": ("friction", {"mu_k": -0.1}, ["friction.mu_k", "equal to 0"]),
     "creep backwards": ("friction", {"stick_creep": -1e-3}, ["friction.stick_creep", "equal to 0"]),
     "speed not a number": ("surface", {"speed": math.nan}, ["surface.speed", "finite number"]),
-    "ramp into the past": ("surface", {"run_up_time": -1.0}, ["run_up_time", "equal to 0"]),
+    "speed ramp into the past": ("surface", {"run_up_time": -1.0}, ["run_up_time", "equal to 0"]),
     "start not a number": ("initial", {"x": math.nan}, ["initial.x", "finite number"]),
     "loose solver": ("solver", {"tolerance": 0.1}, ["solver.tolerance", "0.001"]),
     "solver beyond rounding": (

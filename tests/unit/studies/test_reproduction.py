@@ -12,6 +12,7 @@ from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
 
 from cosim.cli import main
 from cosim.cli import reproduce as reproduction_command
+from cosim.report.files import json_text
 from cosim.report.page import number
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
 from cosim.studies.reproduction.cases import DATASET_1, Printed, exact_figures, scheme_figures
@@ -27,7 +28,7 @@ from cosim.studies.reproduction.claim import (
 from cosim.studies.reproduction.claims.belt_length import repeated
 from cosim.studies.reproduction.claims.friction_level import OBSERVATIONS, Variant
 from cosim.studies.reproduction.motion import Motion, figures
-from cosim.studies.reproduction.result import as_json, page
+from cosim.studies.reproduction.result import as_data, page
 from thermal.belt.single_pass import PRINTED as PRINTED_PASS
 
 
@@ -122,7 +123,7 @@ def test_a_part_names_the_faults_behind_it():
 def test_a_scope_is_told_beside_the_verdict():
     claim = replace(claim_of(Check("good", True, True, True)), scope="up to 0.44 m/s")
     assert claim.verdict == "holds"
-    told = json.loads(as_json([claim]))
+    told = json.loads(json_text(as_data([claim])))
     assert told["claims"][0]["scope"] == told["referee"][0]["scope"] == "up to 0.44 m/s"
     assert page([claim], {}).count("up to 0.44 m/s") == 2
 
@@ -168,7 +169,6 @@ def test_figures_of_a_known_motion():
         x,
         0.001 + 0 * x,
         0.1 * np.sin(time),
-        0.1 * np.cos(time),
         0 * x,
         (time > 1.0).astype(float),
         phases,
@@ -272,7 +272,7 @@ def test_verdict_changes_with_the_numbers(monkeypatch):
 
 
 def test_json(quick):
-    data = json.loads(as_json(quick, 1.5))
+    data = json.loads(json_text(as_data(quick, 1.5)))
     assert [one["id"] for one in data["claims"]] == ["C1", "C2", "C3"]
     numbers = data["claims"][0]["numbers"][0]
     assert set(numbers) == {
@@ -297,7 +297,7 @@ def test_json(quick):
         assert one["margins"] and one["turns"] and one["rests_on"] and one["place"]
         assert not one["steady"]  # what would turn it was found
     assert data["faults"].keys() >= DESCRIPTIONS.keys()
-    assert json.loads(as_json([claim_of()]))["claims"][0]["numbers"][0]["mended"] is None
+    assert json.loads(json_text(as_data([claim_of()])))["claims"][0]["numbers"][0]["mended"] is None
 
 
 def test_page(quick):
@@ -417,5 +417,5 @@ def test_belt_check_mended_is_near_the_finite_elements():
     from cosim.studies.reproduction.claims.belt_length import all_mended, finite_elements
 
     assert all_mended(1.0) == pytest.approx(finite_elements(1.0)[0], rel=0.05)
-    # the run-up of 10 s before the run: 0.082 K at the slowest speed
+    # the speed ramp of 10 s before the run: 0.082 K at the slowest speed
     assert finite_elements(1.0, speed=0.15, ramp=10.0)[0] == pytest.approx(0.082, rel=0.02)

@@ -81,7 +81,6 @@ def test_a_swing_is_timed_from_turn_to_turn():
         zero,
         phi,
         zero,
-        zero,
         zero + 1.0,
         np.array([[0.0, 10.0, 1.0]]),
         np.zeros(1),

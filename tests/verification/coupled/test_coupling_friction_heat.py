@@ -12,6 +12,7 @@ from math import exp, expm1
 
 import numpy as np
 import pytest
+from ledgers import exchanged, largest_residual
 
 from cosim.coupling import Connection, CoupledSystem, GaussSeidel, inputs, outputs, port_table, run
 
@@ -119,5 +120,5 @@ def test_beyond_the_stable_step_the_loop_blows_up_and_below_it_does_not():
 
 def test_every_joule_is_accounted_for():
     result = warm(0.37)
-    assert result.ledger.exchanged == pytest.approx(result["friction.heat"][-1], rel=1e-15)
-    assert result.ledger.largest_residual < 1e-12 * result.ledger.exchanged
+    assert exchanged(result.ledger) == pytest.approx(result["friction.heat"][-1], rel=1e-15)
+    assert largest_residual(result.ledger) < 1e-12 * exchanged(result.ledger)

@@ -26,21 +26,21 @@ def scattered(**changes) -> Parameters:
     return Parameters(surface_scatter=size | changes, **X_ONLY)
 
 
-@pytest.mark.parametrize("run_up", [0.0, 1.5])
-def test_ripple_of_the_speed(run_up):
+@pytest.mark.parametrize("ramp", [0.0, 1.5])
+def test_ripple_of_the_speed(ramp):
     """v_s = v (1 + A sin(2 pi f t + phase)), times t/T in a ramp; its integral is the travel."""
     v, a, f, phase = 0.15, 0.2, 1.7, np.radians(50.0)
     run = simulate(
         Parameters(
             speed_ripple={"amplitude": a, "frequency": f, "phase_deg": 50.0},
-            surface={"speed": v, "run_up_time": run_up},
+            surface={"speed": v, "run_up_time": ramp},
             **X_ONLY,
         ),
         4.0,
     )
     t, rate = run.time, 2.0 * np.pi * f
-    ramp = np.minimum(1.0, t / run_up) if run_up else np.ones_like(t)
-    speed = v * ramp * (1.0 + a * np.sin(rate * t + phase))
+    ramp_factor = np.minimum(1.0, t / ramp) if ramp else np.ones_like(t)
+    speed = v * ramp_factor * (1.0 + a * np.sin(rate * t + phase))
     np.testing.assert_allclose(run["surface_speed_actual"], speed, rtol=0, atol=1e-15)
 
     def travel(t):
@@ -48,12 +48,12 @@ def test_ripple_of_the_speed(run_up):
 
     def travel_in_ramp(t):
         swing = np.sin(rate * t + phase) - np.sin(phase) - rate * t * np.cos(rate * t + phase)
-        return (0.5 * t**2 + a / rate**2 * swing) / run_up
+        return (0.5 * t**2 + a / rate**2 * swing) / ramp
 
     exact = v * travel(t)
-    if run_up:
-        after = travel_in_ramp(run_up) + travel(t) - travel(run_up)
-        exact = v * np.where(t < run_up, travel_in_ramp(np.minimum(t, run_up)), after)
+    if ramp:
+        after = travel_in_ramp(ramp) + travel(t) - travel(ramp)
+        exact = v * np.where(t < ramp, travel_in_ramp(np.minimum(t, ramp)), after)
     np.testing.assert_allclose(run["surface_travel"], exact, rtol=0, atol=1e-12)
     stick = run["mode"] == 0
     np.testing.assert_array_equal(run["vx"][stick], run["surface_speed_actual"][stick])
@@ -107,7 +107,7 @@ def test_scatter_has_its_mean_deviation_and_correlation():
 
 
 def test_scatter_along_one_surface():
-    """One seed over a long travel: its waves have the mean, and about the deviation, too."""
+    """One seed, long travel: waves of one field have the mean and nearly the deviation too."""
     along = field(scattered(seed=3), np.linspace(0.0, 400.0, 20001)) - 1.0
     assert abs(along.mean()) < 0.003
     assert along.std() == pytest.approx(0.1, rel=0.01)

@@ -49,14 +49,14 @@ def test_closed_over_thirty_seconds(rig):
 
 
 @pytest.mark.parametrize("free", [("x", "y"), ("x", "phi"), ("x",)])
-@pytest.mark.parametrize("run_up", [0.0, 0.5])
-def test_guided_on_a_turning_surface(free, run_up):
+@pytest.mark.parametrize("ramp", [0.0, 0.5])
+def test_guided_on_a_turning_surface(free, ramp):
     """A block that cannot follow the surface's turn slides on it as soon as that turns."""
     run = simulate(
         Parameters(
             rig=Rig(surface="slab", slab_radius=0.9, degrees_of_freedom=free),
             lateral_friction=LateralFriction(ratio=1.0),
-            surface=Surface(speed=0.3, run_up_time=run_up),
+            surface=Surface(speed=0.3, run_up_time=ramp),
             initial=Initial(x=0.005, y=0.008, phi=0.1),
         ),
         3.0,

@@ -123,19 +123,19 @@ def test_stick_stays_inside_the_limit_surface(seed, on):
     assert max(ratios, default=0.0) <= 1.0 + 1e-9
 
 
-def test_break_away_shortly_before_the_run_up_ends():
+def test_break_away_shortly_before_the_ramp_ends():
     """K x + m v / T = mu_s N with x = v t^2 / (2 T)."""
     stiffness, mass, mu_s, speed = 80.68, 0.67, 0.2815, 0.15
-    for run_up in np.linspace(0.26, 0.30, 41):
+    for ramp in np.linspace(0.26, 0.30, 41):
         run = simulate(
             Parameters(
                 rig={"degrees_of_freedom": ("x",)},
                 friction={"mu_s": mu_s},
-                surface={"speed": speed, "run_up_time": run_up},
+                surface={"speed": speed, "run_up_time": ramp},
             ),
             0.5,
         )
-        load = mu_s * mass * GRAVITY - mass * speed / run_up
-        expected = np.sqrt(2.0 * run_up * load / (stiffness * speed))
-        assert expected < run_up
+        load = mu_s * mass * GRAVITY - mass * speed / ramp
+        expected = np.sqrt(2.0 * ramp * load / (stiffness * speed))
+        assert expected < ramp
         assert run.slip_starts[0] == pytest.approx(expected, abs=1e-9)

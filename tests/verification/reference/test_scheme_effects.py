@@ -1,9 +1,9 @@
 """Every effect in the study's scheme, once its faults are mended, is the kernel's.
 
 The kernel is guided along x, where its exact geometry is linear; the scheme does not scatter. What
-the scheme keeps of its own is its step of 0.1 ms, over which recent heat, distance and predicted
-loads are of first order: over 6 s the motions agree to a few 1e-6 m, where the effects move them by
-3 mm and more.
+the scheme keeps of its own is its step of 0.1 ms, over which the thermal state, distance and
+predicted loads are of first order: over 6 s the motions agree to a few 1e-6 m, where the effects
+move them by 3 mm and more.
 """
 
 import numpy as np

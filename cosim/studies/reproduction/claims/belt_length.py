@@ -26,7 +26,7 @@ SENSITIVITY, SEEN, UNSEEN = 0.07, 1.0, 0.01
 AS_TOLD = 1.5
 # of each face of the belt, W/m2K: still air to a light draught
 HEAT_TRANSFER, STILL_AIR = 15.0, 7.0
-RAMP, SLOWEST = 10.0, 0.15  # s of run-up, §3.4.3; m/s
+RAMP, SLOWEST = 10.0, 0.15  # s of speed ramp, §3.4.3; m/s
 MACRO_STEP = 0.02
 BELT = Belt()
 
@@ -176,7 +176,7 @@ def _other_limits(rise: float) -> list[Turn]:
 
 
 def _other_runs(limit: float) -> list[Turn]:
-    """Finite elements for 1 m of belt in other air, after a run-up, and at the slowest speed."""
+    """Finite elements for 1 m of belt in other air, after a speed ramp, at the slowest speed."""
     cases = (
         (f"{STILL_AIR:.0f} instead of {HEAT_TRANSFER:.0f} W/m²K", {"h": STILL_AIR}, OPEN),
         (f"with the {RAMP:.0f} s of run-up before the run", {"ramp": RAMP}, OPEN),

@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.style import GREY, panels, picture
+from cosim.report.style import GREY, LIGHT_GREY, panels, picture
 from cosim.studies.reproduction.cases import STUDY, Printed
 
 from ..cases import (
@@ -292,12 +293,12 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     "Every variant beside the five known observations; grey: as close as "
     "the wording of the observation tells.",
 )
-def _draw_observations(of: dict[str, Variant]):
+def _draw_observations(of: dict[str, Variant]) -> Figure:
     figure, axes = panels(1, len(OBSERVATIONS), height=3.9, width=10.0, sharey=True)
     names = [variant.name for variant in of.values()]
     places = range(len(names))
     for i, (ax, o) in enumerate(zip(axes[0], OBSERVATIONS, strict=True)):
-        ax.axvspan(o.value - o.spread, o.value + o.spread, color="#E3E3E3")
+        ax.axvspan(o.value - o.spread, o.value + o.spread, color=LIGHT_GREY)
         ax.axvline(o.value, color=GREY, lw=1.0)
         for place, variant in zip(places, of.values(), strict=True):
             ax.plot(variant.values[i], place, "o", color=_colour(variant.name))
@@ -323,7 +324,7 @@ def _colour(name: str) -> str:
     "x(t), steady, m 0.67 kg, k 20.17 N/m, v 0.15 m/s. Dashed: the "
     "measured mean of x. Study: figures 4.18a and b.",
 )
-def _draw_motion():
+def _draw_motion() -> Figure:
     shown = (
         ("#1: as printed, µ full", scheme_motion(DATASET_1, PRINTED), COLOURS["printed"]),
         ("#2: as printed, µ quarter", scheme_motion(DATASET_2, PRINTED), COLOURS["printed"]),

@@ -7,6 +7,7 @@ from functools import cache
 from itertools import product
 
 import numpy as np
+from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED
 
 from cosim.report.style import panels, picture
@@ -213,7 +214,7 @@ def _told(counts: dict[float, float]) -> str:
     "x(t), steady, for µ_k/µ_s = 0.5, 0.77, 1.0 (m 0.67 kg, k 20.17 N/m, v 0.15 "
     "m/s). Study: figure 5.11.",
 )
-def _draw():
+def _draw() -> Figure:
     figure, axes = panels(len(RATIOS), 1, height=1.7, sharex=True, sharey=True)
     for ax, ratio in zip(axes[:, 0], RATIOS, strict=True):
         case = _case(ratio)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.report.style import INK, panels, picture
@@ -193,7 +194,7 @@ def _no_rotation(plan: list[Case]) -> Turn:
     "end in a jump to the surface's speed; dotted: the run is over with its 25th slip. "
     "Study: figure 5.5.",
 )
-def _draw(case: Case):
+def _draw(case: Case) -> Figure:
     figure, axes = panels(2, 1, height=1.9, sharex=True, sharey=True)
     for ax, name, faults in ((axes[0, 0], "printed", PRINTED), (axes[1, 0], "mended", MENDED)):
         run = scheme(case, faults).run(cycles=CYCLES, duration=longest(case))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.figure import Figure
 from stickslip.reference.faults import PRINTED
 
 from cosim.report.style import panels, picture
@@ -290,7 +291,7 @@ def _without_rotation() -> float:
     "Mean µ_k over mass for stiffnesses to 136.44 N/m (columns) and speeds "
     "(lines), by model (rows). Study: figures 5.8 and 5.10.",
 )
-def _draw(mu: Grid):
+def _draw(mu: Grid) -> Figure:
     figure, axes = panels(
         len(MODELS), len(ALL_STIFFNESSES), height=2.1, width=10.0, sharex=True, sharey=True
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
 from cosim.report.style import panels, picture
@@ -196,7 +197,7 @@ def _readings() -> list[Turn]:
     "φ(t) of datasets #1 and #2 as printed and mended (of eight runs each the "
     "one that turns farthest) and in the exact model. Study: figure 4.21.",
 )
-def _draw():
+def _draw() -> Figure:
     figure, axes = panels(1, 2, height=2.7)
     for ax, (name, case) in zip(axes[0], CASES.items(), strict=True):
         runs: dict[str, Motion] = {

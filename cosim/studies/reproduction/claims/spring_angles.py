@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
@@ -253,7 +254,7 @@ def _bounded_by_scatter() -> Turn:
     "x, φ and y of the four spring-angle treatments (m 0.67 kg, k 20.17 "
     "N/m, v 0.15 m/s); left as printed, right mended. Study: figures 4.6 and 4.7.",
 )
-def _draw(printed: dict[str, Motion], mended: dict[str, Motion]):
+def _draw(printed: dict[str, Motion], mended: dict[str, Motion]) -> Figure:
     figure, axes = panels(3, 2, height=2.0, sharex="col", sharey="row")
     for column, (title, runs) in enumerate((("as printed", printed), ("mended", mended))):
         # thinner one by one, so that those that coincide are all seen

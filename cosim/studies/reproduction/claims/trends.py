@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.stats import spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
@@ -143,7 +144,7 @@ def _no_weakening() -> Turn:
     "Mean of x over mass for the study's stiffnesses (columns) and speeds "
     "(lines), by model (rows). Study: figures 5.2a to d.",
 )
-def _draw_grid(means: Grid):
+def _draw_grid(means: Grid) -> Figure:
     figure, axes = panels(len(MODELS), len(STIFFNESSES), height=2.2, sharex=True, sharey="row")
     shown = {model: 100.0 * values for model, values in means.items()}
     over_mass(figure, axes, MASSES, STIFFNESSES, SPEEDS, shown, "mean x, cm")
@@ -151,7 +152,7 @@ def _draw_grid(means: Grid):
 
 
 @picture("C8_mass", "Mean of x over mass at k 38.50 N/m, v 0.37 m/s. Study: figure 5.3.")
-def _draw_line(line: dict[str, np.ndarray]):
+def _draw_line(line: dict[str, np.ndarray]) -> Figure:
     figure, axes = panels(1, 1, height=2.8, width=5.5)
     by_model(axes[0, 0], LINE_MASSES, line, 100.0)
     axes[0, 0].set_xlabel("mass, kg")
@@ -281,7 +282,7 @@ def _rank(times: np.ndarray) -> float:
     "Mean slip time over the speed of the surface, m 0.67 kg, k 20.17 N/m; "
     "line: closed form with constant µ. Study: figure 5.6.",
 )
-def _draw_times(times: dict[str, np.ndarray]):
+def _draw_times(times: dict[str, np.ndarray]) -> Figure:
     figure, axes = panels(1, 1, height=3.0, width=6.0)
     ax = axes[0, 0]
     by_model(ax, FINE_SPEEDS, times)

@@ -65,12 +65,12 @@ class Candidate:
     @property
     def off(self) -> dict[str, float]:
         """Values of what is searched with which the last effect is not there."""
-        blocks = {entry.id: entry.table for entry in EFFECTS}
+        tables = {entry.id: entry.table for entry in EFFECTS}
         keys = [span.key.split(".") for span in self.spans] if self.effects else []
         return {
-            f"{block}.{name}": float(blocks[block].model_fields[name].default)
-            for block, name in keys
-            if block == self.effects[-1]
+            f"{table}.{name}": float(tables[table].model_fields[name].default)
+            for table, name in keys
+            if table == self.effects[-1]
         }
 
     @property

@@ -18,12 +18,10 @@ from stickslip.reference.faults import PRINTED
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_effects import SchemeEffects
 
-from cosim.studies.reproduction.motion import Motion
+from cosim.studies.reproduction.motion import BAND, Motion, time_mean
 
 Array = NDArray[np.float64]
 
-# an oscillation counts once it has left a band of this part of the range about the mean
-BAND = 0.1
 # half range below which nobody sees an oscillation in a plotted record, m
 VISIBLE = 5e-4
 
@@ -39,7 +37,7 @@ def figures(motion: Motion) -> dict[str, float]:
     upward = _upward_crossings(motion.time, motion.x) if half_range > VISIBLE else np.empty(0)
     return {
         "mean_x": _cycle_mean(motion.time, motion.x, upward),
-        "mean_y": _time_mean(motion.time, motion.y),
+        "mean_y": time_mean(motion.time, motion.y),
         "amplitude_x": half_range,
         "frequency": _rate(upward),
         "max_rotation_deg": float(np.degrees(np.abs(motion.phi).max())),
@@ -65,18 +63,14 @@ def _mean(values: Array) -> float:
     return float(values.mean()) if values.size else math.nan
 
 
-def _time_mean(time: Array, values: Array) -> float:
-    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
-
-
 def _cycle_mean(time: Array, x: Array, upward: Array) -> float:
     """Mean over whole oscillations, as a cut one would tilt it; else over all the time."""
     if len(upward) < 2:
-        return _time_mean(time, x)
+        return time_mean(time, x)
     ends = upward[[0, -1]]
     first, last = np.interp(ends, time, x)
     inside = (time > ends[0]) & (time < ends[1])
-    return _time_mean(
+    return time_mean(
         np.concatenate([ends[:1], time[inside], ends[1:]]),
         np.concatenate([[first], x[inside], [last]]),
     )
@@ -84,7 +78,7 @@ def _cycle_mean(time: Array, x: Array, upward: Array) -> float:
 
 def _upward_crossings(time: Array, x: Array) -> Array:
     """Times at which x has risen through a band about its mean, one an oscillation."""
-    away = x - _time_mean(time, x)
+    away = x - time_mean(time, x)
     band = BAND * float(np.ptp(x))
     side = np.where(away > band, 1, np.where(away < -band, -1, 0))
     seen = np.flatnonzero(side)

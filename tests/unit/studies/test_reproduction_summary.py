@@ -53,7 +53,7 @@ def swing(amplitude=0.01, mean=0.02, frequency=1.3) -> Motion:
     none = np.zeros_like(time)
     turned = np.radians(-7.0) * np.ones_like(time)
     jumps = np.zeros(len(phases))
-    return Motion(time, x, none - 0.003, turned, none, none, none, phases, jumps)
+    return Motion(time, x, none - 0.003, turned, none, none, phases, jumps)
 
 
 def test_figures_of_a_swing():

@@ -1,0 +1,1 @@
+"""The simulator: forces on a hidden rig, and its motion in tiny fixed steps."""
