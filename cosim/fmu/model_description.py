@@ -41,7 +41,7 @@ def parameter_table() -> list[Entry]:
     """Every parameter of the FMU, with unit, bounds and description from the parameter models.
 
     One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
-    is excluded), description, start.
+    is excluded), description, start. Raises ValueError for a unit that `UNITS` lacks.
     """
     return [_entry(name, start) for name, start in Parameters().flat().items()]
 
@@ -83,11 +83,16 @@ def _entry(name: str, start: float) -> Entry:
         if getattr(bound, kind, None) is not None
     }
     whole = field.annotation is int
+    unit = None if whole else details(field)["unit"]
+    if unit is not None and unit not in UNITS:
+        raise ValueError(
+            f"effect or table {group}: {key} is in {unit!r}, a unit that UNITS of {__name__} lacks"
+        )
     return (
         entry
         | ({"start": int(start), "nominal": None} if whole else {})
         | {
-            "unit": None if whole else details(field)["unit"],
+            "unit": unit,
             "min": bounds.get("gt", bounds.get("ge")),
             "max": bounds.get("le"),
             "above_min": "gt" in bounds,

@@ -16,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from stickslip import Parameters
 from stickslip.kernel.layout import (
     P_MIXED_LUBRICATION_COUETTE,
     P_MIXED_LUBRICATION_ROUGHNESS,
@@ -280,8 +279,3 @@ def mean_of(values: Array) -> float | None:
     """Mean of what is a number; None where nothing is."""
     known = values[np.isfinite(values)]
     return float(known.mean()) if known.size else None
-
-
-def floods(parameters: Parameters) -> bool:
-    """Whether the friction of a rig feels the film."""
-    return parameters.mixed_lubrication.share > 0.0

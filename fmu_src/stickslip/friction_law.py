@@ -1,4 +1,4 @@
-"""The friction law by itself: what a contact that slides steadily is braked by."""
+"""The friction law by itself: what a contact that slides steadily is braked by, what it feels."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from .arrays import inputs
 from .arrays import interface_temperature as temperature_of
 from .compiled import compiled_kernel
 from .kernel.layout import P_NORMAL_FORCE, W_FRICTION, W_SIZE
+from .kernel.terms import feels_film
 from .parameters import Parameters
 
 
@@ -39,3 +40,8 @@ def friction_coefficient(
         kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)
         coefficients[i] = -w[W_FRICTION] / p[P_NORMAL_FORCE]
     return coefficients
+
+
+def feels_water(parameters: Parameters) -> bool:
+    """Whether water in the contact matters to its friction, by any of the effects that are on."""
+    return bool(feels_film(parameters.pack()))

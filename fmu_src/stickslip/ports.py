@@ -23,7 +23,7 @@ class Port:
 
 # The starts are those of the study's reference case.
 INPUTS = (
-    Port("surface_speed", "U_SPEED", "m/s", 0.1, "Speed of the surface after run-up", start=0.15),
+    Port("surface_speed", "U_SPEED", "m/s", 0.1, "Speed of the surface after its ramp", start=0.15),
     Port(
         "interface_temperature",
         "U_TEMPERATURE",
@@ -59,8 +59,8 @@ OUTPUTS = (
     Port("sliding_speed", "O_SLIDING_SPEED", "m/s", 0.1, "Local sliding speed, mean", min=0.0),
     Port("heat_flow", "O_HEAT_FLOW", "W", 0.1, "Friction heat, mean over the last step", min=0.0),
     Port("heat", "O_HEAT", "J", 1.0, "Friction heat since the start", min=0.0),
-    Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Local way slid, mean", min=0.0),
-    Port("surface_travel", "O_TRAVEL", "m", 1.0, "Way of the surface since the start"),
+    Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Local sliding distance, mean", min=0.0),
+    Port("surface_travel", "O_TRAVEL", "m", 1.0, "Travel of the surface since the start"),
     Port("mode", "O_MODE", None, None, "0 stick, 1 slip", min=0, max=1),
     Port("slip_time", "O_SLIP_TIME", "s", 1.0, "Time spent in slip since the start", min=0.0),
     Port("slip_count", "O_SLIPS", None, None, "Break-aways since the start", min=0),
@@ -68,5 +68,7 @@ OUTPUTS = (
     Port("surface_work", "O_SURFACE_WORK", "J", 1.0, "Work of the surface on the block"),
     Port("external_work", "O_EXTERNAL_WORK", "J", 1.0, "Work of the external forces"),
     Port("damping_heat", "O_DAMPED", "J", 1.0, "Heat in structural damping", min=0.0),
-    Port("surface_speed_actual", "O_SURFACE_SPEED", "m/s", 0.1, "Speed of the surface, run-up in"),
+    Port(
+        "surface_speed_actual", "O_SURFACE_SPEED", "m/s", 0.1, "Speed of the surface, ramp included"
+    ),
 )

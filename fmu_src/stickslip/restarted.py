@@ -1,4 +1,4 @@
-"""A run that is set to given states at given moments: model flights between measured states.
+"""A run that is set to given states at given moments: simulated segments between measured states.
 
 Positions and velocities are set; what cannot be seen of a block - the heat and the age of its
 contact, the distance slid, the place on the surface - goes on from the model's own past.

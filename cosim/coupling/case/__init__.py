@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from stickslip import EFFECTS
+
 from cosim.coupling import (
     Connection,
     CoupledResult,
@@ -98,10 +100,10 @@ def run_scenario(
 
 def feels_melting(scenario: Scenario) -> bool:
     """Whether friction is another where the face of the ice melts, by law or by the water there."""
-    return (
-        scenario.temperature_dependence.sensitivity > 0.0
-        or scenario.asperity_melting.length > 0.0
-        or scenario.mixed_lubrication.share > 0.0
+    return any(
+        getattr(getattr(scenario, effect.id), switch) > 0.0
+        for effect in EFFECTS
+        for switch in effect.feels_melting
     )
 
 

@@ -9,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from stickslip.friction_law import feels_water
 
 from cosim.report.contents import mechanics_of
-from cosim.report.heat_numbers import SINKS, Film, all_other_heat, film_of, floods, held
+from cosim.report.heat_numbers import SINKS, Film, all_other_heat, film_of, held
 from cosim.report.style import (
     BLUE,
     GREEN,
@@ -115,7 +116,7 @@ def draw_melting(dataset: xr.Dataset) -> Figure:
     """Stresses in the contact, thickness of the film, melted and frozen mass."""
     figure, axes = time_panels(dataset, rows=3, height=2.3, share_y=False)
     film, time = film_of(dataset), dataset["time"].values
-    parts = floods(mechanics_of(dataset))
+    parts = feels_water(mechanics_of(dataset))
     stress = readable(film.friction, "Pa")
     thickness = readable(film.thickness, "m")
     mass = readable(1e3 * dataset["melted_mass"].values, "g")

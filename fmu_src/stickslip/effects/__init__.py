@@ -4,6 +4,7 @@ An effect joins the house by one line in ``FILES``. Their order is that of the F
 of the terms that meet in one place of the kernel: append.
 """
 
+from collections.abc import Iterable
 from importlib import import_module
 
 from .effect import Effect
@@ -24,11 +25,26 @@ FILES = (
     "friction.load_dependence",
     "springs.spring_misalignment",
     "contact.stick_stiffness",
-    "friction.temperature_dependence",
-    "friction.asperity_melting",
-    "friction.melt_film",
+    "melting.temperature_dependence",
+    "melting.asperity_melting",
+    "melting.melt_film",
     "contact.rate_and_state",
-    "friction.mixed_lubrication",
+    "melting.mixed_lubrication",
     "friction.viscoelastic_peak",
 )
-EFFECTS: tuple[Effect, ...] = tuple(import_module(f"{__name__}.{file}").EFFECT for file in FILES)
+
+
+def catalogue(files: Iterable[str]) -> tuple[Effect, ...]:
+    """The effects that some files declare. Raises ValueError for none in a file, or one twice."""
+    declared: dict[str, Effect] = {}
+    for file in files:
+        effect = getattr(import_module(f"{__name__}.{file}"), "EFFECT", None)
+        if not isinstance(effect, Effect):
+            raise ValueError(f"effects/{file.replace('.', '/')}.py declares no Effect named EFFECT")
+        if effect.id in declared:
+            raise ValueError(f"effect {effect.id}: declared twice, again by {file}")
+        declared[effect.id] = effect
+    return tuple(declared.values())
+
+
+EFFECTS = catalogue(FILES)

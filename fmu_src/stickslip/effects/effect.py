@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..quantity import Table
+from ..quantity import Table, details
 from .candidate import Candidate, Scales
 
 #: A function of numbers: floats in, a float out, `math` only. Its name says where it enters or what
@@ -88,6 +88,8 @@ class Effect:
     candidates : what a fit may turn in a campaign of such scales
     offered : whether `gap` tries them by itself, or only where somebody names the effect: one more
         law is one more chance to be wrong, and a campaign's answer is not to change by it
+    feels_melting : switches by any of which friction in slip is another where the face of the ice
+        melts, for its temperature or for the water
     """
 
     id: str
@@ -104,6 +106,31 @@ class Effect:
     core: Mapping[str, str] = field(default_factory=dict)
     candidates: Callable[[Scales], Iterable[Candidate]] = no_candidates
     offered: bool = True
+    feels_melting: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Refuses, by one line that names the effect, what would fail later and less clearly."""
+        for name in ("switch", "terms", "derived", "states", "feels_melting"):
+            if not isinstance(getattr(self, name), tuple):
+                raise ValueError(f"effect {self.id}: {name} is no tuple: (a,) is one of one member")
+        fields = self.table.model_fields
+        if not self.switch:
+            raise ValueError(f"effect {self.id}: no switch: which parameters turn it on?")
+        for named in ("switch", "core", "feels_melting"):
+            for name in getattr(self, named):
+                if name not in fields:
+                    raise ValueError(
+                        f"effect {self.id}: {named} {name!r} is no parameter; "
+                        f"there are {', '.join(fields)}"
+                    )
+        for name, each in fields.items():
+            said = details(each)
+            if not said.get("unit"):
+                raise ValueError(f"effect {self.id}: {name} has no unit: declare it by `quantity`")
+            if "typical" not in said and "tried" not in said:
+                raise ValueError(
+                    f"effect {self.id}: {name} has neither a typical range nor a tried one"
+                )
 
     @property
     def sentence(self) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from ..effects.effect import Effect
-from .functions import EffectFunctions, arguments, imports_text
+from .check import check
+from .functions import WHEN_PACKED, EffectFunctions, arguments, imports_text
 from .places import CONSTANTS, PACKED, Place
 from .slots import derived_slots, parameter_slots
 
@@ -14,12 +15,14 @@ _TYPES = "p: list[float], values: Mapping[str, float]"
 
 def derived_source(effects: Sequence[Effect]) -> str:
     """The whole text: for `packing`, in plain Python, without the kernel's restrictions."""
+    for effect in effects:
+        check(effect)
     packed = {place.name for place in PACKED}
     texts: list[str] = []
     imports = {("collections.abc", "Mapping")}
     for effect in effects:
         wanted = [*effect.derived, *(term for term in effect.terms if term.__name__ in packed)]
-        text, taken = EffectFunctions(effect).text(wanted)
+        text, taken = EffectFunctions(effect).text(wanted, WHEN_PACKED)
         texts += [text] if text else []
         imports |= taken
     texts.append(_set_numbers(effects))
@@ -36,18 +39,21 @@ def effect_slot_names(effects: Sequence[Effect]) -> dict[str, str]:
     }
 
 
-def _bound(effect: Effect, name: str) -> str:
+def _bound(effect: Effect, function: Callable[..., object], name: str) -> str:
     if name in effect.table.model_fields:
         return f'values["{effect.id}.{name}"]'
     if name in derived_slots(effect):
         return f"p[{derived_slots(effect)[name][0]}]"
     if name in CONSTANTS:
         return CONSTANTS[name]
-    raise ValueError(f"effect {effect.id}: nothing that a run begins with is called {name!r}")
+    raise ValueError(
+        f"effect {effect.id}: {function.__name__} takes {name!r}: "
+        "no number of the effect, and none that a run begins with"
+    )
 
 
 def _call(effect: Effect, function: Callable[..., object]) -> str:
-    given = ", ".join(_bound(effect, name) for name in arguments(function))
+    given = ", ".join(_bound(effect, function, name) for name in arguments(function))
     return f"{EffectFunctions(effect).name(function)}({given})"
 
 
@@ -78,7 +84,7 @@ def _packed_function(place: Place, effects: Sequence[Effect]) -> str:
             call = _call(effect, term)
             switches = [name for name in effect.switch if name in arguments(term)]
             on = " or ".join(
-                f"{_bound(effect, name)} != {effect.table.model_fields[name].default!r}"
+                f"{_bound(effect, term, name)} != {effect.table.model_fields[name].default!r}"
                 for name in switches or effect.switch
             )
             lines.append(f"    if {on}:")

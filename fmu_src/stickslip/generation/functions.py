@@ -3,20 +3,43 @@
 from __future__ import annotations
 
 import ast
+import builtins
 import inspect
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from functools import cached_property
+from typing import NamedTuple
 
 from ..effects.effect import Effect
+
+
+class Vocabulary(NamedTuple):
+    """What functions may use that is not of their file: names, and names imported from modules.
+
+    said: the same in words, for whoever used another.
+    """
+
+    names: Collection[str]
+    modules: Collection[str]
+    said: str
+
+
+#: Of the text that is also compiled, by numba and as C.
+IN_KERNEL = Vocabulary(
+    ("abs", "bool", "float", "int", "max", "min", "range"), ("math",), '"from math import ..."'
+)
+#: Of the text that only Python runs, here and in an FMU.
+WHEN_PACKED = Vocabulary(
+    dir(builtins), sys.stdlib_module_names, '"from ... import ..." of the standard library'
+)
 
 
 class EffectFunctions:
     """What an effect's file defines, by name.
 
     Each function becomes ``<id>_<name>``, together with the functions of the file that it calls;
-    numbers that the file names are put in. Raises ValueError for a function that takes anything
-    else from its file.
+    numbers that the file names are put in. Raises ValueError for a function that uses anything
+    else.
     """
 
     def __init__(self, effect: Effect) -> None:
@@ -57,16 +80,25 @@ class EffectFunctions:
         """By which the text calls a function."""
         return f"{self.effect.id}_{function.__name__}"
 
-    def text(self, functions: Iterable[Callable[..., object]]) -> tuple[str, set[tuple[str, str]]]:
+    def text(
+        self, functions: Iterable[Callable[..., object]], vocabulary: Vocabulary
+    ) -> tuple[str, set[tuple[str, str]]]:
         """The functions with those that they call, in the file's order; and (module, name) of what
         they import."""
         wanted, imports = [function.__name__ for function in functions], set()
         for name in wanted:  # grows as it goes
+            if name not in self._defined:
+                raise ValueError(f"effect {self.effect.id}: {name} is no function of its file")
             for used in self._names_in(self._defined[name]):
-                if used in self._defined and used not in wanted:
-                    wanted.append(used)
-                elif used in self._imported:
+                if used in self._defined:
+                    wanted += [] if used in wanted else [used]
+                elif self._imported.get(used) in vocabulary.modules:
                     imports.add((self._imported[used], used))
+                elif used not in self._numbers and used not in vocabulary.names:
+                    raise ValueError(
+                        f"effect {self.effect.id}: term {name} uses {used}: a term may use "
+                        f"numbers, functions of its file and {vocabulary.said}"
+                    )
         parts = [self._renamed(node) for name, node in self._defined.items() if name in wanted]
         return "\n\n\n".join(parts), imports
 

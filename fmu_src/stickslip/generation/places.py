@@ -52,6 +52,16 @@ class Place:
     words: tuple[str, ...] = ()
     arrays: str = "p u w"
 
+    @property
+    def local(self) -> tuple[str, ...]:
+        """Words that a term takes from the place itself."""
+        return (self.so_far, *self.words) if self.so_far else self.words
+
+    @property
+    def sees_motion(self) -> bool:
+        """Whether `WORDS` and the effects' states can be taken."""
+        return "w" in self.arrays.split()
+
 
 #: In the kernel, in the order in which a coefficient of friction meets them.
 PLACES = (
@@ -96,5 +106,6 @@ PACKED = (
     Place("anchor_shift", "shift of every anchor along y, m", "add"),
     Place("fastest_rate", "rate of the drive's fastest change, rad/s", "largest"),
 )
-#: What the rate of a state can take besides.
-RATE_WORDS = ("friction_power", "speed")  # W, mean local sliding speed m/s
+#: Not places of terms, but where the rate and the scale of a state take their numbers.
+RATE = Place("rate", "rate of a state", "replace", words=("friction_power", "speed"))  # W, m/s
+SCALE = Place("scale", "what counts as much as the speed", "replace", words=("speed",), arrays="p")

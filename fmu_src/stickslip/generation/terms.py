@@ -11,8 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..effects.effect import Effect, Term
-from .functions import EffectFunctions, arguments, imports_text
-from .places import CONSTANTS, LOCAL, MEMORY, PLACES, RATE_WORDS, WORDS, Place
+from .check import check
+from .functions import IN_KERNEL, EffectFunctions, arguments, imports_text
+from .places import CONSTANTS, LOCAL, MEMORY, PLACES, RATE, SCALE, WORDS, Place
 from .slots import (
     derived_slots,
     functions_in_kernel,
@@ -27,10 +28,10 @@ _ARRAY = '"float[:]"'
 def terms_source(effects: Sequence[Effect]) -> str:
     """The whole text. Raises ValueError for a term whose place or argument nobody knows."""
     for effect in effects:
-        _check(effect)
+        check(effect)
     texts, imports = [], set()
     for effect in effects:
-        text, taken = EffectFunctions(effect).text(functions_in_kernel(effect))
+        text, taken = EffectFunctions(effect).text(functions_in_kernel(effect), IN_KERNEL)
         texts += [text] if text else []
         texts += [_sum(effect, word) for word in effect.sums]
         imports |= taken
@@ -40,41 +41,27 @@ def terms_source(effects: Sequence[Effect]) -> str:
     return imports_text(imports) + "\n\n\n" + "\n\n\n".join(texts) + "\n"
 
 
-def _check(effect: Effect) -> None:
-    """That words, parameters and states keep apart, and that what is off is zero."""
-    known = {place.name for place in PLACES}
-    for term in kernel_terms(effect):
-        if term.__name__ not in known:
-            raise ValueError(
-                f"effect {effect.id}: no place {term.__name__!r} in the kernel; "
-                f"there are {', '.join(sorted(known))}"
-            )
-        for name in effect.switch:
-            if effect.table.model_fields[name].default != 0.0:
-                raise ValueError(f"effect {effect.id}: {name} is not off at 0")
-    own = {*effect.table.model_fields, *(f.__name__ for f in effect.derived)}
-    both = own & {*WORDS, *CONSTANTS}
-    if both:
-        raise ValueError(f"effect {effect.id}: {', '.join(sorted(both))}: the kernel's own words")
-
-
-def bound(effect: Effect, name: str, local: Iterable[str]) -> str:
-    """The kernel's expression for an argument of a term; ``local``: words of its place."""
-    if name in local:
+def bound(effect: Effect, function: Term, name: str, place: Place) -> str:
+    """The kernel's expression for an argument of a term, or of a sum or state's function."""
+    if name in place.local:
         return name
     if name in effect.sums:
-        return _sum_call(effect, name, local)
-    if name in {state.name for state in effect.states}:
-        return f"w[W_STATE + {state_slot(effect, name)}]"
+        return _sum_call(effect, name, place)
     if name in parameter_slots(effect):
         return f"p[{parameter_slots(effect)[name]}]"
     if name in derived_slots(effect):
         return f"p[{derived_slots(effect)[name][0]}]"
-    if name in WORDS:
-        return WORDS[name]
     if name in CONSTANTS:
         return CONSTANTS[name]
-    raise ValueError(f"effect {effect.id}: nothing in the kernel is called {name!r}")
+    moving = WORDS | {
+        state.name: f"w[W_STATE + {state_slot(effect, state.name)}]" for state in effect.states
+    }
+    term = f"effect {effect.id}: {function.__name__} takes {name!r}"
+    if name not in moving:
+        raise ValueError(f"{term}: neither a number of the effect nor a word of {place.name}")
+    if not place.sees_motion:
+        raise ValueError(f"{term}: {place.name} knows nothing of the motion but its own words")
+    return moving[name]
 
 
 def guard(effect: Effect, function: Term) -> str:
@@ -84,8 +71,8 @@ def guard(effect: Effect, function: Term) -> str:
     return " or ".join(f"p[{slots[name]}] != 0.0" for name in taken)
 
 
-def _call(effect: Effect, function: Term, local: Iterable[str]) -> str:
-    given = ", ".join(bound(effect, name, local) for name in arguments(function))
+def _call(effect: Effect, function: Term, place: Place) -> str:
+    given = ", ".join(bound(effect, function, name, place) for name in arguments(function))
     return f"{EffectFunctions(effect).name(function)}({given})"
 
 
@@ -101,14 +88,13 @@ def _signature(place: Place) -> str:
 
 def _place_function(place: Place, effects: Sequence[Effect]) -> str:
     value = place.so_far or "value"
-    local = (value, *place.words) if place.so_far else place.words
     sign = {"add": "+=", "multiply": "*=", "replace": "="}[place.joins]
     lines = [f"def with_{place.name}({_signature(place)}) -> float:"]
     lines.append(f'    """Returns with every effect: {place.meaning}."""')
     terms = _terms_at(place.name, effects)
     for number, (effect, term) in enumerate(terms):
         lines.append(f"    if {guard(effect, term)}:")
-        lines.append(f"        {value} {sign} {_call(effect, term, local)}")
+        lines.append(f"        {value} {sign} {_call(effect, term, place)}")
         if place.name == "surface_acceleration" and number + 1 < len(terms):
             lines += _speed_for_the_next(effect, effects)
     return "\n".join([*lines, f"    return {value}"])
@@ -116,9 +102,10 @@ def _place_function(place: Place, effects: Sequence[Effect]) -> str:
 
 def _speed_for_the_next(effect: Effect, effects: Sequence[Effect]) -> list[str]:
     """The speed that the next effect's acceleration is made of, with that of this effect."""
-    for other, term in _terms_at("surface_speed", effects):
+    place = next(place for place in PLACES if place.name == "surface_speed")
+    for other, term in _terms_at(place.name, effects):
         if other is effect:
-            return [f"        steady_speed = {_call(other, term, ('steady_speed', 'time'))}"]
+            return [f"        {place.so_far} = {_call(other, term, place)}"]
     return []
 
 
@@ -143,9 +130,10 @@ def _sum(effect: Effect, word: str) -> str:
     )
 
 
-def _sum_call(effect: Effect, word: str, local: Iterable[str]) -> str:
-    names = [name for name in arguments(effect.sums[word]) if name not in effect.series]
-    given = ", ".join(["p", *(bound(effect, name, local) for name in names)])
+def _sum_call(effect: Effect, word: str, place: Place) -> str:
+    member = effect.sums[word]
+    names = [name for name in arguments(member) if name not in effect.series]
+    given = ", ".join(["p", *(bound(effect, member, name, place) for name in names)])
     return f"{effect.id}_{word}({given})"
 
 
@@ -169,14 +157,14 @@ def _state_functions(effects: Sequence[Effect]) -> list[str]:
             rates += [
                 "    rate = 0.0",
                 f"    if {guard(effect, state.rate)}:",
-                f"        rate = {_call(effect, state.rate, RATE_WORDS)}",
+                f"        rate = {_call(effect, state.rate, RATE)}",
                 f"    w[out + {at} - 1] = rate",
             ]
             value = f"p[{parameter_slots(effect)[state.start]}]" if state.start else "0.0"
             starts.append(f"    z[at + {at}] = {value}")
             if state.scale is not None:
                 scales.append(f"    if i == {at}:")
-                scales.append(f"        value = {_call(effect, state.scale, ('speed',))}")
+                scales.append(f"        value = {_call(effect, state.scale, SCALE)}")
     return ["\n".join(rates), "\n".join(starts), "\n".join([*scales, "    return value"])]
 
 

@@ -22,7 +22,7 @@ class SchemeEffects(NamedTuple):
     on: bool = False
     stick_springs: float = 0.0
     lateral: float = 0.0
-    strengthening: float = 0.0
+    ageing: float = 0.0
     hold_time: float = 0.01
     film: float = 0.0
     weakening_per_joule: float = 0.0
@@ -104,8 +104,8 @@ def load_in_stick(rig, effects, t, x):
 def held_in_stick(rig, effects, t, hold, x):
     """What the contact holds after ``hold`` (s) of stick, N."""
     mu = rig.mu_s * place_factor(effects, x - surface_travel(rig, effects, t))
-    if effects.strengthening != 0.0:
-        mu += effects.strengthening * math.log10(1.0 + hold / effects.hold_time)
+    if effects.ageing != 0.0:
+        mu += effects.ageing * math.log10(1.0 + hold / effects.hold_time)
     return mu * rig.normal_force
 
 

@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from effect_cases import IDS, SCALES
 from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
-from stickslip import Parameters
-from stickslip.effects.candidate import OFFSETS, Candidate, FreeParameter, Scales
+from stickslip import EFFECTS, Parameters
+from stickslip.effects.candidate import OFFSETS, Candidate, FreeParameter
+from stickslip.effects.effect import no_candidates
 
 from cosim.gap import read_campaign
 from cosim.gap.candidates.catalogue import candidates
@@ -23,50 +25,33 @@ from cosim.gap.selection.alternatives import other_starts
 from cosim.gap.selection.search import Search
 from cosim.gap.selection.tried import ACROSS, Tried
 
-EFFECTS = (
-    "lateral_friction",
-    "turning_surface",
-    "static_strengthening",
-    "velocity_weakening",
-    "film_drag",
-    "thermal_weakening",
-    "run_in",
-    "spring_hardening",
-    "structural_damping",
-    "speed_ripple",
-    "surface_pattern",
-    "load_dependence",
-    "spring_misalignment",
-    "stick_stiffness",
-)
-SIDEWAYS = {"lateral_friction", "turning_surface", "spring_misalignment"}
-SCALES = Scales(
-    speed=0.15,
-    distance=3.0,
-    heat=5.0,
-    duration=20.0,
-    stiffness=38.5,
-    travel=0.02,
-    mass=0.87,
-    force=8.5,
-    extension=0.03,
-)
 OFFERED = candidates(SCALES)
-EVERY = [pytest.param(c, id=f"{c.effect} {c.form} {i}") for i, c in enumerate(OFFERED)]
+#: Also those that are only tried where somebody names them.
+ALL = candidates(SCALES, also=IDS)
+EVERY = [pytest.param(c, id=f"{c.effect} {c.form} {i}") for i, c in enumerate(ALL)]
 KEYS = set(Parameters().flat())
 
 
-def test_every_effect_is_offered_in_the_catalogue_s_order():
-    assert tuple(dict.fromkeys(c.effect for c in OFFERED)) == EFFECTS
+def test_every_effect_with_candidates_is_offered_in_the_catalogue_s_order():
+    """Those that are not offered by themselves where they are named, and only they."""
+    have = [effect for effect in EFFECTS if effect.candidates is not no_candidates]
+    assert list(dict.fromkeys(c.effect for c in ALL)) == [effect.id for effect in have]
+    by_themselves = [effect.id for effect in have if effect.offered]
+    assert list(dict.fromkeys(c.effect for c in OFFERED)) == by_themselves
+    for effect in have:
+        alone = [c for c in candidates(SCALES, also=(effect.id,)) if c not in OFFERED]
+        assert effect.offered == (not alone) and {c.effect for c in alone} <= {effect.id}
 
 
 def test_effects_across_the_motion_are_known_as_such():
-    assert {c.effect for c in OFFERED if c.lateral} == SIDEWAYS
-    assert all(c.lateral for c in OFFERED if c.effect in SIDEWAYS)
+    """Of one effect all candidates are, or none; and whatever sets or fits friction across it."""
+    sideways = {c.effect for c in ALL if c.lateral}
+    assert sideways and all(c.lateral == (c.effect in sideways) for c in ALL)
+    assert all(c.lateral for c in ALL if ACROSS in c.settings)
 
 
 def test_no_law_is_offered_twice_from_the_same_place():
-    seen = [(c.effect, c.form, c.free_parameters, tuple(c.settings.items())) for c in OFFERED]
+    seen = [(c.effect, c.form, c.free_parameters, tuple(c.settings.items())) for c in ALL]
     assert len(set(seen)) == len(seen)
 
 
@@ -155,7 +140,7 @@ def test_scales_are_those_of_the_runs(campaign):
     assert found.distance == pytest.approx(0.24) and found.force == pytest.approx(8.5347)
     assert found.extension == 0.03
     assert found.heat == pytest.approx(0.2 * 8.5347 * 0.24)
-    assert {c.effect for c in candidates(found)} == set(EFFECTS)
+    assert {c.effect for c in candidates(found)} == {c.effect for c in OFFERED}
 
 
 def test_what_grows_in_a_hold_starts_in_place_of_a_part_of_mu_s():
@@ -163,8 +148,8 @@ def test_what_grows_in_a_hold_starts_in_place_of_a_part_of_mu_s():
         (FreeParameter("friction.mu_s", 0.3, 0.01), FreeParameter("friction.mu_k", 0.2, 0.01)), {}
     )
     fitted = {"friction.mu_s": 0.4, "friction.mu_k": 0.2}
-    growing = [c for c in OFFERED if c.grows]
-    assert {c.effect for c in growing} == {"static_strengthening"}
+    growing = [c for c in ALL if c.grows]
+    assert growing
     for candidate in growing:
         mu_s, mu_k, first, *_ = extended(base, candidate, fitted).free_parameters
         assert mu_k.start == 0.2 < mu_s.start < 0.4
@@ -205,14 +190,15 @@ def test_faint_is_the_same_law_with_less_of_it(candidate):
 
 
 def test_every_strength_can_be_faint():
-    cannot = {c.effect for c in OFFERED if not c.can_be_faint}
-    # no number, a part of springs, and two that start where they were found
-    assert cannot == {"lateral_friction", "stick_stiffness", "speed_ripple", "surface_pattern"}
+    """Not what has no number, a part of springs, and waves, which start where they were found."""
+    for c in ALL:
+        strengths = [k for k in c.free_parameters if k.is_strength and k.start != 0.0]
+        assert c.can_be_faint == (bool(strengths) and not c.periodic), (c.effect, c.form)
 
 
 def test_a_periodic_candidate_starts_at_a_period():
-    periodic = [c for c in OFFERED if c.periodic]
-    assert {c.effect for c in periodic} == {"speed_ripple", "surface_pattern"}
+    periodic = [c for c in ALL if c.periodic]
+    assert periodic
     for c in periodic:
         at = {k.key: k.start for k in c.at(3.5, 0.3, 0.01).free_parameters}
         before = {k.key: k.start for k in c.free_parameters}
@@ -360,7 +346,7 @@ def test_plain_free_parameters_start_inside_their_ranges_and_fit(campaign):
     free_parameters = plain_free_parameters(campaign, True)
     plain = {free_parameter.key for free_parameter in free_parameters}
     assert plain <= KEYS | set(OFFSETS) | {SPEED_OFFSET}
-    assert not plain & {free_parameter.key for c in OFFERED for free_parameter in c.free_parameters}
+    assert not plain & {free_parameter.key for c in ALL for free_parameter in c.free_parameters}
     problem = Problem(
         prepare(campaign, campaign.runs, False),
         [free_parameter for free_parameter in free_parameters if free_parameter.key != "offset.y"],

@@ -5,6 +5,8 @@ import pytest
 from stickslip import EFFECTS, Parameters, simulate
 from stickslip.parameters import EffectTables
 
+from cosim.fmu import model_description
+
 EACH = pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
 
 
@@ -29,6 +31,20 @@ def test_a_parameter_has_unit_words_default_and_range(effect):
             low, high = extra["typical"]
             assert low < high
             effect.table(**{name: low}), effect.table(**{name: high})  # typical is allowed
+
+
+@EACH
+def test_a_parameter_has_a_unit_that_the_fmu_can_state(effect):
+    for name, field in effect.table.model_fields.items():
+        assert field.json_schema_extra["unit"] in model_description.UNITS, f"{effect.id}.{name}"
+
+
+def test_a_unit_that_the_fmu_cannot_state_is_named(monkeypatch):
+    known = {name: base for name, base in model_description.UNITS.items() if name != "N/m3"}
+    monkeypatch.setattr(model_description, "UNITS", known)
+    said = "spring_hardening: cubic is in 'N/m3', a unit that UNITS of cosim.fmu.model_description"
+    with pytest.raises(ValueError, match=said):
+        model_description.parameter_table()
 
 
 @EACH

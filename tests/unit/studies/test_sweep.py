@@ -12,7 +12,7 @@ import joblib
 import numpy as np
 import pytest
 import xarray as xr
-from stickslip import Friction, Parameters, Rig, Surface, simulate
+from stickslip import Friction, Parameters, Rig, Surface, derived, simulate
 
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
@@ -112,6 +112,17 @@ def test_another_version_of_the_model_is_computed_anew(tmp_path, computed, monke
     monkeypatch.setattr("cosim.studies.sweep.chunks.model_version", lambda: "0" * 32)
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
     assert len(computed) == 12
+
+
+@pytest.mark.parametrize("counts", [True, False])
+def test_an_edited_term_is_another_version_and_a_comment_is_not(monkeypatch, counts):
+    """Also one that enters when parameters are packed, of which the kernel knows nothing."""
+    version = combination_module.model_version.__wrapped__
+    before, term = version(), "(normal_force / reference_force) ** (-exponent)"
+    assert term in derived.TEXT
+    edited = derived.TEXT.replace(term, f"2.0 * {term}") if counts else f"{derived.TEXT}# words"
+    monkeypatch.setattr(derived, "TEXT", edited)
+    assert (version() != before) is counts
 
 
 def test_a_worker_with_another_model_is_refused(monkeypatch):

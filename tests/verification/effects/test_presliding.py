@@ -1,6 +1,6 @@
-"""A contact that creeps in stick: closed forms, the regularised law, the ledger, any way to look.
+"""A contact that creeps in stick: closed forms, the regularised law, the ledger, however observed.
 
-On one linear spring the block's way is x = x_e (1 - exp(-V t / x_e)), x_e = mu_s N V / (v_c K): it
+On one linear spring the block moves as x = x_e (1 - exp(-V t / x_e)), x_e = mu_s N V / (v_c K): it
 breaks away where K x = mu_s N, unless the surface is slower than the creep at that load.
 """
 
@@ -70,7 +70,7 @@ def test_the_way_and_the_break_away_of_a_linear_spring():
 
 
 def test_what_a_stick_that_creeps_shows():
-    """Sliding speed, way slid and heat are those of the creep; the mode is that of a stick."""
+    """Sliding speed, distance slid and heat are those of the creep; the mode is that of a stick."""
     run = on_a_line(interval=1e-3)
     stick = run.time < run.slip_starts[0]
     time, x = run.time[stick], run["x"][stick]

@@ -137,7 +137,7 @@ CYCLES, STEADY, LONGEST_SLIP = 25, 0.6, 1.0
 # parameter of the catalogue -> the scheme's number, and what it is multiplied by
 NUMBERS = {
     "lateral_friction.ratio": ("lateral", 1.0),
-    "static_strengthening.rate": ("strengthening", 1.0),
+    "static_strengthening.rate": ("ageing", 1.0),
     "static_strengthening.hold_time": ("hold_time", 1.0),
     "film_drag.coefficient": ("film", 1.0),
     "thermal_weakening.per_joule": ("weakening_per_joule", 1.0),

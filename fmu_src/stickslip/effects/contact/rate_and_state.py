@@ -24,7 +24,7 @@ class RateAndState(Table):
     direct: float = quantity(0.0, "1", "a, direct effect of the speed", ge=0, typical=(0.005, 0.1))
     evolution: float = quantity(0.0, "1", "b, effect of the age", ge=0, typical=(0.005, 0.15))
     distance: float = quantity(
-        1e-5, "m", "D, way over which contacts are renewed", gt=0, typical=(1e-6, 1e-3)
+        1e-5, "m", "D, distance over which contacts are renewed", gt=0, typical=(1e-6, 1e-3)
     )
     reference_speed: float = quantity(
         1e-4, "m/s", "v*, at which mu_k holds in steady sliding", gt=0, typical=(1e-5, 1e-2)

@@ -72,5 +72,6 @@ EFFECT = Effect(
     source="melt water shares the load with the dry contact: Colbeck, J. Glaciol. 34 (1988)",
     terms=(flooded_share, mixed),
     derived=(couette,),
+    feels_melting=("share",),
     case=Case({"share": 0.8}, window=(0.0, 8.0), water=5e-6),
 )

@@ -53,5 +53,6 @@ EFFECT = Effect(
     enters="friction",
     source="ice on rock, linear to the melting point: McCarthy et al. (2017)",
     terms=(kinetic_temperature_factor, static_temperature_factor),
+    feels_melting=("sensitivity",),
     case=Case({"sensitivity": 0.125, "reference_degC": -8.0}, warmer=3.0),
 )

@@ -32,7 +32,7 @@ class MeltFilm(Table):
     length: float = quantity(
         1e-3,
         "m",
-        "l, way along the sliding over which a film grows: that of a wetted patch",
+        "l, distance along the sliding over which a film grows: that of a wetted patch",
         ge=1e-9,
         le=10,
         typical=(1e-4, 1e-2),

@@ -81,5 +81,6 @@ EFFECT = Effect(
     source="Evans, Nye & Cheeseman, Proc. R. Soc. A (1976): 1/sqrt(v) well below melting",
     terms=(melting,),
     derived=(warming,),
+    feels_melting=("length",),
     case=Case({"length": 1e-3}),
 )

@@ -1,0 +1,55 @@
+"""What a declaration must be for the kernel to be made of it, each rule with its own line."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from ..effects.effect import Effect
+from .places import CONSTANTS, PACKED, PLACES, RATE, SCALE, WORDS
+from .slots import kernel_terms
+
+#: Every name that means something to a term of some place.
+KERNEL_WORDS = {
+    *WORDS,
+    *CONSTANTS,
+    *(word for place in (*PLACES, RATE, SCALE) for word in (*place.words, place.so_far) if word),
+}
+
+
+def check(effect: Effect) -> None:
+    """That terms have places, names are told apart, and what is off is zero; else ValueError."""
+    places = [place.name for place in (*PLACES, *PACKED)]
+    for term in effect.terms:
+        if term.__name__ not in places:
+            raise ValueError(
+                f"effect {effect.id}: no place {term.__name__!r} in the kernel; "
+                f"there are {', '.join(sorted(places))}"
+            )
+    if kernel_terms(effect):
+        _check_zero_is_off(effect)
+    _check_names(effect)
+
+
+def _check_zero_is_off(effect: Effect) -> None:
+    for name in effect.switch:
+        if effect.table.model_fields[name].default != 0.0:
+            raise ValueError(f"effect {effect.id}: {name} is not off at 0")
+
+
+def _check_names(effect: Effect) -> None:
+    """A term takes its numbers by their names: each must have one, which is no word's."""
+    states = [state.name for state in effect.states]
+    derived = [function.__name__ for function in effect.derived]
+    own = Counter([*effect.table.model_fields, *derived, *states, *effect.sums])
+    words = sorted(own.keys() & KERNEL_WORDS)
+    if words:
+        raise ValueError(f"effect {effect.id}: {', '.join(words)}: the kernel's own words")
+    twice = sorted(name for name, times in own.items() if times > 1)
+    if twice:
+        raise ValueError(f"effect {effect.id}: {', '.join(twice)}: two numbers of one name")
+    for state in effect.states:
+        if state.start and state.start not in effect.table.model_fields:
+            raise ValueError(
+                f"effect {effect.id}: state {state.name} starts from {state.start!r}, "
+                f"which is no parameter; there are {', '.join(effect.table.model_fields)}"
+            )
