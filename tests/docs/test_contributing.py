@@ -29,9 +29,10 @@ def test_the_guide_s_effect_is_one(tmp_path):
     (package / "effects" / "friction" / f"{name}.py").write_text(code, encoding="utf-8")
     listed = package / "effects" / "__init__.py"
     text = listed.read_text(encoding="utf-8")
-    listed.write_text(
-        text.replace(")\nEFFECTS", f'    "friction.{name}",\n)\nEFFECTS'), encoding="utf-8"
+    longer = re.sub(
+        r"(FILES = \(.*?)\n\)", rf'\1\n    "friction.{name}",\n)', text, flags=re.DOTALL
     )
+    listed.write_text(longer, encoding="utf-8")
     done = subprocess.run(
         [sys.executable, "-c", ASKED],
         capture_output=True,

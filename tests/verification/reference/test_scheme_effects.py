@@ -23,7 +23,7 @@ DURATION = 6.0
 CASES = {
     "static_strengthening": (
         {"rate": 0.05, "hold_time": 0.01},
-        {"strengthening": 0.05, "hold_time": 0.01},
+        {"ageing": 0.05, "hold_time": 0.01},
     ),
     "film_drag": ({"coefficient": 0.4}, {"film": 0.4}),
     "thermal_weakening": (
