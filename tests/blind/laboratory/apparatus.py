@@ -97,7 +97,10 @@ def apparatus(
     p["ageing_slip"] = 3e-4
     p["load_reference"] = mass * GRAVITY
     angles = np.radians(attachment_angles_deg)
-    p["hook_x"], p["hook_y"] = attachment_radius * np.cos(angles), attachment_radius * np.sin(angles)
+    p["hook_x"], p["hook_y"] = (
+        attachment_radius * np.cos(angles),
+        attachment_radius * np.sin(angles),
+    )
     p["anchor_x"] = p["hook_x"] + spring_length * np.sign(p["hook_x"])
     p["anchor_y"] = p["hook_y"]
     p["natural"] = natural_length

@@ -229,14 +229,20 @@ def attempt(order: Order, rng: np.random.Generator) -> tuple[Campaign, bool]:
     sizes, tracker = better_camera(order, sizes, tracker)
     shows = all(s.size >= order.sizes[0] for s in sizes) and seen_over_scatter(order, plan, hidden)
     made = Campaign(
-        order, plan, tuple(hidden), tuple(sizes), fault, tracker, tuple(records), tuple(motions), rng
+        order,
+        plan,
+        tuple(hidden),
+        tuple(sizes),
+        fault,
+        tracker,
+        tuple(records),
+        tuple(motions),
+        rng,
     )
     return made, shows
 
 
-def better_camera(
-    order: Order, sizes: list[Size], tracker: Tracker
-) -> tuple[list[Size], Tracker]:
+def better_camera(order: Order, sizes: list[Size], tracker: Tracker) -> tuple[list[Size], Tracker]:
     """A camera with less noise, down to FINEST, where what is hidden is too small for this one."""
     least = min((s.size for s in sizes), default=np.inf)
     if least >= order.sizes[0]:

@@ -12,7 +12,7 @@ from math import exp, pi, sin, sqrt, tanh
 import numpy as np
 from numba import njit
 
-from .apparatus import GRAVITY, POINTS
+from .apparatus import POINTS
 from .forces import free_forces
 from .friction_law import coefficient, film_force
 

@@ -55,8 +55,11 @@ def damping_force(p, v):
     """Resistance of the frame to a speed along one axis, N."""
     if p.damping == 0.0:
         return 0.0
-    return -p.damping * v / p.damping_speed * (abs(v) / p.damping_speed + 1e-6) ** (
-        p.damping_power - 1.0
+    return (
+        -p.damping
+        * v
+        / p.damping_speed
+        * (abs(v) / p.damping_speed + 1e-6) ** (p.damping_power - 1.0)
     )
 
 

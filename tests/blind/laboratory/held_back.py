@@ -1,4 +1,5 @@
 """stub"""
+
 from numba import njit
 
 

@@ -114,9 +114,7 @@ def static_strengthening(rng: np.random.Generator, r: Reference) -> Law:
         3: f"1 - exp(-t/{time:.2f} s)",
     }[form]
     text = f"mu_s grows by strength * mu_k * ({curve}) over hold time t, lost over 0.3 mm of slip"
-    return Law(
-        "static_strengthening", shape, text, lambda p, s: set_to(p, "ageing", s), 0.2, 1.5
-    )
+    return Law("static_strengthening", shape, text, lambda p, s: set_to(p, "ageing", s), 0.2, 1.5)
 
 
 def velocity_weakening(rng: np.random.Generator, r: Reference) -> Law:
@@ -137,13 +135,14 @@ def film_drag(rng: np.random.Generator, r: Reference) -> Law:
     shape = f"power {power}" if form == 1 else "thinning"
     curve = f"u^{power}" if form == 1 else "u/(1 + u)"
     text = f"drag strength * {r.friction:.4g} N * {curve}, u = sliding speed / {r.speed:.4g} m/s"
-    return Law(
-        "film_drag", shape, text, lambda p, s: set_to(p, "film", s * r.friction), 0.15, 0.8
-    )
+    return Law("film_drag", shape, text, lambda p, s: set_to(p, "film", s * r.friction), 0.15, 0.8)
 
 
 def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
-    memory, form = str(one_of(rng, "half-space", "half-space", "two-stage")), int(rng.integers(1, 4))
+    memory, form = (
+        str(one_of(rng, "half-space", "half-space", "two-stage")),
+        int(rng.integers(1, 4)),
+    )
     per = str(one_of(rng, "joule", "kilogram"))
     static = int(one_of(rng, STAYS, SCALES, FOLLOWS))
     power = r.friction * r.speed
@@ -214,7 +213,9 @@ def spring_hardening(rng: np.random.Generator, r: Reference) -> Law:
         p["spring_b"] = ruler * power
 
     shape = {1: "quintic", 2: "sinh", 3: "cubic in tension only"}[form]
-    text = f"each spring {shape} in its full extension, stiffer by about strength at the static load"
+    text = (
+        f"each spring {shape} in its full extension, stiffer by about strength at the static load"
+    )
     return Law("spring_hardening", shape, text, write, 0.2, 3.0)
 
 

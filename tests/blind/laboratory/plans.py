@@ -122,7 +122,8 @@ def draw_contact(rng: np.random.Generator, contact: str, rig: str) -> dict[str, 
     creep = float(rng.uniform(3e-4, 1e-3)) * finer
     return {
         "presliding": float(rng.uniform(2e-5, 1e-4)) * finer,
-        "fall_speed": float(rng.uniform(1e-3, 8e-3)) * finer + (creep if contact == "smooth" else 0),
+        "fall_speed": float(rng.uniform(1e-3, 8e-3)) * finer
+        + (creep if contact == "smooth" else 0),
         "fall_power": float(rng.choice((1.0, 2.0))),
         "bristle_damping": float(rng.uniform(0.2, 0.7)),
         "elastic_share": float(rng.uniform(0.5, 0.8)),

@@ -102,7 +102,9 @@ def _filtered(t: NDArray, path: Path, amount: float, causal: bool) -> Path:
     step = 1e-3
     grid = np.arange(t[0], t[-1] + step, step)
     u = np.arange(-5 * amount, 5 * amount + step / 2, step)
-    kernel = np.where(u >= 0, np.exp(-u / amount), 0.0) if causal else np.exp(-0.5 * (u / amount) ** 2)
+    kernel = (
+        np.where(u >= 0, np.exp(-u / amount), 0.0) if causal else np.exp(-0.5 * (u / amount) ** 2)
+    )
     kernel /= kernel.sum()
     margin = u.size // 2
     columns = []

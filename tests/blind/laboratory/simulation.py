@@ -13,7 +13,6 @@ from .contacts import (
     elasto_plastic_step,
     jump_step,
     lugre_step,
-    slip_velocity,
     smooth_step,
 )
 from .forces import belt_speed, disturbance
