@@ -98,7 +98,10 @@ def bristle_force(p, s, z, load, kinetic, excess, belt, total):
 
 @njit
 def lugre_step(p, s, z, push, spring_share, load, kinetic, excess, belt, h, total):
-    """LuGre (Canudas de Wit et al. 1995): Strang splitting, bristles by their exponential."""
+    """LuGre (Canudas de Wit et al. 1995): Strang splitting, bristles by their exponential.
+
+    The bristles' damping is explicit, which leaves the whole of first order, with a small constant.
+    """
     drift(p, s, 0.5 * h)
     gx, gy, gm = free_forces(p, s, push, spring_share)
     bristle_force(p, s, z, load, kinetic, excess, belt, total)
@@ -122,11 +125,11 @@ def lugre_step(p, s, z, push, spring_share, load, kinetic, excess, belt, h, tota
 
 @njit
 def elasto_plastic_step(p, s, z, push, spring_share, load, kinetic, excess, belt, h, total):
-    """Elasto-plastic bristles: implicit midpoint, four fixed-point sweeps."""
+    """Elasto-plastic bristles: implicit midpoint, three fixed-point sweeps."""
     n = points(p)
     first, first_z = s.copy(), z.copy()
     middle, middle_z = s.copy(), z.copy()
-    for _ in range(4):
+    for _ in range(3):
         for i in range(n):
             vx, vy = slip_velocity(p, middle, i, belt)
             speed = sqrt(vx * vx + vy * vy)

@@ -45,18 +45,18 @@ def out_of_catalogue(p, slow, t, h, s, friction):
         rate = (give - slow[OTHER]) / p.other[1]
         slow[OTHER] += h * rate
         extra = -rate
-    elif p.other_form == THUMPS:  # size: m/s each gives; numbers: a second, s long, phase
-        count = np.floor(t * p.other[1] + p.other[3])
+    elif p.other_form == THUMPS:  # size: m/s each gives; numbers: a second, s long
+        count = np.floor(t * p.other[1] + p.phase)
         # irregular: each falls somewhere in its own interval and has a size and sign of its own
-        draw = np.sin(12.9898 * (count + 1.0) + p.other[4]) * 43758.5453
+        draw = np.sin(12.9898 * (count + 1.0) + 78.233 * p.phase) * 43758.5453
         draw -= np.floor(draw)
-        centre = (count + 0.15 + 0.7 * draw - p.other[3]) / p.other[1]
+        centre = (count + 0.15 + 0.7 * draw - p.phase) / p.other[1]
         d = (t - centre) / p.other[2]
         push = p.mass * size * (2 * draw - 1) * exp(-d * d) / (p.other[2] * pi**0.5)
     elif p.other_form == BELT_DRIFT:  # size: share of the speed over the run; number: s
         extra = p.belt_speed * size * (t / p.other[1] - 0.5)
-    elif p.other_form == ROCKING:  # size: slope; number: Hz, phase
-        push = weight * size * sin(2 * pi * (p.other[1] * t + p.other[2]))
+    elif p.other_form == ROCKING:  # size: slope; number: Hz
+        push = weight * size * sin(2 * pi * (p.other[1] * t + p.phase))
     return push, load, spring, mu, extra
 
 
@@ -94,7 +94,7 @@ def soft_belt(p: Record, size: float, rng: np.random.Generator) -> None:
 def thumps(p: Record, size: float, rng: np.random.Generator) -> None:
     """Knocks from outside, at no particular time."""
     p["other_form"] = THUMPS
-    p["other"][:5] = 0.02 * size, rng.uniform(0.4, 1.0), 0.015, rng.uniform(0, 1), rng.uniform(0, 6)
+    p["other"][:3] = 0.05 * size, rng.uniform(0.4, 1.0), 0.015
 
 
 def belt_drift(p: Record, size: float, rng: np.random.Generator) -> None:
@@ -106,7 +106,7 @@ def belt_drift(p: Record, size: float, rng: np.random.Generator) -> None:
 def rocking_table(p: Record, size: float, rng: np.random.Generator) -> None:
     """A floor that sways slowly."""
     p["other_form"] = ROCKING
-    p["other"][:3] = 0.01 * size, rng.uniform(0.12, 0.5), rng.uniform(0, 1)
+    p["other"][:2] = 0.03 * size, rng.uniform(0.12, 0.5)
 
 
 KINDS = {

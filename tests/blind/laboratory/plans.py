@@ -84,15 +84,15 @@ def draw_scales(rng: np.random.Generator, rig: str) -> tuple[float, float, float
 
 
 def draw_settings(
-    rng: np.random.Generator, mass: float, stiffness: float, slow: float, loads: bool
+    rng: np.random.Generator, mass: float, stiffness: float, pace: float, loads: bool
 ) -> list[tuple[float, float, float]]:
     """Mass, stiffness and speed of 5 to 8 runs: all speeds with the first block, some with others.
 
-    slow : m/s at which a block swings as far as static friction exceeds kinetic
+    pace : m/s at which a block swings as far as static friction exceeds kinetic
     loads : three masses, far apart
     """
     factors = rng.uniform((0.3, 0.9, 2.2), (0.5, 1.4, 3.5))
-    speeds = [tidy(slow * float(f), 2) for f in factors]
+    speeds = [tidy(pace * float(f), 2) for f in factors]
     masses = [tidy(mass * float(f)) for f in ((1.6, 2.6) if loads else (rng.uniform(1.5, 2.2),))]
     settings = [(mass, stiffness, speed) for speed in speeds]
     settings += [(m, stiffness, speeds[int(j)]) for m in masses for j in rng.permutation(3)[:2]]
@@ -138,8 +138,8 @@ def draw_plan(
     *,
     scatter: float = 0.0,
     loads: bool = False,
-    disc: bool | None = None,
     aside: bool | None = None,
+    slow: bool = False,
 ) -> Plan:
     """A rig with 5 to 8 runs.
 
@@ -148,8 +148,8 @@ def draw_plan(
     rig : one of RIGS: guided along x, a small guided one, or free in the plane
     scatter : relative standard deviation of mu from run to run
     loads : masses far apart
-    disc : friction over the disc in the plane; drawn where it makes no difference (None)
     aside : starts off the middle in y and turned, so that the block swings there too
+    slow : no speed so high that a little damping ends the sticking
     """
     mass, omega, mu_s, mu_k = draw_scales(rng, rig)
     stiffness = tidy(mass * omega**2 / 4, 4)
@@ -158,9 +158,9 @@ def draw_plan(
     slackless = 1.0 if not free and rng.random() < 0.5 else float(rng.uniform(0.78, 0.87))
     radius = tidy(float(rng.uniform(0.03, 0.06)), 2)
     aside = bool(free and (rng.random() < 0.4 if aside is None else aside))
-    disc = bool(free and (not aside and rng.random() < 0.5 if disc is None else disc))
     numbers = draw_contact(rng, contact, rig)
-    settings = draw_settings(rng, mass, stiffness, (mu_s - mu_k) * GRAVITY / omega, loads)
+    pace = (mu_s - mu_k) * GRAVITY / omega * (0.55 if slow else 1.0)
+    settings = draw_settings(rng, mass, stiffness, pace, loads)
     held = pick_held_out(rng, settings)
     wrong = {value: 1 + SPRING_ERROR * float(rng.normal()) for _, value, _ in settings}
     weighed = {value: 1 + MASS_ERROR * float(rng.normal()) for value, _, _ in settings}
@@ -174,7 +174,6 @@ def draw_plan(
             mu_k,
             contact=contact,
             guided=not free,
-            planar=disc,
             spring_length=length,
             natural_length=tidy(length * slackless, 2),
             attachment_radius=tidy(radius * 1.25, 2),

@@ -118,7 +118,7 @@ def quantisation(t: NDArray, path: Path, amount: float, duration: float):
     return t, np.round(path / amount) * amount
 
 
-# fault: how it shows, in turn; the amounts it is drawn from; whether its amount is sought for a size
+# fault: how it can show; the amounts it is drawn from; whether the amount is sought for a size
 FAULTS: dict[str, tuple[tuple[Fault, ...], tuple[float, float], bool]] = {
     "measurement.scale": ((scale,), (0.025, 0.04), False),
     "measurement.clock": ((clock,), (0.025, 0.04), False),

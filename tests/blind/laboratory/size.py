@@ -24,7 +24,7 @@ from .recording import Fault
 from .simulation import SAMPLE, simulate
 
 SEGMENT = 3.0  # swings: free swing and stick
-PIECES = 4  # segments of a run
+PIECES = 3  # segments of a run
 STRIDE = 5  # rows of a segment from one that counts to the next
 
 
@@ -47,7 +47,7 @@ def swing(p: Record) -> float:
 def segment_starts(p: Record, rows: int) -> tuple[list[int], int]:
     """First rows of the segments of a run and their length in rows."""
     length = min(round(SEGMENT * swing(p) / SAMPLE), (rows - 1) // PIECES)
-    first = np.linspace(0.05 * rows, rows - 1 - length, PIECES).astype(int)
+    first = np.linspace(0, rows - 1 - length, PIECES).astype(int)
     return list(first), length
 
 

@@ -52,7 +52,10 @@ def contact_and_shapes(rng: np.random.Generator, count: int = 60) -> Orders:
     without = count // 4
     scatters = rng.choice((0.0, 0.01, 0.02), count)
     effects = cycled(rng, list(LAWS), count - without)
-    orders = [Order("lugre", (name,), scatter=float(s)) for name, s in zip(effects, scatters)]
+    orders = [
+        Order("lugre", (name,), scatter=float(s))
+        for name, s in zip(effects, scatters, strict=False)
+    ]
     orders += [Order("lugre", scatter=float(s)) for s in scatters[count - without :]]
     return [orders[int(j)] for j in rng.permutation(count)]
 
