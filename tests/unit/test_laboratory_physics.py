@@ -174,9 +174,9 @@ def test_a_motion_goes_on_from_any_of_its_rows():
 
 def test_heat_memory_is_a_half_space():
     weights, rates = half_space()
-    t = np.geomspace(0.02, 10.0, 30)
+    t = np.geomspace(0.01, 10.0, 30)
     kernel = (weights * np.exp(-np.outer(t, rates))).sum(axis=1)
-    assert kernel == pytest.approx(1 / np.sqrt(np.pi * t), rel=0.06)
+    assert kernel == pytest.approx(1 / np.sqrt(np.pi * t), rel=0.02)
 
 
 def test_age_grows_in_stick_and_is_lost_in_slip():

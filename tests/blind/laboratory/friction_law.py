@@ -21,15 +21,19 @@ SLOW = OTHER + 4
 STAYS, SCALES, FOLLOWS = 0, 1, 2  # what mu_s does when mu_k changes
 
 
-def half_space(slowest: float = 0.02, fastest: float = 400.0) -> tuple[NDArray, NDArray]:
+def half_space(slowest: float = 0.004, fastest: float = 400.0) -> tuple[NDArray, NDArray]:
     """Weights and rates, 1/s, of exponentials whose sum is 1/sqrt(pi t), MODES of them.
 
-    Trapezoidal rule in log s on 1/sqrt(pi t) = (2/pi) int exp(-t s^2) ds; good to some per cent
-    between 3/fastest and 0.3/slowest. It is the surface temperature of a half-space for a unit of
-    heat (Carslaw and Jaeger, Conduction of heat in solids, 1959, section 2.4).
+    Trapezoidal rule in log s on 1/sqrt(pi t) = (2/pi) int exp(-t s^2) ds, what lies below the
+    slowest added to it; good to some per cent between 3/fastest and 0.1/slowest. It is the surface
+    temperature of a half-space after a unit of heat (Carslaw and Jaeger, Conduction of heat in
+    solids, 1959, section 2.4).
     """
     s = np.geomspace(sqrt(slowest), sqrt(fastest), MODES)
-    return 2 / pi * s * np.log(s[1] / s[0]), s**2
+    spacing = np.log(s[1] / s[0])
+    weights = 2 / pi * s * spacing
+    weights[0] += 2 / pi * s[0] * spacing / np.expm1(spacing)
+    return weights, s**2
 
 
 @njit

@@ -89,7 +89,7 @@ def lateral_friction(rng: np.random.Generator, r: Reference) -> Law:
 
 def turning_surface(rng: np.random.Generator, r: Reference) -> Law:
     pressure, side = str(one_of(rng, *PRESSURES)), float(one_of(rng, -1, 1))
-    ahead = float(one_of(rng, 0.0, np.tan(np.radians(rng.uniform(10, 30)))))
+    ahead = float(one_of(rng, 0.0, np.tan(np.radians(rng.uniform(1, 4)))))
 
     def write(p: Record, strength: float) -> None:
         p["planar"] = 1
@@ -98,7 +98,7 @@ def turning_surface(rng: np.random.Generator, r: Reference) -> Law:
         p["slab_x"] = ahead / strength
 
     shape = "abreast" if ahead == 0 else "ahead"
-    text = f"slab turning about a point 1/strength m abreast, {ahead:.2f} of it ahead; disc"
+    text = f"slab turning about a point 1/strength m abreast, {ahead:.3f} of it ahead; disc"
     return Law("turning_surface", shape, text, write, 1.0, 3.0, planar=True)
 
 
