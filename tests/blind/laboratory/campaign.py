@@ -21,7 +21,7 @@ from .size import Size, measure
 
 KINDS = out_of_catalogue.KINDS | held_back.KINDS
 PLANAR = {"lateral_friction", "turning_surface", "spring_misalignment", "measurement.rotation"}
-LINE = {"guide_friction", "slack_springs"}  # need a guided block
+GUIDED = {"guide_friction", "slack_springs", "measurement.latency"}  # x alone, a wide field
 DAMPING = {"film_drag", "structural_damping", "guide_friction"}  # would still fast runs
 TRIES = 12  # campaigns drawn at most until one shows what it hides
 SEARCH = 4  # strengths tried at most for a size
@@ -93,7 +93,8 @@ def draw_hidden(order: Order, rng: np.random.Generator, reference: Reference) ->
     for name in order.effects:
         law = LAWS[name](rng, reference)
         if order.exponents:
-            law = replace(law, exponents=order.exponents)
+            shape = law.shape.split(", per ")[0]
+            law = replace(law, shape=shape, exponents=order.exponents)
 
         def apply(p: Record, strength: float, law: Law = law) -> None:
             law.apply(p, strength, reference)
@@ -103,7 +104,7 @@ def draw_hidden(order: Order, rng: np.random.Generator, reference: Reference) ->
         kind, seed = KINDS[order.kind], int(rng.integers(2**32))
 
         def disturb(p: Record, strength: float) -> None:  # each run the same numbers
-            kind(p, strength, np.random.default_rng(seed))
+            kind(p, strength, np.random.default_rng(seed), reference)
 
         text = " ".join((kind.__doc__ or "").split())
         found.append(Hidden(order.kind, order.kind, text, 0.3, disturb))
@@ -213,7 +214,7 @@ def attempt(order: Order, rng: np.random.Generator) -> tuple[Campaign, bool]:
     """One campaign, and whether it shows what it hides."""
     names = {*order.effects, order.fault, order.kind}
     rig = "planar" if names & PLANAR else str(rng.choice(RIGS, p=(0.45, 0.2, 0.35)))
-    if order.kind in LINE:
+    if names & GUIDED:
         rig = "guided"
     aside = True if "lateral_friction" in names else None
     if "turning_surface" in names:

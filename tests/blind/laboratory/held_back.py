@@ -14,6 +14,7 @@ from numba import njit
 
 from .apparatus import GRAVITY, Record
 from .friction_law import OTHER
+from .laws import Reference
 
 HYSTERESIS, SPRING_DRIFT, SAG_WAVE, MAGNET, PLATE, DRAUGHT, WEAK_MOTOR = range(101, 108)
 GUSTS = 6
@@ -48,51 +49,46 @@ def held_back(p, slow, t, h, s, friction):
     return push, load, spring, mu, extra
 
 
-def deflection(p: Record) -> float:
-    """Of the springs under kinetic friction, m."""
-    return float(p["mu_k"] * p["mass"] * GRAVITY / (4 * p["stiffness"]))
-
-
-def spring_hysteresis(p: Record, size: float, rng: np.random.Generator) -> None:
+def spring_hysteresis(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Springs that rub in their mounts: a part of their force hangs back at every turn."""
     p["other_form"] = HYSTERESIS
-    p["other"][:2] = 0.3 * size, rng.uniform(0.1, 0.3) * deflection(p)
+    p["other"][:2] = 0.3 * size, rng.uniform(0.1, 0.3) * r.deflection
 
 
-def spring_drift(p: Record, size: float, rng: np.random.Generator) -> None:
+def spring_drift(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Springs that stiffen or soften as the room warms them, in the same way in every run."""
     p["other_form"] = SPRING_DRIFT
     p["other"][:2] = 0.2 * size * rng.choice((-1, 1)), rng.uniform(5, 15)
 
 
-def belt_sag_wave(p: Record, size: float, rng: np.random.Generator) -> None:
+def belt_sag_wave(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """A belt that hangs through and swings up and down: a load that goes with time."""
     p["other_form"] = SAG_WAVE
     p["other"][:2] = 0.2 * size, rng.uniform(0.7, 4.0)
 
 
-def magnet(p: Record, size: float, rng: np.random.Generator) -> None:
+def magnet(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Something at one place of the frame that draws the block to it."""
     p["other_form"] = MAGNET
-    place = deflection(p)
+    place = 0.8 * r.deflection
     p["other"][:3] = 0.05 * size, rng.uniform(0.8, 1.2) * place, rng.uniform(0.15, 0.3) * place
 
 
-def support_plate(p: Record, size: float, rng: np.random.Generator) -> None:
+def support_plate(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """A plate under the belt that presses more on one side of a place in the frame."""
     p["other_form"] = PLATE
-    place = deflection(p)
+    place = 0.8 * r.deflection
     p["other"][:3] = 0.2 * size, rng.uniform(0.8, 1.2) * place, rng.uniform(0.05, 0.2) * place
 
 
-def air_draught(p: Record, size: float, rng: np.random.Generator) -> None:
+def air_draught(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Gusts on the block, of many lengths."""
     p["other_form"] = DRAUGHT
     p["other"][0] = 0.03 * size
     p["other"][1 : 1 + GUSTS] = rng.uniform(0, 1, GUSTS)
 
 
-def weak_motor(p: Record, size: float, rng: np.random.Generator) -> None:
+def weak_motor(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """A belt that loses speed as the block pulls on it, and takes it up again late."""
     p["other_form"] = WEAK_MOTOR
     p["other"][:2] = size, rng.uniform(0.05, 0.3)

@@ -37,7 +37,7 @@ class Law:
     """A law with its shape drawn, its strength still open.
 
     exponents : by quantity (mass, speed), the power with which the strength goes from run to run,
-    relative to the law as `text` states it
+    beside what `text` states: none where mu-laws are shares of mu, forces are N, heat is J
     """
 
     effect: str
@@ -163,8 +163,8 @@ def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
     curve = {1: "1 - q", 2: "exp(-q)", 3: "1/(1 + q)"}[form]
     way = {STAYS: "mu_s stays", SCALES: "mu_s in proportion", FOLLOWS: "mu_s by as much"}[static]
     text = (
-        f"mu_k times {curve}, q = strength * heat of friction per {per} through a {memory}"
-        f" memory / {typical:.4g} at {r.mass:.3g} kg; {way}"
+        f"mu_k times {curve}, q = strength * heat of friction, J, through a {memory} memory"
+        f" / {typical:.4g}; {way}"
     )
     exponents = {"mass": -1.0} if per == "kilogram" else {}
     shape = f"{memory}, {curve}, per {per}"

@@ -14,6 +14,7 @@ from numba import njit
 
 from .apparatus import GRAVITY, Record
 from .friction_law import OTHER
+from .laws import Reference
 
 GUIDES, SLACK, LOOSE, LIFT, SOFT_BELT, THUMPS, BELT_DRIFT, ROCKING = range(1, 9)
 
@@ -60,17 +61,17 @@ def out_of_catalogue(p, slow, t, h, s, friction):
     return push, load, spring, mu, extra
 
 
-def guide_friction(p: Record, size: float, rng: np.random.Generator) -> None:
+def guide_friction(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Dry friction between the block and what guides it, in the frame."""
     p["other_form"], p["other"][0] = GUIDES, 0.03 * size
 
 
-def slack_springs(p: Record, size: float, rng: np.random.Generator) -> None:
+def slack_springs(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Cords for springs: they pull, and give way instead of pushing."""
     p["slack"] = min(size, 1.0)
 
 
-def loose_mass(p: Record, size: float, rng: np.random.Generator) -> None:
+def loose_mass(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Something sprung inside the block, weighed with it: 3 to 7 Hz, lightly damped."""
     share = min(0.15 * size, 0.5)
     p["other_form"] = LOOSE
@@ -79,31 +80,31 @@ def loose_mass(p: Record, size: float, rng: np.random.Generator) -> None:
     p["other"][:3] = share, 2 * pi * rng.uniform(3, 7), rng.uniform(0.01, 0.05)
 
 
-def lifting_springs(p: Record, size: float, rng: np.random.Generator) -> None:
+def lifting_springs(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Springs mounted above the plane: they lift with travel and with speed."""
     p["other_form"] = LIFT
     p["other"][:2] = 0.05 * size, rng.uniform(0.1, 0.4)
 
 
-def soft_belt(p: Record, size: float, rng: np.random.Generator) -> None:
+def soft_belt(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """A belt that stretches between its rollers and lags behind the pull on it."""
     p["other_form"] = SOFT_BELT
     p["other"][:2] = 0.01 * size, rng.uniform(0.02, 0.08)
 
 
-def thumps(p: Record, size: float, rng: np.random.Generator) -> None:
+def thumps(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Knocks from outside, at no particular time."""
     p["other_form"] = THUMPS
     p["other"][:3] = 0.05 * size, rng.uniform(0.4, 1.0), 0.015
 
 
-def belt_drift(p: Record, size: float, rng: np.random.Generator) -> None:
+def belt_drift(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """A motor that warms up: the belt gains or loses speed steadily over each run."""
     p["other_form"] = BELT_DRIFT
-    p["other"][:2] = 0.08 * size * rng.choice((-1, 1)), 20.0
+    p["other"][:2] = 0.08 * size * rng.choice((-1, 1)), r.duration
 
 
-def rocking_table(p: Record, size: float, rng: np.random.Generator) -> None:
+def rocking_table(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """A floor that sways slowly."""
     p["other_form"] = ROCKING
     p["other"][:2] = 0.03 * size, rng.uniform(0.12, 0.5)

@@ -101,10 +101,11 @@ def lagging(t: NDArray, path: Path, amount: float, duration: float):
 def _filtered(t: NDArray, path: Path, amount: float, causal: bool) -> Path:
     step = 1e-3
     grid = np.arange(t[0], t[-1] + step, step)
-    u = np.arange(-5 * amount, 5 * amount + step / 2, step)
-    kernel = (
-        np.where(u >= 0, np.exp(-u / amount), 0.0) if causal else np.exp(-0.5 * (u / amount) ** 2)
-    )
+    half = int(np.ceil(10 * amount / step))
+    u = np.arange(-half, half + 1) * step
+    kernel = np.exp(-0.5 * (u / amount) ** 2)
+    if causal:
+        kernel = np.where(u < 0, 0.0, np.exp(-u / amount)) * np.where(u == 0, 0.5, 1.0)
     kernel /= kernel.sum()
     margin = u.size // 2
     columns = []
@@ -124,8 +125,8 @@ FAULTS: dict[str, tuple[tuple[Fault, ...], tuple[float, float], bool]] = {
     "measurement.clock": ((clock,), (0.025, 0.04), False),
     "measurement.rotation": ((rotation,), (0.03, 0.1), False),
     "measurement.drift": ((creep,), (5e-4, 1e-2), True),
-    "measurement.latency": ((rolling_shutter,), (5e-3, 0.15), True),
-    "measurement.smoothing": ((smoothing, lagging), (5e-3, 0.12), True),
+    "measurement.latency": ((rolling_shutter,), (5e-3, 0.04), True),
+    "measurement.smoothing": ((smoothing, lagging), (5e-3, 0.05), True),
     "measurement.quantisation": ((quantisation,), (2e-4, 4e-3), True),
 }
 
