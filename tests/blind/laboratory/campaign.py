@@ -1,12 +1,9 @@
-"""A campaign: what is hidden is drawn, given its size, run and recorded; and it is written."""
+"""A campaign: what is hidden is drawn, given its size and run, until it shows."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +12,7 @@ from . import held_back, out_of_catalogue
 from .apparatus import JUMP, Record
 from .laws import LAWS, Law, Reference
 from .plans import RIGS, Plan, draw_plan
-from .recording import FAULTS, Fault, Tracker, draw_tracker, film
+from .recording import FAULTS, Fault, Tracker, draw_tracker
 from .simulation import SAMPLE, SLIP, STEP, at_rest_on_belt, simulate
 from .size import Size, measure
 
@@ -284,101 +281,3 @@ def make_campaign(order: Order, seed: Sequence[int]) -> Campaign:
         if shows:
             return made
     raise RuntimeError(f"{order}: no campaign of {TRIES} shows it; seed {list(seed)}")
-
-
-def write_campaign(made: Campaign, folder: Path) -> None:
-    """campaign.toml and the runs' files, as the interfaces describe them."""
-    folder.mkdir(parents=True, exist_ok=True)
-    plan, tracker = made.plan, made.tracker
-    lines = [
-        f'name = "{folder.name}"',
-        "[rig]",
-        f"spring_length = {plan.spring_length}",
-        f"spring_natural_length = {plan.natural_length}",
-        f"attachment_radius = {plan.attachment_radius}",
-        "attachment_angles_deg = [160, 20, 200, 340]",
-        f"contact_radius = {plan.contact_radius}",
-        'inertia = "disc"',
-        'surface = "belt"',
-        f"degrees_of_freedom = {json.dumps(['x'] if plan.guided else ['x', 'y', 'phi'])}",
-    ]
-    if tracker.stated:
-        lines += ["[noise]", f"x = {tracker.noise}"]
-        lines += [f"y = {tracker.noise}"] if tracker.with_y else []
-        lines += [f"phi = {tracker.turn_noise}"] if tracker.with_phi else []
-    for number, (run, rows) in enumerate(zip(plan.runs, made.motions, strict=True), 1):
-        columns = film(rows, SAMPLE, tracker, made.fault, made.rng)
-        text = [",".join(columns)]
-        values = [np.char.mod("%.7f", column) for column in columns.values()]
-        text += [",".join(row) for row in zip(*values, strict=True)]
-        (folder / f"run{number:02d}.csv").write_text("\n".join(text) + "\n")
-        lines += [
-            "[[run]]",
-            f'file = "run{number:02d}.csv"',
-            f"mass = {run.mass}",
-            f"stiffness = {run.stiffness}",
-            f"surface_speed = {run.speed}",
-            "ambient_degC = -8.0",
-            f"hold_out = {str(run.hold_out).lower()}",
-        ]
-    (folder / "campaign.toml").write_text("\n".join(lines) + "\n")
-
-
-def answer(made: Campaign) -> dict[str, Any]:
-    """What is true of a campaign: verdicts and effects that are right, and all that was hidden."""
-    order, plan = made.order, made.plan
-    effects = [*order.effects, *([order.fault] if order.fault else [])]
-    verdict = ["named"] if effects else ["unknown", "partial"] if order.kind else ["none"]
-    also = ["lateral_friction"] if "turning_surface" in effects else []
-    hidden = [
-        {
-            "name": each.name,
-            "shape": each.shape,
-            "law": each.text,
-            "strength": each.strength,
-            "size": asdict(size),
-        }
-        for each, size in zip(made.hidden, made.sizes, strict=False)
-    ]
-    if made.fault and order.fault:
-        what, amount = made.fault
-        text = " ".join((what.__doc__ or what.__name__).split())
-        size = asdict(made.sizes[-1])
-        hidden.append(
-            {
-                "name": order.fault,
-                "shape": what.__name__,
-                "law": text,
-                "strength": amount,
-                "size": size,
-            }
-        )
-    p = plan.runs[0].plain
-    contact = {
-        name: float(p[name])
-        for name in (
-            "mu_s mu_k fall_speed fall_power presliding bristle_damping elastic_share creep_speed"
-        ).split()
-    }
-    return {
-        "verdict": verdict,
-        "effects": effects,
-        "also_right": also,
-        "out_of_catalogue": order.kind,
-        "hidden": hidden,
-        "exponents": {h.name: h.law.exponents for h in made.hidden if h.law and h.law.exponents},
-        "contact": {"form": order.contact} | contact,
-        "scatter": order.scatter,
-        "rig": plan.rig,
-        "tracker": asdict(made.tracker),
-        "runs": [
-            {
-                "mass": float(r.plain["mass"]),
-                "stiffness": float(r.plain["stiffness"]),
-                "surface_speed": float(r.plain["belt_speed"]),
-                "mu_factor": float(r.plain["scatter"]),
-                "friction": "disc" if record["planar"] else "along x",
-            }
-            for r, record in zip(plan.runs, made.records, strict=True)
-        ],
-    }

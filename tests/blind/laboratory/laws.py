@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .apparatus import MODES, PRESSURES, Record, spread_contact
 from .friction_law import FOLLOWS, SCALES, STAYS, half_space
@@ -65,7 +66,7 @@ def one_of(rng: np.random.Generator, *options):
     return options[int(rng.integers(len(options)))]
 
 
-def fields(**numbers: float) -> Callable[[Record, str, float], None]:
+def fields(**numbers: float | NDArray) -> Callable[[Record, str, float], None]:
     """A writer of constant numbers and of the strength into the field named."""
 
     def write(p: Record, name: str, strength: float) -> None:

@@ -106,7 +106,8 @@ def draw_settings(
 
 def pick_held_out(rng: np.random.Generator, settings: list[tuple[float, float, float]]) -> set[int]:
     """One or two runs without which every mass, spring and speed is still there."""
-    wanted, held = int(rng.integers(1, 3)), set()
+    wanted = int(rng.integers(1, 3))
+    held: set[int] = set()
     for j in rng.permutation(len(settings)):
         left = [s for i, s in enumerate(settings) if i not in held | {int(j)}]
         if len(held) < wanted and all(
