@@ -3,25 +3,28 @@
 In a notebook:
 
 >>> from cosim import read_scenario, run_scenario
->>> scenario = read_scenario("reference").changed({"rig.mass": 1.2, "run.duration": 15.0})
->>> run = run_scenario(scenario)                                  # doctest: +SKIP
->>> run.result.time, run.result["mechanics.x"]                    # doctest: +SKIP
->>> from cosim.report import run_dataset                          # doctest: +SKIP
->>> run_dataset(run.result, scenario, scenario.to_toml(), snapshots=run.snapshots)  # doctest: +SKIP
+>>> scenario = read_scenario("reference").changed({"rig.mass": 1.2, "run.duration": 1.0})
+>>> run = run_scenario(scenario)
+>>> run.result.time.shape, run.result["mechanics.x"].shape
+((101,), (101,))
+>>> from cosim.report import run_dataset
+>>> dataset = run_dataset(run.result, scenario, scenario.to_toml(), snapshots=run.snapshots)
+>>> dataset["interface_temperature"].attrs["units"]
+'degC'
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cosim.coupling.coupled_case import CoupledRun, run_scenario
+    from cosim.coupling.case import CoupledRun, run_scenario
     from cosim.scenario import Scenario, read_scenario
 
 __all__ = ["CoupledRun", "Scenario", "read_scenario", "run_scenario"]
 
 _HOME = {
-    "CoupledRun": "cosim.coupling.coupled_case",
-    "run_scenario": "cosim.coupling.coupled_case",
+    "CoupledRun": "cosim.coupling.case",
+    "run_scenario": "cosim.coupling.case",
     "Scenario": "cosim.scenario",
     "read_scenario": "cosim.scenario",
 }

@@ -10,16 +10,18 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Future, wait
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
-from queue import Empty, Queue
-from typing import Any
+from queue import Empty, Queue, SimpleQueue
+from typing import Any, TypeVar
 
-from joblib.externals.loky import ProcessPoolExecutor
+from joblib.externals.loky import BrokenProcessPool, ProcessPoolExecutor
 
 from cosim.interrupts import REQUESTS, held_interrupts, unheard_by_children
+
+__all__ = ["BrokenProcessPool", "Map", "as_finished", "is_stopped", "pool", "processes"]
 
 #: A process that has not stopped after this time (s) is killed; one that was just started imports.
 STOP_SECONDS = 10.0
@@ -37,6 +39,7 @@ ONE_THREAD = dict.fromkeys(
     "1",
 )
 
+Result = TypeVar("Result")
 #: Every call's result, in the order of the arguments.
 Map = Callable[[Callable[..., Any], Iterable[tuple]], Iterator[Any]]
 
@@ -44,7 +47,7 @@ Map = Callable[[Callable[..., Any], Iterable[tuple]], Iterator[Any]]
 @contextmanager
 def processes(jobs: int) -> Iterator[Map]:
     """A map over ``jobs`` processes; over this one for 1, or where it must not have children."""
-    if jobs <= 1 or multiprocessing.current_process().daemon:
+    if _alone(jobs):
         yield lambda function, arguments: (function(*each) for each in arguments)
         return
     with pool(jobs) as submit:
@@ -57,23 +60,48 @@ def processes(jobs: int) -> Iterator[Map]:
         yield mapped
 
 
+def as_finished(
+    jobs: int, function: Callable[..., Result], arguments: Sequence[tuple]
+) -> Generator[Result, None, None]:
+    """Every call's result as soon as there is one, from ``jobs`` processes as `processes` has them.
+
+    BrokenProcessPool where one of them died.
+    """
+    if _alone(jobs):
+        for each in arguments:
+            yield function(*each)
+        return
+    finished: SimpleQueue[Future[Result]] = SimpleQueue()
+    with pool(jobs) as submit:
+        with held_interrupts(), unheard_by_children():
+            for each in arguments:
+                submit(function, *each).add_done_callback(finished.put)
+        for _ in arguments:
+            yield finished.get().result()
+
+
+def _alone(jobs: int) -> bool:
+    """Whether this process does the work: a daemon, of somebody else's pool, has no children."""
+    return jobs <= 1 or multiprocessing.current_process().daemon
+
+
 @contextmanager
-def pool(processes: int) -> Iterator[Callable[..., Future]]:
+def pool(jobs: int) -> Iterator[Callable[..., Future[Any]]]:
     """What submits work to processes; all of them have ended after the block, however it is left.
 
     Not by joblib.Parallel, whose folders for shared arrays, of no use here, are removed twice when
     it is interrupted, nor by killing processes that could end by themselves: what keeps track of
     their folders and semaphores would complain on the terminal.
     """
-    futures: list[Future] = []
+    futures: list[Future[Any]] = []
     heard, line = multiprocessing.Pipe(duplex=False)
     with held_interrupts():
-        pool = ProcessPoolExecutor(
-            processes, initializer=_listen, initargs=(heard, os.getpid()), env=ONE_THREAD
+        executor = ProcessPoolExecutor(
+            jobs, initializer=_listen, initargs=(heard, os.getpid()), env=ONE_THREAD
         )
 
-    def submit(*call: Any) -> Future:
-        futures.append(pool.submit(*call))
+    def submit(*call: Any) -> Future[Any]:
+        futures.append(executor.submit(*call))
         return futures[-1]
 
     try:
@@ -84,14 +112,18 @@ def pool(processes: int) -> Iterator[Callable[..., Future]]:
             for future in futures:
                 future.cancel()
             late = wait(futures, timeout=STOP_SECONDS).not_done
-            _forget_waiting(pool)
-            pool.shutdown(kill_workers=bool(late))
+            _forget_waiting(executor)
+            executor.shutdown(kill_workers=bool(late))
             heard.close()
 
 
-def _forget_waiting(pool: ProcessPoolExecutor) -> None:
-    """Drop what no process has: cancelled calls make loky fail where it kills, and then hang."""
-    numbers, calls = getattr(pool, "_work_ids", Queue()), getattr(pool, "_pending_work_items", {})
+def _forget_waiting(executor: ProcessPoolExecutor) -> None:
+    """Drop what no process has: cancelled calls make loky fail where it kills, and then hang.
+
+    Two attributes of loky's that are not public; `joblib` has an upper bound for their sake.
+    """
+    numbers: Queue[int] = executor._work_ids
+    calls: dict[int, object] = executor._pending_work_items
     with suppress(Empty):
         while True:
             calls.pop(numbers.get_nowait(), None)

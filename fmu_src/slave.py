@@ -1,4 +1,4 @@
-"""StickSlip3DOF as an FMI 2.0 co-simulation slave: a thin dress over the kernel.
+"""StickSlip3DOF as an FMI 2.0 co-simulation slave: a thin FMI wrapper over the kernel.
 
 It runs inside any host with a Python, so it imports the standard library and nothing else. The
 recipe that builds the FMU renames this module and the package `stickslip` after their content, and
@@ -18,11 +18,23 @@ from math import isfinite, ulp
 
 from pythonfmu import Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.enums import Fmi2Status
-from stickslip.kernel import layout
 from stickslip.kernel.advance import advance, initialise
+from stickslip.kernel.layout import (
+    DONE,
+    E_FIRST,
+    O_SIZE,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
+    P_PRESLIDING,
+    U_SIZE,
+    U_SPEED,
+    W_SIZE,
+    Z_SIZE,
+)
 from stickslip.kernel.outputs import show
-from stickslip.kernel.status import WHY_NOT
 from stickslip.packing import pack
+from stickslip.status import WHY_NOT
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 
 # A host computes its communication points in one way or another and may miss the end of the last
@@ -79,7 +91,7 @@ class StickSlip3DOF(Fmi2Slave):
         # value reference -> value, of all variables
         self.cells = []
         self.input_slots, self.output_slots, self.parameter_names = {}, {}, {}
-        self.u = [0.0] * layout.U_SIZE
+        self.u = [0.0] * U_SIZE
         self._register_ports()
         self._register_parameters()
         self.phase = "instantiated"  # then "initialising", "stepping", "terminated"
@@ -90,21 +102,21 @@ class StickSlip3DOF(Fmi2Slave):
         self.stepped = False  # before the first step all follows from parameters and inputs
         self.stale = True
         self.p = []
-        self.z = [0.0] * layout.Z_SIZE
-        self.w = [0.0] * layout.W_SIZE
-        self.e = [0.0] * layout.E_FIRST  # no room for events: they are not logged here
-        self.o = [0.0] * layout.O_SIZE
+        self.z = [0.0] * Z_SIZE
+        self.w = [0.0] * W_SIZE
+        self.e = [0.0] * E_FIRST  # no room for events: they are not logged here
+        self.o = [0.0] * O_SIZE
 
     def _register_ports(self):
         for name, slot, start in INPUTS:
             reference = self._register(Real, name, start, causality=Fmi2Causality.input)
-            self.input_slots[reference] = getattr(layout, slot)
+            self.input_slots[reference] = slot
             self.u[self.input_slots[reference]] = start
         for name, slot, integer in OUTPUTS:
             more = {"variability": Fmi2Variability.discrete} if integer else {}
             more |= {"causality": Fmi2Causality.output, "initial": Fmi2Initial.calculated}
             reference = self._register(Integer if integer else Real, name, 0, **more)
-            self.output_slots[reference] = getattr(layout, slot)
+            self.output_slots[reference] = slot
 
     def _register_parameters(self):
         fixed = {
@@ -207,8 +219,8 @@ class StickSlip3DOF(Fmi2Slave):
 
     def _say_if_creeping(self):
         """Warn, once, of a surface that a stick's creep keeps up with: it would stick for ever."""
-        creep, speed = self.p[layout.P_STICK_CREEP], abs(self.u[layout.U_SPEED])
-        creep *= max(self.p[layout.P_MU_S], self.p[layout.P_MU_K]) * self.p[layout.P_NORMAL_FORCE]
+        creep, speed = self.p[P_PRESLIDING], abs(self.u[U_SPEED])
+        creep *= max(self.p[P_MU_S], self.p[P_MU_K]) * self.p[P_NORMAL_FORCE]
         if not self.said_to_creep and 0.0 < speed <= creep:
             self.said_to_creep = True
             self.log(
@@ -229,7 +241,7 @@ class StickSlip3DOF(Fmi2Slave):
 
     def _advance(self, end):
         status = advance(self.p, self.u, self.z, self.w, self.e, end)
-        if status != layout.DONE:
+        if status != DONE:
             raise Refused(f"no way from t = {self.time:g} s to {end:g} s: {WHY_NOT[status]}")
         show(self.p, self.u, self.z, self.w, self.o, 0)
         for reference, slot in self.output_slots.items():

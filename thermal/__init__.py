@@ -7,14 +7,13 @@
 True
 """
 
-from .fields import FieldSeries
-from .ice_mesh import MeshError
+from .belt.single_pass import SinglePass
+from .ice.mesh_file import MeshError
 from .model import BeltIceModel
+from .output import FieldSeries, RigView, rig_view
 from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
-from .rig_view import RigView, rig_view
-from .single_pass import SinglePass
-from .steady import NoSteadyState, settle
 from .steady_sliding import SlidingState, SteadySliding
+from .steady_state import NoSteadyState, settle
 
 __all__ = [
     "Ambient",

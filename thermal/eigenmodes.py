@@ -17,25 +17,13 @@ from scipy.linalg import eigh
 from scipy.sparse import spmatrix
 from skfem import BilinearForm, CellBasis, FacetBasis, LinearForm
 
+from .materials import Medium
+
 Array = NDArray[np.float64]
 Films = Sequence[tuple[FacetBasis, float]]
 
 #: Modes that carry the heat of long times; see `_sharpen`.
 _SLOWEST = 40
-
-
-@dataclass(frozen=True)
-class Medium:
-    """Density kg/m3, heat capacity J/kgK, conductivity W/mK; where it varies, (elements, 1)."""
-
-    density: float | Array
-    heat_capacity: float | Array
-    conductivity: float | Array
-
-    @property
-    def capacity(self) -> float | Array:
-        """Heat capacity of a volume, J/m3K."""
-        return self.density * self.heat_capacity
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from .block import standing_block
-from .constants import MELTING_POINT_DEGC
-from .contact import Fluxes, IceFace, exchange
+from .belt.supported_belt import HeatGiven, SupportedBelt
+from .contact.exchange import Fluxes, IceFace, exchange
+from .ice.block import standing_block
+from .ice.meltwater import Meltwater
 from .ledger import HeatLedger
-from .meltwater import Meltwater
+from .materials import MELTING_POINT_DEGC
 from .parameters import ThermalParameters
-from .track import Given, Track
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _MOVEMENT = 1 / 16
 
 #: Entry and exit temperatures are read this far outside the contact, as a share of its length:
-#: beyond the way over which heat of the last internal step is spread.
+#: beyond the travel over which heat of the last internal step is spread.
 _PROBE = 1 / 8
 
 #: Most loops in one step: the internal steps follow the movement, more would seem to hang.
@@ -39,8 +39,8 @@ class BeltIceModel:
     def __init__(self, parameters: ThermalParameters | None = None) -> None:
         self.parameters = parameters = parameters or ThermalParameters()
         self.footprint, self.ice = standing_block(parameters)
-        self.track = Track(parameters.belt, self.footprint)
-        self.belt = self.track.belt
+        self.supported_belt = SupportedBelt(parameters.belt, self.footprint)
+        self.belt = self.supported_belt.belt
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
         self.meltwater = Meltwater(
@@ -66,10 +66,10 @@ class BeltIceModel:
     ) -> None:
         """Advance by duration (s, > 0).
 
-        heat: friction heat produced in the step, J, >= 0. displacement: way of the belt
-        material under the contact, m, signed, up to 1000 loops. travel: way of the belt over its
-        railing, m, signed; left out: the displacement, of a block that stands still. Heat and
-        ways are spread evenly over the step. ValueError for anything else; the state is then
+        heat: friction heat produced in the step, J, >= 0. displacement: of the belt's
+        material under the contact, m, signed, up to 1000 loops. travel: of the belt over its
+        railing, m, signed; left out: the displacement, of a block that stands still. All three
+        are spread evenly over the step. ValueError for anything else; the state is then
         unchanged.
         """
         travel = displacement if travel is None else travel
@@ -90,11 +90,11 @@ class BeltIceModel:
     def _advance(self, duration: float, heat: float, displacement: float, travel: float) -> None:
         """One internal step: what it finds, the fluxes, both fields, the ledger."""
         centre, area = self.contact_position, self.footprint.area
-        seen = self.track.see(duration, centre, -displacement, travel)
+        found = self.supported_belt.step_response(duration, centre, -displacement, travel)
 
         def solve(ice_face: IceFace) -> Fluxes:
             return exchange(
-                seen.contact.face,
+                found.contact.face,
                 ice_face,
                 self.parameters.contact.conductance,
                 self.parameters.belt.film,
@@ -103,15 +103,17 @@ class BeltIceModel:
             )
 
         fluxes, sinking, recession = self.meltwater.exchange(duration, displacement, solve)
-        given = self.track.advance(duration, seen, fluxes.belt, self.meltwater.freezing(duration))
+        given = self.supported_belt.advance(
+            duration, found, fluxes.belt, self.meltwater.freezing(duration)
+        )
         to_air = self.ice.advance(duration, fluxes.ice * area, sinking, recession)
         self.meltwater.advance(duration, displacement, centre, fluxes.melting)
         self._book(duration, heat, fluxes, given, to_air)
-        self.ledger.from_railing += seen.rubbed
+        self.ledger.from_railing += found.rubbed
         self._travel = math.fmod(self._travel + displacement, self.parameters.belt.length)
 
     def _book(
-        self, duration: float, heat: float, fluxes: Fluxes, given: Given, ice_to_air: float
+        self, duration: float, heat: float, fluxes: Fluxes, given: HeatGiven, ice_to_air: float
     ) -> None:
         """Add one internal step to the ledger."""
         ledger, footprint = self.ledger, self.footprint
@@ -174,10 +176,6 @@ class BeltIceModel:
     def belt_field(self) -> tuple[Array, Array, Array]:
         """Position (cells,) m, depth (depths,) m below the contact face, degC (cells, depths)."""
         return self.belt.position, self.belt.depth, self._ambient + self.belt.field()
-
-    def ice_field(self) -> tuple[Array, Array, Array]:
-        """Radius (radii,) m, height (heights,) m, temperature (radii, heights) degC."""
-        return self.ice.r, self.ice.z, self._ambient + self.ice.field()
 
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy; its length depends on the mesh."""

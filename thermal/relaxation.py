@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+Numbers = TypeVar("Numbers", NDArray[np.float64], NDArray[np.complex128])
 T = TypeVar("T")
 
 #: Below this x the closed forms cancel; their Taylor series of 16 terms are then exact.
@@ -16,18 +16,18 @@ _SERIES_BELOW = 0.7
 _TERMS = 16
 
 
-def decay(x: Array) -> Array:
+def decay(x: Numbers) -> Numbers:
     """exp(-x)."""
     return np.exp(-x)
 
 
-def mean_decay(x: Array) -> Array:
+def mean_decay(x: Numbers) -> Numbers:
     """(1 - exp(-x)) / x, the mean of the decay over a step; 1 at x = 0."""
     safe = np.where(x == 0.0, 1.0, x)
     return np.where(x == 0.0, 1.0, -np.expm1(-safe) / safe)
 
 
-def mean_response(x: Array) -> Array:
+def mean_response(x: Numbers) -> Numbers:
     """(exp(-x) - 1 + x) / x^2, the mean over a step of the response to p; 1/2 at x = 0."""
     is_small = np.abs(x) < _SERIES_BELOW
     large = np.where(is_small, _SERIES_BELOW, x)

@@ -1,10 +1,11 @@
 """Belt and ice under steady friction: long steps, and the steady state directly.
 
-Seen from the ice a flux that stands still loads a belt that runs below it (`belt_series`). A step
-of any length is exact for fluxes and a speed that are constant in it; a step of endless length is
-the steady state: its fixed point, the same for every step. What has to be resolved in time is only
-how the fluxes themselves change, quickly at the start, then from loop to loop, and how the speed
-does in a ramp: its steps have the mean speed, so the belt's way is exact at the end of each.
+Seen from the ice a flux that stands still loads a belt that runs below it (`belt.rig_frame`). A
+step of any length is exact for fluxes and a speed that are constant in it; a step of endless length
+is the steady state: its fixed point, the same for every step. What has to be resolved in time is
+only how the fluxes themselves change, quickly at the start, then from loop to loop, and how the
+speed does in a ramp: its steps have the mean speed, so the belt's travel is exact at the end of
+each.
 
 The strips of the contact, the supports and the heat exchange with the ice are those of
 `BeltIceModel`; here the loads are exact Fourier coefficients, there they are hat functions that
@@ -19,14 +20,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .belt_series import BeltSeries
-from .block import standing_block
-from .constants import MELTING_POINT_DEGC
-from .contact import Fluxes, IceFace, exchange
-from .footprint import Footprint
-from .ice_body import IceBody
+from .belt.rig_frame import BeltSeries
+from .contact.exchange import BeltFace, Fluxes, IceFace, exchange
+from .contact.footprint import Footprint
+from .ice.block import standing_block
+from .ice.body import IceBody
+from .materials import MELTING_POINT_DEGC
 from .parameters import ThermalParameters
-from .steady import FOREVER, check_gives_heat
+from .steady_state import FOREVER, check_gives_heat
 
 Array = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ _PAUSE_STEPS, _FIRST_OF_PAUSE = 24, 1e-3
 class SlidingState(NamedTuple):
     """Temperatures as rises above the air, K; belt_share of the friction heat of the last step.
 
-    mean_interface: mean of the two faces over the contact; flash_interface: over the hottest
+    mean_interface: mean of the two faces over the contact; hottest_interface: over the hottest
     strip of it. melting: W/m2 of contact, above 0 where the ice face melts.
     """
 
@@ -57,7 +58,7 @@ class SlidingState(NamedTuple):
     entry: float
     exit: float
     mean_interface: float
-    flash_interface: float
+    hottest_interface: float
     ice_face: float
     belt_mean: float
     belt_share: float
@@ -134,7 +135,7 @@ class SteadySliding:
         if not duration > 0.0:
             raise ValueError(f"duration = {duration:g} s must be positive")
         speed = self.speed if speed is None else speed
-        contact = self.belt.see(duration, speed)
+        contact = self.belt.step_response(duration, speed)
         friction = 0.0 if lifted else self._friction(speed)
         self._fluxes = fluxes = (
             self._apart(duration) if lifted else self._together(contact.face, duration, friction)
@@ -146,7 +147,7 @@ class SteadySliding:
         self._time += duration
         self._left = max(0.0, 1.0 - self.sensitivity * self._interface())
 
-    def _together(self, belt, duration: float, friction: float) -> Fluxes:
+    def _together(self, belt: BeltFace, duration: float, friction: float) -> Fluxes:
         contact = self.parameters.contact
         return exchange(
             belt,
@@ -253,7 +254,7 @@ class SteadySliding:
             entry=float(entry),
             exit=float(exit_),
             mean_interface=self._interface(),
-            flash_interface=0.5 * (float(strips.max()) + ice),
+            hottest_interface=0.5 * (float(strips.max()) + ice),
             ice_face=ice,
             belt_mean=self.belt.mean_rise(),
             belt_share=share,

@@ -1,26 +1,30 @@
 """The command `stickslip`: arguments, calls, and what becomes of their errors.
 
 Exit status: 0 done; 2 bad input, refused in one line before anything is computed; 1 a run that
-failed or was interrupted, of which everything computed is on disk. Nothing heavy is imported
-before the arguments are known, so that help is quick; Ctrl-C waits for the end of imports, which
-do not survive it.
+failed or was interrupted, of which everything computed is on disk. What a command computes with is
+imported when its arguments are known, so that help is quick; Ctrl-C waits for the end of imports,
+which do not survive it.
 """
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
-from importlib import import_module
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TextIO
 
-from cosim.cli.errors import BadInput, warnings_in_one_line
-from cosim.cli.interruption import interruptible
-from cosim.interrupts import held_interrupts
+from cosim.interrupts import held_interrupts, interruptible
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 #: What BLAS reads once, when numpy is imported.
 _BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class BadInput(ValueError):
+    """What was given cannot be used; one line: file, key, what is wrong, what is allowed."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -48,12 +52,13 @@ def _guarded(argv: Sequence[str]) -> int:
     debug = "--debug" in argv
     try:
         with held_interrupts():
-            from cosim.cli.arguments import parser
+            from cosim.cli.arguments import command_module, parser
 
             arguments = parser(argv).parse_args(argv)
-            command = import_module(f"cosim.cli.{arguments.home}")
-        with warnings_in_one_line():
-            status = command.main(arguments)
+            command = command_module(arguments.command)
+            refused = command.refused()
+        with warnings_in_one_line(), refusing(*refused):
+            status: int = command.execute(arguments)
         sys.stdout.flush()
         return status
     except BadInput as error:
@@ -76,3 +81,36 @@ def _give_up(error: BaseException, status: int, debug: bool, message: str = "") 
         traceback.print_exception(error)
     print(f"error: {message or error}", file=sys.stderr)
     return status
+
+
+@contextmanager
+def refusing(*kinds: type[Exception]) -> Iterator[None]:
+    """Turn errors of these kinds into BadInput."""
+    try:
+        yield
+    except kinds as error:
+        raise BadInput(" ".join(str(error).split())) from error
+
+
+@contextmanager
+def warnings_in_one_line() -> Iterator[None]:
+    """Show each of our warnings once, as `warning: ...` on stderr; leave the libraries' out."""
+    shown = set()
+
+    def show(
+        message: Warning | str,
+        category: type[Warning],
+        filename: str,
+        lineno: int,
+        file: TextIO | None = None,
+        line: str | None = None,
+    ) -> None:
+        text = " ".join(str(message).split())
+        if category is UserWarning and text not in shown:
+            shown.add(text)
+            print(f"warning: {text}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", UserWarning)
+        warnings.showwarning = show
+        yield

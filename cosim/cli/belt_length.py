@@ -1,7 +1,4 @@
-"""`stickslip belt-length`: its arguments, what it runs, what it leaves behind.
-
-What `execute` raises of `REFUSED` is bad input, in one line.
-"""
+"""`stickslip belt-length`: its arguments, what it runs, what it leaves behind."""
 
 from __future__ import annotations
 
@@ -12,12 +9,15 @@ import sys
 import time
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
-from cosim.report.drawing import OutputRefused, Picture, writable
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_json, add_output
+from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
+from cosim.report.page import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.belt_length import (
@@ -35,21 +35,12 @@ from cosim.studies.belt_length import (
     verdict,
     work_off,
 )
-from cosim.studies.belt_length.checks import check_case, check_options
+from cosim.studies.belt_length.study import check_case, check_options
 from thermal import MeshError, ParameterError
-from thermal.air import NotLaminar
-from thermal.steady import NoSteadyState
+from thermal.belt.air import NotLaminar
+from thermal.steady_state import NoSteadyState
 
-DONE, FAILED = 0, 1
-REFUSED = (
-    StudyError,
-    ScenarioError,
-    ParameterError,
-    MeshError,
-    NoSteadyState,
-    NotLaminar,
-    OutputRefused,
-)
+EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
 RESULT, TABLE = "belt_length.json", "belt_length.csv"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
@@ -143,13 +134,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=os.cpu_count() or 1,
         help="processes (default: all cores)",
     )
-    parser.add_argument("--json", action="store_true", help="print JSON")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
+    add_json(parser)
+    add_output(
+        parser,
+        "folder of table, numbers and figures (default: results/belt-length)",
         default="results/belt-length",
-        help="folder of table, numbers and figures (default: results/belt-length)",
     )
 
 
@@ -201,6 +190,19 @@ def _shown(value: float | str) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    return (
+        StudyError,
+        ScenarioError,
+        ParameterError,
+        MeshError,
+        NoSteadyState,
+        NotLaminar,
+        OutputRefused,
+    )
+
+
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
     began = time.perf_counter()
@@ -213,9 +215,13 @@ def execute(arguments: Namespace) -> int:
         with tqdm(
             total=len(wanted) + arguments.map**2, disable=None, unit="case", leave=False
         ) as bar:
-            work_off(study, wanted, arguments.jobs, bar.update)
+
+            def show(count: int) -> None:
+                bar.update(count)
+
+            work_off(study, wanted, arguments.jobs, show)
             if grid is not None:
-                fill_map(grid, wanted[0], arguments.jobs, bar.update)
+                fill_map(grid, wanted[0], arguments.jobs, show)
     except KeyboardInterrupt:
         print(
             f"error: interrupted; {len(study.rows)} of {len(wanted)} cases are kept in {folder}",
@@ -277,13 +283,10 @@ def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
                 for row in grid.drift.tolist()
             ],
         }
-    text = json.dumps(numbers, indent=1)
-    write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
+    write_text(json.dumps(numbers, indent=1), folder / RESULT)
     for name, table in ((TABLE, study.table()), (CHANGES, study.changes()), (DOUBT, study.doubt())):
         if name == TABLE or not table.empty:
-            write_atomically(
-                folder / name, lambda path, table=table: table.to_csv(path, index=False)
-            )
+            write_atomically(folder / name, partial(table.to_csv, index=False))
 
 
 def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> None:
@@ -296,9 +299,7 @@ def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> None
     if grid is not None:
         pictures.append(draw_map(grid, case, study.options.limit))
     for one in pictures:
-        write_atomically(
-            folder / f"{one.name}.png", lambda path, png=one.png: path.write_bytes(png)
-        )
+        write_bytes(one.png, folder / f"{one.name}.png")
 
 
 def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:

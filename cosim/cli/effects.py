@@ -6,32 +6,40 @@ import json
 import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
 
-from cosim.atomic import write_bytes, write_text
-from cosim.folders import OutputRefused, writable
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_json, add_output
+from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
-from cosim.report.drawing import Picture
-from cosim.studies.effects import UnknownEffect, allowed, chosen, described, effect_figure, page
 
-DONE, FAILED = 0, 1
-REFUSED = (UnknownEffect, OutputRefused)
+if TYPE_CHECKING:
+    from cosim.report.page import Picture
+
+EXAMPLE = "stickslip effects -o results/effects"
 RESULT, PAGE = "effects.json", "effects.html"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument("effects", metavar="EFFECT", nargs="*", help="ids (default: all)")
-    parser.add_argument("--json", action="store_true", help="print JSON")
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", help=f"also write {PAGE}, {RESULT} and the figures there"
-    )
+    add_json(parser)
+    add_output(parser, f"also write {PAGE}, {RESULT} and the figures there")
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.studies.effects import UnknownEffect
+
+    return (UnknownEffect, OutputRefused)
 
 
 def execute(arguments: Namespace) -> int:
     """Print the entries; write page, JSON and figures where asked to."""
+    from cosim.studies.effects import chosen, described
+
     entries = [described(entry) for entry in chosen(arguments.effects)]
     if arguments.output is not None and not _write(entries, Path(arguments.output)):
         return FAILED
@@ -44,6 +52,8 @@ def execute(arguments: Namespace) -> int:
 
 
 def _print(entry: dict[str, Any]) -> None:
+    from cosim.studies.effects import allowed
+
     print(f"{entry['id']}: {entry['sentence']}")
     print(f"    enters {entry['enters']}; {entry['source']}")
     for parameter in entry["parameters"]:
@@ -58,6 +68,9 @@ def _print(entry: dict[str, Any]) -> None:
 
 def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
     """Figures, then the page of all of them; whether it got so far."""
+    with held_interrupts():
+        from cosim.studies.effects.page import effect_figure, page
+
     writable(folder, (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries)))
     pictures: dict[str, Picture] = {}
     try:

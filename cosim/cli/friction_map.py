@@ -1,7 +1,4 @@
-"""`stickslip friction-map`: its arguments, what it runs, what it leaves behind.
-
-What `execute` raises of `REFUSED` is bad input, in one line.
-"""
+"""`stickslip friction-map`: its arguments, what it runs, what it leaves behind."""
 
 from __future__ import annotations
 
@@ -11,20 +8,19 @@ import time
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
-from cosim.coupling import CouplingError
-from cosim.report.drawing import DPI, OutputRefused, writable
-from cosim.scenario import read_scenario
-from cosim.scenario.faults import ScenarioError
-from cosim.studies.friction_map import FrictionMap, NotSteady, draw_map, friction_map
+from cosim.cli import DONE
+from cosim.cli.arguments import add_json, add_output
+from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
 
-DONE = 0
-REFUSED = (NotSteady, ScenarioError, OutputRefused, CouplingError)
+if TYPE_CHECKING:
+    from cosim.studies.friction_map import FrictionMap
+
+EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
 RESULT, TABLE, FIGURE = "friction_map.json", "friction_map.csv", "friction_map.png"
 #: Three speeds a decade, m/s, up to those of skates and sleds.
 SPEEDS = tuple(float(f"{speed:.3g}") for speed in np.geomspace(3e-3, 30.0, 13))
@@ -62,18 +58,28 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=2.0,
         help="length of each coupled run, s (default: 2)",
     )
-    parser.add_argument("--json", action="store_true", help="print JSON")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
+    add_json(parser)
+    add_output(
+        parser,
+        "folder of table, numbers and figure (default: results/friction-map)",
         default="results/friction-map",
-        help="folder of table, numbers and figure (default: results/friction-map)",
     )
 
 
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.coupling import CouplingError
+    from cosim.scenario import ScenarioError
+    from cosim.studies.friction_map import NotSteady
+
+    return (NotSteady, ScenarioError, OutputRefused, CouplingError)
+
+
 def execute(arguments: Namespace) -> int:
-    """Run, write, print a line a temperature; 0. Raises what is in `REFUSED`."""
+    """Run, write, print a line a temperature; 0."""
+    from cosim.scenario import read_scenario
+    from cosim.studies.friction_map import friction_map
+
     began = time.perf_counter()
     scenario = read_scenario(arguments.scenario)
     folder = Path(arguments.output)
@@ -114,11 +120,11 @@ def _print(regimes: dict[str, Any]) -> None:
 
 def _write(found: FrictionMap, folder: Path) -> None:
     """Numbers first, then the figure."""
-    text = json.dumps(found.as_json(), indent=1)
-    write_atomically(folder / RESULT, lambda path: path.write_text(text, encoding="utf-8"))
+    from cosim.studies.friction_map.figure import draw_map
+
+    write_text(json.dumps(found.as_json(), indent=1), folder / RESULT)
     write_atomically(folder / TABLE, lambda path: _write_table(found, path))
-    figure = draw_map(found)
-    write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=DPI))
+    write_bytes(draw_map(found).png, folder / FIGURE)
 
 
 def _write_table(found: FrictionMap, path: Path) -> None:

@@ -1,7 +1,4 @@
-"""`stickslip gap`: its arguments, what it asks, what it leaves behind.
-
-What `execute` raises of `REFUSED` is bad input, in one line.
-"""
+"""`stickslip gap`: its arguments, what it asks, what it leaves behind."""
 
 from __future__ import annotations
 
@@ -11,20 +8,23 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
 
-from cosim.atomic import write_text
-from cosim.folders import OutputRefused, writable
-from cosim.gap import Campaign, CampaignError, read_campaign
-from cosim.gap.example import write_example
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_output
+from cosim.files import OutputRefused, writable, write_text
 from cosim.interrupts import held_interrupts
 
-DONE, FAILED = 0, 1
+if TYPE_CHECKING:
+    from cosim.gap import Campaign
+
+EXAMPLE = "stickslip gap cold_room/campaign.toml -o results/cold_room"
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 STDOUT = "-"
 CAMPAIGNS = Path(__file__).parents[1] / "gap" / "campaigns"
-REFUSED = (CampaignError, OutputRefused)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -35,11 +35,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="TOML file, a folder with campaign.toml, or a packaged campaign: "
         f"{', '.join(packaged_campaigns())}",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        help=f"folder of {PAGE}, figures, {MODEL} and {RESULT} (default: results/NAME OF THE "
+    add_output(
+        parser,
+        f"folder of {PAGE}, figures, {MODEL} and {RESULT} (default: results/NAME OF THE "
         "CAMPAIGN-gap)",
     )
     parser.add_argument(
@@ -65,8 +63,18 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.gap import CampaignError
+
+    return (CampaignError, OutputRefused)
+
+
 def execute(arguments: Namespace) -> int:
-    """Read, find, write, report; 0, or 1 when stopped. Raises what is in `REFUSED`."""
+    """Read, find, write, report; 0, or 1 when stopped."""
+    from cosim.gap import CampaignError, read_campaign
+    from cosim.gap.example import write_example
+
     if arguments.write_example is not None:
         print(write_example(Path(arguments.write_example)))
         return DONE
@@ -93,12 +101,12 @@ def execute(arguments: Namespace) -> int:
     return _shown(files, gap, folder, arguments)
 
 
-def _shown(files, gap, folder: Path, arguments: Namespace) -> int:
+def _shown(files: ModuleType, gap: Any, folder: Path, arguments: Namespace) -> int:
     """Figures and page where they are wanted, then the closing lines."""
-    flown = []
+    drawn: list[Any] = []
     try:
         if not arguments.no_page:
-            flown = _drawn(files, gap, folder)
+            drawn = _drawn(files, gap, folder)
     except KeyboardInterrupt:
         print(
             f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
@@ -106,7 +114,7 @@ def _shown(files, gap, folder: Path, arguments: Namespace) -> int:
         )
         return FAILED
     names = [str(folder / name) for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
-    lines = [*files.closing_lines(gap, flown), f"  files      {', '.join(names)}"]
+    lines = [*files.closing_lines(gap, drawn), f"  files      {', '.join(names)}"]
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
     return DONE
 
@@ -123,29 +131,34 @@ def _source(given: str) -> Path:
     return Path(given)
 
 
-def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[[int], object]):
-    """Runs of which figures alone are known, and the study's own scheme, have their own way."""
+def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[..., None]) -> Any:
+    """Runs of which figures alone are known, and the study's own scheme, are searched otherwise."""
     tracks = any(run.track is not None for run in campaign.runs)
     if campaign.scheme == "study" or not tracks:
         from cosim.studies.reproduction.summary import find_summary_gap
 
         return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
-    from cosim.gap.naming import find_gap
+    from cosim.gap.find import find_gap
 
     return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
 
 
-def _drawn(files, gap, folder: Path) -> list:
+def _drawn(files: ModuleType, gap: Any, folder: Path) -> list[Any]:
     """Figures and page; what the FMU did."""
     with tqdm(disable=None, unit="figure", leave=False) as bar:
-        return files.write_page(gap, folder, folder / PAGE, bar.update)
+        drawn: list[Any] = files.write_page(gap, folder, folder / PAGE, bar.update)
+    return drawn
 
 
 @contextmanager
-def _bar() -> Iterator[Callable[[int], object]]:
+def _bar() -> Iterator[Callable[..., None]]:
     """A count of models tried on stderr, none when that is no terminal."""
     with tqdm(disable=None, unit="model", leave=False) as bar:
-        yield lambda count=1: bar.update(count)
+
+        def step(count: int = 1) -> None:
+            bar.update(count)
+
+        yield step
 
 
 def _count(text: str) -> int:

@@ -1,30 +1,26 @@
-"""`stickslip reproduce`: its arguments, what it runs, what it leaves behind.
-
-What `execute` raises of `REFUSED` is bad input, in one line.
-"""
+"""`stickslip reproduce`: its arguments, what it runs, what it leaves behind."""
 
 from __future__ import annotations
 
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tqdm import tqdm
 
-from cosim.atomic import write_bytes, write_text
-from cosim.folders import OutputRefused, writable
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_output
+from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
-from cosim.studies.reproduction import Claim, UnknownClaim, claim_ids, reproduce
 
 if TYPE_CHECKING:
+    from cosim.studies.reproduction import Claim
     from cosim.studies.reproduction.attributions import Datasets
 
-DONE, FAILED = 0, 1
+EXAMPLE = "stickslip reproduce C6 C13 -o results/claims"
 RESULT, PAGE = "reproduction.json", "report.html"
-REFUSED = (UnknownClaim, OutputRefused)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -33,17 +29,25 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--json", metavar="FILE", help=f"write {RESULT} there instead of the output folder"
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
+    add_output(
+        parser,
+        "folder of report, figures and numbers (default: results/reproduction)",
         default="results/reproduction",
-        help="folder of report, figures and numbers (default: results/reproduction)",
     )
 
 
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    import cosim.studies.reproduction.claims  # noqa: F401  imported where Ctrl-C waits
+    from cosim.studies.reproduction import UnknownClaim
+
+    return (UnknownClaim, OutputRefused)
+
+
 def execute(arguments: Namespace) -> int:
-    """Judge, write, print a line a claim; 0, or 1 when stopped. Raises what is in `REFUSED`."""
+    """Judge, write, print a line a claim; 0, or 1 when stopped."""
+    from cosim.studies.reproduction import claim_ids, reproduce
+
     began = time.perf_counter()
     wanted = claim_ids(arguments.claims)
     folder = Path(arguments.output)
@@ -51,8 +55,6 @@ def execute(arguments: Namespace) -> int:
     writable(folder, (PAGE,))
     writable(result.parent, (result.name,))
     claims: list[Claim] = []
-    with held_interrupts():
-        import_module("cosim.studies.reproduction.claims")
     try:
         for one in tqdm(wanted, disable=None, unit="claim", leave=False):
             claims += reproduce([one])
@@ -108,8 +110,7 @@ def _write(
     """Numbers first, then figures, then the page."""
     from stickslip.reference.faults import DESCRIPTIONS
 
-    from cosim.studies.reproduction.page import page
-    from cosim.studies.reproduction.result import as_json
+    from cosim.studies.reproduction.result import as_json, page
 
     write_text(as_json(claims, wall_time, datasets), result)
     for claim in claims:

@@ -3,35 +3,63 @@
 from __future__ import annotations
 
 import time
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from cosim.cli.assessing import attach, compile_model
-from cosim.cli.errors import BadInput, refusing
-from cosim.cli.files import results_folder, scenario_to_run, writable_folder
-from cosim.cli.finish import finish
-from cosim.cli.patience import patient_interrupts
-from cosim.cli.progress import progress_over
-from cosim.coupling import CouplingError, FmuError, ParticipantError
-from cosim.coupling.coupled_case import CoupledRun, run_scenario
-from cosim.report import run_dataset
-from cosim.scenario import Scenario
-from thermal import ParameterError
+from cosim.cli import BadInput
+from cosim.cli.arguments import add_run_arguments
 
+if TYPE_CHECKING:
+    from cosim.coupling.case import CoupledRun
+    from cosim.scenario import Scenario
+
+EXAMPLE = "stickslip run my_case.toml -o results/first"
 FIELDS = "fields"
-#: Input that does not fit, as opposed to a run that fails.
-REFUSED = (CouplingError, FmuError, ParameterError)
 
 
-def main(arguments: Namespace) -> int:
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    add_run_arguments(parser)
+    parser.add_argument(
+        "--fmu",
+        metavar="FILE",
+        help="the mechanical FMU (default: that in build of a checkout, or else in the user's cache"
+        " folder, built when missing or stale)",
+    )
+    parser.add_argument(
+        "--animation",
+        action="store_true",
+        help="also write temperature.gif: belt and ice, a frame every run.snapshot_interval",
+    )
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input, as opposed to a run that fails."""
+    import cosim.cli.running
+    import cosim.coupling.case  # noqa: F401  the models, imported where Ctrl-C waits
+    from cosim.coupling import CouplingError, FmuError
+    from cosim.files import OutputRefused
+    from cosim.scenario import ScenarioError
+    from thermal import ParameterError
+
+    return (ScenarioError, OutputRefused, CouplingError, FmuError, ParameterError)
+
+
+def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
+    from cosim.cli import running
+    from cosim.files import writable
+    from cosim.interrupts import patient_interrupts
+    from cosim.report import run_dataset
+
     began = time.perf_counter()
-    scenario = scenario_to_run(arguments.scenario, coupled=True)
-    folder = results_folder(arguments.output, scenario)
-    fields = writable_folder(folder / FIELDS, ())
-    compile_model()
+    scenario = running.scenario_to_run(arguments.scenario, coupled=True)
+    folder = running.results_folder(arguments.output, scenario)
+    fields = writable(folder / FIELDS)
+    running.compile_model()
     with patient_interrupts() as patience:
-        with progress_over(scenario.run.duration) as show:
+        with running.progress_over(scenario.run.duration) as show:
 
             def progress(reached: float) -> None:
                 patience.hold()
@@ -46,8 +74,8 @@ def main(arguments: Namespace) -> int:
             )
         patience.hold()
         dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
-        attach(dataset, scenario, patience)
-        return finish(
+        running.assess_motion(dataset, scenario, patience)
+        return running.finish(
             dataset, folder, began, patience, _field_files(done, folder), views=done.snapshots.views
         )
 
@@ -60,13 +88,14 @@ def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
     return {name: "temperature fields of belt and ice; opens in ParaView"}
 
 
-def _coupled(scenario: Scenario, **arguments) -> CoupledRun:
-    """`run_scenario`, with what it refuses as bad input."""
+def _coupled(scenario: Scenario, **arguments: Any) -> CoupledRun:
+    """`run_scenario`; an FMU's contents are only unpacked, and refused, when it starts."""
+    from cosim.coupling import ParticipantError
+    from cosim.coupling.case import run_scenario
+
     try:
-        with refusing(*REFUSED):
-            return run_scenario(scenario, **arguments)
+        return run_scenario(scenario, **arguments)
     except ParticipantError as error:
-        # an FMU's contents are only unpacked when it starts
-        if isinstance(error.__cause__, REFUSED):
-            raise BadInput(str(error.__cause__)) from error
+        if isinstance(error.__cause__, refused()):
+            raise BadInput(" ".join(str(error.__cause__).split())) from error
         raise

@@ -3,32 +3,50 @@
 from __future__ import annotations
 
 import time
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
+from typing import TYPE_CHECKING
 
-from stickslip import Trajectory, simulate
+from cosim.cli.arguments import add_run_arguments
+from cosim.interrupts import Patience, patient_interrupts
 
-from cosim.cli.assessing import attach, compile_model
-from cosim.cli.files import results_folder, scenario_to_run
-from cosim.cli.finish import finish
-from cosim.cli.patience import Patience, patient_interrupts
-from cosim.cli.progress import progress_over
-from cosim.report import trajectory_dataset
-from cosim.scenario import Scenario
+if TYPE_CHECKING:
+    from stickslip import Trajectory
+
+    from cosim.scenario import Scenario
+
+EXAMPLE = "stickslip simulate reference -o results/mechanics"
 
 
-def main(arguments: Namespace) -> int:
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    add_run_arguments(parser)
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    import cosim.cli.running  # noqa: F401  the model, imported where Ctrl-C waits
+    from cosim.files import OutputRefused
+    from cosim.scenario import ScenarioError
+
+    return (ScenarioError, OutputRefused)
+
+
+def execute(arguments: Namespace) -> int:
     """Simulate, write, report; the exit status."""
+    from cosim.cli import running
+    from cosim.report import trajectory_dataset
+
     began = time.perf_counter()
-    scenario = scenario_to_run(arguments.scenario, coupled=False)
-    folder = results_folder(arguments.output, scenario)
-    compile_model()
+    scenario = running.scenario_to_run(arguments.scenario, coupled=False)
+    folder = running.results_folder(arguments.output, scenario)
+    running.compile_model()
     with patient_interrupts() as patience:
         start = time.perf_counter()
         trajectory = _simulated(scenario, patience)
         stepped = time.perf_counter() - start
         dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
-        attach(dataset, scenario, patience)
-        return finish(dataset, folder, began, patience)
+        running.assess_motion(dataset, scenario, patience)
+        return running.finish(dataset, folder, began, patience)
 
 
 def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
@@ -37,6 +55,10 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     Ctrl-C is looked at between two blocks of rows only, so that rows and events of a block are
     both kept or both not there.
     """
+    from stickslip import simulate
+
+    from cosim.cli.running import progress_over
+
     run = scenario.run
     with progress_over(run.duration) as show:
 
@@ -58,4 +80,5 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
         except KeyboardInterrupt as stop:
             if not patience.holding:
                 raise
-            return stop.trajectory
+            # what was computed until then is on the exception, of whatever kind it is
+            return stop.trajectory  # type: ignore[attr-defined]

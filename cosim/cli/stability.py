@@ -1,7 +1,4 @@
-"""`stickslip stability`: its arguments, what it runs, what it leaves behind.
-
-What `execute` raises of `REFUSED` is bad input, in one line.
-"""
+"""`stickslip stability`: its arguments, what it runs, what it leaves behind."""
 
 from __future__ import annotations
 
@@ -10,22 +7,20 @@ import sys
 import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from tqdm import tqdm
 
-from cosim.atomic import write_bytes, write_text
-from cosim.report.drawing import OutputRefused, Picture, writable
-from cosim.report.motion_words import regime_sentence, stability_sentence
-from cosim.scenario import read_scenario
-from cosim.scenario.faults import ScenarioError
-from cosim.studies.stability import Case, NotAMotion, case_of, pretension_map, regime_map
-from cosim.studies.stability.page import page
-from cosim.studies.stability.result import as_json
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_json, add_output
+from cosim.files import OutputRefused, writable, write_bytes, write_text
 
-DONE, FAILED = 0, 1
-REFUSED = (NotAMotion, ScenarioError, OutputRefused)
+if TYPE_CHECKING:
+    from cosim.report.page import Picture
+    from cosim.studies.stability import Case
+
+EXAMPLE = "stickslip stability study --grid 20 -o results/stability"
 RESULT, PAGE = "stability.json", "report.html"
 #: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
 #: mu_s/mu_k.
@@ -47,25 +42,37 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=20,
         help="points a side of each map, 0 for none (default: 20)",
     )
-    parser.add_argument("--json", action="store_true", help="print JSON")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
+    add_json(parser)
+    add_output(
+        parser,
+        "folder of page, numbers and figures (default: results/stability)",
         default="results/stability",
-        help="folder of page, numbers and figures (default: results/stability)",
     )
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.scenario import ScenarioError
+    from cosim.studies.stability import NotAMotion
+
+    return (NotAMotion, ScenarioError, OutputRefused)
 
 
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
+    from cosim.report.assessment import regime_sentence, stability_sentence
+    from cosim.scenario import read_scenario
+    from cosim.studies.stability import NotAMotion, case_of
+    from cosim.studies.stability.maps import as_json
+
     began = time.perf_counter()
     if arguments.grid < 0 or arguments.grid == 1:
         raise NotAMotion(f"--grid = {arguments.grid}: must be at least 2, or 0 for none")
     scenario = read_scenario(arguments.scenario)
     folder = Path(arguments.output)
     writable(folder, (RESULT, PAGE))
-    case, status, maps = case_of(scenario), DONE, {}
+    case, status = case_of(scenario), DONE
+    maps: dict[str, Any] = {}
     try:
         if arguments.grid:
             _fill(maps, case, arguments.grid)
@@ -84,6 +91,8 @@ def execute(arguments: Namespace) -> int:
 
 def _fill(maps: dict[str, Any], case: Case, grid: int) -> None:
     """Both maps, the second only once the first is whole."""
+    from cosim.studies.stability import pretension_map, regime_map
+
     speed = abs(case.parameters.surface.speed)
     speeds = speed * np.linspace(*SPEEDS, grid)
     with tqdm(total=2 * grid**2, disable=None, unit="cell", leave=False) as bar:
@@ -103,6 +112,8 @@ def _pictures(maps: dict[str, Any], case: Case) -> list[Picture]:
 def _write(
     numbers: dict[str, Any], sentences: list[str], pictures: list[Picture], folder: Path
 ) -> None:
+    from cosim.studies.stability.maps import page
+
     write_text(json.dumps(numbers, indent=1), folder / RESULT)
     for picture in pictures:
         write_bytes(picture.png, folder / f"{picture.name}.png")

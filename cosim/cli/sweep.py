@@ -1,7 +1,4 @@
-"""`stickslip sweep`: its arguments, what it runs, what it leaves behind.
-
-What `execute` raises of `REFUSED` is bad input, in one line.
-"""
+"""`stickslip sweep`: its arguments, what it runs, what it leaves behind."""
 
 from __future__ import annotations
 
@@ -11,30 +8,21 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import xarray as xr
 from tqdm import tqdm
 
-from cosim.atomic import write_atomically
-from cosim.folders import OutputRefused, not_taken
-from cosim.scenario import Scenario, read_scenario
-from cosim.scenario.faults import ScenarioError
-from cosim.studies.sweep import (
-    Grid,
-    Run,
-    SweepError,
-    SweepStopped,
-    product_grid,
-    run_grid,
-    write_sweep,
-)
-from cosim.studies.sweep.arguments import parse_vary
-from cosim.studies.sweep.combination import COMPLETE
-from cosim.studies.sweep.figure import draw_sweep
-from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_output
+from cosim.files import OutputRefused, not_taken, write_bytes
 
-REFUSED = (SweepError, ScenarioError, OutputRefused)
-DONE, FAILED = 0, 1
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from cosim.scenario import Scenario
+    from cosim.studies.sweep import Grid
+
+EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
 RESULT, FIGURE = "sweep.nc", "sweep.png"
 #: Group of the result file that holds the test plan's repeats.
 REPEATS = "repeats"
@@ -63,17 +51,27 @@ def add_arguments(parser: ArgumentParser) -> None:
     where.add_argument(
         "--dask", metavar="ADDRESS", help="run on the Dask cluster whose scheduler is there"
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        help="folder of the results (default: results/NAME OF THE SCENARIO-sweep); combinations "
+    add_output(
+        parser,
+        "folder of the results (default: results/NAME OF THE SCENARIO-sweep); combinations "
         "that are finished there are not run again",
     )
 
 
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    import cosim.studies.sweep.figure  # noqa: F401  imported where Ctrl-C waits
+    from cosim.scenario import ScenarioError
+    from cosim.studies.sweep import SweepError
+
+    return (SweepError, ScenarioError, OutputRefused)
+
+
 def execute(arguments: Namespace) -> int:
     """Sweep, write, report; 0, or 1 when nothing came out or the sweep was stopped."""
+    from cosim.scenario import read_scenario
+    from cosim.studies.sweep import Run, SweepStopped, run_grid
+
     began = time.perf_counter()
     scenario = read_scenario(arguments.scenario)
     grids = _grids(arguments, scenario)
@@ -106,6 +104,10 @@ def execute(arguments: Namespace) -> int:
 
 def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
     """Group of the result file -> combinations."""
+    from cosim.studies.sweep import product_grid
+    from cosim.studies.sweep.axis import parse_vary
+    from cosim.studies.sweep.grid import plan_grid, repeats_grid
+
     if arguments.test_plan:
         return {"": plan_grid(scenario), REPEATS: repeats_grid(scenario)}
     return {"": product_grid(scenario, parse_vary(arguments.vary))}
@@ -124,13 +126,17 @@ def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
 
 
 def _write(datasets: dict[str, xr.Dataset], folder: Path) -> None:
-    write_sweep(datasets, folder / RESULT)
-    figure = draw_sweep(datasets[""])
-    write_atomically(folder / FIGURE, lambda path: figure.savefig(path, format="png", dpi=130))
+    from cosim.report.files import write_netcdf
+    from cosim.studies.sweep.figure import draw_sweep
+
+    write_netcdf(datasets, folder / RESULT)
+    write_bytes(draw_sweep(datasets[""]).png, folder / FIGURE)
 
 
 def _report(datasets: dict[str, xr.Dataset], folder: Path, wall_time: float) -> int:
     """Some lines on what came out."""
+    from cosim.studies.sweep.combination import COMPLETE
+
     statuses = [dataset["status"] for dataset in datasets.values()]
     total = sum(status.size for status in statuses)
     complete = sum(int((status == COMPLETE).sum()) for status in statuses)

@@ -1,18 +1,27 @@
 """Co-simulation master: couples participants through named ports with units.
 
 It knows of a participant nothing but its ports; which models there are is none of its business.
+What couples the models of this product is in `cosim.coupling.case`.
 """
 
-from cosim.coupling.connections import Connection
-from cosim.coupling.errors import CouplingError, FmuError, ParticipantError
+from cosim.coupling.fmu_description import FmuError
 from cosim.coupling.fmu_participant import FmuParticipant
-from cosim.coupling.gauss_seidel import GaussSeidel
 from cosim.coupling.ledger import EnergyFlow, Ledger
-from cosim.coupling.participant import Participant, Restorable
-from cosim.coupling.ports import Causality, Port, inputs, outputs, port_table
+from cosim.coupling.participant import (
+    Causality,
+    CouplingError,
+    Participant,
+    ParticipantError,
+    Port,
+    Restorable,
+    inputs,
+    outputs,
+    port_table,
+)
 from cosim.coupling.result import CoupledResult
 from cosim.coupling.run import run
-from cosim.coupling.system import CoupledSystem
+from cosim.coupling.scheme import GaussSeidel, Scheme
+from cosim.coupling.system import Connection, CoupledSystem
 
 __all__ = [
     "Causality",
@@ -29,6 +38,7 @@ __all__ = [
     "ParticipantError",
     "Port",
     "Restorable",
+    "Scheme",
     "inputs",
     "outputs",
     "port_table",

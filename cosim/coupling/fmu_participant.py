@@ -8,12 +8,16 @@ from pathlib import Path
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Fatal
 
-from cosim.coupling import fmu_values
-from cosim.coupling.errors import FmuError
-from cosim.coupling.fmu_file import describe, extract, ports_of
-from cosim.coupling.fmu_log import FmuLog
-from cosim.coupling.fmu_settings import Setting, check_settings
-from cosim.coupling.ports import Causality, port_table
+from cosim.coupling import fmu_calls
+from cosim.coupling.fmu_description import (
+    FmuError,
+    Setting,
+    check_settings,
+    describe,
+    extract,
+    ports_of,
+)
+from cosim.coupling.participant import Causality, port_table
 
 
 class FmuCallError(RuntimeError):
@@ -49,13 +53,13 @@ class FmuParticipant:
         check_settings(self.name, self._variables, self._parameters, "parameter")
         check_settings(self.name, self._variables, self._inputs, "input")
         self._tolerance = tolerance
-        self._outputs = fmu_values.Reader(
+        self._outputs = fmu_calls.Reader(
             self._variables[port.name]
             for port in self.ports.values()
             if port.causality is Causality.OUTPUT
         )
         self._directory: tempfile.TemporaryDirectory | None = None
-        self._log: FmuLog | None = None
+        self._log: fmu_calls.FmuLog | None = None
         self._fmu: FMU2Slave | None = None
         self._running = False
         self._dead = False
@@ -65,11 +69,11 @@ class FmuParticipant:
         self._free_instance()
         self._instantiate()
         with self._calling() as fmu:
-            fmu_values.write(fmu, self._variables, self._parameters)
+            fmu_calls.write(fmu, self._variables, self._parameters)
         with self._calling() as fmu:
             fmu.setupExperiment(tolerance=self._tolerance, startTime=start, stopTime=stop)
             fmu.enterInitializationMode()
-            fmu_values.write(fmu, self._variables, self._inputs)
+            fmu_calls.write(fmu, self._variables, self._inputs)
 
     def exit_initialisation(self) -> None:
         """The FMU checks its parameters here; a combination that cannot be is refused."""
@@ -80,7 +84,7 @@ class FmuParticipant:
     def write(self, values: Mapping[str, float]) -> None:
         """Set inputs by name."""
         with self._calling() as fmu:
-            fmu_values.write(fmu, self._variables, values)
+            fmu_calls.write(fmu, self._variables, values)
 
     def read(self) -> dict[str, float]:
         """All outputs by name."""
@@ -132,7 +136,7 @@ class FmuParticipant:
         if self._directory is None:
             self._directory = tempfile.TemporaryDirectory(prefix="fmu-")
             extract(self.path, Path(self._directory.name))
-        self._log = FmuLog()
+        self._log = fmu_calls.FmuLog()
         try:
             self._fmu = FMU2Slave(
                 guid=self.description.guid,

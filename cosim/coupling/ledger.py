@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.coupling.connections import Connection
-from cosim.coupling.system import CoupledSystem
+from cosim.coupling.system import Connection, CoupledSystem
 
 
 @dataclass(frozen=True)

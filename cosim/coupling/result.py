@@ -1,4 +1,4 @@
-"""What a coupled run returns, also when it did not reach its end."""
+"""What is kept of a coupled run while it goes on, and what it returns, also before its end."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,8 +6,11 @@ from typing import Literal
 
 import numpy as np
 
-from cosim.coupling.errors import unknown_name
+from cosim.coupling.exchange import Exchange
 from cosim.coupling.ledger import Ledger
+from cosim.coupling.participant import Causality
+from cosim.coupling.system import CoupledSystem, find_port
+from cosim.names import unknown_name
 
 Status = Literal["complete", "interrupted", "failed"]
 
@@ -39,3 +42,60 @@ class CoupledResult:
         if name not in self.values:
             raise KeyError(unknown_name("recorded variable", name, self.values))
         return self.values[name]
+
+
+class Recording:
+    """All outputs and the connected inputs of a system, one row per recorded time.
+
+    The newest row is replaced by the next one until it is kept, so that a run that ends early
+    still has the point it came to. An input's row holds the value that the step ending there was
+    made with.
+    names: `participant.port`, in the order of participants and ports; units: name -> unit.
+    """
+
+    def __init__(self, system: CoupledSystem, rows: int):
+        self._channels = _channels(system)
+        self.names = [f"{participant}.{port}" for participant, port, _ in self._channels]
+        self.units = {
+            f"{name}.{port}": system.participants[name].ports[port].unit
+            for name, port, _ in self._channels
+        }
+        self._time = np.empty(rows)
+        self._rows = np.empty((rows, len(self._channels)))
+        self._kept = 0
+        self._count = 0
+
+    def add(self, time: float, exchange: Exchange, keep: bool = True) -> None:
+        """Write the values of now as the row of a time (s); keep: do not replace it later."""
+        row = self._kept
+        self._time[row] = time
+        for column, (name, port, causality) in enumerate(self._channels):
+            side = exchange.outputs if causality is Causality.OUTPUT else exchange.inputs
+            self._rows[row, column] = side[name][port]
+        self._count = row + 1
+        if keep:
+            self._kept = self._count
+
+    @property
+    def time(self) -> np.ndarray:
+        """Recorded times, s, (n,)."""
+        return self._time[: self._count].copy()
+
+    def values(self) -> dict[str, np.ndarray]:
+        """`participant.port` -> (n,)."""
+        return {
+            name: self._rows[: self._count, column].copy() for column, name in enumerate(self.names)
+        }
+
+
+def _channels(system: CoupledSystem) -> list[tuple[str, str, Causality]]:
+    channels: list[tuple[str, str, Causality]] = [
+        (name, port.name, port.causality)
+        for name, participant in system.participants.items()
+        for port in participant.ports.values()
+        if port.causality is Causality.OUTPUT
+    ]
+    for connection in system.connections:
+        port = find_port(system.participants, connection.sink)
+        channels.append((connection.sink.participant, port.name, port.causality))
+    return channels

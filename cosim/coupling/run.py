@@ -3,31 +3,16 @@
 import math
 import time as clock
 from collections.abc import Callable
-from typing import Protocol
 
-from cosim.coupling.errors import CouplingError, ParticipantError
-from cosim.coupling.exchange import Exchange
-from cosim.coupling.initial import initial_exchange
-from cosim.coupling.interrupt import deferred_interrupt
+from cosim.coupling.exchange import Exchange, initial_exchange
 from cosim.coupling.ledger import ledger_of
-from cosim.coupling.macro_grid import macro_grid
-from cosim.coupling.recording import Recording
-from cosim.coupling.result import CoupledResult, Status
+from cosim.coupling.participant import CouplingError, ParticipantError
+from cosim.coupling.result import CoupledResult, Recording, Status
+from cosim.coupling.scheme import Scheme, macro_grid
 from cosim.coupling.system import CoupledSystem
+from cosim.interrupts import deferred_interrupt
 
 Progress = Callable[[float], None]
-
-
-class Scheme(Protocol):
-    """How the participants make a macro step together."""
-
-    order: tuple[str, ...]
-
-    def check(self, system: CoupledSystem) -> None:
-        """Refuse a system that the scheme does not fit."""
-
-    def step(self, exchange: Exchange, size: float) -> None:
-        """One macro step from exchange.time, of length size (s)."""
 
 
 def run(

@@ -1,11 +1,126 @@
-"""The coupled system: participants and connections, checked before anything runs."""
+"""The coupled system: participants, what connects them, and whether that makes sense."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 
-from cosim.coupling.connections import Address, Connection, check_connections, output_in_joule
-from cosim.coupling.errors import CouplingError, unknown_name
-from cosim.coupling.participant import Participant
+from cosim.coupling.participant import Causality, CouplingError, Participant, Port
+from cosim.names import unknown_name
+
+ENERGY_UNIT = "J"
+
+
+@dataclass(frozen=True)
+class Address:
+    """A port of the coupled system, written `participant.port`; a port's name may hold dots."""
+
+    participant: str
+    port: str
+
+    @classmethod
+    def parse(cls, text: str) -> "Address":
+        participant, dot, port = text.partition(".")
+        if not (participant and dot and port):
+            raise CouplingError(f"{text!r} is not a port; written as 'participant.port'")
+        return cls(participant, port)
+
+    def __str__(self) -> str:
+        return f"{self.participant}.{self.port}"
+
+
+@dataclass(frozen=True)
+class Connection:
+    """An output that feeds an input, both written `participant.port`.
+
+    Energy crosses as the joules handed over since the start. Such a connection names in `taken`
+    the output of the sink's participant (J) that says how many of them it has taken up, so that
+    the ledger can compare both sides.
+
+    >>> Connection("brake.heat", "disc.heat", taken="heat_received").source.port
+    'heat'
+    """
+
+    source: Address
+    sink: Address
+    taken: Address | None
+
+    def __init__(self, source: str, sink: str, taken: str | None = None):
+        object.__setattr__(self, "source", Address.parse(source))
+        object.__setattr__(self, "sink", Address.parse(sink))
+        receipt = None if taken is None else Address(self.sink.participant, taken)
+        object.__setattr__(self, "taken", receipt)
+
+    def __str__(self) -> str:
+        return f"{self.source} -> {self.sink}"
+
+
+def find_port(participants: Mapping[str, Participant], address: Address) -> Port:
+    """The port at an address; CouplingError with the nearest name when there is none."""
+    if address.participant not in participants:
+        raise CouplingError(unknown_name("participant", address.participant, participants))
+    ports = participants[address.participant].ports
+    if address.port not in ports:
+        raise CouplingError(unknown_name(f"port of {address.participant}", address.port, ports))
+    return ports[address.port]
+
+
+def output_in_joule(participants: Mapping[str, Participant], address: Address, role: str) -> None:
+    """Refuse an address that is not an output in J; role says what it was named for."""
+    port = find_port(participants, address)
+    if port.causality is not Causality.OUTPUT or port.unit != ENERGY_UNIT:
+        raise CouplingError(
+            f"{address} is an {port.causality} in {port.unit}; {role} is an output in {ENERGY_UNIT}"
+        )
+
+
+def check_connections(
+    participants: Mapping[str, Participant], connections: Iterable[Connection]
+) -> None:
+    """Both ends exist, an output feeds an input, units agree, and no input is fed twice."""
+    fed: dict[Address, Connection] = {}
+    for connection in connections:
+        _check_ends(participants, connection)
+        _check_receipt(participants, connection)
+        if connection.sink in fed:
+            raise CouplingError(
+                f"{connection.sink} is fed twice: by {fed[connection.sink].source} "
+                f"and by {connection.source}"
+            )
+        fed[connection.sink] = connection
+
+
+def _check_ends(participants: Mapping[str, Participant], connection: Connection) -> None:
+    source = find_port(participants, connection.source)
+    sink = find_port(participants, connection.sink)
+    if source.causality is not Causality.OUTPUT:
+        raise CouplingError(
+            f"{connection}: {connection.source} is an input; a connection starts at an output"
+        )
+    if sink.causality is not Causality.INPUT:
+        raise CouplingError(
+            f"{connection}: {connection.sink} is an output; a connection ends at an input"
+        )
+    if source.unit != sink.unit:
+        raise CouplingError(
+            f"{connection}: {connection.source} is in {source.unit}, "
+            f"{connection.sink} in {sink.unit}; the units must be the same"
+        )
+    if connection.source.participant == connection.sink.participant:
+        raise CouplingError(f"{connection}: a participant is not connected to itself")
+
+
+def _check_receipt(participants: Mapping[str, Participant], connection: Connection) -> None:
+    carries_energy = find_port(participants, connection.source).unit == ENERGY_UNIT
+    if carries_energy and connection.taken is None:
+        raise CouplingError(
+            f"{connection} carries energy; name in taken= the output of "
+            f"{connection.sink.participant} that says how many joules it has taken up"
+        )
+    if connection.taken is None:
+        return
+    if not carries_energy:
+        raise CouplingError(f"{connection}: taken= belongs to a connection in {ENERGY_UNIT}")
+    output_in_joule(participants, connection.taken, "what the sink has taken up")
 
 
 class CoupledSystem:

@@ -1,34 +1,47 @@
-"""Builds StickSlip3DOF.fmu when it is missing or was built from something else.
+"""Builds StickSlip3DOF.fmu when it is missing or was built from something else."""
 
-What goes in is the recipe's business (`build/stickslip3dof.py` in a checkout, the same file in
-`cosim/recipes` in an installed package).
-"""
+from __future__ import annotations
 
-import importlib.util
 import os
 import subprocess
 import sys
-from functools import cache
+import tempfile
 from pathlib import Path
-from types import ModuleType
 
-HERE = Path(__file__).resolve().parents[1]
-RECIPE = "stickslip3dof.py"
+import platformdirs
+import stickslip
+
+import cosim
+
+from . import stickslip3dof
+
+#: Folder of a checkout in which its FMU stands, beside the recipe.
+BUILD_FOLDER = Path("build")
 
 
 class FmuBuildError(ValueError):
     """The FMU cannot be built or written; the message names the folder or the reason."""
 
 
-def recipe_file() -> Path:
-    """The recipe: at the root of a checkout, or as the wheel carries it."""
-    for folder in (HERE.parent / "build", HERE / "recipes"):
-        if (folder / RECIPE).is_file():
-            return folder / RECIPE
-    raise FmuBuildError(
-        f"{RECIPE} is neither in {HERE.parent / 'build'} nor in {HERE / 'recipes'}; "
-        "reinstall the package"
-    )
+def own_folder() -> Path:
+    """Where the FMU stands that nobody named: `build` of a checkout, else the user's cache."""
+    if (BUILD_FOLDER / "stickslip3dof.py").is_file():
+        return BUILD_FOLDER
+    return platformdirs.user_cache_path("stickslip")
+
+
+def own_fmu() -> Path:
+    """The FMU in `own_folder`, fresh; where that cannot be written, in the cache or a scratch
+    folder."""
+    for place in dict.fromkeys((own_folder(), platformdirs.user_cache_path("stickslip"))):
+        try:
+            return ensure_fmu(place)
+        except FmuBuildError as error:
+            refused = error  # the last is told
+    try:
+        return ensure_fmu(tempfile.mkdtemp(prefix="stickslip-"))
+    except (FmuBuildError, OSError):
+        raise refused from None
 
 
 def ensure_fmu(directory: str | Path) -> Path:
@@ -36,9 +49,8 @@ def ensure_fmu(directory: str | Path) -> Path:
 
     The content's hash decides, never a date. Raises FmuBuildError.
     """
-    recipe = _recipe()
-    fmu = Path(directory) / recipe.FMU
-    if recipe.built_hash(fmu) == recipe.content_hash():
+    fmu = Path(directory) / stickslip3dof.FMU
+    if stickslip3dof.built_hash(fmu) == stickslip3dof.content_hash():
         return fmu
     return build_fmu(directory)
 
@@ -52,15 +64,22 @@ def build_fmu(directory: str | Path) -> Path:
     directory = Path(directory)
     _check_writable(directory)
     done = subprocess.run(
-        [sys.executable, str(recipe_file()), str(directory.resolve())],
+        [sys.executable, "-P", "-m", stickslip3dof.__name__, str(directory.resolve())],
         capture_output=True,
         text=True,
         check=False,
+        env=os.environ | {"PYTHONPATH": _packages()},
     )
     if done.returncode != 0:
         said = done.stderr.strip().splitlines()
         raise FmuBuildError(f"the FMU was not built: {said[-1] if said else 'no reason given'}")
-    return directory / _recipe().FMU
+    return directory / stickslip3dof.FMU
+
+
+def _packages() -> str:
+    """Where the packages of this process lie, for one that is to import the same."""
+    homes = [str(Path(package.__path__[0]).parent) for package in (cosim, stickslip)]
+    return os.pathsep.join([*homes, *filter(None, [os.environ.get("PYTHONPATH")])])
 
 
 def _check_writable(directory: Path) -> None:
@@ -70,11 +89,3 @@ def _check_writable(directory: Path) -> None:
         raise FmuBuildError(f"{directory}: cannot be made: {error.strerror}") from error
     if not os.access(directory, os.W_OK | os.X_OK):
         raise FmuBuildError(f"{directory}: is not writable; name another folder for the FMU")
-
-
-@cache
-def _recipe() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("cosim_stickslip3dof_recipe", recipe_file())
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module

@@ -1,9 +1,12 @@
 """Where a model and its measurements disagree, what is missing, and what is left afterwards.
 
-The folders are the way: read the campaign, shoot the model at it, name what is missing, show it.
+The rooms in the order in which data flow: data (the campaign, read and checked), estimation (the
+model fitted to it by multiple shooting), candidates (what may be missing), selection (which of it
+is), diagnostics (where the misfit lives), design (the run that would tell more), show. `find` goes
+through all of them.
 """
 
-from cosim.gap.errors import CampaignError
-from cosim.gap.read import Campaign, MeasuredRun, Stick, Track, read_campaign
+from cosim.gap.data import Campaign, MeasuredRun, Stick, Track, read_campaign
+from cosim.gap.data.errors import CampaignError
 
 __all__ = ["Campaign", "CampaignError", "MeasuredRun", "Stick", "Track", "read_campaign"]

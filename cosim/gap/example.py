@@ -9,8 +9,7 @@ import numpy as np
 import tomli_w
 from stickslip import Parameters, simulate
 
-from cosim.atomic import write_text
-from cosim.folders import writable
+from cosim.files import writable, write_text
 
 #: Of the tracker, m.
 NOISE = 2e-4
@@ -54,8 +53,12 @@ def _campaign(names: Sequence[str]) -> str:
 
 
 def _parameters(speed: float) -> Parameters:
-    return Parameters(
-        rig={"mass": MASS, "spring_natural_length": NATURAL_LENGTH},
-        springs={"stiffness": STIFFNESS}, friction={"mu_s": 0.30, "mu_k": 0.22},
-        surface={"speed": speed}, **HIDDEN,
-    )  # fmt: skip
+    return Parameters.model_validate(
+        {
+            "rig": {"mass": MASS, "spring_natural_length": NATURAL_LENGTH},
+            "springs": {"stiffness": STIFFNESS},
+            "friction": {"mu_s": 0.30, "mu_k": 0.22},
+            "surface": {"speed": speed},
+            **HIDDEN,
+        }
+    )

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.atlas.atlas import Atlas
-from cosim.gap.atlas.model_track import ModelTrack
-from cosim.gap.atlas.where import Where
-from cosim.gap.read import Campaign
-from cosim.gap.shooting.drive import model_parameters
+from cosim.gap.data import Campaign
+from cosim.gap.diagnostics.model_track import ModelTrack
+from cosim.gap.diagnostics.regimes import RegimeAnalysis
+from cosim.gap.diagnostics.where import Where
+from cosim.gap.estimation.drive import model_parameters
 
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "unknown")
@@ -47,7 +47,7 @@ class FittedRun:
     Attributes
     ----------
     track : the model at the data's times, with the measured run: x, y, phi (m, m, rad; the
-        tracker's zero included), vx (m/s), mode, window; `residual` in units of the noise
+        tracker's zero included), vx (m/s), mode, segment; `residual` in units of the noise
     start : x, y, phi, vx, vy, omega at the first sample, in the rig's frame (m, rad, m/s, rad/s)
     own : parameters of this run alone (phases), `block.parameter` -> value
     gap : root mean square residual of the run in units of the noise, over all channels
@@ -71,7 +71,7 @@ class FittedRun:
 
 @dataclass(frozen=True)
 class FittedModel:
-    """A model, fitted to the runs for fitting and flown in all.
+    """A model, fitted to the runs for fitting and simulated in all.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class Gap:
     chance : "p" of the best of the catalogue under the plain model, "draws" that it rests on
     determined : plain parameter -> (value, low, high), as far as the data determine it
     seed : of everything that was drawn
-    atlas : of the plain model's misfit, what ``where`` was read off
+    analysis : of the plain model's misfit by regime, what ``where`` was read off
     next_experiment : the run that would tell most, or None
     empirical : the formula proposed where the catalogue has no name, or None
     remarks : what the reader should know, a line each; the campaign's own are in the campaign
@@ -141,7 +141,7 @@ class Gap:
     chance: Mapping[str, float]
     determined: Mapping[str, tuple[float, float, float]]
     seed: int = 0
-    atlas: Atlas | None = None
+    analysis: RegimeAnalysis | None = None
     next_experiment: Mapping[str, Any] | None = None
     empirical: Mapping[str, Any] | None = None
     remarks: tuple[str, ...] = ()

@@ -3,11 +3,10 @@
 >>> from cosim.report import run_dataset, trajectory_dataset, write_results
 """
 
-from cosim.atomic import OutputError
+from cosim.files import OutputError
 
-from .animation import Views
 from .dataset import run_dataset, trajectory_dataset
-from .results import write_data, write_results
+from .results import Views, write_data, write_results
 from .summary import summary
 
 __all__ = [

@@ -4,20 +4,66 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from datetime import UTC, datetime
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
+from stickslip.ports import OUTPUTS
 
-from cosim.coupling import CoupledResult
+from .contents import blocks_of
+from .files import provenance
 
-from .blocks import blocks_of
-from .variables import MECHANICAL, THERMAL, TIME, attributes
-from .versions import versions
+# name -> (unit, long name); the mechanical ones as the model itself describes them
+MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUTS}
+
+THERMAL = {
+    "interface_temperature": ("degC", "temperature between block and belt, mean of both faces"),
+    "belt_entry_temperature": ("degC", "belt face just before the contact"),
+    "belt_exit_temperature": ("degC", "belt face just behind the contact"),
+    "ice_face_temperature": ("degC", "face of the ice, mean over the contact"),
+    "belt_share": ("1", "share of the friction heat that went into the belt, since the start"),
+    "melt_rate": ("kg/s", "melting, mean over the last macro step"),
+    "melted_mass": ("kg", "ice that the block has lost since the start"),
+    "refrozen_mass": ("kg", "ice on the belt, frozen from melt water"),
+    "wiped_ice_mass": ("kg", "ice frozen on the belt and taken off by the wiper since the start"),
+    "film_thickness": ("m", "water between block and belt, mean over the contact"),
+    "heat_received": ("J", "friction heat that the thermal model took up since the start"),
+    "railing_heat": ("J", "heat of the belt's rubbing on its railing that entered the belt"),
+    "belt_heat": ("J", "heat stored in the belt above the start"),
+    "ice_heat": ("J", "heat stored in the ice above the start"),
+    "air_heat": ("J", "heat given to the air since the start"),
+    "support_heat": ("J", "heat given to railing and rollers since the start, less what they gave"),
+    "meltwater_heat": ("J", "heat in what has melted, above ice of the air's temperature"),
+    "latent_heat": ("J", "the latent part of the heat in what has melted"),
+    "heat_residual": ("J", "heat received less heat found: the thermal model's error"),
+}
+
+COUPLING = {
+    "coupling_residual": (
+        "J",
+        "heat handed over and not taken up, and what the participants' own ledgers are off by",
+    ),
+}
+
+KNOWN = MECHANICAL | THERMAL | COUPLING
+
+TIME = {"units": "s", "long_name": "time"}
+
+MODE = {"flag_values": [0, 1], "flag_meanings": "stick slip"}
+
+
+def attributes(name: str, unit: str | None = None) -> dict[str, object]:
+    """units and long_name of a variable; an unknown one is named by its own words."""
+    known_unit, text = KNOWN.get(name, (unit or "1", name.replace("_", " ").replace(".", " ")))
+    attrs: dict[str, object] = {"units": unit or known_unit, "long_name": text}
+    return attrs | (MODE if name == "mode" else {})
+
+
+if TYPE_CHECKING:
+    from cosim.coupling import CoupledResult
 
 Array = NDArray[np.float64]
 
@@ -36,11 +82,16 @@ class BeltSnapshots(Protocol):
     contact_length m, along the belt.
     """
 
-    time: Any
-    position: Any
-    temperature: Any
-    contact: Any
-    contact_length: float
+    @property
+    def time(self) -> Array: ...
+    @property
+    def position(self) -> Array: ...
+    @property
+    def temperature(self) -> Array: ...
+    @property
+    def contact(self) -> Array: ...
+    @property
+    def contact_length(self) -> float: ...
 
 
 def run_dataset(
@@ -131,8 +182,7 @@ def _describe(
         status=status,
         reason=reason,
         scenario=toml,
-        versions=json.dumps(versions()),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        **provenance(),
     )
     if wall_time is not None:
         dataset.attrs["wall_time"] = float(wall_time)

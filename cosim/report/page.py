@@ -1,201 +1,78 @@
-"""The page of a run: one HTML file that holds everything it shows."""
+"""Pages: one self-contained HTML file, its pictures inside, its look that of all the others.
+
+A page is a Jinja template that extends `page.html.j2` and fills its blocks title, style and
+content. Beside its own values it has ``figure(picture)`` and the filter ``number``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from datetime import datetime
-from typing import Any, NamedTuple
+import base64
+import math
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
 
-import xarray as xr
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
-from cosim.report.inline import inline
-from cosim.report.motion_words import STARTS, regime_sentence, stability_sentence
-
-from .assessment import REGIME_UNITS
-from .blocks import stored_blocks
-from .figures import Plate
-from .style import DPI
-from .words import digits, spelled, told, with_unit, worded
-
-OWN_FILES = {
-    "result.nc": "everything, with units and descriptions: netCDF 4, for xarray, ParaView, Matlab",
-    "result.csv": "all time series as a table with a header, digits in full",
-    "summary.json": "the numbers of this page, with their units",
-}
-TITLES = {
-    "mechanics": "Energy of the block",
-    "heat": "Heat in belt and ice",
-    "coupling": "Heat from mechanics to belt and ice",
-}
-CSS_DPI = 96
-CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
+#: Pixels of an inch: on a page, and of the pictures.
+CSS_DPI, DPI = 96, 150
 
 
-class Table(NamedTuple):
-    """A heading and rows of words and numbers."""
+@dataclass(frozen=True)
+class Picture:
+    """A PNG with its caption."""
 
-    title: str
-    rows: list[tuple[str, ...]]
+    name: str
+    caption: str
+    png: bytes = field(repr=False)
 
 
-def page(
-    dataset: xr.Dataset,
-    numbers: Mapping[str, Any],
-    pictures: Mapping[Plate, bytes],
-    *,
-    command: str = "",
-    files: Mapping[str, str] | None = None,
-) -> str:
-    """HTML of a run: numbers of `summary`, PNGs of its figures, further files to be listed."""
+def render(template: str, package: str, **values: Any) -> str:
+    """HTML of a template that lies in a package, or in `cosim.report`, with the values it names.
+
+    Raises jinja2.UndefinedError where one of them is missing.
+    """
+    return _environment(package).get_template(template).render(**values)
+
+
+@cache
+def _environment(package: str) -> Environment:
     environment = Environment(
-        loader=PackageLoader("cosim.report"),
+        loader=ChoiceLoader([PackageLoader("cosim.report"), PackageLoader(package, ".")]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    figures = [
-        (plate.caption, _width(picture), inline(picture)) for plate, picture in pictures.items()
-    ]
-    own = dict(OWN_FILES) | {f"{plate.name}.png": "figure, as above" for plate in pictures}
-    return environment.get_template("report.html.j2").render(
-        numbers=numbers,
-        created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
-        case=CASES.get(numbers["case"], numbers["case"]),
-        overview=overview(numbers),
-        ledgers=list(ledgers(numbers)),
-        tables=list(number_tables(numbers)),
-        temperatures=temperature_rows(numbers),
-        assessed=assessed(numbers),
-        regimes=regime_rows(numbers),
-        figures=figures,
-        blocks=parameter_tables(dataset),
-        files=own | dict(files or {}),
-        command=command,
-        coupled=numbers["case"] == "coupled",
+    environment.filters["number"] = number
+    environment.globals["figure"] = figure
+    return environment
+
+
+def figure(picture: Picture, alt: str = "") -> Markup:
+    """A picture and its caption, as wide as its inches say."""
+    return Markup(
+        '<figure><img width="{}" src="data:image/png;base64,{}" alt="{}">\n'
+        "<figcaption>{}</figcaption></figure>\n"
+    ).format(
+        _width(picture.png),
+        base64.b64encode(picture.png).decode("ascii"),
+        alt or picture.caption,
+        picture.caption,
     )
 
 
-def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """The handful of numbers that stand at the top."""
-    paths = (
-        "time_reached",
-        "after_run_up.frequency",
-        "after_run_up.slip_share",
-        "after_run_up.mean_x",
-        "after_run_up.max_rotation_deg",
-        "temperatures.interface.end_rise",
-        "ledger.mechanics.friction_heat",
-        "wall_time",
-    )
-    words = {
-        "time_reached": "simulated",
-        "wall_time": "computing time",
-        "after_run_up.slip_share": "of the time in slip",
-        "temperatures.interface.end_rise": "rise at the contact, end",
-    }
-    found = []
-    for path in paths:
-        value = _at(numbers, path)
-        if value is not None:
-            found.append((words.get(path, worded(path.rsplit(".")[-1])), _told(numbers, path)))
-    return found
-
-
-def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """One table for each ledger of the run."""
-    for name, entries in numbers.get("ledger", {}).items():
-        yield Table(TITLES[name], _rows(numbers, f"ledger.{name}", entries))
-
-
-def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """Motion after the run-up and over the whole run, the shares of the heat, melting."""
-    titles = {
-        "after_run_up": "After the run-up",
-        "whole_run": "Whole run",
-        "heat_shares": "Where the heat is at the end",
-        "melting": "Melting, and the balance of the film in the last second",
-    }
-    for name, title in titles.items():
-        if name in numbers:
-            yield Table(title, _rows(numbers, name, numbers[name]))
-
-
-def assessed(numbers: Mapping[str, Any]) -> list[str]:
-    """Sentences on stability and regimes; none for a run that was not assessed."""
-    if "stability" not in numbers:
-        return []
-    return [stability_sentence(numbers), regime_sentence(numbers)]
-
-
-def regime_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Start, regime, and what the motion is like, of the run's own start and of the others."""
-    return [
-        (
-            STARTS[start],
-            regime["name"],
-            *(_told(numbers, f"regimes.{start}.{key}") for key in REGIME_UNITS),
-        )
-        for start, regime in numbers.get("regimes", {}).items()
-    ]
-
-
-def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Place, end, lowest and highest temperature, rise at the end and at most."""
-    found = []
-    for place, entries in numbers.get("temperatures", {}).items():
-        if place == "ambient":
-            continue
-        degrees = [_degrees(entries[key]) for key in ("end_degC", "min_degC", "max_degC")]
-        rises = [told(entries[key], "K") for key in ("end_rise", "max_rise")]
-        found.append((worded(place), *degrees, *rises))
-    return found
-
-
-def parameter_tables(dataset: xr.Dataset) -> list[Table]:
-    """Every parameter with value, unit and description, block by block."""
-    return [
-        Table(
-            block,
-            [
-                (key, _valued(entry["value"], entry["unit"]), entry["description"])
-                for key, entry in entries.items()
-            ],
-        )
-        for block, entries in stored_blocks(dataset).items()
-    ]
-
-
-def _valued(value: Any, unit: str) -> str:
-    """A parameter's value; a unit only behind numbers."""
-    return digits(value) if isinstance(value, str) else with_unit(digits(value), spelled(unit))
+def number(value: float | str | None, digits: int = 4) -> str:
+    """So many significant digits, plain text as it is, a dash for none."""
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return "–"
+    if isinstance(value, str):
+        return value
+    return f"{value:.{digits}g}".replace("-", "−")
 
 
 def _width(png: bytes) -> int:
     """Width of a picture on the page, CSS pixels: type as large as its inches say."""
     pixels = int.from_bytes(png[16:20], "big")  # of the header, after signature and chunk name
     return round(pixels * CSS_DPI / DPI)
-
-
-def _rows(numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]) -> list[tuple]:
-    shares = path == "heat_shares"
-    return [(worded(key), _told(numbers, f"{path}.{key}", shares)) for key in entries]
-
-
-def _told(numbers: Mapping[str, Any], path: str, share: bool = False) -> str:
-    return told(_at(numbers, path), numbers["units"].get(path, ""), share or path.endswith("share"))
-
-
-def _at(numbers: Mapping[str, Any], path: str) -> Any:
-    node: Any = numbers
-    for key in path.split("."):
-        if not isinstance(node, Mapping) or key not in node:
-            return None
-        node = node[key]
-    return node
-
-
-def _degrees(value: float | None) -> str:
-    """A temperature to 0.1 mK: rises of a thermometer's last digit are what runs differ in."""
-    return "–" if value is None else f"{value:.4f} °C".replace("-", "−")

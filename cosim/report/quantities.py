@@ -1,4 +1,4 @@
-"""Trees of numbers with units, split into values and a map of units."""
+"""Numbers with their units: as trees of values, and as they are read on a page."""
 
 from __future__ import annotations
 
@@ -39,3 +39,126 @@ def finite(value: float | int | None) -> float | int | None:
 def ratio(part: float, whole: float) -> float | None:
     """part / whole; None where the whole is zero."""
     return part / whole if whole else None
+
+
+WORDS = {
+    "begin": "window begins",
+    "duration": "window lasts",
+    "break_aways": "break-aways counted",
+    "frequency": "stick-slip frequency",
+    "mean_period": "mean time between break-aways",
+    "slip_share": "share of the time in slip",
+    "mean_x": "mean x",
+    "min_x": "smallest x",
+    "max_x": "largest x",
+    "mean_y": "mean y",
+    "min_y": "smallest y",
+    "max_y": "largest y",
+    "max_rotation_deg": "largest rotation",
+    "mean_friction_force_x": "mean friction along x",
+    "max_friction_force_x": "largest friction along x",
+    "mean_heat_flow": "mean friction heat",
+    "surface_travel": "travel of the surface",
+    "sliding_distance": "sliding distance",
+    "surface_work": "work of the surface",
+    "external_work": "work of the external forces",
+    "damping_heat": "heat in the structural damping",
+    "friction_heat": "friction heat",
+    "residual": "residual at the end",
+    "largest_residual": "largest residual",
+    "relative_residual": "largest residual, relative",
+    "received": "received from friction",
+    "belt": "in the belt",
+    "ice": "in the ice",
+    "air": "given to the air",
+    "melting": "spent on melting",
+    "from_contact_to_belt": "entered the belt at the contact",
+    "handed_over": "handed over by the mechanics",
+    "taken_up": "taken up by belt and ice",
+    "largest_difference": "largest difference",
+    "relative_difference": "largest difference, relative",
+    "largest_total_residual": "largest residual of the whole system",
+    "onset": "melting begins",
+    "melted_mass": "ice that the block has lost",
+    "refrozen_mass": "of it lying frozen on the belt",
+    "wiped_ice_mass": "of it frozen on the belt, and wiped off",
+    "mean_melt_rate": "melt rate, mean since then",
+    "max_melt_rate": "largest melt rate",
+    "melting_share": "share of the friction heat spent on melting since then",
+    "melting_share_end": "share of the friction heat spent on melting",
+    "friction_before": "friction coefficient in the second before",
+    "friction_end": "friction coefficient",
+    "film_thickness": "water under the block, mean thickness",
+    "film_fed_by_melting": "thickness that melting alone feeds",
+    "friction_stress": "stress of friction",
+    "whole_film_shear": "shear of the film if it covered the whole contact",
+    "largest_flooded_share": "share of the contact that it can cover at most",
+    "flooded_share": "flooded share",
+    "water_shear": "shear of the water, part of the stress",
+    "interface": "contact, mean of both faces",
+    "belt_entry": "belt before the contact",
+    "belt_exit": "belt behind the contact",
+    "ice_face": "face of the ice",
+}
+
+NONE = "–"
+DIGITS = 5
+MINUS = str.maketrans("-", "−")
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+UNITS = {
+    "degC": "°C",
+    "deg": "°",
+    "N.m": "N m",
+    "kg.m2": "kg m²",
+    "m/s2": "m/s²",
+    "kg/m3": "kg/m³",
+    "J/(kg.K)": "J/(kg K)",
+    "W/(m.K)": "W/(m K)",
+    "W/(m2.K)": "W/(m² K)",
+    "1": "",
+}
+# units that are read more easily with a prefix than with a power of ten
+PREFIXED = {"m", "K", "W", "N", "s"}
+
+
+def worded(key: str) -> str:
+    """A key of the summary in words."""
+    return WORDS.get(key, key.replace("_", " "))
+
+
+def spelled(unit: str) -> str:
+    """A unit as it is printed."""
+    return UNITS.get(unit, unit)
+
+
+def told(value: float | int | None, unit: str, share: bool = False) -> str:
+    """A number with its unit, five digits; a share in percent; a dash where there is none."""
+    if value is None:
+        return NONE
+    if share:
+        return f"{100.0 * value:.2f} %".translate(MINUS)
+    if unit == "deg":
+        return f"{value:z.2f}°".translate(MINUS)
+    if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:
+        factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
+        return f"{digits(factor * value)} {prefix}{unit}"
+    return with_unit(digits(value), spelled(unit))
+
+
+def with_unit(number: str, unit: str) -> str:
+    """A number and its spelled unit; the degree of an angle stands close."""
+    return number + unit if unit == "°" else f"{number} {unit}".rstrip()
+
+
+def digits(value: Any) -> str:
+    """A value with at most five digits, powers of ten written out; text and lists as they are."""
+    if isinstance(value, (list, tuple)):
+        return ", ".join(digits(item) for item in value)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return str(value)
+    if isinstance(value, int) or value == int(value) and abs(value) < 1e6:
+        return f"{int(value)}".translate(MINUS)
+    if 1e-4 <= abs(value) < 1e6:
+        return f"{value:.{DIGITS}g}".translate(MINUS)
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return f"{mantissa.translate(MINUS)} · 10{str(int(exponent)).translate(SUPERSCRIPT)}"

@@ -1,26 +1,50 @@
-"""A run's dataset to the files of its output folder."""
+"""A run's dataset to the files of its output folder: data, summary, figures and one page."""
 
 from __future__ import annotations
 
-import io
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import xarray as xr
 
-from cosim.atomic import write_bytes, write_text
+from cosim.files import write_bytes, write_text
 
-from .animation import Views, animation
-from .figures import plates_of
+if TYPE_CHECKING:
+    from thermal import RigView
+
+from .assessment import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
+from .contents import stored_blocks
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
-from .page import page
-from .style import DPI
+from .page import Picture, render
+from .quantities import digits, spelled, told, with_unit, worded
 from .summary import summary
 
 Progress = Callable[[str], None]
+#: Times (s) and what is seen of belt and ice.
+Views = Sequence[tuple[float, "RigView"]]
 
 ANIMATION = "temperature.gif"
+OWN_FILES = {
+    "result.nc": "everything, with units and descriptions: netCDF 4, for xarray, ParaView, Matlab",
+    "result.csv": "all time series as a table with a header, digits in full",
+    "summary.json": "the numbers of this page, with their units",
+}
+TITLES = {
+    "mechanics": "Energy of the block",
+    "heat": "Heat in belt and ice",
+    "coupling": "Heat from mechanics to belt and ice",
+}
+CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
+
+
+class Table(NamedTuple):
+    """A heading and rows of words and numbers."""
+
+    title: str
+    rows: list[tuple[str, ...]]
 
 
 def write_results(
@@ -39,6 +63,10 @@ def write_results(
     of belt and ice, for an animation; none without them. progress: called with the name
     of each file once it is written. Raises OutputError where the disk refuses.
     """
+    from .figures import plates_of
+    from .figures.animation import animation
+    from .style import png
+
     folder = Path(folder)
     written: list[Path] = []
 
@@ -51,10 +79,10 @@ def write_results(
         done(path)
     numbers = summary(dataset)
     done(write_json(numbers, folder / "summary.json"))
-    pictures = {}
+    pictures = []
     for plate in plates_of(dataset):
-        pictures[plate] = png(dataset, plate.draw)
-        done(write_bytes(pictures[plate], folder / f"{plate.name}.png"))
+        pictures.append(Picture(plate.name, plate.caption, png(plate.draw(dataset))))
+        done(write_bytes(pictures[-1].png, folder / f"{plate.name}.png"))
     files = dict(files or {})
     if views:
         moving = animation(views, ambient_degC(dataset), dataset.attrs["title"])
@@ -74,8 +102,149 @@ def write_data(dataset: xr.Dataset, folder: str | Path) -> list[Path]:
     ]
 
 
-def png(dataset: xr.Dataset, draw: Callable) -> bytes:
-    """A figure as the bytes of a PNG file."""
-    buffer = io.BytesIO()
-    draw(dataset).savefig(buffer, format="png", dpi=DPI)
-    return buffer.getvalue()
+def page(
+    dataset: xr.Dataset,
+    numbers: Mapping[str, Any],
+    pictures: Sequence[Picture],
+    *,
+    command: str = "",
+    files: Mapping[str, str] | None = None,
+) -> str:
+    """HTML of a run: numbers of `summary`, its figures, further files to be listed."""
+    own = dict(OWN_FILES) | {f"{one.name}.png": "figure, as above" for one in pictures}
+    return render(
+        "run.html.j2",
+        "cosim.report",
+        numbers=numbers,
+        created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
+        case=CASES.get(numbers["case"], numbers["case"]),
+        overview=overview(numbers),
+        ledgers=list(ledgers(numbers)),
+        tables=list(number_tables(numbers)),
+        temperatures=temperature_rows(numbers),
+        assessed=assessed(numbers),
+        regimes=regime_rows(numbers),
+        figures=pictures,
+        blocks=parameter_tables(dataset),
+        files=own | dict(files or {}),
+        command=command,
+        coupled=numbers["case"] == "coupled",
+    )
+
+
+def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The handful of numbers that stand at the top."""
+    paths = (
+        "time_reached",
+        "after_run_up.frequency",
+        "after_run_up.slip_share",
+        "after_run_up.mean_x",
+        "after_run_up.max_rotation_deg",
+        "temperatures.interface.end_rise",
+        "ledger.mechanics.friction_heat",
+        "wall_time",
+    )
+    words = {
+        "time_reached": "simulated",
+        "wall_time": "computing time",
+        "after_run_up.slip_share": "of the time in slip",
+        "temperatures.interface.end_rise": "rise at the contact, end",
+    }
+    found = []
+    for path in paths:
+        value = _at(numbers, path)
+        if value is not None:
+            found.append((words.get(path, worded(path.rsplit(".")[-1])), _told(numbers, path)))
+    return found
+
+
+def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
+    """One table for each ledger of the run."""
+    for name, entries in numbers.get("ledger", {}).items():
+        yield Table(TITLES[name], _rows(numbers, f"ledger.{name}", entries))
+
+
+def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
+    """Motion after the speed ramp and over the whole run, the shares of the heat, melting."""
+    titles = {
+        "after_run_up": "After the speed ramp",
+        "whole_run": "Whole run",
+        "heat_shares": "Where the heat is at the end",
+        "melting": "Melting, and the balance of the film in the last second",
+    }
+    for name, title in titles.items():
+        if name in numbers:
+            yield Table(title, _rows(numbers, name, numbers[name]))
+
+
+def assessed(numbers: Mapping[str, Any]) -> list[str]:
+    """Sentences on stability and regimes; none for a run that was not assessed."""
+    if "stability" not in numbers:
+        return []
+    return [stability_sentence(numbers), regime_sentence(numbers)]
+
+
+def regime_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Start, regime, and what the motion is like, of the run's own start and of the others."""
+    return [
+        (
+            STARTS[start],
+            regime["name"],
+            *(_told(numbers, f"regimes.{start}.{key}") for key in REGIME_UNITS),
+        )
+        for start, regime in numbers.get("regimes", {}).items()
+    ]
+
+
+def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Place, end, lowest and highest temperature, rise at the end and at most."""
+    found = []
+    for place, entries in numbers.get("temperatures", {}).items():
+        if place == "ambient":
+            continue
+        degrees = [_degrees(entries[key]) for key in ("end_degC", "min_degC", "max_degC")]
+        rises = [told(entries[key], "K") for key in ("end_rise", "max_rise")]
+        found.append((worded(place), *degrees, *rises))
+    return found
+
+
+def parameter_tables(dataset: xr.Dataset) -> list[Table]:
+    """Every parameter with value, unit and description, block by block."""
+    return [
+        Table(
+            block,
+            [
+                (key, _valued(entry["value"], entry["unit"]), entry["description"])
+                for key, entry in entries.items()
+            ],
+        )
+        for block, entries in stored_blocks(dataset).items()
+    ]
+
+
+def _valued(value: Any, unit: str) -> str:
+    """A parameter's value; a unit only behind numbers."""
+    return digits(value) if isinstance(value, str) else with_unit(digits(value), spelled(unit))
+
+
+def _rows(numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]) -> list[tuple]:
+    shares = path == "heat_shares"
+    return [(worded(key), _told(numbers, f"{path}.{key}", shares)) for key in entries]
+
+
+def _told(numbers: Mapping[str, Any], path: str, share: bool = False) -> str:
+    return told(_at(numbers, path), numbers["units"].get(path, ""), share or path.endswith("share"))
+
+
+def _at(numbers: Mapping[str, Any], path: str) -> Any:
+    node: Any = numbers
+    for key in path.split("."):
+        if not isinstance(node, Mapping) or key not in node:
+            return None
+        node = node[key]
+    return node
+
+
+def _degrees(value: float | None) -> str:
+    """A temperature to 0.1 mK: rises of a thermometer's last digit are what runs differ in."""
+    return "–" if value is None else f"{value:.4f} °C".replace("-", "−")

@@ -1,32 +1,39 @@
-"""What all figures share: type, colours, units on axes, panels over time."""
+"""What all figures share: palette, type, panels, units on axes, PNG."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from functools import wraps
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
-from .phases import run_up_time, slip_intervals
-from .zoom import Zoom, zoom_of
+from .page import DPI, Picture
+
+if TYPE_CHECKING:
+    from matplotlib.typing import RcKeyType
 
 Array = NDArray[np.float64]
 
-# Okabe and Ito's palette: told apart with any kind of colour vision
-BLUE, RED, GREEN = "#0072B2", "#D55E00", "#009E73"
-PURPLE, SKY, ORANGE = "#CC79A7", "#56B4E9", "#E69F00"
-INK, GREY, SLIP = "#222222", "#8A8A8A", "#F8EAD0"
+# Okabe and Ito's palette: told apart with any kind of colour vision, and unequal in grey
+BLUE, RED, GREEN, PURPLE, ORANGE, SKY = SERIES = (
+    "#0072B2",
+    "#D55E00",
+    "#009E73",
+    "#CC79A7",
+    "#E69F00",
+    "#56B4E9",
+)
+INK, GREY, SLIP = "#222222", "#7A7A7A", "#F8EAD0"
 
-RC = {
+RC: dict[RcKeyType, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 10.0,
     "axes.labelsize": 10.0,
@@ -48,10 +55,9 @@ RC = {
     "legend.frameon": False,
     "figure.titlesize": 12.0,
     "lines.linewidth": 1.3,
+    "lines.markersize": 4.0,
     "lines.solid_joinstyle": "round",
 }
-
-DPI = 150  # of the PNG files
 
 PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
 SPELLING = {"N.m": "N m", "1": "1", "degC": "°C"}
@@ -61,11 +67,40 @@ def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
     """Draw with the house style, whatever the user's own matplotlib settings."""
 
     @wraps(draw)
-    def drawn(*args: object, **options: object) -> Figure:
+    def drawn(*args: Any, **options: Any) -> Figure:
         with matplotlib.rc_context(RC):
             return draw(*args, **options)
 
     return drawn
+
+
+def picture(name: str, caption: str) -> Callable[[Callable[..., Figure]], Callable[..., Picture]]:
+    """Turn a function that draws a figure into one that returns its PNG."""
+
+    def wrap(draw: Callable[..., Figure]) -> Callable[..., Picture]:
+        @wraps(draw)
+        def drawn(*args: Any, **options: Any) -> Picture:
+            return Picture(name, caption, png(styled(draw)(*args, **options)))
+
+        return drawn
+
+    return wrap
+
+
+def png(figure: Figure) -> bytes:
+    """A figure as the bytes of a PNG file."""
+    buffer = io.BytesIO()
+    with matplotlib.rc_context(RC):
+        figure.savefig(buffer, format="png", dpi=DPI)
+    return buffer.getvalue()
+
+
+def panels(
+    rows: int, columns: int, *, height: float = 2.6, width: float = 9.0, **options: Any
+) -> tuple[Figure, NDArray[Any]]:
+    """A figure and its axes (rows, columns), laid out without overlaps; inches, height of a row."""
+    figure = Figure(figsize=(width, height * rows), layout="constrained")
+    return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
 
 class Scaled(NamedTuple):
@@ -98,9 +133,14 @@ def readable(values: Array, unit: str, floor: float = 0.0) -> Scaled:
 def plain_ticks(axes: Axes) -> None:
     """Digits in full: no offset and no power of ten beside the axis."""
     for axis in (axes.xaxis, axes.yaxis):
-        formatter = ScalarFormatter(useOffset=False)
-        formatter.set_scientific(False)
-        axis.set_major_formatter(formatter)
+        in_full(axis)
+
+
+def in_full(axis: Axis) -> None:
+    """The same of one axis."""
+    formatter = ScalarFormatter(useOffset=False)
+    formatter.set_scientific(False)
+    axis.set_major_formatter(formatter)
 
 
 def at_least(axes: Axes, span: float) -> None:
@@ -111,92 +151,6 @@ def at_least(axes: Axes, span: float) -> None:
         axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)
 
 
-def line(axes: Axes, x: Array, y: Array, **options: object) -> None:
+def line(axes: Axes, x: Array, y: Array, **options: Any) -> None:
     """A line; dots as well where there are too few points to see one."""
-    marker = "o" if np.size(x) < 3 else None
-    axes.plot(x, y, marker=marker, markersize=4, **options)
-
-
-def title(figure: Figure, text: str, dataset: xr.Dataset) -> None:
-    """Title at the left, with the case's name and how a run ended that is not complete."""
-    status = dataset.attrs["status"]
-    ending = "" if status == "complete" else f"  ({status})"
-    figure.suptitle(f"{text}: {dataset.attrs['title']}{ending}", x=0.008, ha="left", color=INK)
-
-
-def shade_slip(axes: Axes, intervals: Array) -> None:
-    """Slip phases (k, 2) s as one collection behind the lines, over the full height."""
-    if intervals.size == 0:
-        return
-    begin, end = intervals.T
-    corners = np.stack([begin, end, end, begin], axis=1)
-    heights = np.broadcast_to([0.0, 0.0, 1.0, 1.0], corners.shape)
-    bars = PolyCollection(
-        np.stack([corners, heights], axis=2),
-        facecolor=SLIP,
-        edgecolor="none",
-        transform=axes.get_xaxis_transform(),
-        zorder=0.1,
-        # phases narrower than a pixel then tint it by their share instead of all or nothing
-        snap=False,
-    )
-    axes.add_collection(bars, autolim=False)
-
-
-def slip_patch() -> Patch:
-    """The shading's entry in a legend."""
-    return Patch(facecolor=SLIP, edgecolor="none", label="slip")
-
-
-def time_panels(
-    dataset: xr.Dataset, rows: int, height: float = 2.0, share_y: bool = True
-) -> tuple[Figure, NDArray[np.object_]]:
-    """Panels (rows, columns) over time: the whole run and, if it is long, a part enlarged.
-
-    Slip is shaded, the end of the run-up dotted. height: of a row, inches.
-    """
-    zoom = zoom_of(dataset)
-    figure = Figure(figsize=(11.0, 0.9 + height * rows), layout="constrained")
-    columns = 1 if zoom is None else 2
-    axes = figure.subplots(
-        rows,
-        columns,
-        sharex="col",
-        sharey="row" if share_y else False,
-        squeeze=False,
-        width_ratios=[1.0] if zoom is None else [1.6, 1.0],
-    )
-    intervals = slip_intervals(dataset)
-    for panel in axes.flat:
-        shade_slip(panel, intervals)
-        plain_ticks(panel)
-    _limits(dataset, axes, zoom)
-    return figure, axes
-
-
-def _limits(dataset: xr.Dataset, axes: NDArray[np.object_], zoom: Zoom | None) -> None:
-    time = dataset["time"].values
-    begin, end = (time[0], time[-1]) if time.size else (0.0, 0.0)
-    margin = 0.0 if end > begin else 0.5
-    run_up = run_up_time(dataset)
-    for panel in axes[:, 0]:
-        panel.set_xlim(begin - margin, end + margin)
-        if begin < run_up < end:
-            panel.axvline(run_up, color=INK, linewidth=0.9, linestyle=":")
-    for panel in axes[-1]:
-        panel.set_xlabel("time [s]")
-    if begin < run_up < end:
-        axes[0, 0].annotate(
-            "run-up ends",
-            (run_up, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 2),
-            textcoords="offset points",
-            ha="center",
-            va="bottom",
-            fontsize=9,
-        )
-    if zoom is not None:
-        for panel in axes[:, 1]:
-            panel.set_xlim(zoom.begin, zoom.end)
-        axes[0, 1].set_title(zoom.title)
+    axes.plot(x, y, marker="o" if np.size(x) < 3 else "", **options)

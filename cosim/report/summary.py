@@ -7,12 +7,89 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from .assessment import assessment_numbers
-from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, temperatures
-from .melting_numbers import melting, melts
-from .motion_numbers import after_run_up, whole_run
+from .contents import break_aways, run_up_time, slip_share
+from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, melting, melts, temperatures
 from .quantities import Quantity, ratio, split_units
+
+Array = NDArray[np.float64]
+
+
+def after_run_up(dataset: xr.Dataset) -> dict[str, Quantity]:
+    """What the stick-slip motion is like once the surface has its speed.
+
+    frequency: break-aways over the window. mean_period: between the first and the last of them.
+    """
+    begin, end = run_up_time(dataset), float(dataset["time"][-1])
+    window = end - begin
+    late = dataset.sel(time=slice(begin, None))
+    starts = break_aways(dataset)
+    starts = starts[(starts >= begin) & (starts <= end)]
+    reached = window > 0.0
+    period = (starts[-1] - starts[0]) / (starts.size - 1) if starts.size > 1 else None
+    return {
+        "begin": Quantity(begin, "s"),
+        "duration": Quantity(window if reached else 0.0, "s"),
+        "break_aways": Quantity(int(starts.size), "1"),
+        "frequency": Quantity(starts.size / window if reached else None, "Hz"),
+        "mean_period": Quantity(period, "s"),
+        "slip_share": Quantity(slip_share(dataset, begin, end), "1"),
+        "mean_x": Quantity(time_mean(late, "x"), "m"),
+        **_extremes(late, "x", "m"),
+        "mean_y": Quantity(time_mean(late, "y"), "m"),
+        **_extremes(late, "y", "m"),
+        "max_rotation_deg": Quantity(_largest(np.degrees(late["phi"].values)), "deg"),
+        "mean_friction_force_x": Quantity(time_mean(late, "friction_force_x"), "N"),
+        "mean_heat_flow": Quantity(
+            _growth(late, "heat") / window if reached and late.sizes["time"] else None, "W"
+        ),
+    }
+
+
+def whole_run(dataset: xr.Dataset) -> dict[str, Quantity]:
+    """Totals and extremes of everything recorded."""
+    return {
+        "break_aways": Quantity(int(break_aways(dataset).size), "1"),
+        "slip_share": Quantity(
+            slip_share(dataset, float(dataset["time"][0]), float(dataset["time"][-1])), "1"
+        ),
+        **_extremes(dataset, "x", "m"),
+        **_extremes(dataset, "y", "m"),
+        "max_rotation_deg": Quantity(_largest(np.degrees(dataset["phi"].values)), "deg"),
+        "max_friction_force_x": Quantity(_largest(dataset["friction_force_x"].values), "N"),
+        "surface_travel": Quantity(_growth(dataset, "surface_travel"), "m"),
+        "sliding_distance": Quantity(_growth(dataset, "sliding_distance"), "m"),
+    }
+
+
+def time_mean(dataset: xr.Dataset, name: str) -> float | None:
+    """Mean over time by the trapezoidal rule, gaps left out; None without values."""
+    time, values = dataset["time"].values, dataset[name].values
+    known = np.isfinite(values)
+    time, values = time[known], values[known]
+    if values.size == 0:
+        return None
+    if values.size == 1:
+        return float(values[0])
+    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+
+
+def _extremes(dataset: xr.Dataset, name: str, unit: str) -> dict[str, Quantity]:
+    values = dataset[name].values
+    values = values[np.isfinite(values)]
+    low, high = (float(values.min()), float(values.max())) if values.size else (None, None)
+    return {f"min_{name}": Quantity(low, unit), f"max_{name}": Quantity(high, unit)}
+
+
+def _largest(values: Array) -> float | None:
+    values = values[np.isfinite(values)]
+    return float(np.abs(values).max()) if values.size else None
+
+
+def _growth(dataset: xr.Dataset, name: str) -> float:
+    return float(dataset[name][-1] - dataset[name][0])
 
 
 def summary(dataset: xr.Dataset) -> dict[str, Any]:

@@ -1,14 +1,18 @@
-"""What is wrong with a scenario, in one line a user can act on."""
+"""The check of what a file holds, and what is wrong with it in one line a user can act on.
+
+Scenarios, campaigns and the keys of a sweep go through here.
+"""
 
 from __future__ import annotations
 
-import difflib
 import re
-from collections.abc import Iterable
-from typing import Any, Literal, get_args, get_origin
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+
+from cosim.names import nearest_key
 
 LONGEST_VALUE = 60
 BOUNDS = {
@@ -34,30 +38,44 @@ WRONG = {
 }
 
 
+Model = TypeVar("Model", bound=BaseModel)
+#: An entry of pydantic's report.
+Fault = Mapping[str, Any]
+
+
 class ScenarioError(ValueError):
     """A scenario cannot be read or makes no sense; one line: file, key, what, what is allowed."""
 
 
-def nearest(name: str, known: Iterable[str]) -> str | None:
-    """The known name that is most like another one, if any is."""
-    near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
-    return near[0] if near else None
+def checked(model: type[Model], tables: Mapping[str, Any]) -> Model:
+    """A model from the tables of a TOML file; ScenarioError in one line."""
+    try:
+        return model.model_validate(_tuples(tables), strict=True)
+    except ValidationError as report:
+        raise ScenarioError(describe_faults(report, model)) from None
+
+
+def _tuples(value: Any) -> Any:
+    """TOML's lists as the tuples that the models hold."""
+    if isinstance(value, Mapping):
+        return {key: _tuples(entry) for key, entry in value.items()}
+    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
 
 
 def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
-    """`key` and `block.key` -> field, of a model made of blocks."""
+    """`key` and `table.key` -> field, of a model made of tables."""
     keys = {}
     for name, field in model.model_fields.items():
         keys[name] = field
-        if _is_block(field):
-            keys |= {f"{name}.{key}": entry for key, entry in field.annotation.model_fields.items()}
+        if (table := _table(field.annotation)) is not None:
+            keys |= {f"{name}.{key}": entry for key, entry in table.model_fields.items()}
     return keys
 
 
 def describe_faults(report: ValidationError, model: type[BaseModel]) -> str:
     """The first fault of pydantic's report, and how many keys have others, in one line."""
     keys = known_keys(model)
-    faults: dict[str, list[dict[str, Any]]] = {}
+    faults: dict[str, list[Fault]] = {}
     for fault in report.errors():
         # deeper places are entries of a list or branches of a union, of one key
         faults.setdefault(".".join(str(part) for part in fault["loc"][:2]), []).append(fault)
@@ -67,7 +85,7 @@ def describe_faults(report: ValidationError, model: type[BaseModel]) -> str:
     return line + (f" (and {others} more fault{'s' * (others > 1)})" if others else "")
 
 
-def _describe(key: str, faults: list[dict[str, Any]], keys: dict[str, FieldInfo]) -> str:
+def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
     fault = faults[0]
     table = _table_of_list(fault["loc"], keys)
     if table is not None:
@@ -75,7 +93,7 @@ def _describe(key: str, faults: list[dict[str, Any]], keys: dict[str, FieldInfo]
         if fault["type"] == "missing":
             needed = allowed(entry, known_keys(table)[entry])
             return f"{key}[{number + 1}].{entry}: missing, needed is {needed}"
-        inner = _describe(entry, [fault | {"loc": (entry,)}], known_keys(table))
+        inner = _describe(entry, [{**fault, "loc": (entry,)}], known_keys(table))
         return f"{key}[{number + 1}].{inner}"
     if fault["type"] == "value_error":
         return _of_several_keys(key, str(fault["ctx"]["error"]), keys)
@@ -90,39 +108,41 @@ def _table_of_list(loc: tuple[Any, ...], keys: dict[str, FieldInfo]) -> type[Bas
     field = keys.get(".".join(map(str, loc[:2])))
     if len(loc) != 4 or field is None or get_origin(field.annotation) is not tuple:
         return None
-    kind = get_args(field.annotation)[0]
-    return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
+    return _table(get_args(field.annotation)[0])
 
 
-def _of_several_keys(block: str, message: str, keys: dict[str, FieldInfo]) -> str:
-    """`key = value ...` from a check of several values, as `block.key: value ...`."""
+def _of_several_keys(table: str, message: str, keys: dict[str, FieldInfo]) -> str:
+    """`key = value ...` from a check of several values, as `table.key: value ...`."""
     message = " ".join(message.split())
     match = re.match(r"(?P<key>[\w.]+) (?:= )?(?P<rest>.*)", message)
     if match:
-        for key in (f"{block}.{match['key']}", match["key"]):
+        for key in (f"{table}.{match['key']}", match["key"]):
             if key in keys:
                 return f"{key}: {match['rest']}"
-    return f"{block}: {message}" if block else message
+    return f"{table}: {message}" if table else message
 
 
 def _known_instead(key: str, keys: dict[str, FieldInfo]) -> str:
-    """The key that was meant: of that name elsewhere, the most like in the block, or anywhere."""
-    block, _, entry = key.rpartition(".")
+    """The key that was meant, or all that its table has."""
     if key == "contact.radius":
         return "the contact's radius is rig.contact_radius"
-    siblings = [known for known in keys if known.rpartition(".")[0] == block]
-    namesakes = [known for known in keys if known.rpartition(".")[2] == entry]
-    near = next(iter(namesakes), None) or nearest(key, siblings) or nearest(key, keys)
-    if near:
+    if near := nearest_key(key, keys):
         return f"nearest known: {near}"
+    siblings = [known for known in keys if known.rpartition(".")[0] == key.rpartition(".")[0]]
     return f"known: {', '.join(known.rpartition('.')[2] for known in siblings)}"
+
+
+def unit_of(field: FieldInfo) -> str:
+    """The unit that a field was declared with; "1" for a plain number, and for none."""
+    extra = field.json_schema_extra
+    return str(extra.get("unit", "1")) if isinstance(extra, dict) else "1"
 
 
 def allowed(key: str, field: FieldInfo) -> str:
     """What a key may hold, in words."""
-    if _is_block(field):
-        return f"a table [{key}] with {', '.join(field.annotation.model_fields)}"
-    unit = (field.json_schema_extra or {}).get("unit", "1")
+    if (table := _table(field.annotation)) is not None:
+        return f"a table [{key}] with {', '.join(table.model_fields)}"
+    unit = unit_of(field)
     return _allowed_type(field.annotation, field.metadata, "" if unit == "1" else f" {unit}")
 
 
@@ -153,8 +173,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
 
 
 def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
-    if isinstance(entries[0], type) and issubclass(entries[0], BaseModel):
-        return f"a list of tables with {', '.join(entries[0].model_fields)}"
+    if (table := _table(entries[0])) is not None:
+        return f"a list of tables with {', '.join(table.model_fields)}"
     if entries[-1] is Ellipsis:
         return f"a list of {_allowed_type(entries[0], (), unit)}"
     return f"a list of {len(entries)} numbers{unit and f' in{unit}'}"
@@ -169,8 +189,9 @@ def _flat_metadata(kind: Any) -> list[Any]:
     ]
 
 
-def _is_block(field: FieldInfo) -> bool:
-    return isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel)
+def _table(kind: Any) -> type[BaseModel] | None:
+    """The model, where a type is a table of keys."""
+    return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
 
 
 def _shown(value: Any) -> str:

@@ -3,7 +3,7 @@
 The tables of a file are the blocks of the mechanical parameters (`stickslip.Parameters`), those
 of the thermal ones (`thermal.ThermalParameters`), `[run]` and `[coupling]`; every key has a
 default. What both models know has one key: the contact's radius is `rig.contact_radius`, and the
-way round a slab follows from `rig.slab_radius`.
+turn of a slab follows from `rig.slab_radius`.
 """
 
 from __future__ import annotations
@@ -16,12 +16,13 @@ from pathlib import Path
 from typing import Any, Self
 
 import tomli_w
-from pydantic import Field, PrivateAttr, ValidationError, create_model, model_validator
+from pydantic import Field, PrivateAttr, create_model, model_validator
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
-from stickslip.parameters import Block, quantity
+from stickslip.quantity import Table, quantity
 
-from cosim.scenario.faults import ScenarioError, describe_faults, nearest
+from cosim.names import nearest
+from cosim.scenario.faults import ScenarioError, checked
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 
 SUFFIX = ".toml"
@@ -31,20 +32,20 @@ MOST_STEPS = 10_000_000
 ROUNDING = 1e-9
 #: What the contact has of the block.
 FROM_BLOCK = ("radius", "load")
-#: The contact's heat.
+_HEAT_OF_CONTACT: dict[str, Any] = {
+    key: (field.annotation, field)
+    for key, field in Contact.model_fields.items()
+    if key not in FROM_BLOCK
+}
 ContactHeat = create_model(
     "ContactHeat",
-    __base__=Block,
+    __base__=Table,
     __doc__="Contact conductance, and how finely the contact's heat flux is resolved.",
-    **{
-        key: (field.annotation, field)
-        for key, field in Contact.model_fields.items()
-        if key not in FROM_BLOCK
-    },
+    **_HEAT_OF_CONTACT,
 )
 
 
-class Run(Block):
+class Run(Table):
     """How long a run is and how often it is looked at."""
 
     duration: float = quantity(30.0, "s", "length of the run", gt=0)
@@ -54,10 +55,10 @@ class Run(Block):
     )
 
 
-class Coupling(Block):
+class Coupling(Table):
     """How the coupled models talk to each other."""
 
-    macro_step: float = quantity(0.01, "s", "time between two exchanges of heat and way", gt=0)
+    macro_step: float = quantity(0.01, "s", "time between two exchanges of heat and travel", gt=0)
 
 
 class Scenario(Parameters):
@@ -112,7 +113,7 @@ class Scenario(Parameters):
         return self.belt.model_copy(update={"railing_load": self.rig.mass * GRAVITY})
 
     def _take_length_from_slab(self) -> None:
-        """The way that the contact describes on a slab: one turn."""
+        """What the contact travels on a slab before it comes round: one turn."""
         turn = 2.0 * math.pi * abs(self.rig.slab_radius)
         if "length" in self.belt.model_fields_set:
             raise ValueError(
@@ -181,10 +182,7 @@ class Scenario(Parameters):
     @classmethod
     def from_tables(cls, tables: Mapping[str, Any]) -> Self:
         """A scenario from the tables of a TOML file; ScenarioError in one line."""
-        try:
-            return cls.model_validate(_tuples(tables), strict=True)
-        except ValidationError as report:
-            raise ScenarioError(describe_faults(report, cls)) from None
+        return checked(cls, tables)
 
     def to_tables(self) -> dict[str, Any]:
         """All keys that a file can hold, with their values, less those that follow from others."""
@@ -265,13 +263,6 @@ def _read_text(source: str | Path) -> str:
         ) from None
     except OSError as error:
         raise ScenarioError(f"{source}: cannot be read: {error.strerror}") from None
-
-
-def _tuples(value: Any) -> Any:
-    """TOML's lists as the tuples that the models hold."""
-    if isinstance(value, Mapping):
-        return {key: _tuples(entry) for key, entry in value.items()}
-    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
 
 
 def _with_line(message: str, text: str) -> str:

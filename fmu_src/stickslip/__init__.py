@@ -6,65 +6,32 @@
 (501,)
 """
 
-from .effects import (
-    CATALOGUE,
-    AsperityMelting,
-    FilmDrag,
-    LateralFriction,
-    LoadDependence,
-    MeltFilm,
-    MixedLubrication,
-    RateAndState,
-    RunIn,
-    SpeedRipple,
-    SpringHardening,
-    SpringMisalignment,
-    StaticStrengthening,
-    StickStiffness,
-    StructuralDamping,
-    SurfacePattern,
-    SurfaceScatter,
-    TemperatureDependence,
-    ThermalWeakening,
-    TurningSurface,
-    VelocityWeakening,
-)
+from typing import TYPE_CHECKING, Any
+
+from .effects import EFFECTS
 from .friction_law import friction_coefficient
 from .parameters import Friction, Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
 from .simulate import simulate
 from .trajectory import Trajectory
 
 __all__ = [
-    "AsperityMelting",
-    "CATALOGUE",
-    "FilmDrag",
+    "EFFECTS",
     "Friction",
     "Imperfections",
     "Initial",
-    "LateralFriction",
-    "LoadDependence",
-    "MeltFilm",
-    "MixedLubrication",
     "Parameters",
-    "RateAndState",
     "Rig",
-    "RunIn",
     "Solver",
-    "SpeedRipple",
-    "SpringHardening",
-    "SpringMisalignment",
     "Springs",
-    "StaticStrengthening",
-    "StickStiffness",
-    "StructuralDamping",
     "Surface",
-    "SurfacePattern",
-    "SurfaceScatter",
-    "TemperatureDependence",
-    "ThermalWeakening",
     "Trajectory",
-    "TurningSurface",
-    "VelocityWeakening",
     "friction_coefficient",
     "simulate",
 ]
+# the effects' tables of parameters, by their names: VelocityWeakening, FilmDrag, ...
+globals().update({effect.table.__name__: effect.table for effect in EFFECTS})
+__all__ += [effect.table.__name__ for effect in EFFECTS]
+
+if TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any: ...

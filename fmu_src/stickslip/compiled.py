@@ -7,41 +7,28 @@ beside a real file, and a changed kernel is a new module, so no run ever meets s
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import importlib.util
 import os
 import sys
 import tempfile
 from functools import cache
-from importlib import resources
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import FunctionType, ModuleType
+from typing import Any
 
 import numba
 import platformdirs
 from numba.core.cpu import CPUTargetOptions
 
-from .kernel import MODULES
+from .generation.source import kernel_source
 
 # The kernel makes no arrays, so nobody need count who holds one: without the counting a call costs
 # a third. The option has no public name; where a version of numba drops it, only speed is lost.
-OPTIONS = {"cache": True, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy"}
 if hasattr(CPUTargetOptions, "_nrt"):
     OPTIONS["_nrt"] = False
-
-
-def kernel_source() -> str:
-    """The kernel as the text of one module: its files in order, without their mutual imports."""
-    package = resources.files("stickslip.kernel")
-    parts = []
-    for name in MODULES:
-        tree = ast.parse((package / f"{name}.py").read_text(encoding="utf-8"))
-        tree.body = [
-            node for node in tree.body if not (isinstance(node, ast.ImportFrom) and node.level)
-        ]
-        parts.append(f"# {name}\n{ast.unparse(tree)}\n")
-    return "\n".join(parts)
 
 
 def is_cached() -> bool:
@@ -55,10 +42,12 @@ def compiled_kernel() -> ModuleType:
     """The kernel as a module of numba functions; machine code is cached between processes."""
     source = kernel_source()
     name = _name(source)
-    spec = importlib.util.spec_from_file_location(name, _write_module(name, source))
+    loader = SourceFileLoader(name, str(_write_module(name, source)))
+    spec = importlib.util.spec_from_loader(name, loader)
+    assert spec is not None  # there is a loader
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # numba's cache finds the functions again by this name
-    spec.loader.exec_module(module)
+    loader.exec_module(module)
     for key, value in list(vars(module).items()):
         if isinstance(value, FunctionType) and value.__module__ == name:
             setattr(module, key, numba.njit(value, **OPTIONS))

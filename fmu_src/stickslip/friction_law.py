@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arrays import inputs
+from .arrays import interface_temperature as temperature_of
 from .compiled import compiled_kernel
-from .kernel.layout import P_NORMAL_FORCE, U_FILM, U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
+from .kernel.layout import P_NORMAL_FORCE, W_FRICTION, W_SIZE
 from .parameters import Parameters
 
 
@@ -19,8 +21,8 @@ def friction_coefficient(
     """Friction over normal force of a contact that slides along x without turning, speeds (n,) m/s.
 
     Every effect of friction that is on has its say, with its memory as at the start of a run: no
-    recent heat, no way slid. interface_temperature: degC; left out, the reference temperature of
-    ``temperature_dependence``. film_thickness: water in the contact, mean over it, m. Raises
+    recent heat, no distance slid. interface_temperature: degC; left out, the reference temperature
+    of ``temperature_dependence``. film_thickness: water in the contact, mean over it, m. Raises
     ValueError for a speed that is not positive.
 
     >>> friction_coefficient(Parameters(), [0.1])
@@ -29,11 +31,9 @@ def friction_coefficient(
     speeds = np.atleast_1d(np.asarray(speed, dtype=float))
     if not np.all(speeds > 0.0):
         raise ValueError(f"speed = {speeds.min():g} m/s: must be above 0")
-    if interface_temperature is None:
-        interface_temperature = parameters.temperature_dependence.reference_degC
-    kernel = compiled_kernel()
-    p, u, w = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(W_SIZE)
-    u[U_TEMPERATURE], u[U_FILM] = interface_temperature, film_thickness
+    temperature = temperature_of(parameters, interface_temperature)
+    kernel, u = compiled_kernel(), inputs(0.0, temperature, film_thickness)
+    p, w = np.array(parameters.pack()), np.zeros(W_SIZE)
     coefficients = np.empty(speeds.size)
     for i, value in enumerate(speeds):
         kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)

@@ -1,6 +1,6 @@
 """What a rig, its springs, a friction law and a surface are: named, bounded, with units.
 
-Each block is a table of a scenario file and a group of FMU parameters (`block.parameter`); the
+Each `Table` is a table of a scenario file and a group of FMU parameters (`table.parameter`); the
 unit, the bounds and the description given here are the ones that both show.
 """
 
@@ -9,16 +9,17 @@ from __future__ import annotations
 import math
 import warnings
 from itertools import pairwise
-from typing import Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, create_model, model_validator
 
-from .block import Block, quantity
-from .effects import EffectBlocks
-from .packing import CURVE_LIMIT, pack
+from .effects import EFFECTS
+from .kernel.layout import CURVE_LIMIT
+from .packing import pack
+from .quantity import Table, quantity
 
 
-class Rig(Block):
+class Rig(Table):
     """Block, spring geometry and guides."""
 
     mass: float = quantity(0.67, "kg", "mass of the block", gt=0)
@@ -71,7 +72,7 @@ class Rig(Block):
         return self
 
 
-class Springs(Block):
+class Springs(Table):
     """The four equal springs."""
 
     stiffness: float = quantity(20.17, "N/m", "stiffness of one of the four springs", ge=0)
@@ -116,7 +117,7 @@ class Springs(Block):
         return self
 
 
-class Friction(Block):
+class Friction(Table):
     """Coulomb friction between block and surface."""
 
     mu_s: float = quantity(0.2815, "1", "static friction coefficient", ge=0)
@@ -130,7 +131,7 @@ class Friction(Block):
     )
 
 
-class Surface(Block):
+class Surface(Table):
     """Drive of the surface under the block."""
 
     speed: float = quantity(0.15, "m/s", "speed of the surface; negative runs backwards")
@@ -139,7 +140,7 @@ class Surface(Block):
     )
 
 
-class Initial(Block):
+class Initial(Table):
     """State of the block at the start, in the frame of the rig."""
 
     x: float = quantity(0.0, "m", "position along the motion of the surface")
@@ -150,7 +151,7 @@ class Initial(Block):
     omega: float = quantity(0.0, "rad/s", "angular velocity")
 
 
-class Imperfections(Block):
+class Imperfections(Table):
     """What a real rig departs by from its drawing: drawn at random, the same for the same seed.
 
     Each is the standard deviation of a normal distribution that is cut at three of them.
@@ -172,7 +173,7 @@ class Imperfections(Block):
     )
 
 
-class Solver(Block):
+class Solver(Table):
     """Internal integrator."""
 
     tolerance: float = quantity(
@@ -184,7 +185,23 @@ class Solver(Block):
     )
 
 
-class Parameters(EffectBlocks):
+if TYPE_CHECKING:
+
+    class EffectTables(Table):
+        """One table for each effect, all off."""
+
+        def __getattr__(self, name: str) -> Any: ...
+
+else:
+    EffectTables = create_model(
+        "EffectTables",
+        __base__=Table,
+        __doc__="One table for each effect, all off.",
+        **{effect.id: (effect.table, effect.table()) for effect in EFFECTS},
+    )
+
+
+class Parameters(EffectTables):
     """Everything that the mechanical model needs, the drive included."""
 
     rig: Rig = Rig()
@@ -197,6 +214,8 @@ class Parameters(EffectBlocks):
 
     @model_validator(mode="after")
     def _check_together(self) -> Self:
+        if self.speed_ripple.amplitude == 1.0 and self.speed_ripple.frequency > 100.0:
+            raise ValueError("speed_ripple: a full ripple above 100 Hz is no belt")
         if self.rig.surface == "slab" and self.turning_surface.curvature != 0.0:
             raise ValueError(
                 'rig.surface = "slab" already sets turning_surface.curvature to 1/slab_radius; '
@@ -234,11 +253,11 @@ class Parameters(EffectBlocks):
         return len(self.rig.degrees_of_freedom) > 1
 
     def flat(self) -> dict[str, float]:
-        """The FMU's parameters: ``block.parameter`` -> number (see `packing.pack`)."""
+        """The FMU's parameters: ``table.parameter`` -> number (see `packing.pack`)."""
         values = {
-            f"{block}.{name}": float(value)
-            for block in Parameters.model_fields
-            for name, value in getattr(self, block).model_dump().items()
+            f"{table}.{name}": float(value)
+            for table in Parameters.model_fields
+            for name, value in getattr(self, table).model_dump().items()
             if isinstance(value, (int, float))
         }
         rig = self.rig
@@ -255,7 +274,7 @@ class Parameters(EffectBlocks):
 
     def _curve_values(self) -> dict[str, float]:
         """The curve at its full length: unused places repeat the last value, which ends it."""
-        values = {}
+        values: dict[str, float] = {}
         for key in ("force_curve_extension", "force_curve_force"):
             curve = getattr(self.springs, key)
             rest = curve[-1] if curve else 0.0

@@ -1,7 +1,7 @@
 """A run that is set to given states at given moments: model flights between measured states.
 
 Positions and velocities are set; what cannot be seen of a block - the heat and the age of its
-contact, the way slid, the place on the surface - goes on from the model's own past.
+contact, the distance slid, the place on the surface - goes on from the model's own past.
 """
 
 from __future__ import annotations
@@ -11,13 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .compiled import compiled_kernel
+from .arrays import STATE, RunArrays, inputs
 from .kernel.layout import (
-    BLOCK,
-    E_CAPACITY,
-    E_FIRST,
-    E_WIDTH,
     HOLD_SINCE,
+    INSTANT,
     MODE,
     O_SIZE,
     SHOWN,
@@ -25,25 +22,17 @@ from .kernel.layout import (
     STICK,
     TRACKED,
     U_FORCE_X,
-    U_FORCE_Y,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    W_SIZE,
-    Z_HAS_NEXT,
-    Z_SIZE,
     Z_STARTED,
     X,
 )
 
-STATE = ("x", "y", "phi", "vx", "vy", "omega")
-#: A block of the model's state (see `layout`) -> external force along x, N.
+#: An instant of the model's motion (see `kernel.layout`) -> external force along x, N.
 Force = Callable[[Sequence[float]], float]
 
 
 @dataclass(frozen=True)
 class Restart:
-    """One moment at which a run is set to a state.
+    """One instant at which a run is set to a state.
 
     Attributes
     ----------
@@ -75,9 +64,8 @@ def simulate_restarted(
     middle of the interval, so that the error is of second order in it. aside : constant external
     force along y, N.
     """
-    record = compiled_kernel().record
-    inputs = _inputs(speed, temperature, aside)
-    return _simulated(p, inputs, times, restarts, force, record, O_SIZE)
+    run = _begin(p, inputs(speed, temperature, aside=aside), times)
+    return _simulated(run, times, restarts, force, run.kernel.record, O_SIZE)
 
 
 def track_restarted(
@@ -90,64 +78,70 @@ def track_restarted(
     aside: float = 0.0,
 ) -> np.ndarray:
     """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
-    track = compiled_kernel().track
-    inputs = _inputs(speed, temperature, aside)
-    return _simulated(p, inputs, times, restarts, force, track, TRACKED)
+    run = _begin(p, inputs(speed, temperature, aside=aside), times)
+    return _simulated(run, times, restarts, force, run.kernel.track, TRACKED)
 
 
-def _inputs(speed: float, temperature: float, aside: float) -> np.ndarray:
-    u = np.zeros(U_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE], u[U_FORCE_Y] = speed, temperature, aside
-    return u
+def _begin(p: Sequence[float], u: np.ndarray, times: np.ndarray) -> RunArrays:
+    return RunArrays.begin(p, u, start=float(times[0]))
 
 
-def _simulated(p, u, times, restarts, force, record, width: int) -> np.ndarray:
+def _simulated(
+    run: RunArrays,
+    times: np.ndarray,
+    restarts: Sequence[Restart],
+    force: Force | None,
+    record: Callable[..., int],
+    width: int,
+) -> np.ndarray:
     """Rows (n, width) as ``record`` of the kernel writes them."""
-    kernel = compiled_kernel()
-    p, times = np.asarray(p, dtype=float), np.ascontiguousarray(times, dtype=float)
-    z, w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
-    e = np.zeros(E_FIRST + E_WIDTH)
-    e[E_CAPACITY] = 1.0
+    times = np.ascontiguousarray(times, dtype=float)
     o = np.full(width * len(times), np.nan)
-    kernel.initialise(p, z, times[0])
     ends = [restart.row for restart in restarts[1:]] + [len(times)]
     for restart, end in zip(restarts, ends, strict=True):
-        _set(kernel, p, u, z, w, e, times[restart.row], restart)
+        _set(run, times[restart.row], restart)
         if force is None:
-            record(p, u, z, w, e, times, o, restart.row, end - restart.row)
+            record(*run.all, times, o, restart.row, end - restart.row)
         else:
-            _record_forced(record, p, u, z, w, e, times, o, (restart.row, end), force)
+            _record_forced(run, record, times, o, (restart.row, end), force)
     return o.reshape(-1, width)
 
 
-def _record_forced(record, p, u, z, w, e, times: np.ndarray, o, rows, force: Force) -> None:
+def _record_forced(
+    run: RunArrays,
+    record: Callable[..., int],
+    times: np.ndarray,
+    o: np.ndarray,
+    rows: tuple[int, int],
+    force: Force,
+) -> None:
     """Row by row, each under the force that the row before has set."""
     before, mode = None, None
     for row in range(*rows):
-        if record(p, u, z, w, e, times, o, row, 1) != 1:
+        if record(*run.all, times, o, row, 1) != 1:
             break
-        block = z[SHOWN : SHOWN + BLOCK].tolist()
-        now = u[U_FORCE_X] = force(block)
-        if before is not None and mode == block[MODE] and row + 1 < len(times):
+        instant = run.z[SHOWN : SHOWN + INSTANT].tolist()
+        now = run.u[U_FORCE_X] = force(instant)
+        if before is not None and mode == instant[MODE] and row + 1 < len(times):
             growth = (now - before) / (times[row] - times[row - 1])
-            u[U_FORCE_X] += 0.5 * growth * (times[row + 1] - times[row])
-        before, mode = now, block[MODE]
-    u[U_FORCE_X] = 0.0
+            run.u[U_FORCE_X] += 0.5 * growth * (times[row + 1] - times[row])
+        before, mode = now, instant[MODE]
+    run.u[U_FORCE_X] = 0.0
 
 
-def _set(kernel, p, u, z, w, e, time: float, restart: Restart) -> None:
-    """Reach the moment by the model's own motion, then set the state and settle the contact."""
-    past = z[Z_STARTED]
+def _set(run: RunArrays, time: float, restart: Restart) -> None:
+    """Reach the instant by the model's own motion, then set the state and settle the contact."""
+    z, past = run.z, run.z[Z_STARTED]
     if past:
-        kernel.advance(p, u, z, w, e, time)
+        run.advance(time)
     z[SHOWN] = time
     given = np.isfinite(restart.state)
     z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
-    if np.isfinite(restart.hold_since):  # a stick's velocity is the surface's; it creeps from there
+    if np.isfinite(
+        restart.hold_since
+    ):  # a stick's velocity is the surface's; it preslides from there
         z[SHOWN + MODE], z[SHOWN + HOLD_SINCE] = STICK, restart.hold_since
-        kernel.look_at(p, u, z, w, SHOWN)
-        kernel.follow_surface(p, u, z, w, SHOWN, 0.0)
+        run.follow_surface()
     elif past and given[STATE.index("vx")]:  # how the model moved before must not decide
         z[SHOWN + MODE] = SLIP
-    z[Z_STARTED], z[Z_HAS_NEXT] = 0.0, 0.0
-    kernel.advance(p, u, z, w, e, time)
+    run.settle(time)

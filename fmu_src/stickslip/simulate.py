@@ -4,43 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
-from types import SimpleNamespace
 
 import numpy as np
 
-from .compiled import compiled_kernel
-from .kernel import advance, layout, outputs, record
-from .kernel.layout import (
-    E_CAPACITY,
-    E_COUNT,
-    E_FIRST,
-    E_WIDTH,
-    O_SIZE,
-    U_FILM,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    W_SIZE,
-    Z_SIZE,
-)
-from .kernel.status import WHY_NOT
+from .arrays import RunArrays, inputs
+from .arrays import interface_temperature as temperature_of
+from .kernel import layout
+from .kernel.layout import E_COUNT, E_FIRST, E_WIDTH, O_SIZE
 from .parameters import Parameters
 from .ports import OUTPUTS
 from .trajectory import Trajectory
 
-EVENTS_PER_BLOCK = 4096
+EVENTS_AT_ONCE = 4096
 # rows between two calls of ``progress``, and the motion that they may span: a caller that wants to
 # stop need not wait for more
-ROWS_PER_BLOCK = 1000
-SECONDS_PER_BLOCK = 20.0
-
-# the kernel as it stands, for whoever wants to step through it
-INTERPRETED = SimpleNamespace(
-    initialise=advance.initialise,
-    advance=advance.advance,
-    show=outputs.show,
-    record=record.record,
-)
+ROWS_AT_ONCE = 1000
+SECONDS_AT_ONCE = 20.0
 
 
 def simulate(
@@ -69,12 +48,9 @@ def simulate(
         raise ValueError(f"output_interval = {output_interval!r}: must be above 0 s")
     if not 0.0 <= film_thickness < inf:
         raise ValueError(f"film_thickness = {film_thickness!r}: must be at least 0 m and finite")
-    if interface_temperature is None:
-        interface_temperature = parameters.temperature_dependence.reference_degC
+    temperature = temperature_of(parameters, interface_temperature)
+    u = inputs(parameters.surface.speed, temperature, film_thickness)
     times = sample_times(duration, output_interval)
-    u = np.zeros(U_SIZE)
-    u[U_SPEED] = parameters.surface.speed
-    u[U_TEMPERATURE], u[U_FILM] = interface_temperature, film_thickness
     run = _Run(parameters, times, u, interpreted)
     try:
         while run.reason is None:
@@ -82,7 +58,8 @@ def simulate(
             if progress is not None:
                 progress(run.time_reached)
     except BaseException as stop:
-        stop.trajectory = run.trajectory(reason=f"stopped: {type(stop).__name__}")
+        kept = run.trajectory(reason=f"stopped: {type(stop).__name__}")
+        stop.trajectory = kept  # type: ignore[attr-defined]  # any exception can carry it
         raise
     return run.trajectory(run.reason)
 
@@ -98,22 +75,19 @@ def sample_times(duration: float, interval: float) -> np.ndarray:
 
 
 class _Run:
-    """The kernel's arrays for one run, filled block of rows by block of rows."""
+    """The rows of one run, filled some at a time."""
 
     def __init__(self, parameters: Parameters, times: np.ndarray, u: np.ndarray, interpreted: bool):
         self.parameters = parameters
-        self.kernel = INTERPRETED if interpreted else compiled_kernel()
         array = list if interpreted else np.array
-        self.p, self.u = array(parameters.pack()), array(u)
-        self.z, self.w = array(np.zeros(Z_SIZE)), array(np.zeros(W_SIZE))
-        self.e = array(np.zeros(E_FIRST + E_WIDTH * EVENTS_PER_BLOCK))
-        self.e[E_CAPACITY] = EVENTS_PER_BLOCK
+        self.arrays = RunArrays.begin(
+            parameters.pack(), u, events=EVENTS_AT_ONCE, interpreted=interpreted
+        )
         self.times, self.t = times, array(times)
         self.o = array(np.zeros(O_SIZE * len(times)))
         self.rows = 0
         self.events: list[np.ndarray] = []
         self.reason: str | None = None
-        self.kernel.initialise(self.p, self.z, 0.0)
 
     @property
     def time_reached(self) -> float:
@@ -121,34 +95,29 @@ class _Run:
 
     def next_rows(self) -> None:
         """Advance by some rows; set ``reason`` where the run is over."""
-        within = self.time_reached + SECONDS_PER_BLOCK
+        within = self.time_reached + SECONDS_AT_ONCE
         span = int(np.searchsorted(self.times, within, side="right")) - self.rows
-        wanted = min(max(span, 1), ROWS_PER_BLOCK, len(self.times) - self.rows)
-        done = self.kernel.record(
-            self.p, self.u, self.z, self.w, self.e, self.t, self.o, self.rows, wanted
-        )
+        wanted = min(max(span, 1), ROWS_AT_ONCE, len(self.times) - self.rows)
+        record = self.arrays.kernel.record
+        done = record(*self.arrays.all, self.t, self.o, self.rows, wanted)
         self.rows += done
         self._drain_events()
         if done < wanted:
-            self.reason = self._failure()
+            self.reason = f"the run ended at {self.arrays.failure}"
         elif self.rows == len(self.times):
             self.reason = ""
 
     def _drain_events(self) -> None:
-        count = int(self.e[E_COUNT])
-        kept = min(count, EVENTS_PER_BLOCK)
-        flat = np.array(self.e[E_FIRST : E_FIRST + E_WIDTH * kept])
+        e = self.arrays.e
+        kept = min(int(e[E_COUNT]), EVENTS_AT_ONCE)
+        flat = np.array(e[E_FIRST : E_FIRST + E_WIDTH * kept])
         self.events.append(flat.reshape(kept, E_WIDTH))
-        self.e[E_COUNT] = 0.0
-
-    def _failure(self) -> str:
-        time = self.z[layout.SHOWN + layout.TIME]
-        return f"the run ended at t = {time:.9g} s: {WHY_NOT[self.z[layout.Z_STATUS]]}"
+        e[E_COUNT] = 0.0
 
     def trajectory(self, reason: str) -> Trajectory:
         table = np.array(self.o).reshape(-1, O_SIZE)[: self.rows]
         columns = {port.name: table[:, getattr(layout, port.slot)].copy() for port in OUTPUTS}
         events = np.concatenate([np.empty((0, E_WIDTH)), *self.events])
         # the internal step that the run ends in may have met an event beyond that end
-        events = events[events[:, 0] <= self.z[layout.SHOWN + layout.TIME]]
+        events = events[events[:, 0] <= self.arrays.time]
         return Trajectory(self.times[: self.rows], columns, events, self.parameters, reason)

@@ -1,6 +1,6 @@
 """The kernel against scipy's `solve_ivp` with events, on the same right-hand side.
 
-    python tests/benchmarks/against_solve_ivp.py
+    python tests/benchmarks/against_solve_ivp.py [--json FILE]
 
 Both run 20 s of stick-slip on a belt, for several contacts. scipy calls the kernel's own right-hand
 side, once as Python and once compiled, so that the second ratio is scipy's stepping alone. Its
@@ -13,6 +13,7 @@ import time
 from types import SimpleNamespace
 
 import numpy as np
+from baseline import Figure, arguments, write
 from mechanics import median_seconds
 from scipy.integrate import solve_ivp
 from stickslip import Initial, Parameters, Rig, Solver, simulate
@@ -159,11 +160,13 @@ def same_accuracy(exact: float, ours: float, run: ScipyRun) -> tuple[float, floa
     return seconds, error
 
 
-def compare(name: str) -> None:
+def compare(name: str) -> dict[str, Figure]:
+    """Print a contact's rows; its figures."""
     exact = simulate(belt(name, 1e-13), DURATION).slip_starts[-1]
     ours = simulate(belt(name), DURATION).slip_starts[-1]
     seconds = median_seconds(lambda: simulate(belt(name), DURATION), 9)
     print(f"{name}\n  kernel               {1e3 * seconds:9.2f}   {abs(ours - exact):20.1e}")
+    figures = {f"{name}: kernel": Figure(1e3 * seconds, "ms")}
     for language, kernel, array in (
         ("Python", PYTHON, list),
         ("compiled", compiled_kernel(), np.array),
@@ -172,12 +175,16 @@ def compare(name: str) -> None:
         peer, error = same_accuracy(exact, ours, ScipyRun(name, kernel, array))
         row = f"  solve_ivp, {language:10s}{1e3 * peer:9.2f}   {error:20.1e}"
         print(f"{row}   {peer / seconds:13.0f}")
+        figures[f"{name}: solve_ivp, {language} / ours"] = Figure(peer / seconds, better="more")
+    return figures
 
 
 def main() -> None:
+    told, figures = arguments(__doc__).parse_args(), {}
     print("                              ms   last break-away off by, s   ratio")
     for name in CONTACTS:
-        compare(name)
+        figures |= compare(name)
+    write(told.json, "against_solve_ivp", figures)
 
 
 if __name__ == "__main__":

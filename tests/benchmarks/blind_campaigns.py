@@ -11,7 +11,6 @@ with the same folder it does what is missing. Seeds are drawn afresh in a new fo
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import os
@@ -29,11 +28,13 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from baseline import Figure, arguments, write  # noqa: E402
 from blind.campaign import KINDS, Campaign, draw_campaign  # noqa: E402
 from blind.effects import EFFECTS  # noqa: E402
 from blind.next_experiment import separation  # noqa: E402
+from blind.out_of_catalogue import OUT_OF_CATALOGUE  # noqa: E402
+from blind.score import is_right  # noqa: E402
 from blind.score_table import markdown  # noqa: E402
-from blind.strangers import STRANGERS  # noqa: E402
 from blind.writing import write_campaign  # noqa: E402
 from blind_figure import score_figure  # noqa: E402
 
@@ -59,7 +60,7 @@ def cells(kinds, count, first: int, ids, sizes) -> Iterator[Cell]:
     """All campaigns of a benchmark: hidden effect, size, quality of the recording, repetition."""
     lists = {
         "effects": [(name,) for name in EFFECTS],
-        "unknown": [(name,) for name in STRANGERS],
+        "unknown": [(name,) for name in OUT_OF_CATALOGUE],
         "single_speed": [("film_drag",), ("structural_damping",)],
         "two": [tuple(ids) if len(ids) == 2 else ()],
         "none": [()],
@@ -177,14 +178,23 @@ def run_missing(
     return [rows[cell.name] for cell in wanted]
 
 
+def figures_of(rows: list[dict]) -> dict[str, Figure]:
+    """Share of right answers of each kind, and what an answer takes."""
+    figures = {}
+    for kind in KINDS:
+        of_kind = [is_right(row) for row in rows if row["kind"] == kind]
+        if of_kind:
+            figures[f"right, {kind}"] = Figure(sum(of_kind) / len(of_kind), better="more")
+    seconds = float(np.median([row["seconds"] for row in rows]))
+    return figures | {"wall time of an answer, median": Figure(seconds, "s")}
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = arguments(__doc__)
     parser.add_argument("folder", type=Path, help="answers, table and figure; continued if begun")
     parser.add_argument("--kind", nargs="+", choices=KINDS, default=KINDS)
     parser.add_argument("--count", type=int, help="campaigns of each cell")
-    parser.add_argument("--effects", nargs="+", choices=[*EFFECTS, *STRANGERS], default=())
+    parser.add_argument("--effects", nargs="+", choices=[*EFFECTS, *OUT_OF_CATALOGUE], default=())
     parser.add_argument("--size", nargs=2, type=float, action="append", help="band, noise units")
     parser.add_argument("--seed", type=int, help="drawn afresh in a new folder")
     parser.add_argument("--jobs", type=int, default=2)
@@ -199,6 +209,7 @@ def main() -> None:
     table = markdown(rows, seed)
     (told.folder / "scores.md").write_text(table, encoding="utf-8")
     score_figure(rows, told.folder / "scores.png")
+    write(told.json, "blind_campaigns", figures_of(rows))
     print(table)
 
 

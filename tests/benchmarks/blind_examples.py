@@ -7,7 +7,6 @@ The folder holds campaigns and an `answers.json`: name -> {"verdict", "effects"}
 
 from __future__ import annotations
 
-import argparse
 import json
 import subprocess
 import sys
@@ -16,6 +15,7 @@ import time
 from pathlib import Path
 
 import pandas as pd
+from baseline import Figure, arguments, write
 
 
 def asked(campaign: Path, jobs: int) -> tuple[dict, float]:
@@ -32,7 +32,7 @@ def asked(campaign: Path, jobs: int) -> tuple[dict, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = arguments(__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--jobs", type=int, default=2)
     told = parser.parse_args()
@@ -47,6 +47,9 @@ def main() -> None:
             "after": said["gap"]["after"]["held_out"], "wall s": round(took, 1),
         })  # fmt: skip
         print(pd.DataFrame(rows[-1:]).to_string(index=False, header=len(rows) == 1), flush=True)
+    figures = {f"{row['campaign']}: wall time": Figure(row["wall s"], "s") for row in rows}
+    figures["right"] = Figure(sum(row["right"] for row in rows), better="more")
+    write(told.json, "blind_examples", figures)
     if not all(row["right"] for row in rows):
         sys.exit(1)
 

@@ -12,7 +12,8 @@ from blind.score import large, of_kind
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.report.drawing import BLUE, DPI, GREEN, GREY, INK, ORANGE, RC, RED
+from cosim.report.page import DPI
+from cosim.report.style import BLUE, GREEN, GREY, INK, ORANGE, RC, RED
 
 KIND_COLOURS = {"effects": BLUE, "unknown": RED, "two": GREEN, "none": GREY}
 
@@ -44,7 +45,7 @@ def draw_shares(axes: Axes, rows: Sequence[dict]) -> None:
     series = (
         ("effects", "right name or class", BLUE, score.is_right),
         ("effects", "right name alone", ORANGE, score.is_exact),
-        ("unknown", "stranger: unknown", RED, lambda row: score.verdict_of(row) == "unknown"),
+        ("unknown", "law unknown: unknown", RED, lambda row: score.verdict_of(row) == "unknown"),
         (
             "two",
             "two effects: both",

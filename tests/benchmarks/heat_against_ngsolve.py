@@ -1,6 +1,6 @@
 """Belt under a moving heat flux: scikit-fem and exact propagators against ngsolve.
 
-    python tests/benchmarks/heat_against_ngsolve.py
+    python tests/benchmarks/heat_against_ngsolve.py [--json FILE]
 
 One metre of belt, 1 mm cells, 13 nodes through the thickness, the same for both: 13 000 unknowns.
 A flux of a contact's size runs along it for 2 s at 0.82 m/s. Ours has P2 elements through the
@@ -19,11 +19,12 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
+from baseline import Figure, arguments, write
 from scipy.fft import rfft
 
-from thermal import Belt as BeltParameters
-from thermal.belt import CONTACT, Belt
-from thermal.footprint import Footprint
+from thermal import Belt
+from thermal.belt.material_frame import CONTACT, BeltField
+from thermal.contact.footprint import Footprint
 
 SPEED, DURATION, FLUX, LENGTH, H = 0.82, 2.0, 600.0, 1.0, 15.0
 ELEMENTS, CELL = 6, 1e-3
@@ -34,22 +35,22 @@ FALLS_NO_MORE = 0.9
 
 
 def centres(count):
-    """Middle of the contact at the start of each step, and its way, m."""
-    way = -SPEED * DURATION / count
-    return 0.5 + way * np.arange(count), way
+    """Middle of the contact at the start of each step, and its travel, m."""
+    travel = -SPEED * DURATION / count
+    return 0.5 + travel * np.arange(count), travel
 
 
-def nodal_loads(cell, cells, centre, way):
+def nodal_loads(cell, cells, centre, travel):
     """W into each node of the face for the flux, mean over a step."""
-    first, loads = FOOTPRINT.loads(centre, way, cell)
+    first, loads = FOOTPRINT.loads(centre, travel, cell)
     nodal = np.zeros(cells)
     np.add.at(nodal, (first + np.arange(loads.shape[1])) % cells, FLUX * loads[0])
     return nodal
 
 
 def our_belt(elements, cell):
-    return Belt(
-        BeltParameters(length=LENGTH, cell_length=cell, elements=elements, air_heat_transfer=H),
+    return BeltField(
+        Belt(length=LENGTH, cell_length=cell, elements=elements, air_heat_transfer=H),
         FOOTPRINT.lane,
     )
 
@@ -58,10 +59,10 @@ def run_ours(belt, count):
     """Face (cells,) K at the end and seconds for the steps."""
     duration = DURATION / count
     belt.response(duration)
-    places, way = centres(count)
+    places, travel = centres(count)
     began = time.perf_counter()
     for centre in places:
-        load = nodal_loads(belt.cell, belt.cells, centre, way)
+        load = nodal_loads(belt.cell, belt.cells, centre, travel)
         belt.advance(duration, {CONTACT: rfft(load)})
     return belt.face(), time.perf_counter() - began
 
@@ -81,7 +82,7 @@ def peer_setting(depth, cells):
     )
     space = ngs.Periodic(ngs.H1(mesh, order=1))
     u, v = space.TnT()
-    lane, parameters = FOOTPRINT.lane, BeltParameters()
+    lane, parameters = FOOTPRINT.lane, Belt()
     mass = ngs.BilinearForm(space, symmetric=True)
     mass += lane * parameters.density * parameters.heat_capacity * u * v * ngs.dx
     stiffness = ngs.BilinearForm(space, symmetric=True)
@@ -110,10 +111,10 @@ def run_peer(setting, count, scheme):
     before[:] = 0.0
     load = right.CreateVector()
     load[:] = 0.0
-    places, way = centres(count)
+    places, travel = centres(count)
     began = time.perf_counter()
     for centre in places:
-        load.FV().NumPy()[face] = nodal_loads(cell, face.size, centre, way)
+        load.FV().NumPy()[face] = nodal_loads(cell, face.size, centre, travel)
         if scheme == "cn":  # (M + dt/2 K) (u+ - u) = dt (load - K u)
             right.data = load - stiffness.mat * u
             change.data = dt * (solve * right)
@@ -134,11 +135,12 @@ def error(face, exact):
 
 
 def main():
+    told = arguments(__doc__).parse_args()
     try:
         import ngsolve
     except ImportError:
         print("ngsolve is not installed: nothing to compare with (pip install ngsolve)")
-        return None
+        return
     ngsolve.SetNumThreads(1)
     exact, _ = run_ours(our_belt(24, 0.5 * CELL), 2000)
     count = math.ceil(SPEED * DURATION / (FOOTPRINT.length / 16))
@@ -170,7 +172,15 @@ def main():
         f"ratio at the peer's best error, {best[0]:.2e} to our {mine:.2e}:"
         f" {best[1] / ours:.1f} (same time step: see the ms each)"
     )
-    return best[1] / ours
+    write(
+        told.json,
+        "heat_against_ngsolve",
+        {
+            "our error": Figure(mine),
+            "peer / ours": Figure(best[1] / ours, better="more"),
+            "a step of ours": Figure(1e3 * ours / count, "ms"),
+        },
+    )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Cost of a macro step of belt and ice, and of going to the steady state in one.
 
-    python tests/benchmarks/heat_step.py
+    python tests/benchmarks/heat_step.py [--json FILE]
 
 Belts of 1 and 4 m with 1 mm cells, macro steps of 10 ms, median of many on one thread; what four
 times the length costs; a loop-after-loop run to the steady state against the direct way, both
@@ -14,8 +14,10 @@ import time
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from baseline import Figure, arguments, write
+
 from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.steady import settle
+from thermal.steady_state import settle
 
 FORCE, MACRO_STEP, REPEATS = 4.03, 0.01, 400
 #: Belt and ice that forget the start within 10 000 passes, and a step of whole cells.
@@ -62,17 +64,23 @@ def many_passes():
 
 
 def main():
-    cost = {}
+    told = arguments(__doc__).parse_args()
+    cost, figures = {}, {}
     for speed in (0.15, 0.82):
         for length in (1.0, 4.0):
             cost[length] = step_ms(length, speed)
             print(f"{length:g} m at {speed:4.2f} m/s  {cost[length]:6.3f} ms a macro step")
+            figures[f"macro step, {length:g} m at {speed} m/s"] = Figure(cost[length], "ms")
         print(f"four times the length costs {cost[4.0] / cost[1.0]:.2f} times as much")
     loops, at_once, difference = many_passes()
     print(
         f"{PASSES} passes {loops:.1f} s, directly {at_once:.3f} s, rises differ by"
         f" {difference:.1e}; ratio {loops / at_once:.0f}"
     )
+    figures["four times the length"] = Figure(cost[4.0] / cost[1.0])
+    figures["passes / directly"] = Figure(loops / at_once, better="more")
+    figures["passes and directly differ by"] = Figure(difference)
+    write(told.json, "heat_step", figures)
 
 
 if __name__ == "__main__":

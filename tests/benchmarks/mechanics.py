@@ -1,6 +1,6 @@
 """Speed of the mechanics alone: 20 s, exact, planar friction, against the linearised scheme.
 
-    python tests/benchmarks/mechanics.py
+    python tests/benchmarks/mechanics.py [--json FILE]
 
 prints seconds and their ratio, both measured in this run (median of several).
 """
@@ -8,6 +8,7 @@ prints seconds and their ratio, both measured in this run (median of several).
 import statistics
 import time
 
+from baseline import Figure, arguments, write
 from stickslip import LateralFriction, Parameters, simulate
 from stickslip.reference.faults import MENDED
 from stickslip.reference.interpreted_scheme import interpreted_run
@@ -23,7 +24,8 @@ def median_seconds(call, repeats: int) -> float:
     return statistics.median(seconds)
 
 
-def main() -> float:
+def main() -> None:
+    told = arguments(__doc__).parse_args()
     planar = Parameters(lateral_friction=LateralFriction(ratio=1.0), initial={"vx": 0.15})
     simulate(planar, 1.0)  # compiles, or loads the compiled kernel
     ours = median_seconds(lambda: simulate(planar, 20.0), 9)
@@ -43,7 +45,17 @@ def main() -> float:
     print(f"ratio Python strips / ours  {python_strips / ours:9.0f}")
     print(f"ratio numpy strips / ours   {numpy_strips / ours:9.0f}")
     print(f"ratio compiled scheme / ours{scheme_compiled / ours:9.2f}")
-    return numpy_strips / ours
+    write(
+        told.json,
+        "mechanics",
+        {
+            "compiled kernel": Figure(1e3 * ours, "ms"),
+            "interpreted kernel": Figure(1e3 * interpreted, "ms"),
+            "Python strips / ours": Figure(python_strips / ours, better="more"),
+            "numpy strips / ours": Figure(numpy_strips / ours, better="more"),
+            "compiled scheme / ours": Figure(scheme_compiled / ours, better="more"),
+        },
+    )
 
 
 if __name__ == "__main__":

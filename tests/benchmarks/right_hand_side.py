@@ -1,6 +1,6 @@
 """Cost of one compiled right-hand side, and what the quadrature over the contact errs.
 
-    python tests/benchmarks/right_hand_side.py
+    python tests/benchmarks/right_hand_side.py [--json FILE]
 
 prints ns for each kind of friction (median of several loops, each inside compiled code, so that no
 call from Python is in it), then the quadrature's error against adaptive integration, relative to
@@ -13,10 +13,11 @@ from types import SimpleNamespace
 
 import numba
 import numpy as np
+from baseline import Figure, arguments, write
 from mechanics import median_seconds
 from stickslip import Parameters
 from stickslip.compiled import OPTIONS, compiled_kernel
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import (
     DEPTHS,
     OMEGA,
@@ -112,13 +113,18 @@ def quadrature_error(law: str, ratio: float) -> float:
 
 
 def main() -> None:
+    told, figures = arguments(__doc__).parse_args(), {}
     print("one right-hand side, compiled            ns")
     for kind in KINDS:
-        print(f"{kind:<34}{nanoseconds(kind):9.0f}")
+        figures[kind] = Figure(nanoseconds(kind), "ns")
+        print(f"{kind:<34}{figures[kind].value:9.0f}")
     print(f"\nerror of {RAYS} x {DEPTHS} points ({ACCURACY / MU:.0e} or less); spinning / sliding:")
     print(f"{'':<26}" + "".join(f"{ratio:>10g}" for ratio in RATIOS))
     for law in LAWS:
-        print(f"{law:<26}" + "".join(f"{quadrature_error(law, r):10.1e}" for r in RATIOS))
+        errors = [quadrature_error(law, ratio) for ratio in RATIOS]
+        figures[f"largest error, {law}"] = Figure(max(errors))
+        print(f"{law:<26}" + "".join(f"{error:10.1e}" for error in errors))
+    write(told.json, "right_hand_side", figures)
 
 
 if __name__ == "__main__":

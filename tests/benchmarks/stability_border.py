@@ -1,6 +1,6 @@
 """The border of stability over pretension, against runs on either side of it.
 
-    python tests/benchmarks/stability_border.py [RIGS] [SEED]
+    python tests/benchmarks/stability_border.py [RIGS] [SEED] [--json FILE]
 
 Draws rigs at random, looks for the least pretension at which each keeps to its line, and simulates
 the rig, turned by 1e-7 rad at its start, with 5 % and 0.1 mm less and more. Rigs that need none, or
@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from baseline import Figure, arguments, write
 from stickslip.steady_motion import pretension_borders, stability, with_pretension
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
@@ -37,9 +38,13 @@ def sides(parameters):
     return borders.least, margin, grows(below), grows(above)
 
 
-def main(rigs=50, seed=1):
-    draw, asked, right, drawn = np.random.default_rng(seed), 0, 0, 0
-    while asked < rigs:
+def main():
+    parser = arguments(__doc__)
+    parser.add_argument("rigs", type=int, nargs="?", default=50)
+    parser.add_argument("seed", type=int, nargs="?", default=1)
+    told = parser.parse_args()
+    draw, asked, right, drawn = np.random.default_rng(told.seed), 0, 0, 0
+    while asked < told.rigs:
         parameters = drawn_rig(draw, drawn)
         drawn += 1
         found = sides(parameters)
@@ -58,7 +63,10 @@ def main(rigs=50, seed=1):
         f"{right} of {asked} rigs on the right side, margin {100 * RELATIVE:g} % and "
         f"{1e3 * ABSOLUTE:g} mm; {drawn} drawn"
     )
+    write(
+        told.json, "stability_border", {"on the right side": Figure(right / asked, better="more")}
+    )
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main()

@@ -1,6 +1,6 @@
 """The test plan's 1306 combinations of 30 s, and what handing them out costs.
 
-    taskset -c 0,1 python tests/benchmarks/sweep.py
+    taskset -c 0,1 python tests/benchmarks/sweep.py [--json FILE]
 
 prints seconds, and the ratio of the sweep to the plain runs in it shared by the cores.
 """
@@ -9,12 +9,13 @@ import tempfile
 import time
 
 import joblib
+from baseline import Figure, arguments, write
 from stickslip import simulate
 
 from cosim import read_scenario
 from cosim.studies.sweep import Run, run_grid
 from cosim.studies.sweep.combination import with_changes
-from cosim.studies.sweep.test_plan import plan_grid, repeats_grid
+from cosim.studies.sweep.grid import plan_grid, repeats_grid
 
 SAMPLE = 48  # every so manieth combination is timed alone
 
@@ -29,7 +30,8 @@ def plain_seconds(grid, run: Run) -> float:
     return (time.perf_counter() - start) * len(grid) / len(sample)
 
 
-def main() -> float:
+def main() -> None:
+    told = arguments(__doc__).parse_args()
     scenario = read_scenario("test_plan")
     run = Run(scenario.run.duration, scenario.run.output_interval)
     grids = plan_grid(scenario), repeats_grid(scenario)
@@ -47,7 +49,16 @@ def main() -> float:
     print(f"sweep on {cores:2d} cores           {seconds[0]:9.1f} s")
     print(f"the same sweep again        {seconds[1]:9.1f} s")
     print(f"ratio sweep / shared runs   {seconds[0] / (plain / cores):9.2f}")
-    return seconds[0] / (plain / cores)
+    write(
+        told.json,
+        "sweep",
+        {
+            "a run alone": Figure(1e3 * plain / complete, "ms"),
+            "sweep / shared runs": Figure(seconds[0] / (plain / cores)),
+            "the same sweep again": Figure(seconds[1], "s"),
+            "combinations complete": Figure(complete, better="more"),
+        },
+    )
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 
 from .campaign import KINDS, SIZES, draw_campaign
 from .effects import EFFECTS
-from .strangers import STRANGERS
+from .out_of_catalogue import OUT_OF_CATALOGUE
 from .writing import write_campaign
 
 
@@ -20,7 +20,7 @@ def main() -> None:
     parser.add_argument("--kind", choices=KINDS, default="effects")
     parser.add_argument("--count", type=int, default=1)
     parser.add_argument("--seed", type=int, help="of the first; drawn afresh if left out")
-    parser.add_argument("--hide", nargs="*", default=[], choices=[*EFFECTS, *STRANGERS])
+    parser.add_argument("--hide", nargs="*", default=[], choices=[*EFFECTS, *OUT_OF_CATALOGUE])
     parser.add_argument("--sizes", nargs=2, type=float, default=SIZES, help="noise units")
     told = parser.parse_args()
     first = told.seed

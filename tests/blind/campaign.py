@@ -13,7 +13,7 @@ from .hidden import State
 from .ingredients import Ingredient
 from .layouts import Plan, draw_plan
 from .motion import COARSE, FINE, Motion, move, needs_plane
-from .strangers import STRANGERS
+from .out_of_catalogue import OUT_OF_CATALOGUE
 from .tracker import Tracker, draw_tracker
 
 KINDS = ("effects", "none", "unknown", "two", "single_speed")
@@ -73,11 +73,11 @@ def pick(kind: str, rng: np.random.Generator, ids: Sequence[str]) -> list[Ingred
     elif not names:
         pool = {
             "effects": list(EFFECTS),
-            "unknown": list(STRANGERS),
+            "unknown": list(OUT_OF_CATALOGUE),
             "single_speed": ["film_drag", "structural_damping"],
         }[kind]
         names = [str(rng.choice(pool))]
-    return [(EFFECTS | STRANGERS)[name](rng) for name in names]
+    return [(EFFECTS | OUT_OF_CATALOGUE)[name](rng) for name in names]
 
 
 def pick_plan(kind: str, rng: np.random.Generator, ingredients: Sequence[Ingredient]) -> Plan:
@@ -188,7 +188,7 @@ def draw_campaign(
     Parameters
     ----------
     kind : one of KINDS
-    ids : effects or strangers to hide; drawn if empty
+    ids : effects or laws out of the catalogue to hide; drawn if empty
     sizes : noise units between which each ingredient's own size is drawn
     clean : part of the campaigns recorded with white noise only
     tries : campaigns drawn at most until the sizes are met and at least two runs stick and slip

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Hidden(NamedTuple):
-    """Rig, friction, effects and strangers of one run; every effect is off at its default.
+    """Rig, friction and effects of one run, those out of the catalogue too; off at their defaults.
 
     `*_form` picks the formula of an effect (0: off). Angles in rad, forces in N.
     """

@@ -12,11 +12,11 @@ from .hidden import Hidden, State
 
 @dataclass(frozen=True)
 class Ingredient:
-    """An effect of the catalogue or a stranger to it, with its shape drawn and its size open.
+    """An effect of the catalogue, or one out of it: its shape drawn, its size open.
 
     Attributes
     ----------
-    id : what the product should name, or the stranger's name
+    id : what the product should name, or what it has no name for
     form : which formula was drawn
     change : Hidden and strength (0 to 1) to Hidden: the run with the effect
     plane : whether the block leaves the line

@@ -6,7 +6,7 @@ product failed), `seconds`. A verdict counts as
 - exact: `named`, and the effects are just those hidden;
 - class: `class`, and the hidden effect is one of its members;
 - false positive: anything but `none` where nothing is hidden;
-- abstained: `unknown` where a stranger is hidden.
+- abstained: `unknown` where a law out of the catalogue is hidden.
 """
 
 from __future__ import annotations

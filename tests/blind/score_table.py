@@ -26,7 +26,7 @@ def quantiles(values: Sequence[float]) -> str:
 def verdict_lines(rows: Sequence[dict]) -> list[str]:
     """What the product is judged by."""
     single, none = large(of_kind(rows, "effects")), of_kind(rows, "none")
-    strangers, two = large(of_kind(rows, "unknown")), large(of_kind(rows, "two"))
+    out_of_catalogue, two = large(of_kind(rows, "unknown")), large(of_kind(rows, "two"))
     lone = of_kind(rows, "single_speed")
     return [
         line("one effect ≥ 5 units: it or its class", share(single, score.is_right), "≥ 95 %"),
@@ -40,10 +40,12 @@ def verdict_lines(rows: Sequence[dict]) -> list[str]:
         line("… a name given", share(none, lambda row: bool(score.named(row))), ""),
         line(
             "out of the catalogue ≥ 5 units: `unknown`",
-            share(strangers, lambda row: score.verdict_of(row) == "unknown"),
+            share(out_of_catalogue, lambda row: score.verdict_of(row) == "unknown"),
             "≥ 90 %",
         ),
-        line("… a wrong name given", share(strangers, lambda row: bool(score.named(row))), ""),
+        line(
+            "… a wrong name given", share(out_of_catalogue, lambda row: bool(score.named(row))), ""
+        ),
         line(
             "two effects, each ≥ 5 units: both",
             share(two, lambda row: set(row["truth"]["hidden"]) <= score.named(row)),
@@ -86,7 +88,7 @@ def gap_lines(rows: Sequence[dict]) -> list[str]:
 def abstention_lines(rows: Sequence[dict]) -> list[str]:
     """How far `unknown` can be believed."""
     said = [row for row in rows if score.verdict_of(row) == "unknown"]
-    strangers = large(of_kind(rows, "unknown"))
+    out_of_catalogue = large(of_kind(rows, "unknown"))
 
     def is_strange(row: dict) -> bool:
         return row["truth"]["kind"] == "unknown"
@@ -95,7 +97,7 @@ def abstention_lines(rows: Sequence[dict]) -> list[str]:
         line("`unknown` said rightly (precision)", share(said, is_strange), ""),
         line(
             "`unknown` where due (recall)",
-            share(strangers, lambda row: score.verdict_of(row) == "unknown"),
+            share(out_of_catalogue, lambda row: score.verdict_of(row) == "unknown"),
             "",
         ),
     ]
@@ -105,7 +107,7 @@ def size_lines(rows: Sequence[dict]) -> list[str]:
     """The same against the size of what is hidden."""
     lines = [
         "",
-        "| size, noise units | right name or class | `unknown` on strangers | both of two |",
+        "| size, noise units | right name or class | `unknown` out of catalogue | both of two |",
     ]
     lines += ["|---|---|---|---|"]
     found = [

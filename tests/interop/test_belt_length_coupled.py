@@ -18,7 +18,7 @@ from cosim.studies.belt_length import (
     run_drift,
     scenario_case,
 )
-from cosim.studies.belt_length.friction_effect import linear_sensitivity
+from cosim.studies.belt_length.changes import linear_sensitivity
 
 #: A run begins with a stick that makes no heat: 1 % of the heat; the estimate spreads it evenly.
 AS_CLOSE_AS_A_CYCLE = 0.03

@@ -39,8 +39,10 @@ def stickslip(folder, *arguments, program=MODULE):
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
-    """A folder in which the short case was run once, from nothing."""
+    """A folder like a checkout's, in which the short case was run once, from nothing."""
     folder = tmp_path_factory.mktemp("place")
+    (folder / "build").mkdir()
+    (folder / "build" / "stickslip3dof.py").touch()
     (folder / "short.toml").write_text(SHORT)
     done = stickslip(folder, "run", "short.toml")
     assert (done.returncode, done.stderr) == (0, "")

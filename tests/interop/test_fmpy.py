@@ -19,8 +19,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Error
 from fmpy.validation import validate_fmu
 
-from cosim.coupling.fmu_log import FmuLog
-from cosim.fmu import build as fmu_build
+from cosim.coupling.fmu_calls import FmuLog
+from cosim.fmu import stickslip3dof as recipe
+from cosim.fmu.sources import sources
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED}
@@ -309,11 +310,10 @@ def test_a_process_outlives_many_instances_and_their_files(fmu, tmp_path):
 
 def test_two_builds_run_side_by_side(fmu, tmp_path):
     """Doubled gravity in the second build; each keeps its own numbers in one process."""
-    recipe = fmu_build._recipe()
-    sources = recipe.sources()
-    heavier = sources["stickslip/packing.py"].replace(b"GRAVITY = 9.81", b"GRAVITY = 19.62")
-    assert heavier != sources["stickslip/packing.py"]
-    changed = recipe.build(tmp_path, sources | {"stickslip/packing.py": heavier})
+    files = sources()
+    heavier = files["stickslip/packing.py"].replace(b"GRAVITY = 9.81", b"GRAVITY = 19.62")
+    assert heavier != files["stickslip/packing.py"]
+    changed = recipe.build(tmp_path, files | {"stickslip/packing.py": heavier})
     forces = []
     for path, folder in ((fmu, "a"), (changed, "b"), (fmu, "c")):
         with instance(path, tmp_path / folder) as one:

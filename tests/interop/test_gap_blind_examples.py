@@ -6,13 +6,8 @@ import shutil
 import subprocess
 import sys
 from functools import cache
-from pathlib import Path
 
 import pytest
-
-# measured data that are not part of the project
-EXAMPLES = Path(__file__).resolve().parents[3] / "shared" / "data" / "blind_examples"
-pytestmark = pytest.mark.skipif(not EXAMPLES.is_dir(), reason="measured data are not here")
 
 #: The fifth, of which nobody knows a name, takes as long as the others together: it is asked in
 #: tests/benchmarks/blind_examples.py.
@@ -35,18 +30,23 @@ def stickslip(*arguments):
 
 
 @pytest.fixture(scope="module")
-def answers():
-    return json.loads((EXAMPLES / "answers.json").read_text(encoding="utf-8"))
+def examples(shared):
+    return shared("data/blind_examples")
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory):
+def answers(examples):
+    return json.loads((examples / "answers.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def found(examples, tmp_path_factory):
     """Name of an example -> folder of its answer, computed once."""
 
     @cache
     def look(name):
         folder = tmp_path_factory.mktemp(name)
-        done = stickslip("gap", EXAMPLES / name, "-o", folder, "--no-page")
+        done = stickslip("gap", examples / name, "-o", folder, "--no-page")
         assert done.returncode == 0, done.stderr
         assert "Traceback" not in done.stderr
         return folder
@@ -98,11 +98,11 @@ def test_the_extended_model_is_a_scenario(found, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def short(tmp_path_factory):
+def short(examples, tmp_path_factory):
     """The first four seconds of every run of e1."""
     folder = tmp_path_factory.mktemp("short")
-    shutil.copyfile(EXAMPLES / "e1" / "campaign.toml", folder / "campaign.toml")
-    for file in (EXAMPLES / "e1").glob("*.csv"):
+    shutil.copyfile(examples / "e1" / "campaign.toml", folder / "campaign.toml")
+    for file in (examples / "e1").glob("*.csv"):
         rows = file.read_text(encoding="utf-8").splitlines(keepends=True)[:SHORT]
         (folder / file.name).write_text("".join(rows), encoding="utf-8")
     return folder

@@ -7,10 +7,10 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from stickslip.effects.candidate import FreeParameter
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
-from cosim.gap.shooting.free_parameter import FreeParameter
 from cosim.gap.show.model_file import model_text, scenario_of, shown_run
 from cosim.gap.show.reproduction import reproduce, reproduced_runs
 
@@ -72,14 +72,14 @@ def test_fmpy_alone_does_the_same_with_the_numbers_of_the_file(gap, fmu, tmp_pat
     (tmp_path / "model.toml").write_text(model_text(gap), encoding="utf-8")
     scenario = read_scenario(tmp_path / "model.toml")
     run = shown_run(gap)
-    window = np.flatnonzero(run.track.windows == 0)
+    segment = np.flatnonzero(run.track.segments == 0)
     result = fmpy.simulate_fmu(
         str(fmu),
-        stop_time=float(run.track.time[window[-1]]),
+        stop_time=float(run.track.time[segment[-1]]),
         output_interval=scenario.run.output_interval,
         start_values=scenario.mechanics.flat() | {"surface_speed": scenario.surface.speed},
         output=["x"],
     )
-    x = np.interp(run.track.time[window], result["time"], result["x"])
-    left = run.track.run.track.x[window] - x - gap.extended.values["offset.x"]
+    x = np.interp(run.track.time[segment], result["time"], result["x"])
+    left = run.track.run.track.x[segment] - x - gap.extended.values["offset.x"]
     assert np.sqrt(np.mean((left / NOISE) ** 2)) < 1.2

@@ -5,16 +5,16 @@ from functools import cache
 
 import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
-from cosim.gap.atlas import find_where, residual_atlas
+from cosim.gap.diagnostics import analyse_residuals, find_where
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import Point, start
+from cosim.gap.estimation.preparation import prepare
+from cosim.gap.estimation.problem import Problem
 from cosim.gap.fitted_model import fitted_model
 from cosim.gap.result import Gap, Ranked
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
 PLAIN = (
@@ -57,14 +57,14 @@ def answer(folder):
         {"film_drag.coefficient": 0.0},
         {"film_drag.coefficient": (0.0, np.inf)},
     )
-    atlas = residual_atlas([run.track for run in plain.runs])
+    analysis = analyse_residuals([run.track for run in plain.runs])
     determined = {k: (v, 0.9 * v, 1.1 * v) for k, v in plain.values.items() if "friction" in k}
     return Gap(
         campaign,
         "named",
         ("velocity_weakening",),
         (),
-        find_where(atlas),
+        find_where(analysis),
         (found, other),
         plain.gap,
         extended.gap,
@@ -72,7 +72,7 @@ def answer(folder):
         extended,
         {"p": 0.005, "draws": 199},
         determined,
-        atlas=atlas,
+        analysis=analysis,
         remarks=("a remark",),
     )
 
@@ -95,8 +95,8 @@ def write(folder):
 def fitted(campaign, free_parameters):
     """Fitted to the runs for fitting, their states to those held out."""
     problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
-    at = fit(problem, start(problem.flights, free_parameters))
+    at = fit(problem, start(problem.segmented_runs, free_parameters))
     held = Problem(prepare(campaign, campaign.held_out_runs, False), free_parameters)
-    first = start(held.flights, free_parameters)
+    first = start(held.segmented_runs, free_parameters)
     other = fit(held, Point(at.point.shared, first.own, first.states), fixed=True)
     return fitted_model(campaign, [(problem, at), (held, other)])

@@ -1,7 +1,5 @@
 """Campaigns on disk for the tests of the gap workflow: exact motions with noise, written as CSV."""
 
-from pathlib import Path
-
 import numpy as np
 import tomli_w
 from stickslip import Parameters, simulate
@@ -9,8 +7,6 @@ from stickslip import Parameters, simulate
 NOISE = 2e-4
 KNOWN = {"mass": 0.87, "stiffness": 38.5}
 RIG = {"spring_natural_length": 0.17}
-# measured data that are not part of the project
-SHARED = Path(__file__).resolve().parents[3] / "shared" / "data"
 
 
 def motion(

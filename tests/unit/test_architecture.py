@@ -1,29 +1,81 @@
-"""Who may know whom: read off the import statements, also those inside functions."""
+"""Who may know whom, and how large a room may be: read off the import statements and the files.
+
+All imports count, also those inside functions: one that is put off is known all the same.
+"""
 
 import ast
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
+from stickslip.generation.source import kernel_source
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = {"stickslip": ROOT / "fmu_src" / "stickslip", "thermal": ROOT / "thermal"}
-PACKAGES |= {"cosim": ROOT / "cosim"}
+PACKAGES = {
+    "stickslip": ROOT / "fmu_src" / "stickslip",
+    "thermal": ROOT / "thermal",
+    "cosim": ROOT / "cosim",
+}
 FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rglob("*.py")]
 
-# part of the project -> parts that it must not import
-FORBIDDEN = {
-    "stickslip": ("thermal", "cosim"),
-    "thermal": ("stickslip", "cosim"),
-    "cosim.coupling": ("stickslip", "thermal", "cosim.coupling.coupled_case", "cosim.scenario"),
+#: Most files of a room, and of cosim without gap.
+MOST_FILES, MOST_OF_COSIM = 15, 110
+
+#: Parts of cosim that compute and write without knowing what.
+LEAVES = ("cosim.files", "cosim.interrupts", "cosim.names", "cosim.processes")
+PRODUCT = ("stickslip", "thermal", "cosim")
+#: Part -> what of the product it may import beside itself. What a part is not named for, the
+#: longest name that holds it is.
+MAY_IMPORT = {
+    "stickslip": (),
+    "stickslip.quantity": (),
+    "thermal": ("stickslip.quantity",),
+    **dict.fromkeys(LEAVES, LEAVES),
+    "cosim.coupling": LEAVES,
+    "cosim.scenario": ("stickslip", "thermal", *LEAVES),
+    "cosim.fmu": ("stickslip", *LEAVES),
+    "cosim.coupling.case": (
+        *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.fmu"),
+        *LEAVES,
+    ),
+    "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
+    "cosim.gap": (
+        *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),
+        *("cosim.fmu", "cosim.studies.reproduction", *LEAVES),
+    ),
+    "cosim.studies": (
+        *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),
+        *("cosim.gap", *LEAVES),
+    ),
+    "cosim.cli": ("stickslip", "thermal", "cosim"),
+    "cosim": ("cosim",),
 }
-# parts that nobody imports but those named
-PRIVATE = {
+#: Part -> what it does not import although it lies in the same part, or is written for it.
+MUST_NOT_IMPORT = {
+    "thermal.contact": ("thermal.ice", "thermal.belt", "thermal.model"),
+    "cosim.coupling": ("cosim.coupling.case",),
+    "cosim.report": ("cosim.gap", "cosim.studies", "cosim.coupling.case", "cosim.cli"),
+}
+#: Part -> those who may import it; nobody else.
+KNOWN_BY = {
     "cosim.cli": ("cosim.cli", "cosim.__main__"),
     "cosim.report": ("cosim.report", "cosim.cli"),
+    "cosim.coupling.case": ("cosim.coupling.case", "cosim.gap", "cosim.studies", "cosim.cli"),
+    "stickslip.kernel": ("stickslip",),
 }
+#: What of such a part everybody may import all the same: how figures, pages and data are written;
+#: where the kernel keeps which number.
+OPEN = {
+    "cosim.report": ("cosim.report.style", "cosim.report.page", "cosim.report.files"),
+    "stickslip.kernel": ("stickslip.kernel.layout",),
+}
+#: What is put together of everything, for whoever writes `from cosim import ...`.
+FRONT = "cosim"
 
 
-def module_of(package, file):
+def module_of(package: str, file: Path) -> tuple[str, list[str]]:
     """Dotted name of a file of a package, and of the package that its relative imports are in."""
     parts = [package, *file.relative_to(PACKAGES[package]).with_suffix("").parts]
     if parts[-1] == "__init__":
@@ -31,61 +83,241 @@ def module_of(package, file):
     return ".".join(parts), parts[:-1]
 
 
-def imports_of(package, file):
-    """Dotted names of everything that a file imports."""
+def imports_of(package: str, file: Path) -> Iterator[str]:
+    """Dotted names of everything that a file imports; `import cosim` alone asks where it is."""
     _, home = module_of(package, file)
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            yield from (alias.name for alias in node.names if alias.name != "cosim")
         elif isinstance(node, ast.ImportFrom):
             base = home[: len(home) - node.level + 1] if node.level else []
             source = ".".join([*base, *filter(None, [node.module])])
             yield from (f"{source}.{alias.name}" for alias in node.names)
 
 
-def inside(name, part):
-    return name == part or name.startswith(part + ".")
+IMPORTS = {module_of(*entry)[0]: set(imports_of(*entry)) for entry in FILES}
 
 
-@pytest.mark.parametrize("part", FORBIDDEN)
+def inside(name: str, *parts: str) -> bool:
+    """Whether a dotted name is one of these or below it."""
+    return any(name == part or name.startswith(part + ".") for part in parts)
+
+
+def part_of(module: str) -> str:
+    """The part that has the say over a module: the longest name that holds it."""
+    return max((part for part in MAY_IMPORT if inside(module, part)), key=len)
+
+
+def home_of(name: str) -> str:
+    """The module of the product that an imported name is, or is found in."""
+    while name not in IMPORTS:
+        name = name.rpartition(".")[0]
+    return name
+
+
+def knows() -> dict[str, set[str]]:
+    """Module -> modules of the product that it imports."""
+    return {
+        module: {home_of(name) for name in names if inside(name, *PRODUCT)} - {module}
+        for module, names in IMPORTS.items()
+    }
+
+
+def room_of(module: str) -> str | None:
+    """The folder that a file is in; None for a file beside folders, which is in the corridor."""
+    folder = module if module in FOLDERS else module.rpartition(".")[0]
+    return None if any(other.rpartition(".")[0] == folder for other in FOLDERS) else folder
+
+
+FOLDERS = {module_of(*entry)[0] for entry in FILES if entry[1].name == "__init__.py"}
+
+
+def circles(graph: Mapping[str, Iterable[str]]) -> list[list[str]]:
+    """Groups of nodes of which each reaches every other (Tarjan 1972)."""
+    number: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    found: list[list[str]] = []
+
+    def visit(node: str) -> None:
+        number[node] = low[node] = len(number)
+        stack.append(node)
+        for other in graph.get(node, ()):
+            if other not in number:
+                visit(other)
+                low[node] = min(low[node], low[other])
+            elif other in stack:
+                low[node] = min(low[node], number[other])
+        if low[node] == number[node]:
+            at = stack.index(node)
+            group = sorted(stack[at:])
+            del stack[at:]
+            if len(group) > 1:
+                found.append(group)
+
+    for node in graph:
+        if node not in number:
+            visit(node)
+    return found
+
+
+@pytest.mark.parametrize("part", MAY_IMPORT)
 def test_no_part_knows_what_it_must_not(part):
+    allowed = (part, *MAY_IMPORT[part])
     broken = [
-        f"{module_of(*entry)[0]} imports {name}"
-        for entry in FILES
-        if inside(module_of(*entry)[0], part)
-        for name in imports_of(*entry)
-        if any(inside(name, other) for other in FORBIDDEN[part])
+        f"{module} imports {name}"
+        for module, names in IMPORTS.items()
+        if part_of(module) == part
+        for name in sorted(names)
+        if inside(name, *PRODUCT) and not inside(name, *allowed)
     ]
-    assert not broken
+    assert not broken, (
+        f"{part} may import {', '.join(MAY_IMPORT[part]) or 'nothing'} of the product"
+    )
 
 
-@pytest.mark.parametrize("part", PRIVATE)
-def test_commands_and_report_are_known_by_nobody(part):
+@pytest.mark.parametrize("part", KNOWN_BY)
+def test_what_is_of_no_concern_to_others_is_not_imported_by_them(part):
     broken = [
-        f"{module_of(*entry)[0]} imports {name}"
-        for entry in FILES
-        if not any(inside(module_of(*entry)[0], friend) for friend in PRIVATE[part])
-        for name in imports_of(*entry)
-        if inside(name, part)
+        f"{module} imports {name}"
+        for module, names in IMPORTS.items()
+        if module != FRONT and not inside(module, *KNOWN_BY[part])
+        for name in sorted(names)
+        if inside(name, part) and not inside(name, *OPEN.get(part, ()))
     ]
-    assert not broken
+    assert not broken, "\n".join(broken)
+
+
+def test_what_has_an_underscore_is_imported_by_nobody():
+    broken = [
+        f"{module} imports {name}"
+        for module, names in IMPORTS.items()
+        for name in sorted(names)
+        if inside(name, *PRODUCT) and name.rpartition(".")[2].startswith("_")
+    ]
+    assert not broken, "\n".join(broken)
+
+
+@pytest.mark.parametrize("part", MUST_NOT_IMPORT)
+def test_within_a_part_too_nobody_looks_up(part):
+    """The master knows no model, the contact no body, the report not how results came about."""
+    broken = [
+        f"{module} imports {name}"
+        for module, names in IMPORTS.items()
+        if inside(module, part) and not inside(module, *MUST_NOT_IMPORT[part])
+        for name in sorted(names)
+        if inside(name, *MUST_NOT_IMPORT[part])
+    ]
+    assert not broken, "\n".join(broken)
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    found = circles(knows())
+    assert not found, "\n".join(f"each of these imports the others: {group}" for group in found)
+
+
+def test_no_room_imports_itself_by_way_of_others():
+    rooms: dict[str, set[str]] = {}
+    for module, others in knows().items():
+        if (room := room_of(module)) is not None:
+            known = (room_of(other) for other in others)
+            rooms.setdefault(room, set()).update(
+                other for other in known if other not in (None, room)
+            )
+    found = circles(rooms)
+    assert not found, "\n".join(f"each of these imports the others: {group}" for group in found)
+
+
+def test_a_circle_is_seen():
+    assert circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]}) == [["a", "b", "c"]]
+    assert circles({"a": ["b", "c"], "b": ["c"], "c": []}) == []
 
 
 def test_the_check_sees_the_imports_that_there_are():
     """Also relative ones and those inside functions; a checker that sees nothing passes always."""
-    seen = {module_of(*entry)[0]: set(imports_of(*entry)) for entry in FILES}
-    assert "stickslip.parameters.Parameters" in seen["stickslip.simulate"]
-    assert "cosim.cli.arguments.parser" in seen["cosim.cli"]
-    assert "thermal.BeltIceModel" in seen["cosim.coupling.coupled_case"]
+    assert "stickslip.parameters.Parameters" in IMPORTS["stickslip.simulate"]
+    assert "cosim.cli.arguments.parser" in IMPORTS["cosim.cli"]
+    assert "thermal.BeltIceModel" in IMPORTS["cosim.coupling.case"]
+    assert home_of("thermal.BeltIceModel") == "thermal"
+    assert room_of("cosim.scenario.faults") == room_of("cosim.scenario") == "cosim.scenario"
+    assert room_of("cosim.files") is None and room_of("cosim") is None
 
 
 def test_the_kernel_travels_alone():
-    """It runs inside the FMU, where there is nothing but the standard library."""
-    kernel = PACKAGES["stickslip"] / "kernel"
+    """As one text it needs `math` and nothing else; its core's files know each other only.
+
+    Layout and terms are made from the effects' declarations, which stay behind.
+    """
+    made = {"stickslip.kernel", "stickslip.kernel.layout", "stickslip.kernel.terms"}
     outside = {
         name
-        for file in kernel.glob("*.py")
-        for name in imports_of("stickslip", file)
-        if not inside(name, "stickslip.kernel") and not inside(name, "math")
+        for module, names in IMPORTS.items()
+        if inside(module, "stickslip.kernel") and module not in made
+        for name in names
+        if not inside(name, "stickslip.kernel", "math", "__future__")
     }
-    assert not {name for name in outside if not name.startswith("__future__")}
+    assert not outside
+    assert {
+        node.module if isinstance(node, ast.ImportFrom) else "import"
+        for node in ast.walk(ast.parse(kernel_source()))
+        if isinstance(node, (ast.Import, ast.ImportFrom))
+    } == {"math"}
+
+
+def files_below(folder: Path) -> list[Path]:
+    """What belongs to the product; not what Python or an editor leave there."""
+    return [
+        file
+        for file in folder.rglob("*")
+        if file.is_file()
+        and not any(part == "__pycache__" or part.startswith(".") for part in file.parts)
+    ]
+
+
+def test_a_room_has_few_files():
+    """Whoever adds something knows the room at once, and finds in it all there is of its kind."""
+    counts: dict[Path, int] = {}
+    for folder in PACKAGES.values():
+        for file in files_below(folder):
+            counts[file.parent] = counts.get(file.parent, 0) + 1
+    crowded = [
+        f"{folder.relative_to(ROOT)} has {count} files, allowed are {MOST_FILES}: merge files of "
+        "one idea, or make a room of what belongs together"
+        for folder, count in sorted(counts.items())
+        if count > MOST_FILES
+    ]
+    assert not crowded, "\n".join(crowded)
+
+
+def test_cosim_without_gap_stays_small():
+    cosim = PACKAGES["cosim"]
+    count = sum(cosim / "gap" not in file.parents for file in files_below(cosim))
+    assert count <= MOST_OF_COSIM, (
+        f"cosim without gap has {count} files, allowed are {MOST_OF_COSIM}: merge files of one idea"
+    )
+
+
+COMPUTES = {
+    "import cosim": {"matplotlib", "pandas", "xarray", "IPython", "numpy"},
+    "from cosim import read_scenario, Scenario": {"matplotlib", "pandas", "xarray", "IPython"},
+    "from cosim import run_scenario": {"matplotlib", "pandas", "xarray", "IPython"},
+    "from cosim.coupling import CoupledSystem, run": {
+        *("matplotlib", "pandas", "xarray", "IPython", "stickslip", "thermal"),
+    },
+    "from cosim.studies.sweep import run_grid": {"matplotlib", "IPython"},
+    "from cosim.studies.belt_length import Study": {"matplotlib", "IPython"},
+    "from cosim.studies.stability import regime_map": {"matplotlib", "IPython"},
+    "from cosim.studies.friction_map import friction_map": {"matplotlib", "IPython"},
+    "from cosim.studies.reproduction import reproduce": {"matplotlib", "IPython"},
+    "from cosim.gap.find import find_gap": {"matplotlib", "IPython"},
+}
+
+
+@pytest.mark.parametrize("statement", COMPUTES)
+def test_importing_what_computes_does_not_import_what_draws(statement):
+    program = f"import sys\n{statement}\nprint(*sorted({COMPUTES[statement]!r} & set(sys.modules)))"
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    loaded = done.stdout.split()
+    assert not loaded, f"`{statement}` loads {', '.join(loaded)}: import it where it is used"

@@ -27,9 +27,9 @@ from cosim.studies.belt_length import (
     verdict,
     work_off,
 )
-from cosim.studies.belt_length.friction_effect import linear_sensitivity
-from cosim.studies.belt_length.length_speed_map import LENGTHS, SPEEDS
-from thermal.air import moving_belt
+from cosim.studies.belt_length.changes import linear_sensitivity
+from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
+from thermal.belt.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
@@ -218,7 +218,7 @@ def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
     ],
 )
 def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
-    with pytest.raises(belt_length_command.REFUSED) as refused:
+    with pytest.raises(belt_length_command.refused()) as refused:
         call(*arguments, "-o", tmp_path)
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
@@ -242,7 +242,7 @@ def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
 def test_a_fault_of_a_scenario_names_file_and_key(tmp_path, table, options, says):
     file = tmp_path / "case.toml"
     file.write_text(table)
-    with pytest.raises(belt_length_command.REFUSED) as refused:
+    with pytest.raises(belt_length_command.refused()) as refused:
         call(file, *options, "-o", tmp_path / "out")
     assert says in str(refused.value) and "\n" not in str(refused.value)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cosim.studies.belt_length import Case, Protocol, interface_drift, run_drift, uncertainty
-from cosim.studies.belt_length.shortest import shortest_in_doubt
+from cosim.studies.belt_length.lengths import shortest_in_doubt
 from cosim.studies.belt_length.surrogate import fitted
 from cosim.studies.belt_length.unknowns import (
     ENTRY,

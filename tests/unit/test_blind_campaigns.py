@@ -16,11 +16,11 @@ from blind.effects import EFFECTS  # noqa: E402
 from blind.hidden import Hidden, State  # noqa: E402
 from blind.layouts import Plan, Run, draw_plan  # noqa: E402
 from blind.motion import COARSE, move, needs_plane  # noqa: E402
-from blind.strangers import STRANGERS  # noqa: E402
+from blind.out_of_catalogue import OUT_OF_CATALOGUE  # noqa: E402
 from blind.tracker import Tracker, frame_times, frames  # noqa: E402
 from blind.writing import write_campaign  # noqa: E402
 
-ALL = EFFECTS | STRANGERS
+ALL = EFFECTS | OUT_OF_CATALOGUE
 
 
 def two_runs(seconds=6.0):
@@ -37,8 +37,8 @@ def seen(motions):
 
 
 def test_catalogue_is_complete():
-    assert len(EFFECTS) == 14 and len(STRANGERS) >= 8
-    assert not EFFECTS.keys() & STRANGERS.keys()
+    assert len(EFFECTS) == 14 and len(OUT_OF_CATALOGUE) >= 8
+    assert not EFFECTS.keys() & OUT_OF_CATALOGUE.keys()
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -1,14 +1,16 @@
 """The command line in this process: arguments, refusals, closing lines."""
 
 import os
+import shlex
 import subprocess
 import sys
 from importlib.metadata import version
 
 import pytest
 
-from cosim.cli import arguments, errors, main
-from cosim.cli.files import writable_folder
+from cosim.cli import main, warnings_in_one_line
+from cosim.cli.arguments import COMMANDS, Parser, command_module, parser
+from cosim.files import OutputRefused, writable
 
 
 def refusal(capsys, *argv):
@@ -28,7 +30,7 @@ def elsewhere(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("command", [[], ["run"], ["simulate"], ["build"]])
+@pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)])
 def test_help_has_an_example(capsys, command):
     with pytest.raises(SystemExit) as stop:
         main([*command, "--help"])
@@ -105,8 +107,8 @@ def test_a_name_that_a_folder_has_taken_is_refused(capsys, tmp_path):
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
 def test_a_folder_without_permission_is_refused(tmp_path):
     tmp_path.chmod(0o500)
-    with pytest.raises(errors.BadInput, match="cannot be written to"):
-        writable_folder(tmp_path, ())
+    with pytest.raises(OutputRefused, match="cannot be written to"):
+        writable(tmp_path)
 
 
 @pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04 and then nothing"])
@@ -129,7 +131,6 @@ def test_a_fault_of_ours_is_one_line_and_no_bad_input(capsys, monkeypatch):
         raise RuntimeError("spring\nbroke")
 
     monkeypatch.setattr("cosim.fmu.build.build_fmu", broken)
-    monkeypatch.setattr("cosim.cli.build.build_fmu", broken, raising=False)
     assert main(["build"]) == 1
     assert capsys.readouterr().err == "error: spring broke (--debug shows where)\n"
 
@@ -137,16 +138,42 @@ def test_a_fault_of_ours_is_one_line_and_no_bad_input(capsys, monkeypatch):
 def test_our_warnings_are_one_line_each_and_come_once(capsys):
     import warnings
 
-    with errors.warnings_in_one_line():
+    with warnings_in_one_line():
         for _ in range(2):
             warnings.warn("mu_k exceeds\nmu_s", stacklevel=1)
             warnings.warn("of a library", DeprecationWarning, stacklevel=1)
     assert capsys.readouterr().err == "warning: mu_k exceeds mu_s\n"
 
 
-def test_every_command_has_a_module():
-    for command in ("run", "simulate", "build"):
-        assert arguments.parser([command]).parse_args([command]).command == command
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_the_same_shape(name):
+    """Arguments, what it refuses, what it does, and an example that its own arguments allow."""
+    module = command_module(name)
+    words = shlex.split(module.EXAMPLE)
+    assert words[:2] == ["stickslip", name]
+    assert parser(words).parse_args(words[1:]).command == name
+    module.add_arguments(Parser())
+    assert module.refused() and all(issubclass(kind, ValueError) for kind in module.refused())
+    assert callable(module.execute)
+
+
+#: Where the defaults of the arguments are those of the heat model.
+HEAVY_HELP = {"belt-length"}
+
+
+@pytest.mark.parametrize("name", ["", *sorted(set(COMMANDS) - HEAVY_HELP)])
+def test_help_imports_nothing_that_computes(name):
+    """It is there at once: what a command computes with takes a second or two to import."""
+    program = (
+        "import sys; from cosim.cli.arguments import parser;"
+        f"parser([{name!r}]).format_help();"
+        "heavy = {'scipy', 'numba', 'pandas', 'xarray', 'matplotlib', 'fmpy', 'skfem', 'pydantic'};"
+        "print(*sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == []
 
 
 @pytest.mark.parametrize(("given", "used"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])

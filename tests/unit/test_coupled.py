@@ -8,8 +8,8 @@ import pythonfmu  # noqa: F401  before any FMU is loaded: one that imports it fi
 
 from cosim import Scenario, run_scenario
 from cosim.coupling import FmuError
-from cosim.coupling.snapshots import Snapshots
-from cosim.coupling.thermal_participant import ThermalParticipant
+from cosim.coupling.case.snapshots import Snapshots
+from cosim.coupling.case.thermal_participant import ThermalParticipant
 from cosim.fmu.build import build_fmu
 from cosim.scenario.faults import ScenarioError
 from thermal import BeltIceModel
@@ -46,10 +46,10 @@ def test_a_run_is_complete_and_no_joule_is_lost(fmu):
 
 def test_the_belt_passes_as_far_as_the_surface_less_the_block(fmu):
     run = run_scenario(case(), fmu=fmu)
-    way = last(run, "mechanics.surface_travel") - (
+    slid = last(run, "mechanics.surface_travel") - (
         last(run, "mechanics.x") - run.result["mechanics.x"][0]
     )
-    assert run.snapshots.contact[-1] == pytest.approx((0.5 - way) % 1.0, abs=1e-12)
+    assert run.snapshots.contact[-1] == pytest.approx((0.5 - slid) % 1.0, abs=1e-12)
 
 
 def test_rows_at_multiples_of_the_macro_step_are_those_of_the_full_record(fmu):
@@ -91,7 +91,7 @@ def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(fmu, tmp_p
     def full(self, time):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("thermal.fields.FieldSeries.write", full)
+    monkeypatch.setattr("thermal.output.FieldSeries.write", full)
     run = run_scenario(case(), fmu=fmu, fields=tmp_path)
     assert run.result.status == "failed" and "No space left" in run.result.reason
 
@@ -210,7 +210,7 @@ def test_a_participant_goes_back_and_on_bit_for_bit():
 
 def test_a_state_that_is_taken_back_is_in_no_picture():
     pictures = Snapshots(0.1)
-    part = ThermalParticipant(model(), look=pictures)
+    part = ThermalParticipant(model(), observer=pictures)
     part.enter_initialisation(0.0, 1.0)
     part.exit_initialisation()
     start = part.get_state()

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from stickslip import CATALOGUE, Parameters, simulate
-from stickslip.effects import EffectBlocks
+from stickslip import EFFECTS, Parameters, simulate
+from stickslip.parameters import EffectTables
 
-EACH = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
+EACH = pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
 
 
-def test_one_entry_for_each_block():
-    assert sorted(effect.id for effect in CATALOGUE) == sorted(EffectBlocks.model_fields)
+def test_one_entry_for_each_table():
+    assert sorted(effect.id for effect in EFFECTS) == sorted(EffectTables.model_fields)
 
 
 @EACH
@@ -17,18 +17,18 @@ def test_an_entry_is_complete(effect):
     assert effect.sentence.endswith(".") and len(effect.sentence) < 120
     assert effect.enters in {"friction", "surface", "springs", "contact"}
     assert effect.source
-    assert effect.switch and set(effect.switch) <= set(effect.block.model_fields)
+    assert effect.switch and set(effect.switch) <= set(effect.table.model_fields)
 
 
 @EACH
 def test_a_parameter_has_unit_words_default_and_range(effect):
-    for name, field in effect.block.model_fields.items():
+    for name, field in effect.table.model_fields.items():
         extra = field.json_schema_extra
         assert extra["unit"] and field.description and field.default is not None
         if name in effect.switch:
             low, high = extra["typical"]
             assert low < high
-            effect.block(**{name: low}), effect.block(**{name: high})  # typical is allowed
+            effect.table(**{name: low}), effect.table(**{name: high})  # typical is allowed
 
 
 @EACH
@@ -39,7 +39,7 @@ def test_off_is_the_plain_model(effect):
     """
     others = {
         name: 2.0 * field.default if isinstance(field.default, float) else field.default + 1
-        for name, field in effect.block.model_fields.items()
+        for name, field in effect.table.model_fields.items()
         if name not in effect.switch
     }
     if effect.id == "thermal_weakening":

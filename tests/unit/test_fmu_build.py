@@ -2,20 +2,27 @@
 
 import ast
 import re
-import sys
 import warnings
 import zipfile
 
+import platformdirs
 import pytest
 
-from cosim.fmu import build as fmu_build
-from cosim.fmu.build import FmuBuildError, build_fmu, ensure_fmu, recipe_file
+from cosim.fmu import pythonfmu_library
+from cosim.fmu import stickslip3dof as recipe
+from cosim.fmu.build import FmuBuildError, build_fmu, ensure_fmu, own_folder
+from cosim.fmu.sources import sources
 
-sys.path.insert(0, str(recipe_file().parent))
-
-import pythonfmu_library  # noqa: E402  (the recipe's folder is no package)
-
-STANDARD_LIBRARY_USED = {"random", "functools", "json", "math", "sys"}
+STANDARD_LIBRARY_USED = {
+    "__future__",
+    "collections",
+    "random",
+    "functools",
+    "json",
+    "math",
+    "sys",
+    "typing",
+}
 
 
 @pytest.fixture(scope="module")
@@ -47,14 +54,18 @@ def test_an_fmu_that_will_not_do_is_built_again(built, tmp_path, damage):
 
 
 def test_an_fmu_of_other_content_is_stale(built, tmp_path):
-    recipe = fmu_build._recipe()
-    other = recipe.build(tmp_path, changed_sources(recipe))
+    other = recipe.build(tmp_path, sources() | {"stickslip/__init__.py": b'"""Another."""\n'})
     assert recipe.built_hash(other) not in (None, recipe.content_hash())
     assert ensure_fmu(tmp_path).read_bytes() == built.read_bytes()
 
 
-def changed_sources(recipe):
-    return recipe.sources() | {"stickslip/__init__.py": b'"""Another."""\n'}
+def test_the_fmu_stands_in_build_of_a_checkout_else_in_the_cache(tmp_path, monkeypatch):
+    """Nothing is written into a user's folder that happens to have a `build`."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "build").mkdir()
+    assert own_folder() == platformdirs.user_cache_path("stickslip")
+    (tmp_path / "build" / "stickslip3dof.py").touch()
+    assert str(own_folder()) == "build"
 
 
 def test_a_folder_that_cannot_be_made_is_named(tmp_path):
@@ -72,24 +83,24 @@ def _names_imported(node):
 def test_the_slave_needs_the_standard_library_only(built):
     """No numpy, no pydantic: whatever the host has, the FMU brings what it needs."""
     with zipfile.ZipFile(built) as archive:
-        sources = [
+        texts = [
             archive.read(name).decode()
             for name in archive.namelist()
             if re.match(r"resources/stickslip\w*[./].*\.?py$", name)
         ]
     imported = {
         name.partition(".")[0]
-        for source in sources
-        for node in ast.walk(ast.parse(source))
+        for text in texts
+        for node in ast.walk(ast.parse(text))
         for name in _names_imported(node)
     }
     own = {name for name in imported if re.fullmatch(r"stickslip_[0-9a-f]{12}", name)}
-    assert len(sources) > 10 and len(own) == 1
+    assert len(texts) == len(sources()) + 1 and len(own) == 1
     assert imported - own - {"pythonfmu"} <= STANDARD_LIBRARY_USED
 
 
 def test_the_module_names_carry_the_content_s_hash(built):
-    content = fmu_build._recipe().built_hash(built)
+    content = recipe.built_hash(built)
     with zipfile.ZipFile(built) as archive:
         assert f"resources/stickslip3dof_{content}.py" in archive.namelist()
         assert f"resources/stickslip_{content}/packing.py" in archive.namelist()

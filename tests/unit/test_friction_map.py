@@ -14,9 +14,9 @@ from cosim.studies.friction_map import (
     decade_slopes,
     friction_map,
     lowest_friction,
-    steady,
     steady_scenario,
 )
+from cosim.studies.friction_map import map as map_module
 
 CASE = read_scenario("melting_friction").changed(
     {"ice.radial_elements": 2, "ice.axial_elements": 3, "belt.cell_length": 4e-3}
@@ -86,12 +86,12 @@ def test_what_the_command_leaves(tmp_path, capsys):
 def test_what_cannot_slide_steadily_is_refused_in_one_line(changes, speed, ambient, line):
     with pytest.raises(ValueError, match=line) as refused:
         friction_map(CASE.changed(changes), [speed], [ambient], 0.1)
-    assert isinstance(refused.value, friction_regimes_command.REFUSED)
+    assert isinstance(refused.value, friction_regimes_command.refused())
     assert "\n" not in str(refused.value)
 
 
 def test_a_run_that_was_interrupted_ends_the_map(monkeypatch):
     stopped = SimpleNamespace(result=SimpleNamespace(status="interrupted"))
-    monkeypatch.setattr(steady, "run_scenario", lambda case: stopped)
+    monkeypatch.setattr(map_module, "run_scenario", lambda case: stopped)
     with pytest.raises(KeyboardInterrupt):
         friction_map(CASE, [0.1, 0.2], [-8.0], 0.1)

@@ -6,24 +6,22 @@ import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
 from stickslip import Parameters
+from stickslip.effects.candidate import OFFSETS, Candidate, FreeParameter, Scales
 
 from cosim.gap import read_campaign
-from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.extend import extended, moved
-from cosim.gap.naming.other_starts import other_starts
-from cosim.gap.naming.plain import plain_free_parameters
-from cosim.gap.naming.scales import scales
-from cosim.gap.naming.search import Search
-from cosim.gap.naming.tried import ACROSS, Tried
-from cosim.gap.shooting.data import Data
-from cosim.gap.shooting.drive import SPEED_OFFSET, model_parameters
-from cosim.gap.shooting.fit import fit
-from cosim.gap.shooting.fitted import Fitted, Point, start
-from cosim.gap.shooting.free_parameter import OFFSETS, FreeParameter
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, Trial, finished, try_model
+from cosim.gap.candidates.plain import plain_free_parameters
+from cosim.gap.candidates.scales import scales
+from cosim.gap.estimation.drive import SPEED_OFFSET, model_parameters
+from cosim.gap.estimation.fit import fit
+from cosim.gap.estimation.fitted import Fitted, Point, start
+from cosim.gap.estimation.preparation import Data, prepare
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.trial import Model, Trial, finished, try_model
+from cosim.gap.selection.alternatives import other_starts
+from cosim.gap.selection.search import Search
+from cosim.gap.selection.tried import ACROSS, Tried
 
 EFFECTS = (
     "lateral_friction",
@@ -117,17 +115,19 @@ def test_starts_lie_inside_ranges_that_the_model_allows(candidate):
 
 
 @pytest.mark.parametrize("candidate", EVERY)
-def test_a_candidate_changes_the_model_at_its_start(candidate, flight):
-    """It can be flown, and is felt: a step of each of its free parameters moves the block."""
+def test_a_candidate_changes_the_model_at_its_start(candidate, segmented):
+    """It can be simulated, and is felt: a step of each of its free parameters moves the block."""
     started = {**candidate.settings, **{k.key: k.start for k in candidate.free_parameters}}
-    plain = flight.fly(FRICTION, flight.starts)
-    with_it = flight.fly({**FRICTION, **started}, flight.starts)
+    plain = segmented.simulate(FRICTION, segmented.starts)
+    with_it = segmented.simulate({**FRICTION, **started}, segmented.starts)
     assert np.isfinite(with_it).all()
     seen = slice(0, 6)
     assert np.abs(with_it[:, seen] - plain[:, seen]).max() > 1e-6
     for free_parameter in candidate.free_parameters:
         near = free_parameter.value(free_parameter.scaled(free_parameter.start) + 0.1)
-        stepped = flight.fly({**FRICTION, **started, free_parameter.key: near}, flight.starts)
+        stepped = segmented.simulate(
+            {**FRICTION, **started, free_parameter.key: near}, segmented.starts
+        )
         assert np.abs(stepped[:, seen] - with_it[:, seen]).max() > 1e-9
 
 
@@ -143,7 +143,7 @@ def campaign(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def flight(campaign):
+def segmented(campaign):
     return prepare(campaign, campaign.runs, True)[0]
 
 
@@ -365,4 +365,4 @@ def test_plain_free_parameters_start_inside_their_ranges_and_fit(campaign):
         prepare(campaign, campaign.runs, False),
         [free_parameter for free_parameter in free_parameters if free_parameter.key != "offset.y"],
     )
-    assert fit(problem, start(problem.flights, problem.free_parameters)).gap() < 1.2
+    assert fit(problem, start(problem.segmented_runs, problem.free_parameters)).rms_residual() < 1.2

@@ -8,6 +8,7 @@ from gap_campaigns import write_campaign
 
 from cosim.cli import gap as gap_command
 from cosim.cli import main
+from cosim.gap import read_campaign
 from cosim.gap.show import files
 
 
@@ -35,7 +36,7 @@ def test_command_leaves_its_files(found, tmp_path, capsys):
     out = capsys.readouterr().out
     assert out.startswith("cold room, week 3: Named: velocity_weakening")
     assert str(tmp_path / "out" / "model.toml") in out
-    assert "fmu        gap in its runs' first windows: run03" in out
+    assert "fmu        gap in its runs' first segments: run03" in out
 
 
 def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, monkeypatch):
@@ -88,7 +89,7 @@ def test_runs_of_figures_alone_have_their_own_way(tmp_path, monkeypatch):
         lambda campaign, **given: asked.append(campaign),
     )
     run = {"summary": {"frequency": [1.7, 0.05]}}
-    campaign = gap_command.read_campaign(write_campaign(tmp_path, [run]))
+    campaign = read_campaign(write_campaign(tmp_path, [run]))
     gap_command._find(campaign, 0, 1, lambda count: None)
     assert asked == [campaign]
 

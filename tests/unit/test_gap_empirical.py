@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from stickslip.kernel import layout
-from stickslip.kernel.layout import BLOCK, MODE, SLIP, STICK
+from stickslip.kernel.layout import INSTANT, MODE, SLIP, STICK
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -15,16 +15,15 @@ from blind.hidden import Hidden, State  # noqa: E402
 from blind.motion import walk  # noqa: E402
 from gap_campaigns import NOISE, motion, noisy, write_campaign  # noqa: E402
 
-from cosim.gap.empirical import Term, empirical_term, library  # noqa: E402
-from cosim.gap.empirical.features import FRICTION, Moment  # noqa: E402
-from cosim.gap.empirical.regression import formulas  # noqa: E402
-from cosim.gap.empirical.stretches import holding, rows_of, slips_of  # noqa: E402
-from cosim.gap.empirical.term import forced, formula, key, moment_of  # noqa: E402
-from cosim.gap.naming.plain import plain_free_parameters  # noqa: E402
-from cosim.gap.read import read_campaign  # noqa: E402
-from cosim.gap.shooting.data import prepared  # noqa: E402
-from cosim.gap.shooting.preparation import prepare  # noqa: E402
-from cosim.gap.shooting.trial import Model, sketch, try_model  # noqa: E402
+from cosim.gap.candidates.plain import plain_free_parameters  # noqa: E402
+from cosim.gap.data import read_campaign  # noqa: E402
+from cosim.gap.diagnostics import Term, empirical_term, library  # noqa: E402
+from cosim.gap.diagnostics.features import FRICTION, Moment  # noqa: E402
+from cosim.gap.diagnostics.force_term import forced, formula, key, moment_of  # noqa: E402
+from cosim.gap.diagnostics.slips import holding, rows_of, slips_of  # noqa: E402
+from cosim.gap.diagnostics.sparse_regression import formulas  # noqa: E402
+from cosim.gap.estimation.preparation import prepare, prepared  # noqa: E402
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model  # noqa: E402
 
 SPEEDS = (0.05, 0.12, 0.08)
 BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}
@@ -56,18 +55,20 @@ def damped(tmp_path_factory):
     return campaign_of(tmp_path_factory.mktemp("damped"), tracks)
 
 
-def first_window(campaign):
-    """The first window of the first run alone."""
-    (flight,) = prepare(campaign, campaign.runs[:1], False)
-    window, *_ = flight.windows
-    channels = {name: values[: window.last] for name, values in flight.channels.items()}
-    return replace(flight, time=flight.time[: window.last], channels=channels, windows=(window,))
+def first_segment(campaign):
+    """The first segment of the first run alone."""
+    (segmented,) = prepare(campaign, campaign.runs[:1], False)
+    segment, *_ = segmented.segments
+    channels = {name: values[: segment.last] for name, values in segmented.channels.items()}
+    return replace(
+        segmented, time=segmented.time[: segment.last], channels=channels, segments=(segment,)
+    )
 
 
 def fitted(campaign):
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     base = Model(plain_free_parameters(campaign, False), {})
-    return data, try_model(data, base, sketch(data, base, 8))
+    return data, try_model(data, base, coarse_fit(data, base, 8))
 
 
 def test_without_an_effect_friction_leaves_noise(plain):
@@ -120,16 +121,18 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
     errors = []
     coefficient = -1.5 if name == "vx" else -4.0 * (40.0 - 38.5)
     for every in (4, 2, 1):
-        flight = first_window(plain)
-        rows = np.arange(0, len(flight.time), every)
-        window = flight.windows[0].__class__(0, len(rows), flight.windows[0].state, (), np.nan)
-        thin = forced(flight, [BY_NAME[name]]).__class__(
-            flight.name, flight.known, flight.speed, flight.temperature, flight.time[rows],
-            {}, {}, (window,), features=(BY_NAME[name],))  # fmt: skip
+        segmented = first_segment(plain)
+        rows = np.arange(0, len(segmented.time), every)
+        segment = segmented.segments[0].__class__(
+            0, len(rows), segmented.segments[0].state, (), np.nan
+        )
+        thin = forced(segmented, [BY_NAME[name]]).__class__(
+            segmented.name, segmented.known, segmented.speed, segmented.temperature,
+            segmented.time[rows], {}, {}, (segment,), features=(BY_NAME[name],))  # fmt: skip
         values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
         state = np.array([[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]])
-        reference = thin.fly(values | effect, state)[:, 0]
-        x = thin.fly(values | {key(0): coefficient}, state)[:, 0]
+        reference = thin.simulate(values | effect, state)[:, 0]
+        x = thin.simulate(values | {key(0): coefficient}, state)[:, 0]
         half = rows < 40  # before the first corner
         errors.append(np.abs(x - reference)[half].max())
     assert errors[-1] < 0.2 * NOISE
@@ -143,16 +146,16 @@ def one_by_one(function, arguments):
 
 def test_a_force_acts_beside_a_creep(plain):
     """None is none, and in the first stick a force like half the springs is half the springs."""
-    flight = first_window(plain)
+    segmented = first_segment(plain)
     values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2, "friction.stick_creep": 4e-3}
-    acting = forced(flight, [BY_NAME["x"]])
-    free = flight.fly(values, flight.starts)
-    unforced = acting.fly(values | {key(0): 0.0}, flight.starts)
+    acting = forced(segmented, [BY_NAME["x"]])
+    free = segmented.simulate(values, segmented.starts)
+    unforced = acting.simulate(values | {key(0): 0.0}, segmented.starts)
     assert np.abs(unforced - free)[:, layout.O_X].max() < 1e-8
     sticks = int(np.flatnonzero(free[:, layout.O_MODE] == 1.0)[0])
     soft = {"springs.stiffness": 0.5 * 38.5, key(0): -2.0 * 38.5}
-    rigid = flight.fly(values | {"friction.stick_creep": 0.0}, flight.starts)
-    pulled = acting.fly(values | soft, flight.starts)
+    rigid = segmented.simulate(values | {"friction.stick_creep": 0.0}, segmented.starts)
+    pulled = acting.simulate(values | soft, segmented.starts)
     x = [run[:sticks, layout.O_X] for run in (free, pulled, rigid)]
     assert np.abs(x[1] - x[0]).max() < 5e-3 * NOISE < NOISE < np.abs(x[2] - x[0]).max()
 
@@ -174,8 +177,8 @@ def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
     data, base = fitted(campaign)
     found = empirical_term(campaign, data, base, one_by_one)
     assert found["kind"] == "empirical"
-    assert found["held_out_gap_before"] == base.held_out_gap > 5.0
-    assert found["held_out_gap_after"] < 0.5 * base.held_out_gap
+    assert found["held_out_gap_before"] == base.held_out_rms > 5.0
+    assert found["held_out_gap_after"] < 0.5 * base.held_out_rms
     assert {term["feature"] for term in found["terms"]} & {"x", "x³"}
     assert found["formula"].startswith("F_x =")
     assert "empirical" in found["text"]
@@ -207,7 +210,7 @@ def test_nothing_is_proposed_where_nothing_is_missing(plain):
 
 def test_a_fitted_speed_has_a_direction():
     """A speed that comes out of a fit is numpy's, whose truths have no difference."""
-    block = [0.0] * BLOCK
+    block = [0.0] * INSTANT
     block[MODE] = SLIP
     assert moment_of(block, np.float64(0.1), 6.0).direction == 1.0
     assert moment_of(block, np.float64(-0.1), 6.0).direction == -1.0

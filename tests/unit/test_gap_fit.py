@@ -5,20 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
-from linear_flights import trial_of
+from linear_runs import trial_of
 from scipy.optimize import least_squares
 from scipy.stats import chi2
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
-from cosim.gap.naming.intervals import determined, intervals
-from cosim.gap.shooting.data import prepared
-from cosim.gap.shooting.fit import fit, with_columns
-from cosim.gap.shooting.fitted import Point, start
-from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.phases import with_phases
-from cosim.gap.shooting.preparation import prepare
-from cosim.gap.shooting.problem import Problem
-from cosim.gap.shooting.trial import Model, sketch, try_model
+from cosim.gap.estimation.fit import fit, with_columns
+from cosim.gap.estimation.fitted import Point, start
+from cosim.gap.estimation.intervals import determined, intervals
+from cosim.gap.estimation.phases import with_phases
+from cosim.gap.estimation.preparation import prepare, prepared
+from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model
 
 SPEEDS = (0.06, 0.15, 0.10)
 MU_S, MU_K, LINEAR = 0.3, 0.2, 0.8
@@ -62,7 +61,7 @@ def problem(clean, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def fitted(problem):
-    return fit(problem, start(problem.flights, FREE_PARAMETERS))
+    return fit(problem, start(problem.segmented_runs, FREE_PARAMETERS))
 
 
 SEEDS = 12
@@ -70,13 +69,13 @@ SEEDS = 12
 
 @pytest.fixture(scope="module")
 def trials(clean, tmp_path_factory):
-    """The whole way, sketch, fit and judgement, for many draws of the noise."""
+    """The whole way, coarse fit, fit and judgement, for many draws of the noise."""
     found = []
     for seed in range(SEEDS):
         campaign = campaign_of(tmp_path_factory.mktemp("campaign"), clean, seed)
         data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
         model = Model(FREE_PARAMETERS, {})
-        found.append((data, try_model(data, model, sketch(data, model, 2))))
+        found.append((data, try_model(data, model, coarse_fit(data, model, 2))))
     return found
 
 
@@ -102,7 +101,7 @@ def test_what_is_left_is_noise(trials):
         # the sum of squares of noise is chi squared; one trial of all beyond: once in 500 times
         least, most = chi2.interval(1.0 - 0.002 / SEEDS, rows - len(FREE_PARAMETERS) - states)
         assert least < trial.fitted.cost < most
-        assert trial.fitted.gap() == pytest.approx(np.sqrt(trial.fitted.cost / rows))
+        assert trial.fitted.rms_residual() == pytest.approx(np.sqrt(trial.fitted.cost / rows))
 
 
 def test_a_run_that_was_held_out_is_foretold(trials):
@@ -118,7 +117,7 @@ def test_a_run_that_was_held_out_is_foretold(trials):
         squares += trial.squares[-1]
         expected += rows + errors.sum()
         variance += 2.0 * (rows + np.sum(errors**2))
-        assert trial.held_out_gap**2 == pytest.approx(trial.squares[-1] / trial.rows[-1])
+        assert trial.held_out_rms**2 == pytest.approx(trial.squares[-1] / trial.rows[-1])
     assert abs(squares - expected) < 3.3 * np.sqrt(variance)  # one in a thousand
 
 
@@ -127,8 +126,10 @@ def test_a_trial_counts_every_run_once(trials):
     assert trial.rows.tolist() == [
         run.size for run in (*trial.fitted.residuals, *trial.held_out.residuals)
     ]
-    assert trial.gaps[-1] == pytest.approx(trial.held_out_gap)
-    assert trial.gap**2 == pytest.approx(np.average(trial.gaps**2, weights=trial.rows))
+    assert trial.rms_residuals[-1] == pytest.approx(trial.held_out_rms)
+    assert trial.rms_residual**2 == pytest.approx(
+        np.average(trial.rms_residuals**2, weights=trial.rows)
+    )
 
 
 def test_only_what_the_data_determine_is_stated(trials, problem):
@@ -136,15 +137,15 @@ def test_only_what_the_data_determine_is_stated(trials, problem):
     assert set(determined(trial)) == {free_parameter.key for free_parameter in FREE_PARAMETERS}
     # a law that hardly differs from the one that is there: neither is known to half its value
     both = (*FREE_PARAMETERS, FreeParameter("velocity_weakening.hyperbolic", 0.2, 0.1, 0.0, 50.0))
-    fitted = fit(Problem(problem.flights, both), start(problem.flights, both))
-    columns = with_columns(Problem(problem.flights, both), fitted)
+    fitted = fit(Problem(problem.segmented_runs, both), start(problem.segmented_runs, both))
+    columns = with_columns(Problem(problem.segmented_runs, both), fitted)
     vague = replace(trial, model=Model(both, {}), fitted=columns)
     assert "velocity_weakening.hyperbolic" not in determined(vague)
     assert set(intervals(vague)) == {free_parameter.key for free_parameter in both}
 
 
 def test_derivatives_are_those_of_a_finer_difference(problem, fitted):
-    for run in range(len(problem.flights)):
+    for run in range(len(problem.segmented_runs)):
         point = fitted.point
         at = point.shared, point.own[run], point.states[run]
         columns = problem.columns(run, point, fitted.residuals[run], range(len(FREE_PARAMETERS)))
@@ -159,7 +160,7 @@ def test_derivatives_are_those_of_a_finer_difference(problem, fitted):
             error = np.linalg.norm(columns.shared[:, j] - fine) / np.linalg.norm(fine)
             assert error < 0.03
         for number, (rows, by_state) in enumerate(columns.states):
-            for j, axis in enumerate(problem.flights[run].windows[number].free):
+            for j, axis in enumerate(problem.segmented_runs[run].segments[number].free):
                 step = {0: 1e-4, 3: 1e-3}[axis]
                 fine = central(
                     lambda s, at=at, n=number, a=axis, step=step, run=run: problem.residuals(
@@ -168,7 +169,7 @@ def test_derivatives_are_those_of_a_finer_difference(problem, fitted):
                     2e-3,
                 )
                 elsewhere = np.delete(fine, rows)
-                # nothing here outlives a window, but for the size of the integrator's next step
+                # nothing here outlives a segment, but for the size of the integrator's next step
                 assert np.abs(elsewhere).max(initial=0.0) < 1e-6 * np.abs(fine).max()
                 error = np.linalg.norm(by_state[:, j] - fine[rows]) / np.linalg.norm(fine[rows])
                 assert error < 0.03
@@ -185,14 +186,14 @@ def central(function, step):
 
 
 def test_brute_force_finds_nothing_better(problem, fitted):
-    """All at once, by scipy: free parameters and the states of all windows as they come."""
+    """All at once, by scipy: free parameters and the states of all segments as they come."""
     free = [
         (i, n, axis)
-        for i, flight in enumerate(problem.flights)
-        for n, window in enumerate(flight.windows)
-        for axis in window.free
+        for i, segmented in enumerate(problem.segmented_runs)
+        for n, segment in enumerate(segmented.segments)
+        for axis in segment.free
     ]
-    first = start(problem.flights, FREE_PARAMETERS)
+    first = start(problem.segmented_runs, FREE_PARAMETERS)
     scale = np.array([1e-4, 0, 0, 1e-3, 0, 0])
 
     def residuals(steps):  # one more than they are: scipy's differences are parts of them
@@ -223,9 +224,12 @@ def test_a_free_parameter_that_would_leave_its_range_stays_at_its_end(problem, f
     """The others then go where they are best with it there."""
     most = 0.98 * fitted.values["friction.mu_s"]
     free_parameters = (replace(FREE_PARAMETERS[0], high=most), *FREE_PARAMETERS[1:])
-    held = fit(Problem(problem.flights, free_parameters), start(problem.flights, free_parameters))
-    given = Problem(problem.flights, FREE_PARAMETERS[1:], {"friction.mu_s": most})
-    others = fit(given, start(given.flights, given.free_parameters))
+    held = fit(
+        Problem(problem.segmented_runs, free_parameters),
+        start(problem.segmented_runs, free_parameters),
+    )
+    given = Problem(problem.segmented_runs, FREE_PARAMETERS[1:], {"friction.mu_s": most})
+    others = fit(given, start(given.segmented_runs, given.free_parameters))
     assert held.values["friction.mu_s"] == pytest.approx(most, rel=1e-12)
     assert held.cost == pytest.approx(others.cost, abs=0.05)  # each stops within 0.02
     assert held.cost > fitted.cost + 10.0  # it does matter
@@ -246,7 +250,7 @@ def test_poor_starts_end_in_the_same_place(trials, mu_s, mu_k, linear):
         replace(k, start=at) for k, at in zip(FREE_PARAMETERS, starts, strict=True)
     )
     model = Model(free_parameters, {})
-    again = try_model(data, model, sketch(data, model, 25))
+    again = try_model(data, model, coarse_fit(data, model, 25))
     assert again.fitted.cost == pytest.approx(trial.fitted.cost, abs=0.05)
 
 
@@ -279,7 +283,7 @@ def patterned(tmp_path_factory):
 
 @pytest.mark.parametrize("degrees", range(0, 360, 60))
 def test_phases_are_found_from_any_start(patterned, degrees):
-    first = start(patterned.flights, PATTERN)
+    first = start(patterned.segmented_runs, PATTERN)
     wrong = tuple(np.array([degrees / 30.0]) for _ in PHASES)
     point = with_phases(patterned, Point(first.shared, wrong, first.states))
     found = fit(patterned, point)
@@ -287,22 +291,24 @@ def test_phases_are_found_from_any_start(patterned, degrees):
         off = found.own_values(run)["surface_pattern.phase_deg"] - phase
         # of a wave of 0.2 in 600 samples whose noise is a thirtieth of it: well within 3 degrees
         assert abs((off + 180.0) % 360.0 - 180.0) < 3.0
-    assert found.gap() == pytest.approx(1.0, abs=0.1)  # 1200 samples: 3.3 of 0.02, and the fit's
+    assert found.rms_residual() == pytest.approx(
+        1.0, abs=0.1
+    )  # 1200 samples: 3.3 of 0.02, and the fit's
 
 
 def test_phases_that_are_best_stay_where_they_are(patterned):
-    first = start(patterned.flights, PATTERN)
+    first = start(patterned.segmented_runs, PATTERN)
     point = fit(patterned, with_phases(patterned, first)).point
     assert with_phases(patterned, point) is point
 
 
 def test_without_phases_nothing_is_tried(problem):
-    point = start(problem.flights, FREE_PARAMETERS)
+    point = start(problem.segmented_runs, FREE_PARAMETERS)
     assert with_phases(problem, point) is point
 
 
 def test_only_what_belongs_to_the_runs_moves_where_the_rest_is_fixed(problem):
-    first = start(problem.flights, FREE_PARAMETERS)
+    first = start(problem.segmented_runs, FREE_PARAMETERS)
     found = fit(problem, first, fixed=True)
     assert found.point.shared.tolist() == first.shared.tolist()
     assert found.cost < sum(r @ r for r in problem.all_residuals(first))

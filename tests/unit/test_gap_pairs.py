@@ -1,19 +1,17 @@
-"""Two effects on a campaign that has both: looks by a simpler model's derivatives, and what is left
-of a pair without one of them."""
+"""Two effects on a campaign that has both: screening, and what is left of a pair without one."""
 
 import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign
+from stickslip.effects.candidate import Candidate, FreeParameter, Scales
 
 from cosim.gap import read_campaign
-from cosim.gap.candidates.candidate import Candidate
-from cosim.gap.candidates.catalogue import Scales, candidates
+from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.candidates.extend import extended
-from cosim.gap.naming.search import Search
-from cosim.gap.naming.tried import Tried
-from cosim.gap.shooting.data import prepared
-from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.glance import glance, ground
-from cosim.gap.shooting.trial import Model, sketch, try_model
+from cosim.gap.estimation.linearisation import linearised, screening_fit
+from cosim.gap.estimation.preparation import prepared
+from cosim.gap.estimation.trial import Model, coarse_fit, try_model
+from cosim.gap.selection.search import Search
+from cosim.gap.selection.tried import Tried
 
 SPEEDS = (0.06, 0.15, 0.10)
 PLAIN = Model(
@@ -63,7 +61,7 @@ def data(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def plain(data):
-    return sketch(data, PLAIN, 25)
+    return coarse_fit(data, PLAIN, 25)
 
 
 def on(data):
@@ -78,9 +76,9 @@ def search(data):
 def pair_of(data, plain, first, second):
     """Two effects, fitted, the second on top of the first."""
     below = extended(PLAIN, first, plain.values)
-    model = extended(below, second, sketch(data, below, 8).values)
-    sketched = sketch(data, model, 8)
-    return Tried(second, model, sketched, try_model(data, model, sketched))
+    model = extended(below, second, coarse_fit(data, below, 8).values)
+    coarse = coarse_fit(data, model, 8)
+    return Tried(second, model, coarse, try_model(data, model, coarse))
 
 
 @pytest.fixture(scope="module")
@@ -89,21 +87,21 @@ def both(data, plain):
     return pair_of(data, plain, RATE, DRAG)
 
 
-def test_the_ground_is_the_fit_itself(data, plain):
-    under = ground(data, PLAIN, plain)
-    assert under.gap() == plain.gap() and under.point is plain.point
+def test_the_linearisation_point_is_the_fit_itself(data, plain):
+    under = linearised(data, PLAIN, plain)
+    assert under.rms_residual() == plain.rms_residual() and under.point is plain.point
     assert [columns.shared.shape[1] for columns in under.columns] == [2, 2]
 
 
-def test_a_glance_goes_most_of_a_sketch_s_way(data, plain):
+def test_a_screening_fit_goes_most_of_a_coarse_fit_s_way(data, plain):
     """By the plain model's derivatives an effect that is there is known from one that is not."""
-    under = ground(data, PLAIN, plain)
+    under = linearised(data, PLAIN, plain)
     left = {}
     for law in (RATE, DRAG, CUBIC):
         model = extended(PLAIN, law, plain.values)
-        seen = glance(data, model, under, 3).cost
+        seen = screening_fit(data, model, under, 3).cost
         assert seen < plain.cost
-        left[law.effect] = (seen, sketch(data, model, 12).cost)
+        left[law.effect] = (seen, coarse_fit(data, model, 12).cost)
     gained = {effect: plain.cost - seen for effect, (seen, _) in left.items()}
     possible = {effect: plain.cost - end for effect, (_, end) in left.items()}
     best = max(possible, key=possible.get)
@@ -112,13 +110,13 @@ def test_a_glance_goes_most_of_a_sketch_s_way(data, plain):
 
 
 def test_a_pair_repairs_what_neither_does_alone(both, search):
-    assert both.trial.gap < 1.1
+    assert both.trial.rms_residual < 1.1
     for dropped, kept in ((RATE, DRAG), (DRAG, RATE)):
         less = search.less(both, dropped, tuple(kept.settings))
-        keys = {free_parameter.key for free_parameter in less.model.free_parameters}
-        assert not keys & {free_parameter.key for free_parameter in dropped.free_parameters}
-        assert keys >= {free_parameter.key for free_parameter in kept.free_parameters}
-        assert less.trial.gap > 1.5 * both.trial.gap
+        keys = {free.key for free in less.model.free_parameters}
+        assert not keys & {free.key for free in dropped.free_parameters}
+        assert keys >= {free.key for free in kept.free_parameters}
+        assert less.trial.rms_residual > 1.5 * both.trial.rms_residual
     assert RATE.settings.items() <= search.less(both, DRAG, ()).model.settings.items()
 
 
@@ -130,12 +128,12 @@ def test_settings_that_others_need_are_kept(both, search):
 
 def test_the_second_effect_is_among_those_beside_the_first(data, plain, search):
     first = extended(PLAIN, RATE, plain.values)
-    sketched = sketch(data, first, 8)
-    beside = search.beside(first, sketched, [CUBIC, DRAG])
+    coarse = coarse_fit(data, first, 8)
+    beside = search.beside(first, coarse, [CUBIC, DRAG])
     assert beside[0].candidate.effect == "film_drag"
-    assert beside[0].sketched.gap() < 1.1
-    ((_, pair),) = search.together([(Tried(RATE, first, sketched), beside[0])])
-    assert pair.trial.gap < 1.1
+    assert beside[0].coarse.rms_residual() < 1.1
+    ((_, pair),) = search.together([(Tried(RATE, first, coarse), beside[0])])
+    assert pair.trial.rms_residual < 1.1
 
 
 @pytest.mark.parametrize(
@@ -147,17 +145,17 @@ def test_another_effect_may_take_the_place_of_either_of_a_pair(
     pair = pair_of(data, plain, first, second)
     kept = second if wrong is first else first
     found, *others = search.instead(pair, wrong, [right], tuple(kept.settings))
-    keys = {free_parameter.key for free_parameter in found.model.free_parameters}
+    keys = {free.key for free in found.model.free_parameters}
     assert not others and found.candidate.effect == right.effect
     assert keys == {
-        free_parameter.key
-        for free_parameter in (
+        free.key
+        for free in (
             *PLAIN.free_parameters,
             *kept.free_parameters,
             *right.free_parameters,
         )
     }
-    assert found.trial.gap < 1.1 < pair.trial.gap
+    assert found.trial.rms_residual < 1.1 < pair.trial.rms_residual
 
 
 def test_a_wrong_period_beside_another_effect_is_put_right(tmp_path):
@@ -179,10 +177,10 @@ def test_a_wrong_period_beside_another_effect_is_put_right(tmp_path):
     )
     laws = [c for c in candidates(extent) if c.effect == "speed_ripple"]
     wrong = laws[0].at(3.7, 0.2, 0.01)
-    pair = pair_of(rippled, sketch(rippled, PLAIN, 8), DRAG, wrong)
+    pair = pair_of(rippled, coarse_fit(rippled, PLAIN, 8), DRAG, wrong)
     found = on(rippled).anew(pair, wrong, [*laws, CUBIC])
-    values = found.sketched.values
+    values = found.coarse.values
     assert values["speed_ripple.frequency"] == pytest.approx(2.3, abs=0.02)
     assert values["speed_ripple.amplitude"] == pytest.approx(0.3, abs=0.02)
     assert values["film_drag.coefficient"] == pytest.approx(0.8, abs=0.05)
-    assert found.sketched.gap() < 1.1 < pair.sketched.gap()
+    assert found.coarse.rms_residual() < 1.1 < pair.coarse.rms_residual()

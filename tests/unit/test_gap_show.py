@@ -85,13 +85,13 @@ def test_model_holds_the_fitted_numbers(gap, tmp_path):
 
 
 def test_model_moves_as_the_fitted_one_did(gap):
-    """From the first window's start to its end, far closer than the noise."""
+    """From the first segment's start to its end, far closer than the noise."""
     run = shown_run(gap)
     trajectory = simulate(scenario_of(gap, run).mechanics, run.track.time[-1], 0.01)
-    window = np.flatnonzero(run.track.windows == 0)
-    x = trajectory["x"][window] + gap.extended.values["offset.x"]
+    segment = np.flatnonzero(run.track.segments == 0)
+    x = trajectory["x"][segment] + gap.extended.values["offset.x"]
     # the fit integrates to 1e-7 of the motion's scale, the file to 1e-11
-    assert np.max(np.abs(x - run.track.x[window])) < 1e-2 * NOISE
+    assert np.max(np.abs(x - run.track.x[segment])) < 1e-2 * NOISE
 
 
 def test_stickslip_simulate_takes_the_model(gap, tmp_path):

@@ -12,8 +12,9 @@ from cosim.gap.show.files import write_page
 from cosim.gap.show.model_file import model_text
 from cosim.gap.show.numbers import as_json
 from cosim.gap.show.words import closing_lines
-from cosim.studies.reproduction.summary.observations import observations
-from cosim.studies.reproduction.summary.result import FittedSummary, Ranked, SummaryGap, Where
+from cosim.studies.reproduction.summary.draws import observations
+from cosim.studies.reproduction.summary.result import Ranked, SummaryGap, Where
+from cosim.studies.reproduction.summary.trial import FittedSummary
 
 PLAIN = {"friction.mu_s": 0.28, "friction.mu_k": 0.21}
 EXTENDED = {**PLAIN, "stick_stiffness.ratio": 0.9}

@@ -18,7 +18,7 @@ from cosim.coupling import (
     port_table,
     run,
 )
-from cosim.coupling.macro_grid import macro_grid
+from cosim.coupling.scheme import macro_grid
 
 
 class Model:

@@ -5,9 +5,8 @@ import warnings
 
 import pytest
 from pydantic import ValidationError
-from stickslip import CATALOGUE, Parameters
-from stickslip.kernel.layout import P_STICK_CREEP
-from stickslip.packing import CURVE_LIMIT
+from stickslip import EFFECTS, Parameters
+from stickslip.kernel.layout import CURVE_LIMIT, P_PRESLIDING
 
 # block, its values, what the message says
 REFUSED = {
@@ -127,7 +126,7 @@ def test_a_creep_is_that_under_what_the_contact_holds():
 
     def slot(**tables):
         with warnings.catch_warnings(action="ignore"):
-            return Parameters(**tables).pack()[P_STICK_CREEP]
+            return Parameters(**tables).pack()[P_PRESLIDING]
 
     weight = 0.67 * 9.81
     for mu_s, mu_k in ((0.4, 0.2), (0.1, 0.4)):
@@ -141,10 +140,10 @@ def test_a_creep_is_that_under_what_the_contact_holds():
     assert slot(friction={"mu_s": 0.0, "mu_k": 0.0, "stick_creep": 2e-3}) == 0.0
 
 
-@pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
+@pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
 def test_every_bound_of_every_effect_is_kept(effect):
     """Beyond a bound is refused with the key and the bound, and so is what is not a number."""
-    for name, field in effect.block.model_fields.items():
+    for name, field in effect.table.model_fields.items():
         bad = [(math.nan, None)]
         for bound in field.metadata:
             for kind, step in (("gt", 0), ("ge", -1), ("lt", 0), ("le", 1)):

@@ -1,8 +1,15 @@
 """Processes end in good order, however many calls wait and however long those under way take."""
 
+import inspect
 import subprocess
 import sys
 import time
+
+import numba
+from joblib.externals.loky import ProcessPoolExecutor
+from numba.core.cpu import CPUTargetOptions
+
+from cosim.processes import as_finished, processes
 
 # two calls under way that do not look whether they are to end, six that wait
 INTERRUPTED = """
@@ -33,3 +40,44 @@ def test_an_interrupt_ends_calls_that_do_not_look_up(tmp_path):
     assert done.stdout.strip() == "interrupted"
     assert "Traceback" not in done.stderr
     assert time.perf_counter() - began < 40.0
+
+
+def test_what_is_used_of_loky_and_is_not_public_is_there():
+    """cosim/processes.py empties the queue of waiting calls; joblib is bounded for its sake."""
+    executor = ProcessPoolExecutor(1)
+    try:
+        for name in ("_work_ids", "_pending_work_items"):
+            assert hasattr(executor, name), (
+                f"this joblib's loky has no {name}: mend _forget_waiting in cosim/processes.py, "
+                "or lower the upper bound of joblib in pyproject.toml"
+            )
+        assert callable(executor._work_ids.get_nowait), "_work_ids is no queue any more"
+        assert callable(executor._pending_work_items.pop), "_pending_work_items is no dict any more"
+    finally:
+        executor.shutdown()
+    for owner, parameters in (
+        (ProcessPoolExecutor.__init__, {"initializer", "initargs", "env"}),
+        (ProcessPoolExecutor.shutdown, {"kill_workers"}),
+    ):
+        missing = parameters - set(inspect.signature(owner).parameters)
+        assert not missing, f"loky's {owner.__qualname__} takes no {missing} any more"
+
+
+def test_what_is_used_of_numba_and_is_not_public_is_there():
+    """Without it a call of the compiled kernel counts references; numba is bounded for its sake."""
+    assert hasattr(CPUTargetOptions, "_nrt"), (
+        f"numba {numba.__version__} has no option _nrt: measure the kernel without it and mend "
+        "stickslip/compiled.py, or lower the upper bound of numba in pyproject.toml"
+    )
+
+
+def square(number):
+    return number**2
+
+
+def test_results_come_in_order_or_as_they_are_finished():
+    numbers = [(n,) for n in range(5)]
+    for jobs in (1, 2):
+        with processes(jobs) as mapped:
+            assert list(mapped(square, numbers)) == [0, 1, 4, 9, 16]
+        assert sorted(as_finished(jobs, square, numbers)) == [0, 1, 4, 9, 16]

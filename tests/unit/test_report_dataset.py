@@ -15,8 +15,8 @@ from stickslip.ports import OUTPUTS
 
 from cosim.coupling import Connection, CoupledResult, EnergyFlow, Ledger
 from cosim.report import OutputError, run_dataset, trajectory_dataset, write_data
-from cosim.report.blocks import mechanics_of, thermal_of
-from cosim.report.variables import THERMAL
+from cosim.report.contents import mechanics_of, thermal_of
+from cosim.report.dataset import THERMAL
 from cosim.scenario import Scenario
 from thermal import BeltIceModel
 

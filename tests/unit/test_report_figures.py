@@ -10,10 +10,9 @@ from matplotlib.text import Text
 from test_report_dataset import coupled_dataset, mechanics_dataset, scenario
 
 from cosim.report.figures import PLATES, plates_of
-from cosim.report.figures.geometry import Pose, anchors, attachments
-from cosim.report.figures.top_view import extreme_poses
+from cosim.report.figures.over_time import zoom_of
+from cosim.report.figures.top_view import Pose, anchors, attachments, extreme_poses
 from cosim.report.style import readable
-from cosim.report.zoom import zoom_of
 
 # the strip that shows only where the contact is has no quantity upwards
 WITHOUT_QUANTITY = {"contact"}

@@ -8,9 +8,9 @@ import xarray as xr
 from test_report_dataset import coupled_dataset
 
 from cosim.report import summary
-from cosim.report.blocks import blocks_of
+from cosim.report.contents import blocks_of
 from cosim.report.figures import PLATES, plates_of
-from cosim.report.melting_numbers import film_of, melting, melts
+from cosim.report.heat_numbers import film_of, melting, melts
 from cosim.scenario import Scenario
 
 MASS, RADIUS, SPEED, ONSET, END = 40.0, 0.04, 3.0, 2.0, 6.0

@@ -10,7 +10,7 @@ from test_report_figures import cut_short, with_gaps
 
 from cosim.report import write_results
 from cosim.report.figures import plates_of
-from cosim.report.words import digits, told
+from cosim.report.quantities import digits, told
 
 
 class References(HTMLParser):

@@ -9,7 +9,7 @@ from stickslip.ports import OUTPUTS
 from test_report_dataset import coupled_dataset, mechanics_dataset, trajectory
 
 from cosim.report import summary, trajectory_dataset
-from cosim.report.phases import break_aways, slip_intervals
+from cosim.report.contents import break_aways, slip_intervals
 
 RUN_UP, PERIOD, SLIP, CYCLES = 2.0, 0.5, 0.3, 8
 END = RUN_UP + CYCLES * PERIOD

@@ -12,6 +12,7 @@ from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
 
 from cosim.cli import main
 from cosim.cli import reproduce as reproduction_command
+from cosim.report.page import number
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
 from cosim.studies.reproduction.cases import DATASET_1, exact_figures, scheme_figures
 from cosim.studies.reproduction.claim import (
@@ -26,10 +27,9 @@ from cosim.studies.reproduction.claim import (
 from cosim.studies.reproduction.claims.belt_length import repeated
 from cosim.studies.reproduction.claims.friction_level import OBSERVATIONS, Variant
 from cosim.studies.reproduction.motion import Motion, figures
-from cosim.studies.reproduction.page import number, page
 from cosim.studies.reproduction.printed import Printed
-from cosim.studies.reproduction.result import as_json
-from thermal.single_pass import PRINTED as PRINTED_PASS
+from cosim.studies.reproduction.result import as_json, page
+from thermal.belt.single_pass import PRINTED as PRINTED_PASS
 
 
 @pytest.mark.parametrize(
@@ -265,11 +265,11 @@ def test_matrices_and_simple_runs_hold(quick):
 
 def test_verdict_changes_with_the_numbers(monkeypatch):
     """C1 with a wrong printed digit does not hold: no verdict is written down beforehand."""
-    from cosim.studies.reproduction.claims import stiffness_matrices
+    from cosim.studies.reproduction.claims import verification
 
     entries = {"zero": {(0, 0): Printed(4.0, "here"), (2, 2): Printed(0.00118, "here")}}
-    monkeypatch.setattr(stiffness_matrices, "MATRICES", entries)
-    assert stiffness_matrices.judge().verdict == "does not hold"
+    monkeypatch.setattr(verification, "MATRICES", entries)
+    assert verification.judge_matrices().verdict == "does not hold"
 
 
 def test_json(quick):
@@ -363,7 +363,7 @@ def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, ju
         return reproduce(ids)
 
     seen = []
-    monkeypatch.setattr(reproduction_command, "reproduce", interrupted)
+    monkeypatch.setattr("cosim.studies.reproduction.reproduce", interrupted)
     status = main(["reproduce", "C1", "C2", "-o", str(tmp_path)])
     out, err = capsys.readouterr()
     assert (status, out, err.count("\n")) == (1, "", 1)
@@ -376,13 +376,13 @@ def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, ju
 
 
 def test_command_refuses_before_it_computes(tmp_path):
-    with pytest.raises(reproduction_command.REFUSED, match="C99"):
+    with pytest.raises(reproduction_command.refused(), match="C99"):
         reproduction_command.execute(arguments("C99", "-o", str(tmp_path / "out")))
     assert not (tmp_path / "out").exists()
     (tmp_path / "file").write_text("")
-    with pytest.raises(reproduction_command.REFUSED, match="cannot be written to"):
+    with pytest.raises(reproduction_command.refused(), match="cannot be written to"):
         reproduction_command.execute(arguments("C1", "-o", str(tmp_path / "file")))
-    with pytest.raises(reproduction_command.REFUSED, match="is a folder, allowed is a file"):
+    with pytest.raises(reproduction_command.refused(), match="is a folder, allowed is a file"):
         reproduction_command.execute(
             arguments("C1", "--json", str(tmp_path), "-o", str(tmp_path / "out"))
         )

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
 
 from cosim.studies.reproduction.printed import Printed, every
 
-TEXT = Path(__file__).resolve().parents[3] / "shared" / "thesis.txt"
 SECTION = re.compile(r"§(\d+(?:\.\d+)+)")
 HEADING = re.compile(r"^(\d+(?:\.\d+)+)\.?\s", re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def study_text(shared) -> str:
+    return shared("thesis.txt").read_text(encoding="utf-8")
 
 
 def numbers(one: Printed) -> list[str]:
@@ -41,22 +44,19 @@ def test_every_number_has_its_place(one):
     assert SECTION.search(one.place) or one.place == "executive summary"
 
 
-@pytest.mark.skipif(not TEXT.is_file(), reason="the study's text is not here")
 @pytest.mark.parametrize("one", every(), ids=lambda one: f"{one.value} in {one.place}")
-def test_the_number_is_printed_where_it_is_said_to_be(one):
-    text = TEXT.read_text(encoding="utf-8")
+def test_the_number_is_printed_where_it_is_said_to_be(one, study_text):
     for name in SECTION.findall(one.place) or [one.place]:
-        inside = section(text, name)
+        inside = section(study_text, name)
         for number in numbers(one):
             # 0.0698 may stand there as 0.06980, but not as part of another number
             assert re.search(rf"(?<![\d.]){re.escape(number)}0*(?![\d])", inside), (number, name)
 
 
-@pytest.mark.skipif(not TEXT.is_file(), reason="the study's text is not here")
 @pytest.mark.parametrize("number", ["409.27", "1.7465", "0.925", "31.8", "0.0565"])
-def test_what_is_derived_is_not_printed(number):
+def test_what_is_derived_is_not_printed(number, study_text):
     """These were once taken for the study's own."""
-    assert number not in TEXT.read_text(encoding="utf-8")
+    assert number not in study_text
     assert number not in {digits for one in every() for digits in numbers(one)}
 
 

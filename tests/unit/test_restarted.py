@@ -114,7 +114,7 @@ def test_a_force_acts_on_a_stick_that_creeps_too(creeping, parameters):
     )
     assert not pulled[:, O_MODE].any() and not free[:, O_MODE].any()
     k = 4.0 * parameters.springs.stiffness
-    limit = creeping[layout.P_STICK_CREEP]  # x' = V - c (k + stiffer) x
+    limit = creeping[layout.P_PRESLIDING]  # x' = V - c (k + stiffer) x
     rates = limit * np.array([k, k + stiffer])
     exact = [SPEED / rate * -np.expm1(-rate * times) for rate in rates]
     springs_are_linear = 1e-6

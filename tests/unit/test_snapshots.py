@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from cosim.coupling.snapshots import MOST_VIEWS, Snapshots
-from cosim.report.animation import LASTS, animation
+from cosim.coupling.case.snapshots import MOST_VIEWS, Snapshots
+from cosim.report.figures.animation import LASTS, animation
 from thermal import Belt, BeltIceModel, ThermalParameters
 
 

@@ -15,7 +15,6 @@ import xarray as xr
 from stickslip import Friction, Parameters, Rig, Surface, simulate
 
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
-from cosim.studies.sweep import chunk as chunk_module
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
 from cosim.studies.sweep.local import LocalWorkers
@@ -30,14 +29,14 @@ VARY = {"rig.mass": [0.5, 0.7, 0.9], "surface.speed": [0.1, 0.2]}
 def computed(monkeypatch):
     """Counts the rows that are computed, the pilot's first look at the kernel aside."""
     counts = Counter()
-    compute = chunk_module.compute
+    compute = combination_module.compute
 
     def counting(key, parameters, run, progress):
         if run.duration > run.output_interval:
             counts[key] += 1
         return compute(key, parameters, run, progress)
 
-    monkeypatch.setattr(chunk_module, "compute", counting)
+    monkeypatch.setattr(combination_module, "compute", counting)
     return counts
 
 
@@ -109,7 +108,7 @@ def test_what_changed_is_computed_and_nothing_else(tmp_path, computed):
 
 def test_another_version_of_the_model_is_computed_anew(tmp_path, computed, monkeypatch):
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
-    for module in (combination_module, chunk_module, run_module):
+    for module in (combination_module, run_module):
         monkeypatch.setattr(module, "model_version", lambda: "0" * 32)
     monkeypatch.setattr("cosim.studies.sweep.store.model_version", lambda: "0" * 32)
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
@@ -117,7 +116,7 @@ def test_another_version_of_the_model_is_computed_anew(tmp_path, computed, monke
 
 
 def test_a_worker_with_another_model_is_refused(monkeypatch):
-    monkeypatch.setattr(chunk_module, "model_version", lambda: "0" * 32)
+    monkeypatch.setattr(combination_module, "model_version", lambda: "0" * 32)
     with pytest.raises(SweepStopped, match="has another version of the model"):
         sweep(BASE, VARY, **SHORT)
 

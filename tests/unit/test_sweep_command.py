@@ -14,9 +14,9 @@ import xarray as xr
 from cosim import read_scenario
 from cosim.cli import sweep as sweep_command
 from cosim.studies.sweep import Run, SweepError
-from cosim.studies.sweep.arguments import parse_vary
+from cosim.studies.sweep.axis import parse_vary
+from cosim.studies.sweep.grid import BELTS, plan_grid, repeats_grid
 from cosim.studies.sweep.store import Store
-from cosim.studies.sweep.test_plan import BELTS, plan_grid, repeats_grid
 
 
 def call(*argv):
@@ -101,15 +101,15 @@ def test_a_sweep_without_any_result_fails(case, tmp_path, capsys):
 
 def test_bad_input_leaves_nothing(case, tmp_path):
     for argv in (["--vary", "rig.mas=1"], ["--vary", "rig.mass=-1"], ["--vary", "rig.mass=a"]):
-        with pytest.raises(sweep_command.REFUSED) as refusal:
+        with pytest.raises(sweep_command.refused()) as refusal:
             call(case, *argv, "-o", tmp_path / "out")
         assert "\n" not in str(refusal.value)
-    with pytest.raises(sweep_command.REFUSED, match="no such file"):
+    with pytest.raises(sweep_command.refused(), match="no such file"):
         call(tmp_path / "none.toml", "--vary", "rig.mass=1")
-    with pytest.raises(sweep_command.REFUSED, match="cannot be written to"):
+    with pytest.raises(sweep_command.refused(), match="cannot be written to"):
         call(case, "--vary", "rig.mass=1", "-o", case)
     (tmp_path / "taken" / "sweep.png").mkdir(parents=True)
-    with pytest.raises(sweep_command.REFUSED, match="is a folder, allowed is a file"):
+    with pytest.raises(sweep_command.refused(), match="is a folder, allowed is a file"):
         call(case, "--vary", "rig.mass=1", "-o", tmp_path / "taken")
     assert not (tmp_path / "out").exists()
 
@@ -118,7 +118,7 @@ def test_an_interrupted_sweep_says_how_to_go_on(case, tmp_path, monkeypatch, cap
     def interrupted(*arguments, **options):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sweep_command, "run_grid", interrupted)
+    monkeypatch.setattr("cosim.studies.sweep.run_grid", interrupted)
     assert call(case, "--vary", "rig.mass=1", "-o", tmp_path / "out") == 1
     line = capsys.readouterr().err
     assert line.startswith("error: interrupted; what is finished is kept in ")

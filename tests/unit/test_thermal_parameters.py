@@ -1,7 +1,7 @@
 import pytest
 
 from thermal import ParameterError, ThermalParameters
-from thermal.air import moving_belt
+from thermal.belt.air import moving_belt
 
 
 def test_defaults_are_the_rig():

@@ -1,6 +1,6 @@
 import pytest
 
-from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
+from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
 PRINTED_TABLE = {1.0: -7.9435, 2.0: -7.9583, 3.0: -7.9693, 4.0: -7.9774}
 

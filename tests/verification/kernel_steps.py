@@ -8,10 +8,10 @@ import numpy as np
 from stickslip import Parameters
 from stickslip.kernel import advance
 from stickslip.kernel.layout import (
-    BLOCK,
     DONE,
     E_FIRST,
     HERE,
+    INSTANT,
     MODE,
     NEXT,
     P_RATE,
@@ -64,10 +64,10 @@ def largest_step_difference(
             other[NEXT + i] for i in (MODE, SLIPS)
         ]:
             return np.inf
-        largest = max(largest, _difference(p, u, z[NEXT : NEXT + BLOCK], other[NEXT:]))
+        largest = max(largest, _difference(p, u, z[NEXT : NEXT + INSTANT], other[NEXT:]))
         if status != DONE:
             break
-        advance.copy_block(z, NEXT, HERE)
+        advance.copy_instant(z, NEXT, HERE)
     return largest
 
 

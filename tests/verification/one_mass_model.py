@@ -13,7 +13,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 GRAVITY = 9.81
-X, V, HEAT, WARMTH, DISTANCE, WAY = range(6)
+X, V, HEAT, RECENT_HEAT, DISTANCE, TRAVEL = range(6)
 # an order below what the comparisons ask for; 3e-14 is the least that scipy takes
 ACCURACY = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
 
@@ -64,7 +64,7 @@ class OneMass:
 
     def _stick(self, t, since, state, times):
         def slopes(t, s):
-            fading = -s[WARMTH] / self.relaxation
+            fading = -s[RECENT_HEAT] / self.relaxation
             return [self.speed(t), self.acceleration(t), 0.0, fading, 0.0, self.speed(t)]
 
         def gives_way(t, s):
@@ -78,7 +78,7 @@ class OneMass:
             friction = self.kinetic(sliding, s)
             force = self.pull(s[X]) - self.damping * s[V] - side * friction
             heat = friction * sliding
-            warming = heat - s[WARMTH] / self.relaxation
+            warming = heat - s[RECENT_HEAT] / self.relaxation
             return [s[V], force / self.mass, heat, warming, sliding, self.speed(t)]
 
         def comes_to_rest(t, s):

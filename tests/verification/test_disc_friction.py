@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import dblquad
 from stickslip.kernel.contact import limit_surface_ratio
-from stickslip.kernel.disc import disc_friction
+from stickslip.kernel.friction.disc import disc_friction
 from stickslip.kernel.layout import W_PAIR, W_SIZE
 
 

@@ -7,7 +7,7 @@ that of the last halving, so it also says that nothing is left over at off.
 
 import numpy as np
 import pytest
-from stickslip import CATALOGUE, Parameters, simulate
+from stickslip import EFFECTS, Parameters, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel.layout import (
     E_COUNT,
@@ -24,6 +24,7 @@ from stickslip.kernel.layout import (
     Z_SIZE,
     X,
 )
+from stickslip.quantity import details
 
 RADIUS = 0.04
 WARMER = -6.0  # interface, degC; the reference is -8
@@ -37,8 +38,8 @@ AT_REST = {
     "rig": {"degrees_of_freedom": ("x",), "spring_length": 1.0, "spring_natural_length": 1.0},
     "initial": {"vx": 0.15},
 }
-# parameter -> (distance from off at first, what else the block needs, order)
-SLIDING = {
+# parameter -> (distance from off at first, what else the table needs, order)
+STATED = {
     "lateral_friction.ratio": (0.4, {}, 2),
     "turning_surface.curvature": (1.0, {}, 1),
     "velocity_weakening.linear": (0.4, {}, 1),
@@ -73,14 +74,21 @@ STICKING = {
     "rate_and_state.direct": (4e-3, {}, 1),
     "rate_and_state.evolution": (4e-3, {}, 1),
 }
+# a switch of which nothing is stated acts in slip, to first order from its least typical size
+SLIDING = {
+    f"{effect.id}.{key}": (details(effect.table.model_fields[key])["typical"][0], {}, 1)
+    for effect in EFFECTS
+    for key in effect.switch
+    if f"{effect.id}.{key}" not in STICKING
+} | STATED
 
 
 def with_effect(base: dict, name: str, share: float, size: float, other: dict) -> Parameters:
     """The rig with one parameter at ``share`` of ``size`` away from off."""
-    block, key = name.split(".")
-    entry = next(effect for effect in CATALOGUE if effect.id == block)
-    off = entry.block.model_fields[key].default
-    return Parameters(**(base | {block: other | {key: off + share * size}}))
+    table, key = name.split(".")
+    entry = next(effect for effect in EFFECTS if effect.id == table)
+    off = entry.table.model_fields[key].default
+    return Parameters(**(base | {table: other | {key: off + share * size}}))
 
 
 def position_in_slip(parameters: Parameters) -> np.ndarray:
@@ -111,8 +119,7 @@ def test_slip_tends_to_the_plain_one(name):
     def place(share):
         return position_in_slip(with_effect(IN_SLIP, name, share, size, other))
 
-    block = name.split(".")[0]
-    plain = position_in_slip(Parameters(**(IN_SLIP | {block: {}})))
+    plain = position_in_slip(Parameters(**(IN_SLIP | {name.split(".")[0]: {}})))
     # the next order still shows at an eighth of the first size: 0.02 at most was found
     assert order(place, plain) == pytest.approx(expected, abs=0.03)
 
@@ -133,5 +140,5 @@ def test_break_away_tends_to_the_plain_one(name):
 
 
 def test_every_switch_of_every_effect_is_tried():
-    switches = {f"{effect.id}.{key}" for effect in CATALOGUE for key in effect.switch}
+    switches = {f"{effect.id}.{key}" for effect in EFFECTS for key in effect.switch}
     assert switches == set(SLIDING) | set(STICKING)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from disc_integral import law_over_disc
 from stickslip import Parameters
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import (
     U_SIZE,
     U_TEMPERATURE,

@@ -6,7 +6,7 @@ law is written here once more, from the catalogue's sentence.
 
 import numpy as np
 import pytest
-from one_mass_model import DISTANCE, GRAVITY, WARMTH, WAY, OneMass, X
+from one_mass_model import DISTANCE, GRAVITY, RECENT_HEAT, TRAVEL, OneMass, X
 from stickslip import Parameters, Rig, Solver, Springs, simulate
 
 MASS, STIFFNESS, MU_S, MU_K, SPEED = 0.67, 80.68, 0.2815, 0.2086, 0.15
@@ -41,7 +41,7 @@ def ripple_rate(t):
 
 
 def pattern(s):
-    return 1.0 + 0.2 * np.cos(2.0 * np.pi * (s[X] - s[WAY]) / 0.07 + np.radians(30.0))
+    return 1.0 + 0.2 * np.cos(2.0 * np.pi * (s[X] - s[TRAVEL]) / 0.07 + np.radians(30.0))
 
 
 def with_second(wave, angle):
@@ -60,7 +60,7 @@ def second_ripple_rate(t):
 
 
 def second_pattern(s):
-    angle = 2.0 * np.pi * (s[X] - s[WAY]) / 0.07 + np.radians(30.0)
+    angle = 2.0 * np.pi * (s[X] - s[TRAVEL]) / 0.07 + np.radians(30.0)
     return 1.0 + 0.2 * with_second(np.cos, angle)
 
 
@@ -104,15 +104,15 @@ CASES = {
     ),
     "thermal_weakening": (
         {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6}},
-        {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * s[WARMTH])), "relaxation": 0.6},
+        {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
     ),
     "thermal_weakening, exponential": (
         {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "curvature": 0.0}},
-        {"kinetic": kinetic(lambda u, s: np.exp(-0.8 * s[WARMTH])), "relaxation": 0.6},
+        {"kinetic": kinetic(lambda u, s: np.exp(-0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
     ),
     "thermal_weakening, hyperbolic": (
         {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "curvature": 1.0}},
-        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 0.8 * s[WARMTH])), "relaxation": 0.6},
+        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
     ),
     "run_in": (
         {"run_in": {"change": -0.4, "distance": 0.15}},

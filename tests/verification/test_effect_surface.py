@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from stickslip import Parameters, simulate
-from stickslip.kernel.coefficient import surface_factor
-from stickslip.kernel.layout import W_SIZE, W_STATE, X
+from stickslip.kernel.friction.coefficient import surface_factor
+from stickslip.kernel.layout import U_SIZE, W_SIZE, W_STATE, X
 
 PLANAR = {"lateral_friction": {"ratio": 1.0}}
 X_ONLY = {"rig": {"degrees_of_freedom": ("x",)}}
@@ -17,7 +17,7 @@ def field(parameters: Parameters, places: np.ndarray) -> np.ndarray:
     found = []
     for place in places:
         w[W_STATE + X] = place
-        found.append(surface_factor(p, w))
+        found.append(surface_factor(p, [0.0] * U_SIZE, w))
     return np.array(found)
 
 

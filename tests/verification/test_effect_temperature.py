@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from kernel_steps import memory_of
 from stickslip import Parameters, simulate
+from stickslip.arrays import INTERPRETED
 from stickslip.kernel.layout import E_FIRST, MODE, O_FRICTION_X, O_SIZE, SHOWN, SLIP, W_SIZE
-from stickslip.simulate import INTERPRETED
 
 MU_K, SENSITIVITY, REFERENCE = 0.2086, 0.05, -8.0
 WARM = Parameters(

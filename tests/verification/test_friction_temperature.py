@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import dblquad, quad, solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.compiled import compiled_kernel
-from stickslip.kernel.coefficient import holding_coefficient, local_coefficient
+from stickslip.kernel.friction.coefficient import holding_coefficient, local_coefficient
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_SIZE
 
 MASS, RADIUS, DRY, COLD = 0.67, 0.04, 0.5, -8.0
@@ -171,19 +171,21 @@ def test_the_limit_of_no_speed_is_dry_and_what_is_at_rest_holds(temperature):
     u[U_TEMPERATURE] = temperature
     melting = temperature > -1e-12  # none is left where ice melts
     expected = 0.0 if melting else DRY
-    assert local_coefficient(p, u, DRY, 0.0) == pytest.approx(expected, rel=1e-15)
+    assert local_coefficient(p, u, w, DRY, 0.0) == pytest.approx(expected, rel=1e-15)
     assert holding_coefficient(p, u, w) == pytest.approx(DRY, rel=1e-15)
     for speed in SPEEDS:
-        assert np.isfinite(local_coefficient(p, u, DRY, speed))
+        assert np.isfinite(local_coefficient(p, u, w, DRY, speed))
 
 
 def test_the_law_is_the_same_number_compiled():
     p = parameters(asperity_melting=ASPERITY, melt_film=FILM).pack()
-    u = [0.0] * U_SIZE
+    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
     for u[U_TEMPERATURE] in (-16.0, -3.3, -1e-6, 0.0):
         for speed in SPEEDS:
-            compiled = compiled_kernel().local_coefficient(np.array(p), np.array(u), DRY, speed)
-            assert compiled == local_coefficient(p, u, DRY, speed)
+            compiled = compiled_kernel().local_coefficient(
+                np.array(p), np.array(u), np.array(w), DRY, speed
+            )
+            assert compiled == local_coefficient(p, u, w, DRY, speed)
 
 
 def test_a_speed_must_be_one():

@@ -9,7 +9,7 @@ import pytest
 from disc_integral import law_over_disc
 from one_mass_model import HEAT, OneMass, X
 from stickslip import Parameters, Rig, Solver, Springs, simulate
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
 
 MASS, MU_S, MU_K, SPEED, RADIUS = 0.67, 0.2815, 0.2086, 0.15, 0.04

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.gap.read import read_campaign
-from cosim.studies.reproduction.summary import find, find_summary_gap, rows, search
+from cosim.gap.data import read_campaign
+from cosim.studies.reproduction.summary import find, find_summary_gap, search
 
 STUDY = Path(__file__).parents[2] / "cosim" / "gap" / "campaigns" / "study.toml"
 
@@ -63,10 +63,8 @@ def test_how_much_hangs_on_the_exact_coefficients_is_said(answer):
 
 
 def test_five_figures_before_and_after(answer):
-    table = rows(answer)
-    assert len(table) == 5
-    before = np.array([row["models"]["plain fit"]["distance"] for row in table])
-    after = np.array([row["models"]["with stick_stiffness"]["distance"] for row in table])
+    assert len(answer.observations) == 5
+    before, after = answer.plain.residuals, answer.extended.residuals
     assert np.sqrt(np.mean(before**2)) == pytest.approx(answer.gap_before[0])
     assert np.sqrt(np.mean(after**2)) == pytest.approx(answer.gap_after[0])
 

@@ -56,9 +56,9 @@ def test_one_pass_heats_the_belt_by_force_over_capacity(speed, macro_step):
     model = BeltIceModel(ThermalParameters(belt=Belt(air_heat_transfer=0.0), ice=NO_ICE))
     done = 0.0
     while done < travel:
-        way = min(abs(speed) * macro_step, travel - done)
-        model.step(way / abs(speed), force * way, np.copysign(way, speed))
-        done += way
+        part = min(abs(speed) * macro_step, travel - done)
+        model.step(part / abs(speed), force * part, np.copysign(part, speed))
+        done += part
     behind = (model.contact_position + np.sign(speed) * 0.3) % 1.0
     rise = mean_through_thickness(model)[round(behind / model.belt.cell)]
     assert rise == pytest.approx(force / (840.0 * 0.0525), rel=2e-5)

@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import j0, j1, jn_zeros
 
-from thermal import Ice as IceParameters
-from thermal.ice import Ice
+from thermal import Ice
+from thermal.ice.cylinder import Cylinder
 
 A, HEIGHT = 0.04, 0.10
 K, RHO, C = 2.2, 917.0, 2050.0
@@ -19,8 +19,8 @@ ASYMPTOTIC = 0.5
 
 
 def cylinder(radial=6, axial=10, h=0.0, **other):
-    return Ice(
-        IceParameters(
+    return Cylinder(
+        Ice(
             height=HEIGHT,
             conductivity=K,
             density=RHO,

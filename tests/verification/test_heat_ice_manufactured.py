@@ -16,10 +16,10 @@ from sample_meshes import box
 from scipy.sparse.linalg import spsolve
 from skfem import CellBasis, FacetBasis, Functional, LinearForm
 
-from thermal import Ice as IceParameters
-from thermal.ice import assembled as assembled_cylinder
-from thermal.ice_body import IceBody
-from thermal.sample import assembled
+from thermal import Ice
+from thermal.ice.body import IceBody
+from thermal.ice.cylinder import assembled as assembled_cylinder
+from thermal.ice.sample import assembled
 
 ORDER_OF_P2 = 3
 K, RHO, C, H = 2.2, 917.0, 2050.0, 40.0
@@ -39,7 +39,7 @@ def radial(r):
 
 def axisymmetric_error(elements):
     body = assembled_cylinder(
-        IceParameters(air_heat_transfer=H),
+        Ice(air_heat_transfer=H),
         np.linspace(0.0, A, elements + 1),
         np.linspace(0.0, HEIGHT, elements + 1),
     )
@@ -88,7 +88,7 @@ def test_axisymmetric_order():
 
 def box_error(n):
     points, cells = box((n, n, n), (0.08, 0.06, HEIGHT))
-    body = assembled(IceParameters(air_heat_transfer=H), points, cells, 1.0)
+    body = assembled(Ice(air_heat_transfer=H), points, cells, 1.0)
     mesh, element = body.basis.mesh, body.basis.elem
 
     def exact(x):

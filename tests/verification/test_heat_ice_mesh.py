@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from sample_meshes import box, cylinder, write
 
-from thermal.base_layers import cut_at_base, layer_height
-from thermal.ice_mesh import MeshError, base_of, facets_of, read_sample
+from thermal.ice.base_layers import cut_at_base, layer_height
+from thermal.ice.mesh_file import MeshError, base_of, facets_of, read_sample
 
 EXTENT = (0.08, 0.06, 0.1)
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from thermal import Ice as IceParameters
+from thermal import Ice
 
 RHO, ZERO = 917.0, 273.15
 DURATION, CELLS, DEEP = 30.0, 400, 0.12
@@ -77,7 +77,7 @@ def errors(ambient, rise):
     """As in `FOUND`."""
     flux = flux_for(ambient, rise)
     exact = face_rise(ambient, flux)
-    kinds = IceParameters(), IceParameters.at(ambient), IceParameters.at(ambient + rise)
+    kinds = Ice(), Ice.at(ambient), Ice.at(ambient + rise)
     return [
         100.0
         * (

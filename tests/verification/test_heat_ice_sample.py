@@ -15,16 +15,16 @@ from thermal import (
     BeltIceModel,
     Contact,
     FieldSeries,
+    Ice,
     MeshError,
     ParameterError,
     ThermalParameters,
 )
-from thermal import Ice as IceParameters
-from thermal.ice import Ice
-from thermal.ice_body import IceBody
-from thermal.krylov import response_space
+from thermal.ice.body import IceBody
+from thermal.ice.cylinder import Cylinder
+from thermal.ice.krylov import response_space
+from thermal.ice.sample import Sample, assembled
 from thermal.relaxation import mean_decay
-from thermal.sample import Sample, assembled
 from thermal.steady_sliding import SteadySliding
 
 K, RHO, C = 2.2, 917.0, 2050.0
@@ -39,7 +39,7 @@ ORDER_OF_P2_EIGENVALUES = 4
 
 def sample(tmp_path, mesh, h=0.0, width=WIDE):
     path = write(tmp_path / "sample.vtu", *mesh)
-    return Sample(IceParameters(air_heat_transfer=h), path, width)
+    return Sample(Ice(air_heat_transfer=h), path, width)
 
 
 def slab(t, height):
@@ -69,7 +69,7 @@ def test_slowest_rate_of_the_cooled_box(tmp_path):
     errors = []
     for n in (3, 6):
         points, cells = box((n, n, n), EXTENT)
-        body = assembled(IceParameters(air_heat_transfer=h), points, cells, WIDE)
+        body = assembled(Ice(air_heat_transfer=h), points, cells, WIDE)
         rates = eigsh(body.conduction(), 1, body.capacity(), sigma=0.0, return_eigenvectors=False)
         errors.append(rates[0] / exact - 1.0)
     assert np.log2(errors[0] / errors[1]) == pytest.approx(ORDER_OF_P2_EIGENVALUES, abs=0.4)
@@ -79,7 +79,7 @@ def test_slowest_rate_of_the_cooled_box(tmp_path):
 def test_the_small_space_answers_as_the_whole_mesh():
     """Step responses from 0.1 ms to a day, against all modes of the mesh."""
     points, cells = box((2, 2, 3), EXTENT)
-    body = assembled(IceParameters(), points, cells, 0.02)
+    body = assembled(Ice(), points, cells, 0.02)
     load, area = body.contact()
     reduced = IceBody(
         body.space(response_space(body.capacity().tocsr(), body.conduction().tocsr(), load))
@@ -94,7 +94,7 @@ def test_the_small_space_answers_as_the_whole_mesh():
 def differences(tmp_path, across):
     """Face of a cooled cylinder against the axisymmetric model after some times, relative."""
     ice = sample(tmp_path, cylinder(across, 5), h=50.0)
-    round_ = Ice(IceParameters(air_heat_transfer=50.0), 0.04)
+    round_ = Cylinder(Ice(air_heat_transfer=50.0), 0.04)
     area = np.pi * 0.04**2
     return np.array(
         [
@@ -150,7 +150,7 @@ def models(tmp_path, across=4, **ambient):
     return [
         BeltIceModel(
             ThermalParameters(
-                belt=belt, contact=contact, ambient=Ambient(**ambient), ice=IceParameters(mesh=mesh)
+                belt=belt, contact=contact, ambient=Ambient(**ambient), ice=Ice(mesh=mesh)
             )
         )
         for mesh in ("", str(path))
@@ -197,9 +197,7 @@ def test_a_melting_sample_continues_bit_for_bit(tmp_path):
 
 def test_fields_of_a_sample_read_back(tmp_path):
     path = write(tmp_path / "sample.vtu", *cylinder(2, 3))
-    model = BeltIceModel(
-        ThermalParameters(belt=Belt(cell_length=5e-3), ice=IceParameters(mesh=str(path)))
-    )
+    model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=5e-3), ice=Ice(mesh=str(path))))
     model.step(1.0, 5.0, 0.1)
     mesh = meshio.read(FieldSeries(tmp_path, model).write(0.0))
     kinds = {block.type: block.data for block in mesh.cells}
@@ -214,17 +212,17 @@ def test_fields_of_a_sample_read_back(tmp_path):
 def test_refusals_name_the_key(tmp_path):
     big = write(tmp_path / "mm.vtu", 1e3 * cylinder(2, 2)[0], cylinder(2, 2)[1])
     with pytest.raises(MeshError, match=r"^ice\.mesh: .*mm\.vtu: .* is the file in mm\?"):
-        BeltIceModel(ThermalParameters(ice=IceParameters(mesh=str(big))))
+        BeltIceModel(ThermalParameters(ice=Ice(mesh=str(big))))
     beside = write(tmp_path / "beside.vtu", cylinder(2, 2)[0] + [0.0, 0.2, 0.0], cylinder(2, 2)[1])
     with pytest.raises(MeshError, match="its base does not lie on the belt"):
-        BeltIceModel(ThermalParameters(ice=IceParameters(mesh=str(beside))))
+        BeltIceModel(ThermalParameters(ice=Ice(mesh=str(beside))))
     long_base = write(tmp_path / "long.vtu", *box((2, 2, 2), (0.1, 0.02, 0.05)))
     with pytest.raises(ParameterError, match=r"belt\.length = 0\.09 m is shorter than the contact"):
         BeltIceModel(
             ThermalParameters(
                 belt=Belt(length=0.09, width=0.01),
                 contact=Contact(radius=0.01),
-                ice=IceParameters(mesh=str(long_base)),
+                ice=Ice(mesh=str(long_base)),
             )
         )
     with pytest.raises(ParameterError, match=r"contact\.length = 0\.05 m and ice\.mesh"):
@@ -235,9 +233,7 @@ def test_steady_sliding_takes_the_sample(tmp_path):
     path = write(tmp_path / "cylinder.vtu", *cylinder(4, 4))
     steady = []
     for mesh in ("", str(path)):
-        parameters = ThermalParameters(
-            belt=Belt(width=0.1, cell_length=4e-3), ice=IceParameters(mesh=mesh)
-        )
+        parameters = ThermalParameters(belt=Belt(width=0.1, cell_length=4e-3), ice=Ice(mesh=mesh))
         steady.append(SteadySliding(parameters, 0.5, 2.0).settle().ice_face)
     assert steady[1] == pytest.approx(steady[0], rel=0.03), "the polygon is 2.6 % smaller"
     assert steady[1] != steady[0]

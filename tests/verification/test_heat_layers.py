@@ -7,9 +7,8 @@ from scipy.optimize import brentq
 from skfem import BilinearForm, CellBasis, ElementQuad2, MeshQuad
 
 from thermal import Belt, BeltIceModel, Contact, Ice, Layer, ThermalParameters
-from thermal.belt import CONTACT
-from thermal.belt import Belt as BeltField
-from thermal.thickness import thickness_of
+from thermal.belt.material_frame import CONTACT, BeltField
+from thermal.belt.thickness import thickness_of
 
 GRIT = Layer(thickness=0.3e-3, density=2600.0, heat_capacity=780.0, conductivity=2.0)
 CLOTH = Layer(thickness=0.7e-3, density=500.0, heat_capacity=1300.0, conductivity=0.12)

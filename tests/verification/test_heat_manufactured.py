@@ -22,7 +22,8 @@ from skfem import (
     MeshTri,
 )
 
-from thermal.eigenmodes import Medium, eigenmodes
+from thermal.eigenmodes import eigenmodes
+from thermal.materials import Medium
 from thermal.relaxation import mean_decay
 
 A, D, H = 0.02, 0.01, 40.0

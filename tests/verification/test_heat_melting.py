@@ -8,11 +8,11 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import erfc
 
-from thermal import Ice as IceParameters
-from thermal.ablation import Ablation
-from thermal.contact import BeltFace, exchange
-from thermal.ice import Ice
-from thermal.ice_body import IceMelted
+from thermal import Ice
+from thermal.contact.exchange import BeltFace, exchange
+from thermal.ice.ablation import Ablation
+from thermal.ice.body import IceMelted
+from thermal.ice.cylinder import Cylinder
 
 K, RHO, C, LATENT = 2.2, 917.0, 2050.0, 334e3
 ALPHA = K / (RHO * C)
@@ -29,10 +29,10 @@ class Block:
     """Ice under a prescribed flux (W/m2), with its ledger."""
 
     def __init__(self, rise, height=0.12, elements=16):
-        parameters = IceParameters(
+        parameters = Ice(
             height=height, air_heat_transfer=0.0, axial_elements=elements, radial_elements=1
         )
-        self.ice = Ice(parameters, 0.04)
+        self.ice = Cylinder(parameters, 0.04)
         # the modes span all functions of the mesh: interpolation is a change of basis
         self.ice.amplitudes[:] = np.linalg.solve(self.ice._shapes, rise(self.ice.basis.doflocs[1]))
         self.ablation = Ablation(self.ice, parameters, self.ice.space.area, MELTING)

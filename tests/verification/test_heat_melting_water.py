@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.belt_water import BeltWater
-from thermal.melt_film import VISCOSITY, WATER_DENSITY, MeltFilm
+from thermal.contact.belt_water import BeltWater
+from thermal.contact.melt_film import MeltFilm
+from thermal.materials import WATER_DENSITY, WATER_VISCOSITY
 
 AREA, LENGTH = 5e-3, 0.07
 
@@ -47,7 +48,7 @@ def test_squeeze_of_a_disc():
     water = film(pressure)
     start = water.mass = thickness * WATER_DENSITY * AREA
     left = sum(water.advance(duration / 20, 0.0, 0.0) for _ in range(20))
-    grown = 4.0 * pressure * duration / (3.0 * VISCOSITY * AREA / math.pi)
+    grown = 4.0 * pressure * duration / (3.0 * WATER_VISCOSITY * AREA / math.pi)
     assert water.thickness**-2 == pytest.approx(thickness**-2 + grown, rel=1e-12)
     assert left == 0.0
     assert water.squeezed == pytest.approx(start - water.mass, rel=1e-12)
@@ -142,7 +143,7 @@ def test_what_the_block_weighs_squeezes_the_film():
         film.mass = 1e-4 * WATER_DENSITY * area
         film.advance(5.0, 0.0, 0.0)
         weight = load or 917.0 * math.pi * 0.04**2 * 0.1 * 9.81
-        grown = 4.0 * weight / area * 5.0 / (3.0 * VISCOSITY * area / math.pi)
+        grown = 4.0 * weight / area * 5.0 / (3.0 * WATER_VISCOSITY * area / math.pi)
         assert film.thickness**-2 == pytest.approx(1e8 + grown, rel=1e-9)
 
 

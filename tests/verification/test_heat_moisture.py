@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from thermal.air import convection, moving_belt, radiation
-from thermal.moisture import frost, saturation_over_ice
+from thermal.belt.air import convection, moving_belt, radiation
+from thermal.belt.frost import frost, saturation_over_ice
 
 
 @pytest.mark.parametrize(

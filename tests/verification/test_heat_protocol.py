@@ -21,8 +21,8 @@ def small_steps(given, speed, pause=0.0):
     """Ramp, run and pause of the model that a coupled run steps."""
     model = BeltIceModel(given)
     for i in range(round(RAMP / STEP)):
-        way = speed * STEP * (i + 0.5) * STEP / RAMP
-        model.step(STEP, FORCE * way, way)
+        travel = speed * STEP * (i + 0.5) * STEP / RAMP
+        model.step(STEP, FORCE * travel, travel)
     for _ in range(round(RUN / STEP)):
         model.step(STEP, FORCE * speed * STEP, speed * STEP)
     for _ in range(round(pause / STEP)):
@@ -121,8 +121,9 @@ def test_rises_are_the_sum_of_what_each_heat_makes():
     )
     sliding = SteadySliding(ThermalParameters(belt=belt), 0.5, FORCE)
     entries = []
-    for force, rubbing, warmth in ((FORCE, 1, 1), (FORCE, 0, 0), (0.0, 1, 0), (0.0, 0, 1)):
-        sliding.force, sliding.belt.rubbing, sliding.belt.warmth = force, rubbing, warmth
+    for force, railing, rollers in ((FORCE, 1, 1), (FORCE, 0, 0), (0.0, 1, 0), (0.0, 0, 1)):
+        sliding.force = force
+        sliding.belt.railing_heat_factor, sliding.belt.roller_rise_factor = railing, rollers
         sliding.reset()
         sliding.ramp(RAMP)
         entries.append(sliding.run(RUN).entry)

@@ -26,7 +26,7 @@ def ramped(speed, **belt):
 
 
 def test_an_insulated_belt_keeps_all_of_its_share():
-    """Mean rise = share mu N way / (c rho A L), the way that of the belt and not of the contact."""
+    """Mean rise = share mu N s / (c rho A L), s the travel of the belt and not of the contact."""
     insulated = RAILING | {"railing_conductance": 0.0}
     belt = Belt(length=0.5, width=0.06, cell_length=4e-3, air_heat_transfer=0.0, **insulated)
     model = BeltIceModel(ThermalParameters(belt=belt, contact=APART))

@@ -10,8 +10,8 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 from skfem import BilinearForm, CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
-from thermal import Belt as BeltParameters
-from thermal.belt import CONTACT, Belt
+from thermal import Belt
+from thermal.belt.material_frame import CONTACT, BeltField
 
 D, K, RHO, C = 1e-3, 0.5, 700.0, 840.0
 ALPHA, EFFUSIVITY = K / (RHO * C), np.sqrt(K * RHO * C)
@@ -24,8 +24,8 @@ ASYMPTOTIC = 0.25
 
 
 def slab(elements=6, h=0.0, cells=8, length=1.0):
-    return Belt(
-        BeltParameters(
+    return BeltField(
+        Belt(
             thickness=D,
             conductivity=K,
             density=RHO,

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.steady import NoSteadyState, settle
 from thermal.steady_sliding import SteadySliding
+from thermal.steady_state import NoSteadyState, settle
 
 PASSES = 10_000
 LIKE_MANY_PASSES = 1e-6

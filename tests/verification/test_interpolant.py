@@ -9,7 +9,7 @@ from kernel_steps import memory_of
 from stickslip import Parameters, Solver, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel import advance, outputs
-from stickslip.kernel.interpolant import copy_block, interpolate, set_interpolant
+from stickslip.kernel.interpolant import copy_instant, interpolate, set_interpolant
 from stickslip.kernel.layout import (
     BETWEEN,
     DONE,
@@ -47,7 +47,7 @@ def in_slip(parameters: Parameters, time: float):
     w, e = fresh()
     while memory.z[HERE + TIME] < time or memory.z[HERE + MODE] != SLIP:
         assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
-        copy_block(memory.z, NEXT, HERE)
+        copy_instant(memory.z, NEXT, HERE)
     return memory
 
 
@@ -62,11 +62,11 @@ def error_inside(memory, h: float) -> float:
     for part in (0.2, 0.4, 0.6, 0.8):
         interpolate(p, u, z, w, SHOWN, z[HERE + TIME] + part * h)
         shown = z[SHOWN + X]
-        copy_block(z, HERE, SHOWN)
+        copy_instant(z, HERE, SHOWN)
         for _ in range(16):
             begin_step(p, u, z, w, SHOWN)
             take_step(p, u, z, w, SHOWN, BETWEEN, part * h / 16.0)
-            copy_block(z, BETWEEN, SHOWN)
+            copy_instant(z, BETWEEN, SHOWN)
         largest = max(largest, abs(shown - z[SHOWN + X]))
     return largest
 
@@ -101,18 +101,18 @@ def test_samples_are_as_exact_as_the_tolerance_asks(effect):
             if z[NEXT + TIME] > z[HERE + TIME]:
                 kernel.set_interpolant(p, u, z, w)
                 check_inside(kernel, p, u, z, w)
-            kernel.copy_block(z, NEXT, HERE)
+            kernel.copy_instant(z, NEXT, HERE)
 
 
 def check_inside(kernel, p, u, z, w):
     exact, scratch = z.copy(), w.copy()
     time, steps = z[HERE + TIME] + 0.37 * w[W_SPAN], 8
     kernel.look_inside(p, u, z, w, time)
-    kernel.copy_block(exact, HERE, SHOWN)
+    kernel.copy_instant(exact, HERE, SHOWN)
     for _ in range(steps):
         kernel.begin_step(p, u, exact, scratch, SHOWN)
         kernel.take_step(p, u, exact, scratch, SHOWN, BETWEEN, (time - z[HERE + TIME]) / steps)
-        kernel.copy_block(exact, BETWEEN, SHOWN)
+        kernel.copy_instant(exact, BETWEEN, SHOWN)
     units = [
         abs(z[SHOWN + i] - exact[SHOWN + i]) / state_scale(p, u, i, exact[SHOWN + i])
         for i in range(1, 1 + STATES)

@@ -11,7 +11,7 @@ from stickslip import Parameters, Surface, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel import layout
 from stickslip.kernel.contact import limit_surface_ratio
-from stickslip.kernel.friction import friction_in_slip
+from stickslip.kernel.friction.force import friction_in_slip
 
 GRAVITY = 9.81
 seeds = st.integers(0, 2**31)
@@ -85,7 +85,7 @@ def test_friction_used_up_by_age_and_speed():
     law |= {"velocity_weakening": {"hyperbolic": 3.0}, "rate_and_state": {"evolution": 0.1}}
     p, u, w = Parameters(**law).pack(), [0.0] * layout.U_SIZE, [0.0] * layout.W_SIZE
     u[layout.U_TEMPERATURE] = -8.0
-    w[layout.W_STATE + layout.AGE] = 1e-6  # b ln(v* theta / D) = -1.15
+    w[layout.W_STATE + layout.RATE_AND_STATE_AGE] = 1e-6  # b ln(v* theta / D) = -1.15
     powers = []
     for sliding, spinning in ((0.1, 0.3), (0.3, 0.1), (0.3, 0.3)):
         friction_in_slip(p, u, w, sliding, 0.0, spinning)

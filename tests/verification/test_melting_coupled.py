@@ -12,7 +12,7 @@ import pytest
 from melting_by_hand import MeltingBlock
 
 from cosim import read_scenario
-from cosim.coupling.coupled_case import run_scenario
+from cosim.coupling.case import run_scenario
 from cosim.report import run_dataset, summary
 
 END = 4.5

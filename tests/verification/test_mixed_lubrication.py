@@ -14,7 +14,7 @@ from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.compiled import compiled_kernel
 
 from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.melt_film import VISCOSITY, WATER_DENSITY
+from thermal.materials import WATER_DENSITY, WATER_VISCOSITY
 
 MASS, RADIUS, MU_S, MU_K = 40.0, 0.04, 0.3, 0.2
 PRESSURE = MASS * 9.81 / (pi * RADIUS**2)
@@ -162,11 +162,13 @@ def test_heat_film_and_friction_close_on_themselves(mass, speed):
     def excess(h):
         """Heat of friction less that of melting, W/m2 over the speed, roughness and all."""
         w = h / (h + 1e-9)
-        shear = (1.0 - w) * 0.2 * pressure + w**2 * VISCOSITY * speed / h
+        shear = (1.0 - w) * 0.2 * pressure + w**2 * WATER_VISCOSITY * speed / h
         return shear - melting * h / length
 
     # 0.2 %: water laid down within a cell of the exit edge is picked up again
     assert film == pytest.approx(brentq(excess, 1e-8, 1e-4), rel=3e-3)
     # 0.7 %: the 1 nm of roughness, 0.2 % of the film
-    assert film == pytest.approx(sqrt(VISCOSITY * speed * length / melting), rel=1e-2)
-    assert mu == pytest.approx(sqrt(VISCOSITY * speed * melting / length) / pressure, rel=1e-2)
+    assert film == pytest.approx(sqrt(WATER_VISCOSITY * speed * length / melting), rel=1e-2)
+    assert mu == pytest.approx(
+        sqrt(WATER_VISCOSITY * speed * melting / length) / pressure, rel=1e-2
+    )

@@ -14,7 +14,7 @@ import sys
 import pytest
 from effect_cases import BESIDE_CREEP, IDS, draw_parameters, with_stick_creep
 from kernel_steps import largest_step_difference, memory_of
-from stickslip.compiled import kernel_source
+from stickslip.generation.source import kernel_source
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("pyccel") is None

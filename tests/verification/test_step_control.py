@@ -3,7 +3,7 @@
 from kernel_steps import memory_of
 from stickslip import Parameters
 from stickslip.kernel import advance
-from stickslip.kernel.interpolant import copy_block
+from stickslip.kernel.interpolant import copy_instant
 from stickslip.kernel.layout import DONE, E_FIRST, HERE, MODE, NEXT, SLIP, TIME, W_SIZE
 
 # steps of a slip over a pattern are as long as the tolerance allows, not as the period does
@@ -34,6 +34,6 @@ def test_a_refused_step_is_not_tried_again(monkeypatch):
             taken += 1
         else:
             tried = before
-        copy_block(memory.z, NEXT, HERE)
+        copy_instant(memory.z, NEXT, HERE)
     assert taken > 200
     assert tried < 1.5 * taken

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from cosim.gap.shooting.free_parameter import FreeParameter
-from cosim.gap.shooting.trial import Model
+from stickslip.effects.candidate import Candidate, FreeParameter
 
-from .candidate import Candidate
+from cosim.gap.estimation.trial import Model
 
 #: A fit that ended nearer to a bound than this has run into it.
 _INSIDE = 1.02
@@ -18,32 +17,26 @@ _FELT, _USUAL = 1.05, 1.3
 _GROWN = 0.3
 
 
-def extended(base: Model, candidate: Candidate, fitted: dict[str, float]) -> Model:
+def extended(base: Model, candidate: Candidate, fitted: Mapping[str, float]) -> Model:
     """The base, starting where it was fitted, with the candidate's free parameters."""
     candidate, fitted = _in_place_of_mu_s(base, candidate, _holding(fitted))
-    taken = {free_parameter.key for free_parameter in candidate.free_parameters}
-    kept = tuple(
-        moved(free_parameter, fitted)
-        for free_parameter in base.free_parameters
-        if free_parameter.key not in taken
-    )
+    taken = {free.key for free in candidate.free_parameters}
+    kept = tuple(moved(free, fitted) for free in base.free_parameters if free.key not in taken)
     return Model(
         kept + candidate.free_parameters, {**base.settings, **candidate.settings}, base.added + 1
     )
 
 
 def reduced(
-    model: Model, candidate: Candidate, fitted: dict[str, float], keep: Sequence[str]
+    model: Model, candidate: Candidate, fitted: Mapping[str, float], keep: Sequence[str]
 ) -> Model:
     """The model without a candidate, starting from where it was fitted.
 
     keep : settings of it that others need
     """
-    gone = {free_parameter.key for free_parameter in candidate.free_parameters}
+    gone = {free.key for free in candidate.free_parameters}
     free_parameters = tuple(
-        moved(free_parameter, fitted)
-        for free_parameter in model.free_parameters
-        if free_parameter.key not in gone
+        moved(free, fitted) for free in model.free_parameters if free.key not in gone
     )
     settings = {
         key: value
@@ -53,14 +46,13 @@ def reduced(
     return Model(free_parameters, settings, model.added - 1)
 
 
-def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float]):
+def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: Mapping[str, float]):
     """What grows in a hold sets out in place of a part of what mu_s has over mu_k.
 
-    On top of all of it, the first breaks-away would come late, and the fit look elsewhere.
+    On top of all of it, the first break-aways would come late, and the fit go elsewhere.
     """
     stated = any(
-        free_parameter.key == "friction.mu_s" and free_parameter.prior is not None
-        for free_parameter in base.free_parameters
+        free.key == "friction.mu_s" and free.prior is not None for free in base.free_parameters
     )
     over = fitted.get("friction.mu_s", 0.0) - fitted.get("friction.mu_k", 0.0)
     if not candidate.grows or stated or over <= 0.0:
@@ -70,7 +62,7 @@ def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: dict[str, float
     return replace(candidate, free_parameters=(first, *candidate.free_parameters[1:])), moved_over
 
 
-def _holding(fitted: dict[str, float]) -> dict[str, float]:
+def _holding(fitted: Mapping[str, float]) -> Mapping[str, float]:
     """With a mu_s that the motion feels: one below mu_k is as good as any other there."""
     mu_s, mu_k = fitted.get("friction.mu_s"), fitted.get("friction.mu_k")
     if mu_s is None or mu_k is None or mu_s > _FELT * mu_k:
@@ -78,20 +70,16 @@ def _holding(fitted: dict[str, float]) -> dict[str, float]:
     return {**fitted, "friction.mu_s": _USUAL * mu_k}
 
 
-def moved(free_parameter: FreeParameter, fitted: dict[str, float]) -> FreeParameter:
+def moved(free: FreeParameter, fitted: Mapping[str, float]) -> FreeParameter:
     """The free parameter starting where it was fitted, if that is inside its range.
 
     One with a prior stays centred on it.
     """
-    if free_parameter.prior is not None or free_parameter.key not in fitted:
-        return free_parameter
-    if (
-        not free_parameter.low * _INSIDE
-        < fitted[free_parameter.key]
-        < free_parameter.high / _INSIDE
-    ):
-        return free_parameter
+    if free.prior is not None or free.key not in fitted:
+        return free
+    if not free.low * _INSIDE < fitted[free.key] < free.high / _INSIDE:
+        return free
     return replace(
-        free_parameter,
-        start=min(max(fitted[free_parameter.key], free_parameter.low), free_parameter.high),
+        free,
+        start=min(max(fitted[free.key], free.low), free.high),
     )

@@ -6,19 +6,20 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from cosim.atomic import write_bytes, write_text
-from cosim.coupling.coupled_case import own_fmu
-from cosim.gap.atlas import draw_atlas, residual_atlas
+from cosim.files import write_bytes, write_text
+from cosim.fmu.build import own_fmu
+from cosim.gap.diagnostics import analyse_residuals
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
-from cosim.report.drawing import Picture
+from cosim.report.page import Picture
 from cosim.studies.reproduction.summary import SummaryGap
 
-from .flown import Reproduced
 from .model_file import model_text
 from .model_file import safe_name as safe_name
 from .numbers import as_json
 from .page import page
+from .regime_figure import draw_regimes
+from .reproduced import Reproduced
 from .reproduction import reproduce, reproduced_runs
 from .reproduction_figure import draw_reproduction
 from .run_figures import draw_residuals, overlays
@@ -74,7 +75,7 @@ def _drawers(
         partial(_one, draw_ranking, gap),
         partial(_one, draw_parameters, gap),
         partial(_one, draw_reproduction, gap, reproduced),
-        partial(_atlas, gap),
+        partial(_regimes, gap),
     ]
 
 
@@ -82,6 +83,6 @@ def _one(draw: Callable[..., Picture], *arguments) -> list[Picture]:
     return [draw(*arguments)]
 
 
-def _atlas(gap: Gap) -> list[Picture]:
-    atlas = gap.atlas or residual_atlas([run.track for run in gap.plain.runs])
-    return [draw_atlas(atlas)]
+def _regimes(gap: Gap) -> list[Picture]:
+    analysis = gap.analysis or analyse_residuals([run.track for run in gap.plain.runs])
+    return [draw_regimes(analysis)]

@@ -10,9 +10,9 @@ from typing import Any
 
 import tomli_w
 
-from cosim.gap.read import Campaign, MeasuredRun
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.estimation.drive import driven_speed
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.drive import driven_speed
 from cosim.scenario import Scenario
 from cosim.studies.reproduction.summary import SummaryGap
 from thermal import Ambient
@@ -20,7 +20,7 @@ from thermal import Ambient
 from .quantities import unit_and_meaning
 from .words import formula, gap_line, verdict
 
-#: Enough that the motion is the fitted one for longer than any window.
+#: Enough that the motion is the fitted one for longer than any segment.
 DIGITS = 12
 #: Tables that stand before the effects.
 FIRST = ("rig", "springs", "friction", "surface")
@@ -49,8 +49,8 @@ def scenario_of(gap: Gap, run: FittedRun) -> Scenario:
     tables["surface"]["speed"] = driven_speed(measured.surface_speed, fitted)
     _put(tables, gap.model.parameters(run))
     tables["initial"] = dict(zip(STATE, run.start, strict=True))
-    interval = _digits(measured.track.interval, 6)
-    tables["run"] = {"duration": measured.track.duration, "output_interval": interval}
+    interval = _digits(measured.motion.interval, 6)
+    tables["run"] = {"duration": measured.motion.duration, "output_interval": interval}
     tables["coupling"] = {"macro_step": interval}
     return _scenario(gap.campaign, tables)
 

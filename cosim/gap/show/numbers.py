@@ -98,7 +98,7 @@ def _interval(value: float, low: float, high: float) -> dict[str, float]:
 
 def _plain(value: Any) -> Any:
     """Numbers of so many digits, lists for sequences, tables for mappings and data classes."""
-    if is_dataclass(value):
+    if is_dataclass(value) and not isinstance(value, type):
         return _plain(asdict(value))
     if isinstance(value, Mapping):
         return {str(key): _plain(entry) for key, entry in value.items()}

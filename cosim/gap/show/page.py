@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from importlib import resources
 from typing import Any
 
-from jinja2 import Environment, StrictUndefined
-
 from cosim.gap.result import Gap
-from cosim.report.drawing import Picture
-from cosim.report.inline import inline
+from cosim.report.page import Picture, render
 from cosim.studies.reproduction.summary import SummaryGap
 
-from .flown import Reproduced
 from .model_file import model_text
 from .quantities import quantities
+from .reproduced import Reproduced
 from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, reason
 
 
@@ -24,13 +19,10 @@ def page(
     gap: Gap | SummaryGap, pictures: Sequence[Picture], reproduced: Sequence[Reproduced] = ()
 ) -> str:
     """HTML with every picture inside."""
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters |= {"number": number, "inline": inline}
-    source = resources.files(__package__).joinpath("gap.html.j2").read_text(encoding="utf-8")
     figures_only = isinstance(gap, SummaryGap)
-    return environment.from_string(source).render(
+    return render(
+        "gap.html.j2",
+        "cosim.gap.show",
         gap=gap,
         campaign=gap.campaign,
         figures_only=figures_only,
@@ -48,13 +40,6 @@ def page(
         sentences=SENTENCES,
         remarks=[*gap.campaign.remarks, *gap.remarks],
     )
-
-
-def number(value: float | None, digits: int = 4) -> str:
-    """So many significant digits, a dash for none."""
-    if value is None or not math.isfinite(value):
-        return "–"
-    return f"{value:.{digits}g}".replace("-", "−")
 
 
 def _determined(gap: Gap | SummaryGap) -> list:

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.gap.shooting.drive import SECOND
+from stickslip.effects.candidate import SECOND
+
 from cosim.scenario import Scenario
 
 #: Of the tracker and the drive, not of the model.
@@ -15,7 +16,7 @@ OFFSETS = {
     "offset.x": ("m", "zero of the tracker along x"),
     "offset.y": ("m", "zero of the tracker along y"),
     "offset.speed": ("", "part by which the surface is faster than its set-point"),
-    "speed_ripple.wavelength": ("m", "way of the surface in one period of its speed"),
+    "speed_ripple.wavelength": ("m", "travel of the surface in one period of its speed"),
 } | {
     f"{effect}.{part}": ("", f"second harmonic {how}, as part of the first's amplitude")
     for effect in ("speed_ripple", "surface_pattern")
@@ -49,7 +50,8 @@ def unit_and_meaning(key: str) -> tuple[str, str]:
     if key in OFFSETS:
         return OFFSETS[key]
     block, _, name = key.partition(".")
-    field = Scenario.model_fields[block].annotation.model_fields[name]
+    table: Any = Scenario.model_fields[block].annotation  # a class of keys
+    field = table.model_fields[name]
     unit = (field.json_schema_extra or {}).get("unit", "1")
     return ("" if unit == "1" else unit), field.description
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from stickslip.restarted import STATE, Restart, simulate_restarted
+from stickslip.arrays import STATE
+from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.coupling import FmuParticipant
+from cosim.gap.estimation.segmented_run import COLUMN
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.flight import COLUMN
 from cosim.scenario import Scenario
 
-from .flown import Reproduced
 from .model_file import scenario_of
+from .reproduced import Reproduced
 
 
 def reproduced_runs(gap: Gap) -> tuple[FittedRun, ...]:
@@ -23,17 +24,19 @@ def reproduced_runs(gap: Gap) -> tuple[FittedRun, ...]:
 
 
 def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
-    """Fly the first window of a run in the FMU."""
+    """Fly the first segment of a run in the FMU."""
     scenario = scenario_of(gap, run)
     track, noise = run.track, run.track.run.noise
-    rows = np.flatnonzero(track.windows == track.windows[0])
+    rows = np.flatnonzero(track.segments == track.segments[0])
     time = track.time[rows]
-    flown = _in_fmu(fmu, scenario, time)
+    simulated = _in_fmu(fmu, scenario, time)
     own = _in_kernel(scenario, time)
     zero = {name: gap.model.values.get(f"offset.{name}", 0.0) for name in track.channels}
-    motion = {name: flown[name] + zero[name] for name in track.channels}
-    measured = {name: track.run.track[name][rows] for name in track.channels}
-    apart = max(np.max(np.abs(flown[name] - own[name])) / noise[name] for name in track.channels)
+    motion = {name: simulated[name] + zero[name] for name in track.channels}
+    measured = {name: track.run.motion[name][rows] for name in track.channels}
+    apart = max(
+        np.max(np.abs(simulated[name] - own[name])) / noise[name] for name in track.channels
+    )
     left = {name: (measured[name] - motion[name]) / noise[name] for name in track.channels}
     plain = gap.plain.of(run.name).track
     return Reproduced(

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.report.drawing import INK, RED, panels, picture
+from cosim.report.style import INK, RED, panels, picture
 
-from .flown import Reproduced
+from .reproduced import Reproduced
 from .run_figures import SCALES, channels
 
 CAPTION = (
     "The FMU StickSlip3DOF with the numbers of model.toml (red), from the initial state of each "
-    "run's first window, stepped from sample to sample, and what was measured (dots). Right: "
+    "run's first segment, stepped from sample to sample, and what was measured (dots). Right: "
     "measured less FMU in units of the noise, grey two standard deviations."
 )
 

@@ -6,9 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cosim.gap.estimation.preparation import period
 from cosim.gap.result import FittedRun, Gap
-from cosim.gap.shooting.preparation import period
-from cosim.report.drawing import BLUE, GREEN, GREY, INK, PURPLE, RED, Picture, panels, picture
+from cosim.report.page import Picture
+from cosim.report.style import BLUE, GREEN, GREY, INK, PURPLE, RED, panels, picture
 
 #: Runs that a figure shows: more rows than these nobody reads.
 MOST_RUNS = 8
@@ -109,7 +110,7 @@ def _motion(
     time = track.time[rows]
     axis.plot(
         time,
-        factor * track.run.track[channel][rows],
+        factor * track.run.motion[channel][rows],
         ".",
         color=INK,
         markersize=size,
@@ -120,7 +121,7 @@ def _motion(
             model = factor * getattr(run.track, channel)[rows]
             axis.plot(time, model, color=colour, linewidth=1.1 if span else 0.6, label=label)
     if span:
-        for start in track.time[np.flatnonzero(np.diff(track.windows)) + 1]:
+        for start in track.time[np.flatnonzero(np.diff(track.segments)) + 1]:
             if low < start < high:
                 axis.axvline(start, color=GREY, linewidth=0.8, linestyle=":")
     axis.set_xlim(low, high)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.report.drawing import BLUE, GREY, INK, ORANGE, RED, panels, picture
+from cosim.report.style import BLUE, GREY, INK, ORANGE, RED, panels, picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .quantities import unit_and_meaning

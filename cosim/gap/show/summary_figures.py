@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.report.drawing import BLUE, GREY, INK, RED, panels, picture
+from cosim.report.style import BLUE, GREY, INK, RED, panels, picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 CAPTION = (

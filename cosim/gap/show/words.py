@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from stickslip import CATALOGUE
+from stickslip import EFFECTS
 
 from cosim.gap.result import Gap
 from cosim.studies.reproduction.summary import SummaryGap
 
-from .flown import Reproduced
 from .quantities import PLAIN, Quantity, quantities
+from .reproduced import Reproduced
 
 #: Of the tracker; said where everything is.
 ZEROS = ("offset.x", "offset.y")
 Answer = Gap | SummaryGap
-SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in CATALOGUE}
+SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
 
 
 def verdict(gap: Answer) -> str:
@@ -74,10 +74,10 @@ def fitted_quantities(gap: Answer) -> list[Quantity]:
             if row.effect in gap.found:
                 intervals |= row.intervals
         return quantities(model.values, intervals)
-    model = gap.model
-    intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
-    intervals = model.intervals or (intervals if gap.extended is None else {})
-    values = {**model.values, **model.settings}
+    fitted = gap.model
+    known = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
+    intervals = dict(fitted.intervals) or (known if gap.extended is None else {})
+    values = {**fitted.values, **fitted.settings}
     shown = [key for key in values if key not in ZEROS]
     shown.sort(key=lambda key: key not in PLAIN)
     return quantities({key: values[key] for key in shown}, intervals)
@@ -98,15 +98,15 @@ def next_experiment(gap: Answer) -> str:
 
 
 def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[str]:
-    """What is said at the end, on a terminal; the FMU's flights where there were any."""
+    """What is said at the end, on a terminal; the FMU's own runs where there were any."""
     lines = [f"{gap.campaign.name}: {verdict(gap)}", f"  gap        {gap_line(gap)}"]
     lines.append(f"  where      {gap.where.text}")
     numbers = fitted_quantities(gap)
     if numbers:
         lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}")
     if reproduced:
-        flights = [f"{one.name} {one.gap:.3g} ({one.time[-1]:.3g} s)" for one in reproduced]
-        lines.append(f"  fmu        gap in its runs' first windows: {', '.join(flights)}")
+        simulated = [f"{one.name} {one.gap:.3g} ({one.time[-1]:.3g} s)" for one in reproduced]
+        lines.append(f"  fmu        gap in its runs' first segments: {', '.join(simulated)}")
     if gap.empirical:
         lines.append(f"  formula    {formula(gap)}")
     if gap.next_experiment:

@@ -8,13 +8,9 @@ from dataclasses import dataclass
 import xarray as xr
 from matplotlib.figure import Figure
 
-from .belt_temperature import draw_belt_temperature
-from .friction_force import draw_friction_force
-from .heat import draw_heat
-from .melting import draw_melting
-from .motion import draw_motion
-from .phase_portrait import draw_phase_portrait
-from .temperatures import draw_temperatures
+from .heat import draw_heat, draw_melting
+from .motion import draw_friction_force, draw_motion, draw_phase_portrait
+from .temperatures import draw_belt_temperature, draw_temperatures
 from .top_view import draw_top_view
 
 

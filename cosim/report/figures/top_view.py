@@ -1,6 +1,8 @@
-"""The rig from above, to scale: at rest and at its extreme positions."""
+"""The rig from above, to scale: springs and block, at rest and at its extreme positions."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -8,13 +10,52 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Rectangle
+from numpy.typing import NDArray
 from stickslip import Parameters
-from stickslip.kernel.layout import P_CURVATURE
+from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 
-from ..blocks import mechanics_of, value_of
-from ..style import BLUE, GREY, INK, RED, plain_ticks, styled, title
-from .geometry import REST, Pose, anchors, attachments, coil
+from cosim.report.contents import mechanics_of, value_of
+from cosim.report.style import BLUE, GREY, INK, RED, plain_ticks, styled
+
 from .motion import SMALLEST_ANGLE_DEG
+from .over_time import title
+
+Array = NDArray[np.float64]
+
+
+class Pose(NamedTuple):
+    """Position (m) and rotation (rad) of the block in the frame of the rig."""
+
+    x: float
+    y: float
+    phi: float
+
+
+REST = Pose(0.0, 0.0, 0.0)
+
+
+def anchors(parameters: Parameters) -> Array:
+    """Fixed ends of the springs (4, 2), m."""
+    return np.array(parameters.pack()[P_ANCHOR : P_ANCHOR + 8]).reshape(4, 2)
+
+
+def attachments(parameters: Parameters, pose: Pose) -> Array:
+    """Ends of the springs on the block (4, 2), m: (x, y) + R(phi) b_i."""
+    arms = np.array(parameters.pack()[P_ATTACH : P_ATTACH + 8]).reshape(4, 2)
+    c, s = np.cos(pose.phi), np.sin(pose.phi)
+    return np.array([pose.x, pose.y]) + arms @ np.array([[c, s], [-s, c]])
+
+
+def coil(begin: Array, end: Array, turns: int = 9, width: float = 0.006) -> Array:
+    """A spring drawn as a zigzag from ``begin`` to ``end`` (2,), m: (2 turns + 4, 2)."""
+    along = end - begin
+    length = np.hypot(*along)
+    across = np.array([-along[1], along[0]]) / length
+    stations = np.concatenate([[0.0], np.linspace(0.12, 0.88, 2 * turns + 2), [1.0]])
+    swing = np.zeros(stations.size)
+    swing[2:-2] = 0.5 * width * np.where(np.arange(stations.size - 4) % 2, 1.0, -1.0)
+    return begin + stations[:, None] * along + swing[:, None] * across
+
 
 MARGIN = 0.03  # m around everything drawn
 FARTHEST_CENTRE = 1.0  # m; a slab's centre beyond it would shrink the rig to a dot
@@ -52,7 +93,8 @@ def draw_top_view(dataset: xr.Dataset) -> Figure:
 def extreme_poses(dataset: xr.Dataset) -> list[tuple[str, Pose]]:
     """At rest, furthest along +-x, and the largest rotation where the block turns."""
     poses = [("at rest", REST)]
-    known = dataset.isel(time=np.isfinite(dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    finite = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    known = dataset.isel(time=finite)
     if known.sizes["time"] == 0:
         return poses
     row = known.isel(time=int(np.abs(known["x"].values).argmax()))
@@ -120,7 +162,7 @@ def _frame(axes: Axes, text: str, box: tuple[float, float, float, float]) -> Non
 def _draw_surface(
     axes: Axes, dataset: xr.Dataset, parameters: Parameters, box: tuple[float, float, float, float]
 ) -> None:
-    """The belt as a band of its width (a slab fills the view) and the way that it moves."""
+    """The belt as a band of its width (a slab fills the view) and where it moves to."""
     speed = parameters.surface.speed
     centre = _centre(parameters)
     belt = parameters.pack()[P_CURVATURE] == 0.0
@@ -205,7 +247,7 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
     axes.add_collection(LineCollection(arms, colors=BLUE, linewidths=2.2, zorder=1))
     axes.add_patch(
         Circle(
-            middle,
+            (pose.x, pose.y),
             parameters.rig.contact_radius,
             facecolor="#CFE3F1",
             edgecolor=BLUE,

@@ -1,4 +1,4 @@
-"""One case of the belt-length study: what is chosen, and the models that follow from it."""
+"""One case: what is chosen, how it is run, and the thermal models that follow from it."""
 
 from __future__ import annotations
 
@@ -6,17 +6,64 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
-from thermal.air import convection, laminar_span, moving_belt, radiation
-from thermal.block import standing_block
-from thermal.constants import GRAVITY
-from thermal.footprint import Footprint
-from thermal.ice_body import IceBody
-from thermal.moisture import Frost, frost
-from thermal.single_pass import SinglePass
+from thermal.belt.air import convection, laminar_span, moving_belt, radiation
+from thermal.belt.frost import Frost, frost
+from thermal.belt.single_pass import SinglePass
+from thermal.contact.footprint import Footprint
+from thermal.ice.block import standing_block
+from thermal.ice.body import IceBody
+from thermal.materials import GRAVITY
 
-from .protocol import Protocol, StudyError
+
+class StudyError(ValueError):
+    """A case that cannot be; one line: what, value, what is allowed."""
+
+
+#: Most runs in a row: each is followed.
+_MOST_RUNS = 100
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """One or more runs, the first from belt and ice as cold as the air.
+
+    ramp: from standstill to the speed, evenly, s; run: at constant speed, s; pause: between two
+    runs, s, the belt stands still and the ice rests on it, or is lifted off. The study: 10 s and
+    20 s; it tells no pause.
+    """
+
+    ramp: float = 10.0
+    run: float = 20.0
+    pause: float = 0.0
+    runs: int = 1
+    lifted: bool = False
+
+    def __post_init__(self) -> None:
+        for name, least in (("ramp", 0.0), ("pause", 0.0)):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= least):
+                raise StudyError(f"--{name} = {value:g} s: must be at least 0")
+        if not (math.isfinite(self.run) and self.run > 0.0):
+            raise StudyError(f"--run = {self.run:g} s: must be above 0")
+        if not 1 <= self.runs <= _MOST_RUNS:
+            raise StudyError(f"--runs = {self.runs}: must be 1 to {_MOST_RUNS}")
+
+    @property
+    def moving(self) -> float:
+        """Time at full speed in which the belt goes as far as in one run with its ramp, s."""
+        return 0.5 * self.ramp + self.run
+
+    def in_words(self) -> str:
+        """As verdicts and figures say it."""
+        ramp = f"{self.ramp:g} s of ramp and " if self.ramp > 0.0 else ""
+        each = f"{ramp}{self.run:g} s at constant speed"
+        if self.runs == 1:
+            return each
+        return f"{self.runs} runs of {each}, {self.pause:g} s between two"
+
 
 #: Resolution of the study: 0.2 % of the rise, a tenth of the time of the model's own.
 ELEMENTS, STRIPS, RADIAL, AXIAL, WAVES_PER_METRE, COARSENESS = 3, 8, 4, 8, 150, 2.0
@@ -117,7 +164,9 @@ class Case:
 
     def changed(self, keys: Mapping[str, float]) -> Case:
         """The same with other numbers of the thermal model, `block.key` -> value."""
-        own = {OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS}
+        own: dict[str, Any] = {
+            OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS
+        }
         rig = self.rig.model_dump()
         rig["belt"]["length"] = self.length  # railing and rollers must find room on this belt
         for key in keys.keys() - OWN_KEYS.keys():

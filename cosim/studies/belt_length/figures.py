@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from cosim.report.drawing import BLUE, GREY, INK, RED, SERIES, panels, picture
+from cosim.report.style import BLUE, GREY, INK, RED, SERIES, panels, picture
 
 from .case import Case
 from .drift import never_comes_round, steady_drift
-from .length_speed_map import DriftMap
-from .study import Row, Study
+from .lengths import DriftMap
+from .result import Row, Study
 
 #: Points along a curve.
 _CURVE = 40
@@ -114,9 +114,10 @@ def _key(speeds: list[float], study: Study) -> list[Artist]:
         Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
         for i, speed in enumerate(speeds)
     ]
-    kinds = {"-": "after the runs", "--": "for ever", ":": "study, one pass"}
     handles += [
-        Line2D([], [], color=INK, linestyle=style, label=label) for style, label in kinds.items()
+        Line2D([], [], color=INK, linestyle="-", label="after the runs"),
+        Line2D([], [], color=INK, linestyle="--", label="for ever"),
+        Line2D([], [], color=INK, linestyle=":", label="study, one pass"),
     ]
     if any(row.uncertainty for row in study.rows):
         handles.append(Patch(color=GREY, alpha=0.35, label="5–95 %, after the runs"))
@@ -157,8 +158,10 @@ def _plain_ticks(axis, places, low: float, high: float) -> None:
     "than 1; strokes: 95 % intervals. The largest index is on top.",
 )
 def draw_doubt(row: Row) -> Figure:
-    """Bars of single changes beside the indices, one line an unknown."""
+    """Bars of single changes beside the indices, one line an unknown; of a row with its doubt."""
     doubt = row.uncertainty
+    if doubt is None:
+        raise ValueError(f"{row.case.length:g} m at {row.case.speed:g} m/s: no doubt was computed")
     figure, axes = panels(1, 2, height=4.6, width=10.0, sharey=True)
     left, right = axes[0]
     indices = {one.key: one for one in doubt.influences}

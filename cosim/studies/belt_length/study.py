@@ -1,276 +1,127 @@
-"""All cases of the study, worked off in processes; what is stopped keeps what it had."""
+"""Which cases are asked for, what is wrong with them, and how they are worked off, in processes.
+
+Bad input is named by the option of `stickslip belt-length`, or by file and key.
+"""
 
 from __future__ import annotations
 
+import math
+from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import product
+from typing import Any
 
-import pandas as pd
 from joblib import Parallel, delayed
 
 from cosim.scenario import Scenario
+from thermal import Belt, ParameterError
+from thermal.steady_state import NoSteadyState
 
-from .case import Case
-from .changes import Change, changes
-from .drift import Drift, drift, endless_belt, interface_drift, run_drift, steady_drift
-from .friction_effect import FrictionEffect, friction_effect
-from .protocol import Protocol, StudyError
-from .shortest import LONGEST, Length, shortest_belt, shortest_in_doubt
-from .uncertainty import Uncertainty, uncertainty
-from .wait import Wait, wait
+from .case import OWN_KEYS, Case, Protocol, StudyError
+from .changes import changes, friction_effect
+from .drift import drift, endless_belt, interface_drift, run_drift, steady_drift, wait
+from .lengths import LONGEST, shortest_belt
+from .result import Options, Row, Study
+from .uncertainty import FEWEST_SAMPLES, uncertainty
 
 Progress = Callable[[int], None]
 #: In place of a number for h: that of a belt moving through still air.
 AIR = "air"
-#: Field of a case -> column of the table.
-COLUMNS = {
-    "length": "length [m]",
-    "speed": "speed [m/s]",
-    "mass": "mass [kg]",
-    "conductivity": "conductivity [W/mK]",
-    "friction": "friction",
-    "ambient_degC": "ambient [degC]",
-    "conductance": "conductance [W/m2K]",
-    "thickness": "thickness [m]",
+#: Option -> field of a case, unit, above this or, where True follows, also this; at most that.
+BOUNDS = {
+    "length": ("length", "m", 0.0, False, 100.0),
+    "speed": ("speed", "m/s", 0.0, False, 100.0),
+    "mass": ("mass", "kg", 0.0, False, 1e5),
+    "h": ("h", "W/m2K", 0.0, True, 1e4),
+    "conductivity": ("conductivity", "W/mK", 0.0, False, 1e4),
+    "friction": ("friction", "", 0.0, False, 10.0),
+    "ambient": ("ambient_degC", "degC", -100.0, True, -1e-9),
+    "conductance": ("conductance", "W/m2K", 0.0, False, 1e12),
+    "thickness": ("thickness", "m", 0.0, False, 0.1),
 }
+#: Strongest fall of friction with temperature, 1/K: nothing is left one kelvin warmer.
+_MOST_SENSITIVE = 1.0
+#: Travel of the belt in a run, m: one that never comes round is longer, and must be a belt still.
+MOST_TRAVEL = 0.95 * next(
+    bound.le for bound in Belt.model_fields["length"].metadata if hasattr(bound, "le")
+)
 
 
-@dataclass(frozen=True)
-class Row:
-    """A case and what it comes to.
-
-    shortest_run, shortest_steady: belt on which the drift stays below the limit at the end of the
-    runs and for ever, m; shortest_interface: belt on which the interface's rise at constant speed
-    does; None where no belt does. uncertainty: None where it was not asked for, or the ice melts.
-    """
-
-    case: Case
-    drift: Drift
-    effect: FrictionEffect
-    shortest_run: float | None
-    shortest_steady: float | None
-    shortest_interface: float | None
-    wait: Wait
-    changes: tuple[Change, ...]
-    uncertainty: Uncertainty | None
-
-    @property
-    def used(self) -> dict[str, float]:
-        """The numbers of the case, those of the rig where the case has none of its own."""
-        thermal, layered = self.case.thermal(), bool(self.case.rig.belt.layers)
-        own = {
-            "conductivity": None if layered else thermal.belt.conductivity,
-            "thickness": None if layered else thermal.belt.thickness,
-            "conductance": thermal.contact.conductance,
-        }
-        return {name: own.get(name, getattr(self.case, name)) for name in COLUMNS}
-
-    def flat(self) -> dict[str, object]:
-        """One row of the table: columns named by what they hold, with units."""
-        d, e, u = self.drift, self.effect, self.uncertainty
-        return {
-            **{column: self.used[name] for name, column in COLUMNS.items()},
-            "h [W/m2K]": self.case.film,
-            "study [K]": d.study,
-            "single pass mended [K]": d.single_pass,
-            "drift [K]": d.run,
-            "drift low [K]": u and u.low,
-            "drift high [K]": u and u.high,
-            "drift steady [K]": d.steady,
-            "interface drift [K]": d.interface_drift,
-            "interface drift low [K]": u and u.interface_low,
-            "interface drift high [K]": u and u.interface_high,
-            "interface [K]": d.interface_run,
-            "interface drift, endless belt [K]": d.interface_drift_endless,
-            "ice [K]": d.ice_run,
-            "ice steady [K]": d.ice_steady,
-            "flash [K]": d.flash_run,
-            "belt share": d.belt_share,
-            "belt share steady": d.belt_share_steady,
-            "seen by camera": d.seen_by_camera,
-            "steady melts": d.steady_melts,
-            "mu change": e.mu_change,
-            "drift, weaker friction [K]": e.drift,
-            "frequency [Hz]": e.frequency,
-            "frequency change": e.frequency_change,
-            "shortest belt [m]": self.shortest_run,
-            "shortest belt steady [m]": self.shortest_steady,
-            "shortest belt interface [m]": self.shortest_interface,
-            "wait [s]": self.wait.begin,
-            "wait drift [s]": self.wait.drift,
-        }
-
-    def questions(self, limit: float) -> dict[str, dict[str, object]]:
-        """The two questions about a belt, with their answers."""
-        d, u = self.drift, self.uncertainty
-        return {
-            "comes_round_cold": {
-                "answer": d.run <= limit,
-                "rise": d.run,
-                "rise_in_doubt": u and [u.low, u.median, u.high],
-                "shortest_belt": self.shortest_run,
-            },
-            "interface_steady": {
-                "answer": d.interface_drift <= limit,
-                "rise_at_constant_speed": d.interface_drift,
-                "rise_in_doubt": u and [u.interface_low, u.interface_median, u.interface_high],
-                "rise": d.interface_run,
-                "endless_belt": d.interface_drift_endless,
-                "shortest_belt": self.shortest_interface,
-            },
-        }
-
-    def as_dict(self, limit: float) -> dict[str, object]:
-        """Everything, for JSON."""
-        case = {
-            one.name: getattr(self.case, one.name)
-            for one in fields(Case)
-            if one.name not in ("rig", "protocol")
-        }
-        h = {
-            "h": self.case.film,
-            "h_of_still_air": self.case.h is None,
-            "frost": self.case.frost._asdict(),
-        }
-        rest = {
-            name: value and asdict(value)
-            for name, value in (
-                ("drift", self.drift),
-                ("effect", self.effect),
-                ("wait", self.wait),
-                ("uncertainty", self.uncertainty),
-            )
-        }
-        return {
-            "case": case | self.used | h,
-            "questions": self.questions(limit),
-            **rest,
-            "shortest_run": self.shortest_run,
-            "shortest_steady": self.shortest_steady,
-            "shortest_interface": self.shortest_interface,
-            "changes": [asdict(one) for one in self.changes],
-            "seen_by_camera": self.drift.seen_by_camera,
-        }
-
-
-@dataclass(frozen=True)
-class Options:
-    """limit K; sensitivity of friction 1/K (None: linear to melting); samples: runs of the model
-    for the uncertainty, 0 for none."""
-
-    limit: float
-    sensitivity: float | None = None
-    samples: int = 128
-
-
-@dataclass
-class Study:
-    """Rows so far; `complete` when none is missing."""
-
-    options: Options
-    rows: list[Row] = field(default_factory=list)
-    complete: bool = False
-
-    def table(self) -> pd.DataFrame:
-        """One row a case."""
-        doubted = self.shortest_in_doubt()
-        return pd.DataFrame(
-            [
-                row.flat()
-                | {
-                    f"{name}, {level} [m]": found[rise][key].length
-                    for rise, name in (
-                        ("run", "shortest belt"),
-                        ("interface", "shortest belt interface"),
-                    )
-                    for key, level in (("median", "median"), ("high", "95 %"))
-                }
-                for row in self.rows
-                for found in (doubted[row.case.with_length(1.0)],)
-            ]
+def check_options(arguments: Namespace) -> None:
+    """Each option alone. StudyError in one line: option, value, what is allowed."""
+    for name, (_, unit, low, included, high) in BOUNDS.items():
+        for value in getattr(arguments, name) or ():
+            if value != AIR:
+                _within(name, value, unit, low, included, high)
+    if not (math.isfinite(arguments.limit) and arguments.limit > 0.0):
+        raise StudyError(f"--limit = {arguments.limit:g} K: must be above 0")
+    if arguments.sensitivity is not None:
+        _within("sensitivity", arguments.sensitivity, "1/K", 0.0, True, _MOST_SENSITIVE)
+    samples = arguments.samples
+    if samples and (samples < FEWEST_SAMPLES or samples & (samples - 1)):
+        raise StudyError(
+            f"--samples = {samples}: must be a power of two from {FEWEST_SAMPLES}, or 0"
         )
+    if arguments.map < 0 or arguments.map == 1:
+        raise StudyError(f"--map = {arguments.map}: must be at least 2, or 0 for none")
+    if arguments.jobs < 1:
+        raise StudyError(f"--jobs = {arguments.jobs}: must be at least 1")
 
-    def shortest_in_doubt(self) -> dict[Case, dict[str, dict[str, Length]]]:
-        """By rise and level, for each choice of everything but the length, which is 1 m there."""
-        alike: dict[Case, dict[float, Row]] = {}
-        for row in self.rows:
-            alike.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
-        return {
-            case: shortest_in_doubt(
-                sorted(rows),
-                [rows[length].uncertainty for length in sorted(rows)],
-                self.options.limit,
-            )
-            for case, rows in alike.items()
-        }
 
-    def changes(self) -> pd.DataFrame:
-        """One row a case and change: what would help."""
-        return self._each(lambda row: [asdict(one) for one in row.changes])
+def _within(name: str, value: float, unit: str, low: float, included: bool, high: float) -> None:
+    if low < value <= high or (included and value == low):
+        return
+    least = "at least" if included else "above"
+    most = "below 0" if name == "ambient" else f"at most {high:g}"
+    raise StudyError(
+        f"--{name} = {value:g}{' ' + unit if unit else ''}: must be a number {least} {low:g} and"
+        f" {most}"
+    )
 
-    def doubt(self) -> pd.DataFrame:
-        """One row a case and unknown: single changes beside Sobol indices."""
-        return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
 
-    def _each(self, of: Callable[[Row], list[dict]]) -> pd.DataFrame:
-        return pd.DataFrame(
-            [
-                {
-                    "length [m]": row.case.length,
-                    "speed [m/s]": row.case.speed,
-                    "ambient [degC]": row.case.ambient_degC,
-                }
-                | one
-                for row in self.rows
-                for one in of(row)
-            ]
+def check_case(case: Case, arguments: Namespace) -> None:
+    """What options and scenario come to together: travel, air, room on the belt."""
+    _check_travel(case, arguments)
+    if case.h == 0.0:
+        said = _named("h", "belt.air_heat_transfer", arguments)
+        raise NoSteadyState(
+            f"{said} = 0: a belt that gives no heat to the air warms for ever, and the study asks"
+            " for its steady state; allowed is above 0 W/m2K"
         )
-
-    @property
-    def worst(self) -> Row:
-        """The case that drifts most."""
-        return max(self.rows, key=lambda row: row.drift.run)
-
-    def as_dict(self) -> dict[str, object]:
-        """Everything, for JSON."""
-        first = (
-            {}
-            if not self.rows
-            else {
-                "protocol": asdict(self.rows[0].case.protocol),
-                "rig": _shared([row.case.thermal().model_dump() for row in self.rows]),
-            }
-        )
-        doubted = self.shortest_in_doubt()
-        return {
-            "complete": self.complete,
-            "limit": self.options.limit,
-            **first,
-            "cases": [
-                row.as_dict(self.options.limit)
-                | {
-                    "shortest_in_doubt": {
-                        rise: {level: asdict(one) for level, one in levels.items()}
-                        for rise, levels in doubted[row.case.with_length(1.0)].items()
-                    }
-                }
-                for row in self.rows
-            ],
-        }
+    try:
+        case.thermal()
+    except ParameterError as error:
+        raise ParameterError(_in_their_words(str(error), arguments)) from None
 
 
-def _shared(rigs: list[dict]) -> dict[str, object]:
-    """What was used in all cases; None where that differs, and each case has its own."""
-    return {
-        key: _shared([rig[key] for rig in rigs])
-        if isinstance(value, dict)
-        else value
-        if all(rig[key] == value for rig in rigs)
-        else None
-        for key, value in rigs[0].items()
-    }
+def _check_travel(case: Case, arguments: Namespace) -> None:
+    protocol = case.protocol
+    travel = protocol.runs * protocol.moving * case.speed
+    if travel <= MOST_TRAVEL:
+        return
+    file = f"{arguments.scenario}: " if arguments.scenario is not None else ""
+    raise StudyError(
+        f"{file}--ramp = {protocol.ramp:g} s, --run = {protocol.run:g} s, --runs = {protocol.runs}"
+        f" at --speed = {case.speed:g} m/s (surface.run_up_time, run.duration, surface.speed of a"
+        f" scenario): the belt would go {travel:.3g} m, allowed is at most {MOST_TRAVEL:g} m"
+    )
+
+
+def _named(option: str, key: str, arguments: Namespace) -> str:
+    """The option where it was given or there is no scenario; else file and key."""
+    if arguments.scenario is None or getattr(arguments, option) is not None:
+        return f"--{option}"
+    return f"{arguments.scenario}: {key}"
+
+
+def _in_their_words(fault: str, arguments: Namespace) -> str:
+    options = {field: name for name, (field, *_) in BOUNDS.items()}
+    for key, field in OWN_KEYS.items():
+        if fault.startswith(key):
+            return _named(options[field], key, arguments) + fault.removeprefix(key)
+    return fault if arguments.scenario is None else f"{arguments.scenario}: {fault}"
 
 
 def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
@@ -279,16 +130,13 @@ def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
     h may be AIR: each case then has that of its speed and of half its loop.
     """
     names = [name for name in choices if name != "length"] + ["length"]
-    return [
-        replace(
-            base,
-            **{
-                name: None if value == AIR else value
-                for name, value in zip(names, values, strict=True)
-            },
-        )
-        for values in product(*(choices[name] for name in names))
-    ]
+    combinations = product(*(choices[name] for name in names))
+    return [_chosen(base, dict(zip(names, values, strict=True))) for values in combinations]
+
+
+def _chosen(base: Case, values: dict[str, Any]) -> Case:
+    said: dict[str, Any] = {name: None if v == AIR else v for name, v in values.items()}
+    return replace(base, **said)
 
 
 def scenario_case(scenario: Scenario) -> Case:

@@ -44,13 +44,12 @@ class Polynomial:
 
 def fitted(points: Array, values: Array) -> Polynomial:
     """Through points (n, dimensions) of the unit cube with values (n,)."""
-    best, least = None, np.inf
-    for logarithm in (False, True) if np.all(values > 0.0) else (False,):
-        for indices in _index_sets(points.shape[1], int(_MOST_TERMS * len(points))):
-            one, error = _fit(points, values, indices, logarithm)
-            if error < least:
-                best, least = one, error
-    return best
+    fits = [
+        _fit(points, values, indices, logarithm)
+        for logarithm in ((False, True) if np.all(values > 0.0) else (False,))
+        for indices in _index_sets(points.shape[1], int(_MOST_TERMS * len(points)))
+    ]
+    return min(fits, key=lambda fit: fit[1])[0]
 
 
 def _fit(

@@ -195,11 +195,6 @@ def _unexplained(points: Array, parts: Array, rise: Callable[[Array], Array]) ->
 def _single_changes(case: Case) -> tuple[SingleChange, ...]:
     found = []
     for one in UNKNOWNS:
-        ends = []
-        for end in (one.low, one.high):
-            values = with_one(case, one.key, end)
-            parts = answers(case, values)[ENTRY][None, :]
-            ends.append(float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0]))
         found.append(
             SingleChange(
                 one.key,
@@ -207,12 +202,20 @@ def _single_changes(case: Case) -> tuple[SingleChange, ...]:
                 one.unit,
                 one.low,
                 one.high,
-                *ends,
-                with_others=needs(case, one.key),
-                basis=one.basis,
+                _drift_with(case, one, one.low),
+                _drift_with(case, one, one.high),
+                needs(case, one.key),
+                one.basis,
             )
         )
     return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
+
+
+def _drift_with(case: Case, one: Unknown, end: float) -> float:
+    """Rise of the belt at entry, K, with one unknown at an end of its range."""
+    values = with_one(case, one.key, end)
+    parts = answers(case, values)[ENTRY][None, :]
+    return float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0])
 
 
 def _influences(problem: dict, drifts: Array) -> tuple[Influence, ...]:

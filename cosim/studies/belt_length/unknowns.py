@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from thermal.footprint import Footprint
+from thermal.contact.footprint import Footprint
 
 from .case import Case
 
@@ -199,8 +199,8 @@ def answers(case: Case, values: dict[str, float]) -> Array:
     force, found = sliding.force, np.empty((2, 3))
     for column in (CONTACT, RAILING, ROLLERS):
         sliding.force = force if column == CONTACT else 0.0
-        sliding.belt.rubbing = float(column == RAILING)
-        sliding.belt.warmth = float(column == ROLLERS)
+        sliding.belt.railing_heat_factor = float(column == RAILING)
+        sliding.belt.roller_rise_factor = float(column == ROLLERS)
         sliding.reset()
         start, end = case.follow(sliding)
         if end.melting > 0.0:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from .drift import CAMERA
-from .shortest import LONGEST
-from .study import Row, Study
+from .lengths import LONGEST
+from .result import Row, Study
 
 ONE_METRE = 1.0
 
@@ -229,11 +229,10 @@ def _study_number(study: Study) -> list[str]:
 
 def _influence(study: Study) -> list[str]:
     """Which unknown matters most, in the case that drifts most."""
-    known = [row for row in study.rows if row.uncertainty is not None]
+    known = [(row, row.uncertainty) for row in study.rows if row.uncertainty is not None]
     if not known:
         return []
-    row = max(known, key=lambda one: one.drift.run)
-    doubt = row.uncertainty
+    row, doubt = max(known, key=lambda one: one[0].drift.run)
     words = {one.key: one.says for one in doubt.single_changes}
     shares = ", ".join(f"{words[one.key]} {one.total:.0%}" for one in doubt.influences[:4])
     return [

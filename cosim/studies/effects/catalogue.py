@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import Any
 
-from stickslip import CATALOGUE
-from stickslip.effects import Effect
+from stickslip import EFFECTS
+from stickslip.effects.effect import Effect
+from stickslip.quantity import details
+
+from cosim.names import nearest
 
 
 class UnknownEffect(ValueError):
@@ -15,12 +17,12 @@ class UnknownEffect(ValueError):
 
 def chosen(ids: list[str]) -> list[Effect]:
     """Entries by their ids in the catalogue's order, all of them for none."""
-    known = [entry.id for entry in CATALOGUE]
+    known = [entry.id for entry in EFFECTS]
     for name in ids:
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
+            near = nearest(name, known, similarity=0.0)
             raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
-    return [entry for entry in CATALOGUE if not ids or entry.id in ids]
+    return [entry for entry in EFFECTS if not ids or entry.id in ids]
 
 
 def described(entry: Effect) -> dict[str, Any]:
@@ -33,14 +35,14 @@ def described(entry: Effect) -> dict[str, Any]:
         "parameters": [
             {
                 "key": f"{entry.id}.{name}",
-                "unit": field.json_schema_extra["unit"],
+                "unit": details(field)["unit"],
                 "default": field.default,
-                "typical": field.json_schema_extra.get("typical"),
+                "typical": details(field).get("typical"),
                 "switches_on": name in entry.switch,
                 "description": field.description,
                 **_bounds(field.metadata),
             }
-            for name, field in entry.block.model_fields.items()
+            for name, field in entry.table.model_fields.items()
         ],
     }
 

@@ -4,10 +4,17 @@ Dry, boundary (asperities melt in passing), mixed and hydrodynamic friction (a f
 sheared), as the effects temperature_dependence, asperity_melting and melt_film make them.
 """
 
-from .figure import draw_map
-from .map import FrictionMap, friction_map
-from .slopes import DecadeSlope, decade_slopes, lowest_friction
-from .steady import NotSteady, SteadySliding, steady_scenario, steady_sliding
+from .map import (
+    DecadeSlope,
+    FrictionMap,
+    NotSteady,
+    SteadySliding,
+    decade_slopes,
+    friction_map,
+    lowest_friction,
+    steady_scenario,
+    steady_sliding,
+)
 
 __all__ = [
     "DecadeSlope",
@@ -15,7 +22,6 @@ __all__ = [
     "NotSteady",
     "SteadySliding",
     "decade_slopes",
-    "draw_map",
     "friction_map",
     "lowest_friction",
     "steady_scenario",

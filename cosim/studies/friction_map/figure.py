@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from stickslip import friction_coefficient
 
-from cosim.report.drawing import GREY, INK, RC, SERIES
+from cosim.report.style import GREY, INK, SERIES, panels, picture
 
-from .map import FrictionMap
-from .steady import steady_scenario
+from .map import FrictionMap, steady_scenario
 
 #: The law is drawn this far beyond the slowest and the fastest run.
 BELOW, ABOVE = 300.0, 5.0
@@ -19,35 +17,45 @@ BELOW, ABOVE = 300.0, 5.0
 NAMED = 0.3
 
 
+@picture(
+    "friction_map",
+    "Friction over the speed of sliding. Lines: the law at the ambient temperature. Points: "
+    "coupled runs, whose interface is warmer.",
+)
 def draw_map(found: FrictionMap) -> Figure:
     """Lines: the law at the ambient temperature. Points: coupled runs, interface warmer."""
-    with matplotlib.rc_context(RC):
-        figure = Figure(figsize=(8.0, 4.6), layout="constrained")
-        ax = figure.subplots()
-        speeds = [point.speed for point in found.points]
-        range_ = np.geomspace(min(speeds) / BELOW, max(speeds) * ABOVE, 400)
-        for index, ambient in enumerate(found.ambients):
-            colour = SERIES[index % len(SERIES)]
-            points = found.at(ambient)
-            case = steady_scenario(found.scenario, points[0].speed, ambient, found.duration)
-            law = friction_coefficient(case.mechanics, range_, ambient)
-            ax.plot(range_, law, color=colour, label=f"{ambient:g} °C".replace("-", "−"))
-            ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
-            if index == 0:
-                _name_regimes(ax, range_, law)
-            if index == len(found.ambients) - 1:
-                _mark_slopes(ax, range_, law)
-        ax.set(
-            xscale="log",
-            yscale="log",
-            xlabel="sliding speed [m/s]",
-            ylabel="friction coefficient [1]",
-            title="lines: the law at the ambient temperature; points: coupled runs",
-        )
-        low, high = ax.dataLim.intervaly
-        ax.set_ylim(low / 1.5, 2.5 * high)  # room for words; a law without speed is a line in it
-        figure.legend(loc="outside right upper", title="ambient")
+    figure, ((ax,),) = panels(1, 1, height=4.6, width=8.0)
+    speeds = [point.speed for point in found.points]
+    wide = np.geomspace(min(speeds) / BELOW, max(speeds) * ABOVE, 400)
+    for index, ambient in enumerate(found.ambients):
+        law = _draw_ambient(ax, found, ambient, wide, SERIES[index % len(SERIES)])
+        if index == 0:
+            _name_regimes(ax, wide, law)
+        if index == len(found.ambients) - 1:
+            _mark_slopes(ax, wide, law)
+    ax.set(
+        xscale="log",
+        yscale="log",
+        xlabel="sliding speed [m/s]",
+        ylabel="friction coefficient [1]",
+        title="lines: the law at the ambient temperature; points: coupled runs",
+    )
+    low, high = ax.dataLim.intervaly
+    ax.set_ylim(low / 1.5, 2.5 * high)  # room for words; a law without speed is a line in it
+    figure.legend(loc="outside right upper", title="ambient")
     return figure
+
+
+def _draw_ambient(
+    ax: Axes, found: FrictionMap, ambient: float, speeds: np.ndarray, colour: str
+) -> np.ndarray:
+    """The law at an ambient temperature, degC, over speeds (n,), and the runs; the law (n,)."""
+    points = found.at(ambient)
+    case = steady_scenario(found.scenario, points[0].speed, ambient, found.duration)
+    law = friction_coefficient(case.mechanics, speeds, ambient)
+    ax.plot(speeds, law, color=colour, label=f"{ambient:g} °C".replace("-", "−"))
+    ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
+    return law
 
 
 def _local_slope(speed: np.ndarray, value: np.ndarray) -> np.ndarray:

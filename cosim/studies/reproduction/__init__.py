@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 
 from .claim import (
     CANNOT_BE_CHECKED,
+    CLAIM_IDS,
     DOES_NOT_HOLD,
     FOLLOWS,
     HOLDS,
@@ -21,8 +22,9 @@ from .claim import (
     Margin,
     Row,
     Turn,
+    UnknownClaim,
+    claim_ids,
 )
-from .names import CLAIM_IDS, UnknownClaim, claim_ids
 
 __all__ = [
     "CANNOT_BE_CHECKED",

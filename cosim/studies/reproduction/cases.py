@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import product
 
+import numpy as np
 from stickslip import Parameters, simulate
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.linearised import GRAVITY, Scheme
@@ -19,7 +22,7 @@ CYCLES = 25  # the study's run: 10 cycles to settle, 15 that count
 STEADY = 0.6
 LONGEST_SLIP = 1.0  # s, the study's; longer natural periods count as they are
 SEEDS = (0, 1, 2)
-# the exact model settles within its first seconds; the study's own run-up takes 10 s
+# the exact model settles within its first seconds; the study's own speed ramp takes 10 s
 SETTLING, WINDOW = 10.0, 20.0
 SAMPLE = 5e-3
 
@@ -130,13 +133,13 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **blocks) ->
         parameters[name] = parameters.get(name, {}) | values
     if parameters["rig"].get("degrees_of_freedom") == ("x",):
         parameters["initial"] = parameters["initial"] | {"phi": 0.0}
-    return Parameters(**parameters)
+    return Parameters.model_validate(parameters)
 
 
 def longest(case: Case) -> float:
     """Time in which the study's cycles are over, s: ends a run that does not stick again.
 
-    A cycle slips for a period or a second, and sticks for at most twice the way to break-away
+    A cycle slips for a period or a second, and sticks for at most twice the travel to break-away
     with one spring.
     """
     period = 2.0 * math.pi * math.sqrt(case.mass / (4.0 * case.stiffness))
@@ -195,4 +198,31 @@ def three_models(cases: list[Case]) -> dict[str, list[MotionFigures]]:
         PRINTED_MODEL: many(scheme_figures, cases, PRINTED, SEEDS[:1]),
         MENDED_MODEL: many(scheme_figures, cases, MENDED, SEEDS[:1]),
         EXACT_MODEL: [exact_figures(case, rig=GUIDED) for case in cases],
+    }
+
+
+#: All of the series have the second set's friction, falling with the sliding speed.
+CASE = DATASET_2.changed(weakening=WEAKENING)
+ASSUMED = (LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED)
+
+Grid = dict[str, np.ndarray]  # model -> number (stiffness, mass, speed)
+
+
+def cases(stiffnesses: Sequence[float] = STIFFNESSES) -> list[Case]:
+    """The combinations, the speed running fastest."""
+    return [
+        CASE.changed(stiffness=k, mass=m, speed=v)
+        for k, m, v in product(stiffnesses, MASSES, SPEEDS)
+    ]
+
+
+def grid(
+    number: Callable[[Case, MotionFigures], float], stiffnesses: Sequence[float] = STIFFNESSES
+) -> Grid:
+    """A number of every combination's steady motion, as each of the three models has it."""
+    every = cases(stiffnesses)
+    shape = len(stiffnesses), len(MASSES), len(SPEEDS)
+    return {
+        model: np.reshape([number(*pair) for pair in zip(every, figures, strict=True)], shape)
+        for model, figures in three_models(every).items()
     }

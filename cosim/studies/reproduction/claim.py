@@ -1,16 +1,34 @@
-"""What a claim is, and the verdict that follows from its numbers."""
+"""Which claims there are, what a claim is, and the verdict that follows from its numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import KW_ONLY, dataclass
 from itertools import combinations
 
 from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 
-from cosim.report.drawing import Picture
+from cosim.report.page import Picture
 
 from .printed import Printed
+
+CLAIM_IDS = tuple(f"C{n}" for n in range(1, 16))
+
+
+class UnknownClaim(ValueError):
+    """An id that the study does not have; the message is one line."""
+
+
+def claim_ids(wanted: Sequence[str]) -> tuple[str, ...]:
+    """The ids asked for, once each and in the study's order; all of them for none asked."""
+    asked = {one.upper() for one in wanted}
+    for one in wanted:
+        if one.upper() not in CLAIM_IDS:
+            raise UnknownClaim(
+                f"claim {one!r}: unknown, allowed are {CLAIM_IDS[0]} to {CLAIM_IDS[-1]}"
+            )
+    return tuple(one for one in CLAIM_IDS if not asked or one in asked)
+
 
 HOLDS = "holds"
 FOLLOWS = "follows from the assumption"
@@ -36,7 +54,7 @@ class Row:
 
     study: what the study prints, with its place. derived: computed from the study's numbers, not
     printed there; how: in what way. None: there is none. digits: significant ones that are shown
-    of ours. ValueError for a derived figure without its way.
+    of ours. ValueError for a derived figure without how.
     """
 
     quantity: str
@@ -45,6 +63,7 @@ class Row:
     printed: float | None = None
     mended: float | None = None
     exact: float | None = None
+    _: KW_ONLY
     digits: int = 4
     derived: float | str | None = None
     how: str = ""
@@ -96,6 +115,7 @@ class Check:
     printed: bool | None
     mended: bool | None
     exact: bool | None
+    _: KW_ONLY
     faults: tuple[str, ...] = ()
     margin: Margin | None = None
     turns: tuple[Turn, ...] = ()

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
 
-from cosim.report.drawing import BLUE, GREEN, INK, RED
+from cosim.report.style import BLUE, GREEN, INK, RED
 
 from .cases import EXACT_MODEL, MENDED_MODEL, PRINTED_MODEL
 
@@ -20,11 +24,19 @@ COLOURS = {PRINTED_MODEL: RED, MENDED_MODEL: BLUE, EXACT_MODEL: GREEN}
 WIDER = {MENDED_MODEL: {"linewidth": 4.0, "markersize": 9.0}}
 
 
-def by_model(ax: Axes, x, series: dict[str, list[float]], scale: float = 1.0, **style) -> None:
+def by_model(
+    ax: Axes, x: ArrayLike, series: Mapping[str, ArrayLike], scale: float = 1.0, **style: Any
+) -> None:
     """One line a model over ``x``."""
     for model, values in series.items():
         line = {"marker": "o"} | style | WIDER.get(model, {})
-        ax.plot(x, scale * np.asarray(values), color=COLOURS[model], label=LABELS[model], **line)
+        ax.plot(
+            np.asarray(x),
+            scale * np.asarray(values),
+            color=COLOURS[model],
+            label=LABELS[model],
+            **line,
+        )
 
 
 def study_line(ax: Axes, value: float, label: str) -> None:

@@ -1,4 +1,4 @@
-"""Figures of a stick-slip motion, read the same way off the scheme and the exact model."""
+"""Figures of a stick-slip motion, read alike off the scheme and the exact model."""
 
 from __future__ import annotations
 
@@ -188,9 +188,9 @@ def _swing_rate(motion: Motion) -> float:
 
     Only swings of more than a tenth of the largest one: a fast shiver is no swing.
     """
-    ways = np.diff(motion.phi)
-    moves = np.flatnonzero(ways)
-    turning = moves[1:][np.sign(ways[moves[1:]]) != np.sign(ways[moves[:-1]])]
+    turns = np.diff(motion.phi)
+    moves = np.flatnonzero(turns)
+    turning = moves[1:][np.sign(turns[moves[1:]]) != np.sign(turns[moves[:-1]])]
     angle = np.abs(np.diff(np.degrees(motion.phi[turning])))
     if not len(angle):
         return 0.0

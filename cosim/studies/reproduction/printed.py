@@ -22,6 +22,13 @@ class Printed:
         if not self.place:
             raise ValueError(f"{self.value}: where does the study print it?")
 
+    @property
+    def number(self) -> float:
+        """The value; TypeError where the study prints words."""
+        if isinstance(self.value, str):
+            raise TypeError(f"{self.value!r} ({self.place}) is no number")
+        return self.value
+
 
 def _at(place: str, **values: float | str) -> dict[str, Printed]:
     return {name: Printed(value, place) for name, value in values.items()}

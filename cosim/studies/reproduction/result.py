@@ -1,4 +1,4 @@
-"""Judged claims as data: what `reproduction.json` holds."""
+"""Judged claims as data, which is what `reproduction.json` holds, and as one HTML page."""
 
 from __future__ import annotations
 
@@ -10,8 +10,19 @@ from typing import Any
 import numpy as np
 from stickslip.reference.faults import DESCRIPTIONS
 
+from cosim.report.page import render
+
 from .attributions import Attribution, Datasets
-from .claim import Claim, Row
+from .claim import (
+    CANNOT_BE_CHECKED,
+    DOES_NOT_HOLD,
+    FOLLOWS,
+    HOLDS,
+    ONLY_WITH_FAULT,
+    UNDECIDED,
+    Claim,
+    Row,
+)
 from .readings import MARKS, Outcome
 
 #: The study's faults that are no switch of the scheme but stand behind a verdict.
@@ -133,3 +144,48 @@ def _plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
+
+
+CLASSES = {
+    HOLDS: "holds",
+    FOLLOWS: "follows",
+    ONLY_WITH_FAULT: "fault",
+    UNDECIDED: "undecided",
+    DOES_NOT_HOLD: "fails",
+    CANNOT_BE_CHECKED: "unknown",
+}
+#: The verdicts after a number of claims.
+COUNTED = {
+    HOLDS: "hold",
+    FOLLOWS: "follow from an assumption",
+    ONLY_WITH_FAULT: "hold only with a fault",
+    UNDECIDED: "are undecided",
+    DOES_NOT_HOLD: "do not hold",
+    CANNOT_BE_CHECKED: "cannot be checked",
+}
+#: Changes of assumptions that are told of a claim in the referee's table.
+TOLD = 3
+MODELS = ("printed", "mended", "exact")
+
+
+def page(claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None) -> str:
+    """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
+    counts = {COUNTED[word]: sum(claim.word == word for claim in claims) for word in CLASSES}
+    return render(
+        "report.html.j2",
+        "cosim.studies.reproduction",
+        claims=claims,
+        classes=CLASSES,
+        models=MODELS,
+        faults=faults | OTHER_FAULTS,
+        counts=counts,
+        leading=leading,
+        datasets=datasets,
+        marks=MARKS,
+        told=TOLD,
+    )
+
+
+def leading(claim: Claim) -> Row:
+    """The row that stands for a claim in the first table."""
+    return claim.rows[claim.leading]

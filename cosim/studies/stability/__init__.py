@@ -1,8 +1,6 @@
 """Which steady motions a rig has, and which of them it can keep to: two maps and a page."""
 
-from .case import Case, NotAMotion, case_of
-from .pretension_map import PretensionMap, pretension_map
-from .regime_map import RegimeMap, regime_map
+from .maps import Case, NotAMotion, PretensionMap, RegimeMap, case_of, pretension_map, regime_map
 
 __all__ = [
     "Case",

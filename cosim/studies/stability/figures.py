@@ -8,13 +8,11 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_SLIP
 
-from cosim.report.drawing import BLUE, INK, RED, panels, picture
+from cosim.report.style import BLUE, INK, RED, panels, picture
 
-from .case import Case
-from .pretension_map import PretensionMap
-from .regime_map import STARTS, RegimeMap
+from .maps import MAPPED, Case, PretensionMap, RegimeMap
 
-TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a run-up"}
+TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a speed ramp"}
 KINDS = {STICK_SLIP: BLUE, SLIDING: "#F3D9A4"}
 OTHER = "#CFCFCF"
 #: Growth of a cycle at which the colours of the map end.
@@ -56,7 +54,9 @@ def draw_pretension_map(found: PretensionMap, case: Case):
         title=f"Growth of small disturbances: {case.name}",
     )
     bar = figure.colorbar(mesh, ax=ax, label="multiplier of a cycle")
-    bar.set_ticks(np.log2([0.5, 0.7, 1.0, 1.4, 2.0]), labels=["≤ 0.5", "0.7", "1", "1.4", "≥ 2"])
+    bar.set_ticks(
+        np.log2([0.5, 0.7, 1.0, 1.4, 2.0]).tolist(), labels=["≤ 0.5", "0.7", "1", "1.4", "≥ 2"]
+    )
     return figure
 
 
@@ -74,11 +74,11 @@ def _pretension(case: Case) -> float:
 )
 def draw_regime_map(found: RegimeMap, case: Case):
     """A panel for each start."""
-    figure, axes = panels(1, len(STARTS), height=3.6, width=11.0, sharey=True)
+    figure, axes = panels(1, len(MAPPED), height=3.6, width=11.0, sharey=True)
     kinds = list(KINDS)
     colours = ListedColormap([*KINDS.values(), OTHER])
     norm = BoundaryNorm(np.arange(len(kinds) + 2) - 0.5, len(kinds) + 1)
-    for k, (ax, start) in enumerate(zip(axes[0], STARTS, strict=True)):
+    for k, (ax, start) in enumerate(zip(axes[0], MAPPED, strict=True)):
         numbers = _numbered(found.simulated[k], kinds)
         ax.grid(False)
         ax.pcolormesh(

@@ -7,9 +7,7 @@ from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
-from .chunk import Task, Work, compute_chunk
-from .combination import Row
-from .errors import SweepError, SweepStopped, WorkersLost
+from .combination import Row, SweepError, SweepStopped, Task, Work, WorkersLost, compute_chunk
 
 #: A scheduler that does not answer in this time (s) is not there; a far one needs a few.
 CONNECT_SECONDS = 10.0

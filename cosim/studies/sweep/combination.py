@@ -1,4 +1,4 @@
-"""One combination: its parameters, its content key, its outcome."""
+"""One combination: parameters, content key, outcome; and the chunk of them that a worker does."""
 
 from __future__ import annotations
 
@@ -7,16 +7,36 @@ import hashlib
 import inspect
 import json
 import math
-from collections.abc import Callable, Mapping
+import platform
+import threading
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any, NamedTuple
 
+from pydantic import ValidationError
 from stickslip import Parameters, Trajectory, simulate
-from stickslip.compiled import kernel_source
+from stickslip.compiled import compiled_kernel
+from stickslip.generation.source import kernel_source
+
+from cosim.interrupts import held_interrupts
 
 from . import features as feature_module
 from .features import FEATURES, features
+
+
+class SweepError(ValueError):
+    """A sweep that cannot be started; one line: key, what is wrong, what is allowed."""
+
+
+class SweepStopped(RuntimeError):
+    """A sweep that could not be finished; one line, with what is kept and how to go on."""
+
+
+class WorkersLost(RuntimeError):
+    """Worker processes ended in mid-work; what they had not returned is to be done again."""
+
 
 COMPLETE, FAILED, ERROR = 0, 1, 2
 STATUS_MEANINGS = "complete failed error"
@@ -92,3 +112,67 @@ def without_values(key: str, status: int, reason: str) -> Row:
 def _values(trajectory: Trajectory) -> tuple[float, ...]:
     numbers = features(trajectory)
     return tuple(numbers[name] for name in FEATURES)
+
+
+_LOADING = threading.Lock()
+
+
+class Work(NamedTuple):
+    """What all combinations of a sweep have in common."""
+
+    base: Parameters
+    run: Run
+    version: str
+
+
+class Task(NamedTuple):
+    """One combination: its content key and how it differs from the base."""
+
+    key: str
+    changes: Mapping[str, Any]
+
+
+def compute_chunk(
+    work: Work, tasks: Sequence[Task], stopped: Callable[[], bool] = lambda: False
+) -> list[Row]:
+    """Run in a worker: the outcome of every task, of those before ``stopped`` where it says so.
+
+    Raises SweepStopped where the worker has another version of the model.
+    """
+    if stopped():
+        return []
+    if model_version() != work.version:
+        raise SweepStopped(
+            f"the worker on {platform.node()} has another version of the model than this process; "
+            "install the same one there, or start again if it was just changed"
+        )
+    with _LOADING, held_interrupts():  # threads of one worker must not load the kernel twice
+        compiled_kernel()
+    with warnings.catch_warnings():
+        # what there is to warn of was said when the combinations were checked
+        warnings.simplefilter("ignore", UserWarning)
+        return list(_outcomes(work, tasks, stopped))
+
+
+def _outcomes(work: Work, tasks: Sequence[Task], stopped: Callable[[], bool]) -> Iterator[Row]:
+    def stop_if_told(time: float) -> None:
+        if stopped():
+            raise _Stop
+
+    try:
+        for task in tasks:
+            yield _outcome(work, task, stop_if_told)
+    except _Stop:
+        return
+
+
+class _Stop(BaseException):
+    """Leaves a run in its middle; not one of the errors that are recorded."""
+
+
+def _outcome(work: Work, task: Task, stop_if_told: Callable[[float], None]) -> Row:
+    try:
+        parameters = with_changes(work.base, task.changes)
+    except ValidationError as error:  # checked before: only a worker's other pydantic refuses
+        return without_values(task.key, ERROR, " ".join(str(error).split()))
+    return compute(task.key, parameters, work.run, stop_if_told)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any, Literal
 
 import matplotlib
 import numpy as np
@@ -11,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cosim.report.drawing import BLUE, RC
+from cosim.report.style import BLUE, picture
 
 Array = NDArray[np.float64]
 
@@ -34,6 +35,10 @@ PANEL = (2.9, 1.75)  # inches
 SMALLEST_SPAN = 0.05
 
 
+@picture(
+    "sweep",
+    "Features of the motion over the varied keys; runs that failed are left out.",
+)
 def draw_sweep(dataset: xr.Dataset) -> Figure:
     """One row for each feature, one column for each varied dimension (two columns for one).
 
@@ -41,33 +46,31 @@ def draw_sweep(dataset: xr.Dataset) -> Figure:
     their median, the middle half of them (darker) and their range. Runs that failed are left out.
     """
     dims = [str(name) for name in dataset["status"].dims]
-    with matplotlib.rc_context(RC):
-        figure, panels = _panels(dims)
-        for row, (feature, (label, factor)) in zip(panels, SHOWN.items(), strict=True):
-            for axes, dim in zip(row, dims, strict=True):
-                _draw(axes, factor * dataset[feature], dim)
-            _widen(row[0])
-            row[0].set_ylabel(label)
-        for column, dim in enumerate(dims):
-            for axes in panels[:, column]:
-                _name_axis(axes, dataset, dim)
-            _explain(panels[0, column], dataset, dim, dims)
-        complete = int(np.count_nonzero(dataset["status"] == 0))
-        figure.suptitle(
-            f"Sweep over {dataset.attrs['title']}: {complete} of {dataset['status'].size} "
-            "combinations",
-            x=0.01,
-            ha="left",
-        )
+    figure, panels = _panels(dims)
+    for row, (feature, (label, factor)) in zip(panels, SHOWN.items(), strict=True):
+        for axes, dim in zip(row, dims, strict=True):
+            _draw(axes, factor * dataset[feature], dim)
+        _widen(row[0])
+        row[0].set_ylabel(label)
+    for column, dim in enumerate(dims):
+        for axes in panels[:, column]:
+            _name_axis(axes, dataset, dim)
+        _explain(panels[0, column], dataset, dim, dims)
+    complete = int(np.count_nonzero(dataset["status"] == 0))
+    figure.suptitle(
+        f"Sweep over {dataset.attrs['title']}: {complete} of {dataset['status'].size} combinations",
+        x=0.01,
+        ha="left",
+    )
     return figure
 
 
-def _panels(dims: list[str]) -> tuple[Figure, NDArray[np.object_]]:
+def _panels(dims: list[str]) -> tuple[Figure, NDArray[Any]]:
     """A figure and its panels (features, dims)."""
     rows, columns = (len(SHOWN), len(dims)) if len(dims) > 1 else (math.ceil(len(SHOWN) / 2), 2)
     width, height = PANEL
     figure = Figure((1.0 + width * columns, 1.2 + height * rows), layout="constrained")
-    share_y = "row" if len(dims) > 1 else False
+    share_y: Literal["row", "none"] = "row" if len(dims) > 1 else "none"
     panels = figure.subplots(rows, columns, sharex="col", sharey=share_y, squeeze=False)
     return figure, panels.reshape(len(SHOWN), len(dims))
 
@@ -85,10 +88,10 @@ def _draw(axes: Axes, values: xr.DataArray, dim: str) -> None:
     places = _places(values[dim])
     table = values.transpose(..., dim).values.reshape(-1, places.size)
     numeric = _is_numeric(values[dim])
-    style = {"marker": "o", "markersize": 3.0, "linewidth": 1.3 if numeric else 0.4}
+    width = 1.3 if numeric else 0.4
     if len(table) <= MOST_LINES:
         for line, colour in zip(table, _colours(len(table)), strict=True):
-            axes.plot(places, line, color=colour, **style)
+            axes.plot(places, line, color=colour, marker="o", markersize=3.0, linewidth=width)
         return
     known = np.isfinite(table).any(axis=0)
     if known.any():
@@ -127,7 +130,8 @@ def _places(coordinate: xr.DataArray) -> Array:
 def _name_axis(axes: Axes, dataset: xr.Dataset, dim: str) -> None:
     coordinate = dataset[dim]
     unit = coordinate.attrs["units"].replace("degC", "°C")
-    if axes.get_subplotspec().is_last_row():
+    place = axes.get_subplotspec()
+    if place is not None and place.is_last_row():
         axes.set_xlabel(dim if unit == "1" else f"{dim} [{unit}]")
     if not _is_numeric(coordinate):
         labels = [str(label) for label in coordinate.values]

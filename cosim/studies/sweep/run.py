@@ -12,14 +12,21 @@ from typing import Any, Protocol
 import xarray as xr
 from stickslip import Parameters
 
-from .chunk import Task, Work, compute_chunk
 from .cluster import DaskWorkers
-from .combination import Row, Run, model_version
-from .dataset import sweep_dataset
-from .errors import SweepError, SweepStopped, WorkersLost
+from .combination import (
+    Row,
+    Run,
+    SweepError,
+    SweepStopped,
+    Task,
+    Work,
+    WorkersLost,
+    compute_chunk,
+    model_version,
+)
 from .grid import Grid, product_grid
 from .local import LocalWorkers
-from .store import Store
+from .store import Store, sweep_dataset
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
 CHUNK_SECONDS = 0.5
@@ -38,7 +45,8 @@ Progress = Callable[[int, int], None]
 class Workers(Protocol):
     """Whoever computes chunks."""
 
-    count: int
+    @property
+    def count(self) -> int: ...
 
     def run(
         self, work: Work, chunks: Sequence[Sequence[Task]]

@@ -1,6 +1,6 @@
 """The physics, written once: plain typed scalar Python on flat arrays of floats.
 
-The same files run interpreted (lists of floats, nothing but `math`: in the FMU), compiled by
+The same source runs interpreted (lists of floats, nothing but `math`: in the FMU), compiled by
 numba (`stickslip.compiled`) and translated to C. What the arrays hold is in `layout`; parameters
 become the array ``p`` in `stickslip.packing`. A run::
 
@@ -10,19 +10,37 @@ become the array ``p`` in `stickslip.packing`. A run::
     show(p, u, z, w, o, 0)
 
 Copying ``z`` saves the run; putting it back continues it bit for bit.
+
+The files here are the core: motion, contact, integrator. What an effect adds stands in its own file
+(`stickslip.effects`) and is called by way of `terms`, which is made from the effects'
+declarations, as the places in `layout` are. `stickslip.generation.source` joins all to one text.
 """
+
+from __future__ import annotations
+
+from collections.abc import MutableSequence
+from typing import TYPE_CHECKING, Any
+
+#: A flat array of floats: a list, or a numpy array.
+if TYPE_CHECKING:
+    import numpy as np
+
+    Floats = MutableSequence[float] | np.ndarray[Any, np.dtype[np.float64]]
+else:
+    Floats = MutableSequence[float]
 
 # in the order in which each file uses only those before it
 MODULES = (
     "layout",
+    "terms",
     "springs",
     "surface",
-    "coefficient",
-    "disc",
-    "friction",
+    "friction.coefficient",
+    "friction.disc",
+    "friction.force",
     "contact",
     "stick",
-    "creep",
+    "steady_sliding",
     "motion",
     "runge_kutta",
     "interpolant",
@@ -30,5 +48,4 @@ MODULES = (
     "events",
     "advance",
     "outputs",
-    "record",
 )

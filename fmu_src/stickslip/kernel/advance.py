@@ -1,45 +1,45 @@
-"""From one moment to another: internal steps, events, and the moments a caller asks for.
+"""From one instant to another: internal steps, events, and the instants a caller asks for.
 
-The integrator walks on its own grid, HERE to NEXT, and a moment asked for inside a step is
+The integrator walks on its own grid, HERE to NEXT, and an instant asked for inside a step is
 reached by a shorter step from HERE that leaves the grid alone. As long as the inputs do not
 change, the trajectory therefore does not depend on when anybody looks at it.
 """
 
+from __future__ import annotations
+
 from math import isfinite
 
-from .coefficient import holding_coefficient, is_felt
+from . import Floats
 from .contact import rest_speed, scaled_sliding_speed
-from .creep import can_creep
 from .events import (
     break_away,
-    choose_creep,
-    keep_to_creep,
+    choose_sliding,
+    keep_direction_steady,
     set_direction,
     settle,
     time_to_rest,
 )
-from .interpolant import copy_block, look_inside, set_interpolant
+from .friction.coefficient import holding_coefficient, is_felt
+from .interpolant import copy_instant, look_inside, set_interpolant
 from .layout import (
-    AGE,
-    BLOCK,
-    CREEPING,
     DIRECTION,
     DONE,
     E_COUNT,
     HEAT,
     HERE,
     HOLD_SINCE,
+    INSTANT,
     MODE,
     NEXT,
     NOT_FINITE,
     P_INITIAL,
-    P_INITIAL_AGE,
     P_LATERAL,
     P_LONGEST_STEP,
     P_RADIUS,
     P_RATE,
     P_RUN_UP,
     P_SHORTEST,
+    QUASI_STEADY,
     SHOWN,
     SLIP,
     SLIPS,
@@ -51,7 +51,6 @@ from .layout import (
     TIME,
     TOO_STIFF,
     U_SIZE,
-    W_ALONG,
     W_SLIDING,
     Z_ENERGY,
     Z_HAS_NEXT,
@@ -66,11 +65,13 @@ from .layout import (
 )
 from .motion import block_energy
 from .rest import look_at
-from .runge_kutta import begin_step, load_block, take_step
+from .runge_kutta import begin_step, load_instant, take_step
 from .springs import shortest_spring
+from .steady_sliding import direction_is_free
+from .terms import set_starting_states
 
 
-def initialise(p: "float[:]", z: "float[:]", time: float):
+def initialise(p: Floats, z: Floats, time: float):
     """Lay out a run that starts at ``time`` from the parameters' initial state."""
     for i in range(Z_SIZE):
         z[i] = 0.0
@@ -83,14 +84,14 @@ def initialise(p: "float[:]", z: "float[:]", time: float):
     z[Z_ENERGY] = block_energy(p, z, SHOWN)
     z[Z_TIME_BEFORE] = time
     z[SHOWN + HOLD_SINCE] = time
-    z[SHOWN + AGE] = p[P_INITIAL_AGE]
+    set_starting_states(p, z, SHOWN)
 
 
-def longest_step(p: "float[:]", z: "float[:]", w: "float[:]", rest: float) -> float:
+def longest_step(p: Floats, z: Floats, w: Floats, rest: float) -> float:
     """Bound on the internal step from HERE, s.
 
     A twelfth of the shortest period, so that no break-away is stepped over; the end
-    of the run-up; and, where the block is coming to rest on the surface in the time ``rest``,
+    of the speed ramp; and, where the block is coming to rest on the surface in the time ``rest``,
     most of that time: the approach is geometric, and faster the nearer it is, because the
     estimate's own error falls with the time that is left.
     """
@@ -102,27 +103,20 @@ def longest_step(p: "float[:]", z: "float[:]", w: "float[:]", rest: float) -> fl
     return h
 
 
-def has_reversed(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]") -> bool:
-    """Does NEXT slide against the direction of sliding in HERE?
-
-    Leaves the contact at NEXT in ``w``, and in ``w[W_ALONG]`` the velocity along that direction.
-    """
-    look_at(p, u, z, w, NEXT)
+def sliding_along(p: Floats, z: Floats, w: Floats) -> float:
+    """Sliding velocity in ``w`` along the direction in HERE, m/s: below 0 if reversed."""
     along = w[W_SLIDING] * z[HERE + DIRECTION]
     along += p[P_LATERAL] * w[W_SLIDING + 1] * z[HERE + DIRECTION + 1]
     along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[HERE + DIRECTION + 2]
-    w[W_ALONG] = along
-    return along < 0.0
+    return along
 
 
-def try_step(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", bound: float, grip: float
-) -> float:
+def try_step(p: Floats, u: Floats, z: Floats, w: Floats, bound: float, grip: float) -> float:
     """Step from HERE to NEXT that passes the error test; returns its error, or -1 on failure.
 
     A slip that would come out reversed is stepped over its end: the step is halved until it
     stops short of it, or is too short to tell. ``grip`` is what the contact can hold, per load.
-    ``z[Z_STEP]`` becomes the step to try next.
+    ``z[Z_STEP]`` becomes the step to try next. In slip, the contact at NEXT is left in ``w``.
     """
     h = min(z[Z_STEP], bound)
     good = h  # as far as the error test knows
@@ -139,32 +133,34 @@ def try_step(
         if error > 1.0:
             h *= max(0.1, 0.9 * error ** (-0.125))
             good = h
-        elif z[HERE + MODE] == SLIP and has_reversed(p, u, z, w) and grip > 0.0:
-            if scaled_sliding_speed(p, w) > rest_speed(p, u) and h > 16.0 * finest:
+        elif z[HERE + MODE] == SLIP:
+            look_at(p, u, z, w, NEXT)
+            moves = scaled_sliding_speed(p, w) > rest_speed(p, u)
+            if sliding_along(p, z, w) < 0.0 and grip > 0.0 and moves and h > 16.0 * finest:
                 error = 2.0
                 h *= 0.5
-                load_block(p, z, w, HERE)
+                load_instant(p, z, w, HERE)
     z[Z_STEP] = h * min(8.0, 0.9 * max(error, 1e-12) ** (-0.125))
     if h < good:  # only the end of the slip has shortened it
         z[Z_STEP] = max(z[Z_STEP], good)
     return error
 
 
-def finish_slip_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]"):
+def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     """Note the course of a slip at NEXT, or settle the contact where the slip has turned round.
 
-    Takes the contact at NEXT from `has_reversed`.
+    Takes the contact at NEXT that `try_step` has left in ``w``.
     """
     speed = scaled_sliding_speed(p, w)
-    if w[W_ALONG] < 0.0:
+    if sliding_along(p, z, w) < 0.0:
         settle(p, u, z, w, e, NEXT)
-    elif z[NEXT + CREEPING] == 1.0:
-        keep_to_creep(p, u, z, w, NEXT)
+    elif z[NEXT + QUASI_STEADY] == 1.0:
+        keep_direction_steady(p, u, z, w, NEXT)
     elif speed > rest_speed(p, u):
         set_direction(p, z, w, NEXT, speed)
 
 
-def land(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", rest: float):
+def land(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, rest: float):
     """Last step of a slip: the time to rest in one go, then stick or a new slip.
 
     Where what is left of the sliding has turned away from the frozen friction, the landing misses;
@@ -174,24 +170,22 @@ def land(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:
     take_step(p, u, z, w, HERE, NEXT, rest)
     look_at(p, u, z, w, NEXT)
     if scaled_sliding_speed(p, w) > 0.1 * speed:
-        copy_block(z, HERE, NEXT)
+        copy_instant(z, HERE, NEXT)
     settle(p, u, z, w, e, NEXT)
 
 
-def internal_step(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", cap: float
-) -> int:
+def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: float) -> int:
     """One step of the integrator's own grid: fills NEXT, events at its end included."""
     begin_step(p, u, z, w, HERE)
     rest = -1.0
     grip = holding_coefficient(p, u, w)  # without it there is no coming to rest
     if z[HERE + MODE] == SLIP and grip > 0.0:
-        if can_creep(p):
-            choose_creep(p, u, z, w)
+        if direction_is_free(p):
+            choose_sliding(p, u, z, w)
         rest = time_to_rest(p, w)
     to_run_up = p[P_RUN_UP] - z[HERE + TIME]
     slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)
-    # a landing that takes longer is no landing, and none crosses the end of the run-up
+    # a landing that takes longer is no landing, and none crosses the end of the speed ramp
     if slow and 0.0 < rest and rest * p[P_RATE] < 1e-3 and not 0.0 < to_run_up < rest:
         land(p, u, z, w, e, rest)
     else:
@@ -212,7 +206,7 @@ def internal_step(
     return DONE
 
 
-def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]") -> int:
+def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:
     """Start afresh from SHOWN where inputs that matter have changed; 1 if so in mid-run.
 
     A temperature or a film of water that friction does not feel is no change.
@@ -227,18 +221,16 @@ def take_inputs(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "
         settle(p, u, z, w, e, SHOWN)
         z[SHOWN + SLIPS] = 0.0  # a run that starts in slip has not broken away
         e[E_COUNT] = 0.0
-        copy_block(z, SHOWN, HERE)
+        copy_instant(z, SHOWN, HERE)
         return 0
     if changed == 1:
         settle(p, u, z, w, e, SHOWN)
-        copy_block(z, SHOWN, HERE)
+        copy_instant(z, SHOWN, HERE)
         z[Z_HAS_NEXT] = 0.0
     return changed
 
 
-def advance(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", end: float
-) -> int:
+def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -> int:
     """Bring SHOWN to the time ``end``; returns DONE or the reason why not.
 
     After a change of inputs the first internal step ends at ``end``: whoever changes the inputs
@@ -259,7 +251,7 @@ def advance(
                 status = TOO_STIFF
             z[Z_STATUS] = status
             if status != DONE:
-                copy_block(z, HERE, SHOWN)
+                copy_instant(z, HERE, SHOWN)
                 return status
             z[Z_HAS_NEXT] = 1.0
             if z[NEXT + TIME] > end:
@@ -267,14 +259,14 @@ def advance(
         gap = end - z[NEXT + TIME]
         same = abs(gap) <= 4e-16 * abs(end)
         if gap >= 0.0 or same:
-            copy_block(z, NEXT, HERE)
-            copy_block(z, NEXT, SHOWN)
+            copy_instant(z, NEXT, HERE)
+            copy_instant(z, NEXT, SHOWN)
             z[Z_HAS_NEXT] = 0.0
             if same:
                 z[SHOWN + TIME] = end
         else:
             look_inside(p, u, z, w, end)
-    for i in range(BLOCK):
+    for i in range(INSTANT):
         if not isfinite(z[SHOWN + i]):
             z[Z_STATUS] = NOT_FINITE
             return NOT_FINITE

@@ -1,9 +1,12 @@
 """Does the contact hold? The limit surface in stick, and the way a slip begins."""
 
+from __future__ import annotations
+
 from math import sqrt
 
-from .coefficient import holding_coefficient, onset_coefficient
-from .disc import disc_friction
+from . import Floats
+from .friction.coefficient import holding_coefficient, onset_coefficient
+from .friction.disc import disc_friction
 from .layout import (
     OMEGA,
     P_FREE_PHI,
@@ -31,14 +34,14 @@ from .springs import add_damping, add_spring_forces
 from .surface import surface_motion
 
 
-def set_sliding_velocity(w: "float[:]", state: int):
+def set_sliding_velocity(w: Floats, state: int):
     """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``."""
     w[W_SLIDING] = w[state + VX] - w[W_SURFACE]
     w[W_SLIDING + 1] = w[state + VY] - w[W_SURFACE + 1]
     w[W_SLIDING + 2] = w[state + OMEGA] - w[W_SURFACE + 2]
 
 
-def scaled_sliding_speed(p: "float[:]", w: "float[:]") -> float:
+def scaled_sliding_speed(p: Floats, w: Floats) -> float:
     """Length of the scaled sliding velocity (U_x, kappa U_y, kappa a Omega), m/s."""
     sx = w[W_SLIDING]
     sy = p[P_LATERAL] * w[W_SLIDING + 1]
@@ -46,14 +49,14 @@ def scaled_sliding_speed(p: "float[:]", w: "float[:]") -> float:
     return sqrt(sx * sx + sy * sy + sr * sr)
 
 
-def guided_sliding_speed(p: "float[:]", w: "float[:]") -> float:
+def guided_sliding_speed(p: Floats, w: Floats) -> float:
     """Scaled sliding speed that guides keep up: no friction can bring it to rest, m/s."""
     sy = (1.0 - p[P_FREE_Y]) * p[P_LATERAL] * w[W_SLIDING + 1]
     sr = (1.0 - p[P_FREE_PHI]) * p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
     return sqrt(sy * sy + sr * sr)
 
 
-def set_holding_load(p: "float[:]", w: "float[:]"):
+def set_holding_load(p: Floats, w: Floats):
     """Friction that would keep the block on the surface, into ``w[W_FRICTION:]``.
 
     M a_surface - loads, for the directions in which friction acts and the block is free;
@@ -67,7 +70,7 @@ def set_holding_load(p: "float[:]", w: "float[:]"):
         w[W_FRICTION + 2] = p[P_FREE_PHI] * (p[P_INERTIA] * w[W_SURFACE + 5] - w[W_LOAD + 2])
 
 
-def spin_under_load(force: float, moment: float, w: "float[:]") -> float:
+def spin_under_load(force: float, moment: float, w: Floats) -> float:
     """Part of spin, 0 ... 1, in the motion to which a load at the limit gives way.
 
     ``force`` is per mu N, ``moment`` per mu N a, both >= 0, not both zero. Slide and spin in the
@@ -109,7 +112,7 @@ def spin_under_load(force: float, moment: float, w: "float[:]") -> float:
     return t
 
 
-def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
+def limit_surface_ratio(force: float, moment: float, w: Floats) -> float:
     """How far a load reaches towards the limit surface: 1 on it, below 1 inside.
 
     The gauge of the convex set that `disc_friction` bounds: the largest load.n / support(n) over
@@ -122,7 +125,7 @@ def limit_surface_ratio(force: float, moment: float, w: "float[:]") -> float:
     return ((1.0 - t) * force + t * moment) / support
 
 
-def holding_ratio(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
+def holding_ratio(p: Floats, u: Floats, w: Floats) -> float:
     """Load over what the contact can hold; the block breaks away where it reaches 1.
 
     Takes the load from `set_holding_load`. A contact without friction holds nothing: 2. Nor does
@@ -140,7 +143,7 @@ def holding_ratio(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     return limit_surface_ratio(sqrt(fx * fx + fy * fy), abs(m), w)
 
 
-def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
+def set_onset_direction(p: Floats, u: Floats, w: Floats):
     """Direction in which a block at rest on the surface begins to slide, into ``w[W_DIRECTION:]``.
 
     The scaled relative acceleration s satisfies m s = T - mu_k N grad P(s), where -T is the
@@ -200,7 +203,7 @@ def set_onset_direction(p: "float[:]", u: "float[:]", w: "float[:]"):
         sweep += 1
 
 
-def set_yielding_motion(p: "float[:]", limit: float, w: "float[:]") -> float:
+def set_yielding_motion(p: Floats, limit: float, w: Floats) -> float:
     """Motion normal to the limit surface at the holding load, into ``w[W_DIRECTION:]``.
 
     Returns the scaled relative acceleration along it, m/s^2: what the load leaves over friction; 0
@@ -241,12 +244,12 @@ def set_yielding_motion(p: "float[:]", limit: float, w: "float[:]") -> float:
     return drive / mass
 
 
-def speed_scale(p: "float[:]", u: "float[:]") -> float:
+def speed_scale(p: Floats, u: Floats) -> float:
     """A speed typical of this motion, m/s: what is small is small against it."""
     return max(abs(u[U_SPEED]), p[P_SPEED_SCALE])
 
 
-def rest_speed(p: "float[:]", u: "float[:]") -> float:
+def rest_speed(p: Floats, u: Floats) -> float:
     """Scaled sliding speed below which a decelerating contact is taken to come to rest, m/s.
 
     Below it the direction of friction is frozen, and one smooth step lands the block on the
@@ -257,7 +260,7 @@ def rest_speed(p: "float[:]", u: "float[:]") -> float:
     return 1e-6 * speed_scale(p, u)
 
 
-def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+def set_loads(p: Floats, u: Floats, w: Floats, state: int):
     """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
     w[W_LOAD] = u[U_FORCE_X]
     w[W_LOAD + 1] = u[U_FORCE_Y]
@@ -266,7 +269,7 @@ def set_loads(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
     add_damping(p, w, state)
 
 
-def set_contact(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+def set_contact(p: Floats, u: Floats, w: Floats, state: int):
     """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
     set_loads(p, u, w, state)
     surface_motion(p, u, w, state)

@@ -1,23 +1,18 @@
 """Stick and slip as events: where a slip begins, where it ends, and what the contact does then."""
 
+from __future__ import annotations
+
 from math import sqrt
 
-from .coefficient import holding_coefficient
+from . import Floats
 from .contact import (
     rest_speed,
     scaled_sliding_speed,
     set_holding_load,
     set_onset_direction,
 )
-from .creep import (
-    creeps,
-    set_creep_direction,
-    slides_steadily,
-    sliding_energy,
-    turn_to_creep,
-)
+from .friction.coefficient import holding_coefficient
 from .layout import (
-    CREEPING,
     DIRECTION,
     E_CAPACITY,
     E_COUNT,
@@ -33,91 +28,99 @@ from .layout import (
     P_LATERAL,
     P_NORMAL_FORCE,
     P_RADIUS,
+    QUASI_STEADY,
     SLIP,
     SLIPS,
     STICK,
     TIME,
     VX,
     VY,
-    W_CREEP,
     W_DIRECTION,
     W_SLIDING,
     W_SLOPES,
     W_STATE,
+    W_STEADY,
     W_SURFACE,
     WORK_SURFACE,
     X,
 )
 from .motion import kinetic_energy
-from .rest import come_to_rest, excess_load, look_at
-from .runge_kutta import begin_step, load_block, take_step
-from .stick import fastest_creep
+from .rest import come_to_rest, excess_load, look_at, set_contact_in_phase
+from .runge_kutta import begin_step, load_instant, take_step
+from .steady_sliding import (
+    may_slide_quasi_steadily,
+    set_steady_direction,
+    slides_quasi_steadily,
+    sliding_energy,
+    turn_to_steady_direction,
+)
+from .stick import fastest_presliding
 
 
-def log_event(z: "float[:]", e: "float[:]", block: int):
+def log_event(z: Floats, e: Floats, instant: int):
     """Note time, new mode and x; events beyond the capacity are counted only."""
     count = int(e[E_COUNT])
     if count < int(e[E_CAPACITY]):
-        e[E_FIRST + E_WIDTH * count] = z[block + TIME]
-        e[E_FIRST + E_WIDTH * count + 1] = z[block + MODE]
-        e[E_FIRST + E_WIDTH * count + 2] = z[block + X]
+        e[E_FIRST + E_WIDTH * count] = z[instant + TIME]
+        e[E_FIRST + E_WIDTH * count + 1] = z[instant + MODE]
+        e[E_FIRST + E_WIDTH * count + 2] = z[instant + X]
     e[E_COUNT] = count + 1.0
 
 
-def set_direction(p: "float[:]", z: "float[:]", w: "float[:]", block: int, speed: float):
+def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float):
     """Remember the direction of sliding, from the sliding velocity in ``w``."""
-    z[block + DIRECTION] = w[W_SLIDING] / speed
-    z[block + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
-    z[block + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+    z[instant + DIRECTION] = w[W_SLIDING] / speed
+    z[instant + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
+    z[instant + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
 
 
-def release(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
+def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
     """Let the contact slide, in the direction that the loads in ``w`` ask for.
 
     Where guides make it slide already, that is the direction.
     """
-    z[block + MODE] = SLIP
-    z[block + CREEPING] = 0.0
+    z[instant + MODE] = SLIP
+    z[instant + QUASI_STEADY] = 0.0
     speed = scaled_sliding_speed(p, w)
     if speed > rest_speed(p, u):
-        set_direction(p, z, w, block, speed)
+        set_direction(p, z, w, instant, speed)
     else:
         set_holding_load(p, w)
         set_onset_direction(p, u, w)
         for i in range(3):
-            z[block + DIRECTION + i] = w[W_DIRECTION + i]
+            z[instant + DIRECTION + i] = w[W_DIRECTION + i]
 
 
-def settle(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]", block: int):
-    """Decide whether the contact at a block sticks or slips, and make the block consistent.
+def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
+    """Decide whether the contact at an instant sticks or slips, and make the instant consistent.
 
-    A stick goes on where the block slides no faster than it may creep.
+    A stick goes on where the block slides no faster than presliding may be.
     """
-    look_at(p, u, z, w, block)
-    before = z[block + MODE]
+    look_at(p, u, z, w, instant)
+    before = z[instant + MODE]
     speed = scaled_sliding_speed(p, w)
     slow = rest_speed(p, u)
     if before == STICK:
-        slow += fastest_creep(p, u, w)
-    z[block + CREEPING] = 0.0
+        slow += fastest_presliding(p, u, w)
+    z[instant + QUASI_STEADY] = 0.0
     if speed > slow:
-        z[block + MODE] = SLIP
-        set_direction(p, z, w, block, speed)
+        z[instant + MODE] = SLIP
+        set_direction(p, z, w, instant, speed)
     elif holding_coefficient(p, u, w) * p[P_NORMAL_FORCE] == 0.0:
-        z[block + MODE] = SLIP
-    elif come_to_rest(p, u, z, w, block) < 0.0:
-        z[block + MODE] = STICK
+        z[instant + MODE] = SLIP
+    elif come_to_rest(p, u, z, w, instant) < 0.0:
+        z[instant + MODE] = STICK
     else:
-        release(p, u, z, w, block)
-    if z[block + MODE] != before:
-        if z[block + MODE] == SLIP:
-            z[block + SLIPS] += 1.0
+        release(p, u, z, w, instant)
+    if z[instant + MODE] != before:
+        if z[instant + MODE] == SLIP:
+            z[instant + SLIPS] += 1.0
         else:
-            z[block + HOLD_SINCE] = z[block + TIME]
-        log_event(z, e, block)
+            z[instant + HOLD_SINCE] = z[instant + TIME]
+        log_event(z, e, instant)
 
 
-def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "float[:]"):
+def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     """Move NEXT back to the break-away, if the contact gives way in the step from HERE.
 
     Illinois iteration on the size of the step until time itself has no finer resolution: every
@@ -127,7 +130,7 @@ def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "f
     excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
     if excess < 0.0:
         return
-    load_block(p, z, w, HERE)  # the trials belong to the surface phase of HERE
+    load_instant(p, z, w, HERE)  # the trials belong to the surface phase of HERE
     low = 0.0
     high = z[NEXT + TIME] - z[HERE + TIME]
     excess_low = excess_load(p, u, z, w, HERE, z[HERE + TIME])
@@ -139,7 +142,7 @@ def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "f
         h = 0.5 * (low + high)
         if excess_low < 0.0 and sweep % 4 != 3:
             h = high - excess_high * (high - low) / (excess_high - excess_low)
-        load_block(p, z, w, HERE)
+        load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, h)
         excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
         if excess < 0.0:
@@ -156,15 +159,15 @@ def break_away(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", e: "f
             side = 1
         sweep += 1
     if excess < 0.0:
-        load_block(p, z, w, HERE)
+        load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, high)
-        excess_load(p, u, z, w, NEXT, z[HERE + TIME])
+    set_contact_in_phase(p, u, z, w, NEXT, z[HERE + TIME])
     release(p, u, z, w, NEXT)
     z[NEXT + SLIPS] += 1.0
     log_event(z, e, NEXT)
 
 
-def time_to_rest(p: "float[:]", w: "float[:]") -> float:
+def time_to_rest(p: Floats, w: Floats) -> float:
     """Time in which the scaled sliding speed would vanish at its present rate, s; -1 if it grows.
 
     From d(s^2/2)/dt = s . ds/dt, with the slopes of `begin_step` and the contact in ``w``.
@@ -182,38 +185,38 @@ def time_to_rest(p: "float[:]", w: "float[:]") -> float:
     return (sx * sx + sy * sy + sr * sr) / -rate
 
 
-def turn(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Turn the sliding at a block that creeps to the direction in ``w[W_CREEP:]``.
+def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+    """Turn quasi-steady sliding at an instant to the direction in ``w[W_STEADY:]``.
 
     What the block's kinetic energy gains is the surface's work: the energy of the sliding stays.
     """
-    energy = kinetic_energy(p, z, block)
-    turn_to_creep(p, w)
-    z[block + VX] = w[W_STATE + VX]
-    z[block + VY] = p[P_FREE_Y] * w[W_STATE + VY]
-    z[block + OMEGA] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
-    z[block + WORK_SURFACE] += kinetic_energy(p, z, block) - energy
+    energy = kinetic_energy(p, z, instant)
+    turn_to_steady_direction(p, w)
+    z[instant + VX] = w[W_STATE + VX]
+    z[instant + VY] = p[P_FREE_Y] * w[W_STATE + VY]
+    z[instant + OMEGA] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
+    z[instant + WORK_SURFACE] += kinetic_energy(p, z, instant) - energy
     for i in range(3):
-        z[block + DIRECTION + i] = w[W_CREEP + i]
+        z[instant + DIRECTION + i] = w[W_STEADY + i]
 
 
-def keep_to_creep(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Give a block that creeps the direction that its load asks for."""
-    look_at(p, u, z, w, block)
-    set_creep_direction(p, u, w, sqrt(sliding_energy(p, w)))
-    turn(p, u, z, w, block)
+def keep_direction_steady(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+    """Give quasi-steady sliding the direction that the load asks for."""
+    look_at(p, u, z, w, instant)
+    set_steady_direction(p, u, w, sqrt(sliding_energy(p, w)))
+    turn(p, u, z, w, instant)
 
 
-def choose_creep(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
-    """Decide whether the slip that goes on from HERE creeps; slopes and contact are in ``w``."""
-    before = z[HERE + CREEPING]
+def choose_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Decide whether the slip from HERE is quasi-steady; slopes and contact are in ``w``."""
+    before = z[HERE + QUASI_STEADY]
     now = 0.0
-    if before == 1.0 or slides_steadily(p, u, w):
+    if before == 1.0 or may_slide_quasi_steadily(p, u, w):
         look_at(p, u, z, w, HERE)
-        if creeps(p, u, w, before):
+        if slides_quasi_steadily(p, u, w, before):
             now = 1.0
     if now != before:
-        z[HERE + CREEPING] = now
+        z[HERE + QUASI_STEADY] = now
         if now == 1.0:
             turn(p, u, z, w, HERE)
         begin_step(p, u, z, w, HERE)

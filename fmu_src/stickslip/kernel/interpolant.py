@@ -6,21 +6,24 @@ and four further coefficients from three more stages,
 
     y = y_0 + t (F_0 + (1 - t) (F_1 + t (F_2 + (1 - t) (F_3 + t (F_4 + (1 - t) (F_5 + t F_6)))))).
 
-It is made once for a step, when a moment inside it is asked for, and then tells how well it obeys
+It is made once for a step, when an instant inside it is asked for, and then tells how well it obeys
 the equations of motion. Where it does not, in the first instants of a slip that turns at once, such
-a moment is reached by steps of the integrator that leave its own grid alone.
+an instant is reached by steps of the integrator that leave its own grid alone.
 """
+
+from __future__ import annotations
 
 from math import isfinite
 
+from . import Floats
 from .layout import (
     ALL_STAGES,
     BETWEEN,
-    BLOCK,
     DISTANCE,
     EXTRA_POWERS,
     HEAT,
     HERE,
+    INSTANT,
     LATE,
     MODE,
     NEXT,
@@ -45,19 +48,19 @@ from .runge_kutta import (
     add_stage,
     begin_step,
     finish_stick,
-    load_block,
+    load_instant,
     state_scale,
     take_step,
 )
 
 
-def copy_block(z: "float[:]", source: int, target: int):
-    """Copy one block of ``z`` over another."""
-    for i in range(BLOCK):
+def copy_instant(z: Floats, source: int, target: int):
+    """Copy one instant in ``z`` over another."""
+    for i in range(INSTANT):
         z[target + i] = z[source + i]
 
 
-def set_interpolant(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
+def set_interpolant(p: Floats, u: Floats, z: Floats, w: Floats):
     """Interpolant over the step from HERE whose stages ``w`` still holds, into ``z[Z_DENSE:]``.
 
     It counts as smooth up to an error of 10 in the unit of the error test; 3 is usual. Its defect
@@ -66,7 +69,7 @@ def set_interpolant(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
     """
     h = w[W_SPAN]
     z[Z_SPAN] = h
-    load_block(p, z, w, HERE)  # surface phase and direction of the step
+    load_instant(p, z, w, HERE)  # surface phase and direction of the step
     for stage in range(STAGES, ALL_STAGES):
         add_stage(p, u, z, w, HERE, stage)
     for i in range(STATES):
@@ -90,13 +93,11 @@ def set_interpolant(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]"):
         z[Z_SMOOTH] = 1.0
 
 
-def interpolate(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", target: int, time: float
-):
-    """The moment ``time`` of the step from HERE by the interpolant, into block ``target``."""
+def interpolate(p: Floats, u: Floats, z: Floats, w: Floats, target: int, time: float):
+    """The instant ``time`` of the step from HERE by the interpolant, into instant ``target``."""
     t = (time - z[HERE + TIME]) / z[Z_SPAN]
     r = 1.0 - t
-    copy_block(z, HERE, target)
+    copy_instant(z, HERE, target)
     z[target + TIME] = time
     if z[target + MODE] == SLIP:
         z[target + SLIP_TIME] += time - z[HERE + TIME]
@@ -110,7 +111,7 @@ def interpolate(
         finish_stick(p, u, z, w, HERE, target)
 
 
-def interpolated_change(z: "float[:]", i: int, t: float) -> float:
+def interpolated_change(z: Floats, i: int, t: float) -> float:
     """Derivative of the interpolant of state i with respect to the part t of the step."""
     r = 1.0 - t
     y = 0.0
@@ -126,7 +127,7 @@ def interpolated_change(z: "float[:]", i: int, t: float) -> float:
     return change
 
 
-def defect(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", t: float) -> float:
+def defect(p: Floats, u: Floats, z: Floats, w: Floats, t: float) -> float:
     """How far the interpolant is from obeying the equations of motion at a part t of the step.
 
     The largest difference between its derivative and the slope there, times the step, in the unit
@@ -142,12 +143,12 @@ def defect(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", t: float)
     return largest
 
 
-def approach(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", time: float):
-    """The moment ``time`` of the step from HERE by steps that pass the error test, into SHOWN.
+def approach(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
+    """The instant ``time`` of the step from HERE by steps that pass the error test, into SHOWN.
 
     They become no finer than 2^-12 of the integrator's own, which has passed that test as a whole.
     """
-    copy_block(z, HERE, SHOWN)
+    copy_instant(z, HERE, SHOWN)
     finest = z[Z_SPAN] / 4096.0
     h = time - z[SHOWN + TIME]
     while z[SHOWN + TIME] < time:
@@ -158,15 +159,15 @@ def approach(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", time: f
         if not isfinite(error):
             error = 1e8
         if error <= 1.0 or h <= finest:
-            copy_block(z, BETWEEN, SHOWN)
+            copy_instant(z, BETWEEN, SHOWN)
             if h == left:
                 z[SHOWN + TIME] = time
         h *= min(8.0, max(0.1, 0.9 * max(error, 1e-12) ** (-0.125)))
         h = max(h, finest)
 
 
-def look_inside(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", time: float):
-    """The moment ``time`` of the step from HERE to NEXT, into SHOWN.
+def look_inside(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
+    """The instant ``time`` of the step from HERE to NEXT, into SHOWN.
 
     What only grows stays between its ends: where friction dies away within the step, either way of
     getting there errs by more than the step's last joules.

@@ -1,12 +1,11 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
-from .coefficient import ageing_rate
+from __future__ import annotations
+
+from . import Floats
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
-from .creep import set_creeping_motion
-from .friction import friction_at_onset, friction_in_slip
+from .friction.force import friction_at_onset, friction_in_slip
 from .layout import (
-    AGE,
-    CREEPING,
     DAMPED,
     DISTANCE,
     HEAT,
@@ -16,11 +15,10 @@ from .layout import (
     P_INERTIA,
     P_LATERAL,
     P_MASS,
+    P_PRESLIDING,
     P_RADIUS,
-    P_RELAXATION,
-    P_STICK_CREEP,
-    P_WEAKENING,
     PHI,
+    QUASI_STEADY,
     SLIP,
     STICK,
     TIME,
@@ -37,18 +35,19 @@ from .layout import (
     W_SLIDING,
     W_STATE,
     W_SURFACE,
-    WARMTH,
     WORK_EXTERNAL,
     WORK_SURFACE,
     X,
     Y,
 )
 from .springs import damping_power, elastic_energy
-from .stick import set_creeping_stick
+from .steady_sliding import set_quasi_steady_motion
+from .stick import set_presliding
 from .surface import surface_speed
+from .terms import set_state_rates
 
 
-def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
+def set_slip_friction(p: Floats, u: Floats, w: Floats):
     """Kinetic friction into ``w[W_FRICTION:]``.
 
     Where the sliding velocity is too small to have a direction, at the first instant of a slip,
@@ -65,18 +64,19 @@ def set_slip_friction(p: "float[:]", u: "float[:]", w: "float[:]"):
         w[W_MEAN_SPEED] = speed
 
 
-def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int) -> float:
+def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
     """Rates of x, y, phi and of their velocities at ``w[W_STATE:]``, into ``w[out:]``.
 
-    Returns power of the surface beyond that of friction, W: 0 but in creep, of either kind.
+    Returns power of the surface beyond that of friction, W: 0 but in presliding and
+    in quasi-steady sliding.
     """
-    if mode == STICK and p[P_STICK_CREEP] != 0.0:
-        power = set_creeping_stick(p, u, w)
+    if mode == STICK and p[P_PRESLIDING] != 0.0:
+        power = set_presliding(p, u, w)
         set_rates(p, w, out)
         return power
     set_contact(p, u, w, W_STATE)
-    if mode == SLIP and w[W_STATE + CREEPING] == 1.0:
-        power = set_creeping_motion(p, u, w, out)
+    if mode == SLIP and w[W_STATE + QUASI_STEADY] == 1.0:
+        power = set_quasi_steady_motion(p, u, w, out)
         set_rates_of_place(p, w, out)
         return power
     if mode == SLIP:
@@ -92,7 +92,7 @@ def set_motion(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     return 0.0
 
 
-def set_rates(p: "float[:]", w: "float[:]", out: int):
+def set_rates(p: Floats, w: Floats, out: int):
     """Rates of x, y, phi and of their velocities, into ``w[out:]``, from loads and friction."""
     set_rates_of_place(p, w, out)
     w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
@@ -100,23 +100,23 @@ def set_rates(p: "float[:]", w: "float[:]", out: int):
     w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
 
 
-def set_rates_of_place(p: "float[:]", w: "float[:]", out: int):
+def set_rates_of_place(p: Floats, w: Floats, out: int):
     """Rates of x, y, phi, into ``w[out:]``: the velocities, where the block is free."""
     w[out + X - 1] = w[W_STATE + VX]
     w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
     w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
 
 
-def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: int):
-    """All slopes at the moment in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works,
-    warmth, age.
+def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int):
+    """All slopes at the instant in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works
+    and the effects' states.
 
     Friction heat is what friction takes out of the relative motion; the surface's work is what
     it puts into the block through friction. Their difference drives block and springs.
     """
     work = set_motion(p, u, w, mode, out)
     heat = 0.0
-    if mode == SLIP or p[P_STICK_CREEP] != 0.0:
+    if mode == SLIP or p[P_PRESLIDING] != 0.0:
         heat -= w[W_FRICTION] * w[W_SLIDING] + w[W_FRICTION + 1] * w[W_SLIDING + 1]
         heat -= w[W_FRICTION + 2] * w[W_SLIDING + 2]
     work += w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
@@ -129,20 +129,17 @@ def set_slopes(p: "float[:]", u: "float[:]", w: "float[:]", mode: float, out: in
     w[out + WORK_SURFACE - 1] = work
     w[out + WORK_EXTERNAL - 1] = external
     w[out + DAMPED - 1] = damping_power(p, w, W_STATE)
-    w[out + AGE - 1] = ageing_rate(p, w[W_STATE + AGE], w[W_MEAN_SPEED])
-    w[out + WARMTH - 1] = 0.0
-    if p[P_WEAKENING] != 0.0:
-        w[out + WARMTH - 1] = heat - w[W_STATE + WARMTH] / p[P_RELAXATION]
+    set_state_rates(p, u, w, out, heat, w[W_MEAN_SPEED])
 
 
-def kinetic_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+def kinetic_energy(p: Floats, z: Floats, instant: int) -> float:
     """Kinetic energy of the block, J."""
-    vx = z[block + VX]
-    vy = z[block + VY]
-    omega = z[block + OMEGA]
+    vx = z[instant + VX]
+    vy = z[instant + VY]
+    omega = z[instant + OMEGA]
     return 0.5 * p[P_MASS] * (vx * vx + vy * vy) + 0.5 * p[P_INERTIA] * omega * omega
 
 
-def block_energy(p: "float[:]", z: "float[:]", block: int) -> float:
+def block_energy(p: Floats, z: Floats, instant: int) -> float:
     """Kinetic energy of the block and elastic energy of the springs, J."""
-    return kinetic_energy(p, z, block) + elastic_energy(p, z, block)
+    return kinetic_energy(p, z, instant) + elastic_energy(p, z, instant)

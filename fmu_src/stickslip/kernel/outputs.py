@@ -1,8 +1,13 @@
-"""What a run shows at the moment that `advance` has reached."""
+"""What a run shows at the instant that `advance` has reached, and a whole run in one call."""
 
+from __future__ import annotations
+
+from . import Floats
+from .advance import advance
 from .layout import (
     DAMPED,
     DISTANCE,
+    DONE,
     HEAT,
     MODE,
     O_DAMPED,
@@ -13,6 +18,7 @@ from .layout import (
     O_HEAT,
     O_HEAT_FLOW,
     O_MODE,
+    O_SIZE,
     O_SLIDING_SPEED,
     O_SLIP_TIME,
     O_SLIPS,
@@ -24,6 +30,7 @@ from .layout import (
     SLIP_TIME,
     SLIPS,
     TIME,
+    TRACKED,
     TRAVEL,
     W_FRICTION,
     W_MEAN_SPEED,
@@ -39,7 +46,7 @@ from .runge_kutta import begin_step
 from .surface import surface_speed
 
 
-def energy_residual(p: "float[:]", z: "float[:]") -> float:
+def energy_residual(p: Floats, z: Floats) -> float:
     """Energy gained less energy supplied, J: zero but for the integrator's error.
 
     (kinetic + elastic) - its start - work of surface and external loads + friction heat + damping.
@@ -49,7 +56,7 @@ def energy_residual(p: "float[:]", z: "float[:]") -> float:
     return gained - supplied + z[SHOWN + HEAT] + z[SHOWN + DAMPED]
 
 
-def mean_heat_flow(z: "float[:]") -> float:
+def mean_heat_flow(z: Floats) -> float:
     """Friction heat of the last call of `advance` over its duration, W."""
     duration = z[SHOWN + TIME] - z[Z_TIME_BEFORE]
     if duration <= 0.0:
@@ -57,7 +64,7 @@ def mean_heat_flow(z: "float[:]") -> float:
     return (z[SHOWN + HEAT] - z[Z_HEAT_BEFORE]) / duration
 
 
-def show(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", o: "float[:]", at: int):
+def show(p: Floats, u: Floats, z: Floats, w: Floats, o: Floats, at: int):
     """Write the outputs (`O_*`) at SHOWN to ``o[at:]``."""
     begin_step(p, u, z, w, SHOWN)
     for i in range(6):
@@ -77,3 +84,45 @@ def show(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", o: "float[:
     o[at + O_EXTERNAL_WORK] = z[SHOWN + WORK_EXTERNAL]
     o[at + O_SLIP_TIME] = z[SHOWN + SLIP_TIME]
     o[at + O_SURFACE_SPEED] = surface_speed(p, u, w, z[SHOWN + TIME])
+
+
+def record(
+    p: Floats,
+    u: Floats,
+    z: Floats,
+    w: Floats,
+    e: Floats,
+    times: Floats,
+    o: Floats,
+    first: int,
+    count: int,
+) -> int:
+    """Advance to ``times[first] ... times[first + count - 1]``, outputs row by row to ``o``.
+
+    Returns the number of rows written: fewer than ``count`` where `advance` gave up.
+    """
+    for i in range(first, first + count):
+        if advance(p, u, z, w, e, times[i]) != DONE:
+            return i - first
+        show(p, u, z, w, o, O_SIZE * i)
+    return count
+
+
+def track(
+    p: Floats,
+    u: Floats,
+    z: Floats,
+    w: Floats,
+    e: Floats,
+    times: Floats,
+    o: Floats,
+    first: int,
+    count: int,
+) -> int:
+    """As `record`, but only what a tracker sees: x, y and phi, `TRACKED` numbers a row."""
+    for i in range(first, first + count):
+        if advance(p, u, z, w, e, times[i]) != DONE:
+            return i - first
+        for j in range(TRACKED):
+            o[TRACKED * i + j] = z[SHOWN + X + j]
+    return count

@@ -1,5 +1,8 @@
 """A contact at rest: the load that it holds, and how what slides comes to rest on it."""
 
+from __future__ import annotations
+
+from . import Floats
 from .contact import holding_ratio, set_contact, set_holding_load
 from .layout import (
     HEAT,
@@ -10,7 +13,7 @@ from .layout import (
     P_INERTIA,
     P_LATERAL,
     P_MASS,
-    P_STICK_CREEP,
+    P_PRESLIDING,
     P_STICK_RATIO,
     SLIP,
     TIME,
@@ -21,43 +24,47 @@ from .layout import (
     W_STATE,
     WORK_SURFACE,
 )
-from .runge_kutta import follow_surface, load_block
+from .runge_kutta import follow_surface, load_instant
 from .stick import set_stick_velocity
 from .surface import set_surface_phase
 
 
-def look_at(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Loads, surface and sliding velocity at a block of ``z``."""
-    load_block(p, z, w, block)
+def look_at(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+    """Loads, surface and sliding velocity at an instant in ``z``."""
+    load_instant(p, z, w, instant)
     set_contact(p, u, w, W_STATE)
 
 
-def excess_load(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int, phase: float
-) -> float:
-    """Load over holding capacity, less 1: the function whose zero is the break-away.
+def set_contact_in_phase(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase: float):
+    """Loads, surface and sliding velocity at an instant in ``z``, in a phase of the surface.
 
-    ``phase`` is a time in the phase of the surface that counts: the end of the run-up belongs to
-    the step that ends there as well as to the one that begins there, and the load differs.
-    A stick ratio below 1 judges stick by a part of the load (stick_stiffness, the study's fault).
+    ``phase`` is a time in the phase that counts: the end of the speed ramp belongs to the step that
+    ends there as well as to the one that begins there, and the load differs.
     """
-    load_block(p, z, w, block)
+    load_instant(p, z, w, instant)
     set_surface_phase(p, w, phase)
     set_contact(p, u, w, W_STATE)
+
+
+def excess_load(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase: float) -> float:
+    """Friction demand over friction capacity, less 1: the function whose zero is the break-away.
+
+    ``phase`` as in `set_contact_in_phase`. A stick ratio below 1 judges stick by a part of the
+    load (stick_stiffness, the study's fault).
+    """
+    set_contact_in_phase(p, u, z, w, instant, phase)
     set_holding_load(p, w)
     for i in range(3):
         w[W_FRICTION + i] *= p[P_STICK_RATIO]
     return holding_ratio(p, u, w) - 1.0
 
 
-def stop_sliding(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int, creep: float
-):
+def stop_sliding(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float):
     """Take away what is left of the sliding velocity in ``w``, as friction would.
 
-    What a stick has of the ``creep`` per load, m/(s N), is left. The impulse -M d that takes d away
-    makes heat of M d^2 / 2, all of the sliding's energy where nothing creeps, and does work on the
-    velocity that is left: the ledger stays closed.
+    What a stick has by ``presliding`` per load, m/(s N), is left. The impulse -M d that takes d
+    away makes heat of M d^2 / 2, all of the sliding's energy where there is no presliding, and does
+    work on the velocity that is left: the ledger stays closed.
     """
     dx = w[W_SLIDING]
     dy = 0.0
@@ -67,36 +74,37 @@ def stop_sliding(
         dr = p[P_FREE_PHI] * w[W_SLIDING + 2]
     m = p[P_MASS]
     j = p[P_INERTIA]
-    follow_surface(p, u, z, w, block, creep)
-    if creep != 0.0:
+    follow_surface(p, u, z, w, instant, presliding)
+    if presliding != 0.0:
         dx -= w[W_SLIDING]
         if p[P_LATERAL] > 0.0:
             dy -= p[P_FREE_Y] * w[W_SLIDING + 1]
             dr -= p[P_FREE_PHI] * w[W_SLIDING + 2]
-    z[block + HEAT] += 0.5 * (m * (dx * dx + dy * dy) + j * dr * dr)
-    work = m * (dx * z[block + VX] + dy * z[block + VY]) + j * dr * z[block + OMEGA]
-    z[block + WORK_SURFACE] -= work
+    z[instant + HEAT] += 0.5 * (m * (dx * dx + dy * dy) + j * dr * dr)
+    work = m * (dx * z[instant + VX] + dy * z[instant + VY]) + j * dr * z[instant + OMEGA]
+    z[instant + WORK_SURFACE] -= work
 
 
-def stick_excess(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
-    """`excess_load` of a block that were to stick, with the creep that it would then have."""
-    load_block(p, z, w, block)
-    set_stick_velocity(p, u, w, p[P_STICK_CREEP])
+def stick_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
+    """`excess_load` of a block that were to stick, with the presliding that it would then have."""
+    load_instant(p, z, w, instant)
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
     for i in range(3):
         w[W_FRICTION + i] *= p[P_STICK_RATIO]
     return holding_ratio(p, u, w) - 1.0
 
 
-def come_to_rest(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int) -> float:
-    """Bring a block that hardly slides to rest on the surface, or to its creep; its `excess_load`.
+def come_to_rest(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
+    """Bring a block that hardly slides to rest on the surface, or to presliding; its `excess_load`.
 
-    One that is not to stick creeps no longer, but keeps what velocity it had from that.
+    One that is not to stick preslides no longer, but keeps what velocity it had from that. Leaves
+    the contact there in ``w``.
     """
-    creep = p[P_STICK_CREEP]
-    if creep != 0.0:
-        if stick_excess(p, u, z, w, block) >= 0.0:
-            creep = 0.0
-        look_at(p, u, z, w, block)
-    if creep == p[P_STICK_CREEP] or z[block + MODE] == SLIP:
-        stop_sliding(p, u, z, w, block, creep)
-    return excess_load(p, u, z, w, block, z[block + TIME])
+    presliding = p[P_PRESLIDING]
+    if presliding != 0.0:
+        if stick_excess(p, u, z, w, instant) >= 0.0:
+            presliding = 0.0
+        look_at(p, u, z, w, instant)
+    if presliding == p[P_PRESLIDING] or z[instant + MODE] == SLIP:
+        stop_sliding(p, u, z, w, instant, presliding)
+    return excess_load(p, u, z, w, instant, z[instant + TIME])

@@ -1,25 +1,27 @@
 """One explicit Runge-Kutta step with an error estimate (tableau in the parameter vector)."""
 
+from __future__ import annotations
+
 from math import sqrt
 
+from . import Floats
 from .contact import speed_scale
 from .layout import (
-    AGE,
     ALL_STAGES,
-    BLOCK,
     DIRECTION,
     DISTANCE,
     HEAT,
+    INSTANT,
     LATE,
     MODE,
+    NORM,
     OMEGA,
     P_FEEDING,
     P_LATERAL,
     P_MASS,
+    P_PRESLIDING,
     P_RADIUS,
     P_RATE,
-    P_STATE_DISTANCE,
-    P_STICK_CREEP,
     P_TABLEAU,
     P_TOLERANCE,
     PHI,
@@ -48,28 +50,29 @@ from .layout import (
 from .motion import set_slopes
 from .stick import held_energy, set_stick_velocity
 from .surface import set_surface_phase
+from .terms import with_state_scale
 
 
-def load_block(p: "float[:]", z: "float[:]", w: "float[:]", block: int):
-    """Make a block of ``z`` the moment that the laws of motion look at."""
-    for i in range(BLOCK):
-        w[W_STATE + i] = z[block + i]
+def load_instant(p: Floats, z: Floats, w: Floats, instant: int):
+    """Make an instant in ``z`` the instant that the laws of motion look at."""
+    for i in range(INSTANT):
+        w[W_STATE + i] = z[instant + i]
     for i in range(3):
-        w[W_DIRECTION + i] = z[block + DIRECTION + i]
-    set_surface_phase(p, w, z[block + TIME])
+        w[W_DIRECTION + i] = z[instant + DIRECTION + i]
+    set_surface_phase(p, w, z[instant + TIME])
 
 
-def begin_step(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int):
-    """First stage of the step from block ``start``; every step size tried from there shares it."""
-    load_block(p, z, w, start)
+def begin_step(p: Floats, u: Floats, z: Floats, w: Floats, start: int):
+    """First stage of the step from instant ``start``; every size tried from there shares it."""
+    load_instant(p, z, w, start)
     set_slopes(p, u, w, z[start + MODE], W_SLOPES)
 
 
-def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
+def state_scale(p: Floats, u: Floats, i: int, value: float) -> float:
     """Error of state i that counts as 1 in the error test, in the unit of the state."""
     speed = speed_scale(p, u)
     length = speed / p[P_RATE]
-    scale = p[P_MASS] * speed * speed  # works and heat
+    scale = p[P_MASS] * speed * speed  # works, heat, and states of effects that say nothing else
     if i == X or i == Y or i == DISTANCE or i == TRAVEL:
         scale = length
     elif i == PHI:
@@ -78,15 +81,15 @@ def state_scale(p: "float[:]", u: "float[:]", i: int, value: float) -> float:
         scale = speed
     elif i == OMEGA:
         scale = speed / p[P_RADIUS]
-    elif i == AGE:
-        scale = p[P_STATE_DISTANCE] / speed
     elif i == HEAT:
         return p[P_TOLERANCE] * scale  # it only grows, and the ledger counts every part
+    else:
+        scale = with_state_scale(p, i, scale, speed)
     return p[P_TOLERANCE] * (scale + abs(value))
 
 
-def add_stage(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, stage: int):
-    """Slopes of one stage of the step of size ``w[W_SPAN]`` from block ``start``.
+def add_stage(p: Floats, u: Floats, z: Floats, w: Floats, start: int, stage: int):
+    """Slopes of one stage of the step of size ``w[W_SPAN]`` from instant ``start``.
 
     Numbers that the slopes do not depend on, heat and works for instance, keep their value at the
     start.
@@ -105,10 +108,8 @@ def add_stage(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start:
     set_slopes(p, u, w, z[start + MODE], W_SLOPES + stage * STATES)
 
 
-def take_step(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int, h: float
-) -> float:
-    """Step of size h from block ``start`` (see `begin_step`) to block ``end``.
+def take_step(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int, h: float) -> float:
+    """Step of size h from instant ``start`` (see `begin_step`) to instant ``end``.
 
     Returns the scaled error estimate: the step is good where it is at most 1.
     """
@@ -116,7 +117,7 @@ def take_step(
     w[W_SPAN] = h
     for stage in range(1, STAGES):
         add_stage(p, u, z, w, start, stage)
-    for i in range(TIME, BLOCK):
+    for i in range(TIME, INSTANT):
         z[end + i] = z[start + i]
     z[end + TIME] = z[start + TIME] + h
     if mode == SLIP:
@@ -127,10 +128,8 @@ def take_step(
     return error
 
 
-def close_step(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", end: int, h: float
-) -> float:
-    """Add the weighted slopes to block ``end``; the error norm is that of DOP853."""
+def close_step(p: Floats, u: Floats, z: Floats, w: Floats, end: int, h: float) -> float:
+    """Add the weighted slopes to instant ``end``; the error norm is that of DOP853."""
     error5 = 0.0
     error3 = 0.0
     for i in range(STATES):
@@ -150,27 +149,25 @@ def close_step(
     bottom = error5 + 0.01 * error3
     if bottom == 0.0:
         return 0.0
-    return abs(h) * error5 / sqrt(bottom * STATES)
+    return abs(h) * error5 / sqrt(bottom * NORM)
 
 
-def follow_surface(
-    p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", block: int, creep: float
-):
+def follow_surface(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float):
     """Give the block the velocity with which it sticks exactly, where friction holds it.
 
-    Takes the creep and leaves the contact as `set_stick_velocity` does.
+    Takes ``presliding`` and leaves the contact as `set_stick_velocity` does.
     """
-    for i in range(BLOCK):
-        w[W_STATE + i] = z[block + i]
-    set_stick_velocity(p, u, w, creep)
-    z[block + VX] = w[W_STATE + VX]
+    for i in range(INSTANT):
+        w[W_STATE + i] = z[instant + i]
+    set_stick_velocity(p, u, w, presliding)
+    z[instant + VX] = w[W_STATE + VX]
     if p[P_LATERAL] > 0.0:
-        z[block + VY] = w[W_STATE + VY]
-        z[block + OMEGA] = w[W_STATE + OMEGA]
+        z[instant + VY] = w[W_STATE + VY]
+        z[instant + OMEGA] = w[W_STATE + OMEGA]
 
 
-def finish_stick(p: "float[:]", u: "float[:]", z: "float[:]", w: "float[:]", start: int, end: int):
-    """Velocity of a stick at block ``end``, and the surface's work on it since block ``start``."""
-    follow_surface(p, u, z, w, end, p[P_STICK_CREEP])
-    if p[P_STICK_CREEP] != 0.0:
+def finish_stick(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int):
+    """Velocity of a stick at instant ``end``, and the surface's work on it since ``start``."""
+    follow_surface(p, u, z, w, end, p[P_PRESLIDING])
+    if p[P_PRESLIDING] != 0.0:
         z[end + WORK_SURFACE] += held_energy(p, z, end) - held_energy(p, z, start)

@@ -1,19 +1,20 @@
 """Four springs with exact geometry between anchors in the rig and the block, and the damping."""
 
+from __future__ import annotations
+
 from math import cos, sin, sqrt
 
+from . import Floats
 from .layout import (
     CURVE_WIDTH,
     OMEGA,
     P_ANCHOR,
     P_ATTACH,
-    P_CUBIC,
     P_CURVE,
     P_CURVE_POINTS,
     P_DAMPING,
     P_DAMPING_ROTATION,
     P_NATURAL_LENGTH,
-    P_NEUTRAL,
     P_RELATIVE_STIFFNESS,
     P_STIFFNESS,
     PHI,
@@ -23,9 +24,10 @@ from .layout import (
     X,
     Y,
 )
+from .terms import with_spring_energy, with_spring_force
 
 
-def curve_piece(p: "float[:]", extension: float) -> int:
+def curve_piece(p: Floats, extension: float) -> int:
     """Index into ``p`` of the piece of the force-length curve that an extension falls into.
 
     The first and the last piece extend the curve beyond its ends.
@@ -37,7 +39,7 @@ def curve_piece(p: "float[:]", extension: float) -> int:
     return P_CURVE + CURVE_WIDTH * piece
 
 
-def curve_force(p: "float[:]", extension: float) -> float:
+def curve_force(p: Floats, extension: float) -> float:
     """Force of the tabulated curve, N: cubic Hermite pieces, straight lines outside."""
     at = curve_piece(p, extension)
     span = p[at + 4] - p[at]
@@ -52,7 +54,7 @@ def curve_force(p: "float[:]", extension: float) -> float:
     return p[at + 1] + t * (a + t * (3.0 * rise - 2.0 * a - b + t * (a + b - 2.0 * rise)))
 
 
-def curve_energy(p: "float[:]", extension: float) -> float:
+def curve_energy(p: Floats, extension: float) -> float:
     """Energy under the tabulated curve from its first point, J."""
     at = curve_piece(p, extension)
     span = p[at + 4] - p[at]
@@ -71,26 +73,23 @@ def curve_energy(p: "float[:]", extension: float) -> float:
     return p[at + 3] + span * t * (p[at + 1] + t * (a / 2.0 + t * (c / 3.0 + t * d / 4.0)))
 
 
-def spring_tension(p: "float[:]", extension: float) -> float:
-    """Force of one spring, N: k e + k_3 (e - e_n)^3, or the tabulated curve in place of k e."""
-    change = extension - p[P_NEUTRAL]
-    cubic = p[P_CUBIC] * change * change * change
+def spring_tension(p: Floats, extension: float) -> float:
+    """Force of one spring, N: linear or by the tabulated curve, and what the effects add."""
+    more = with_spring_force(p, 0.0, extension)
     if p[P_CURVE_POINTS] > 0.0:
-        return curve_force(p, extension) + cubic
-    return p[P_STIFFNESS] * extension + cubic
+        return curve_force(p, extension) + more
+    return p[P_STIFFNESS] * extension + more
 
 
-def spring_energy(p: "float[:]", extension: float) -> float:
+def spring_energy(p: Floats, extension: float) -> float:
     """Energy of one spring, J: the integral of `spring_tension`."""
-    change = extension - p[P_NEUTRAL]
-    square = change * change
-    quartic = 0.25 * p[P_CUBIC] * square * square
+    more = with_spring_energy(p, 0.0, extension)
     if p[P_CURVE_POINTS] > 0.0:
-        return curve_energy(p, extension) + quartic
-    return 0.5 * p[P_STIFFNESS] * extension * extension + quartic
+        return curve_energy(p, extension) + more
+    return 0.5 * p[P_STIFFNESS] * extension * extension + more
 
 
-def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
+def add_spring_forces(p: Floats, w: Floats, state: int):
     """Add force (N) and moment (N m) of the springs on the block to ``w[W_LOAD:]``.
 
     Spring i pulls its attachment r_i = (x, y) + R(phi) b_i towards its anchor A_i with the tension
@@ -121,14 +120,14 @@ def add_spring_forces(p: "float[:]", w: "float[:]", state: int):
     w[W_LOAD + 2] += moment
 
 
-def add_damping(p: "float[:]", w: "float[:]", state: int):
+def add_damping(p: Floats, w: Floats, state: int):
     """Add viscous force and moment against the frame (structural_damping) to ``w[W_LOAD:]``."""
     w[W_LOAD] -= p[P_DAMPING] * w[state + VX]
     w[W_LOAD + 1] -= p[P_DAMPING] * w[state + VY]
     w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * w[state + OMEGA]
 
 
-def damping_power(p: "float[:]", w: "float[:]", state: int) -> float:
+def damping_power(p: Floats, w: Floats, state: int) -> float:
     """Power that the damping takes, W."""
     vx = w[state + VX]
     vy = w[state + VY]
@@ -136,29 +135,29 @@ def damping_power(p: "float[:]", w: "float[:]", state: int) -> float:
     return p[P_DAMPING] * (vx * vx + vy * vy) + p[P_DAMPING_ROTATION] * omega * omega
 
 
-def spring_length(p: "float[:]", z: "float[:]", block: int, i: int) -> float:
-    """Length of spring i at a block of ``z``, m."""
-    c = cos(z[block + PHI])
-    s = sin(z[block + PHI])
+def spring_length(p: Floats, z: Floats, instant: int, i: int) -> float:
+    """Length of spring i at an instant in ``z``, m."""
+    c = cos(z[instant + PHI])
+    s = sin(z[instant + PHI])
     bx = p[P_ATTACH + 2 * i]
     by = p[P_ATTACH + 2 * i + 1]
-    dx = p[P_ANCHOR + 2 * i] - z[block + X] - (c * bx - s * by)
-    dy = p[P_ANCHOR + 2 * i + 1] - z[block + Y] - (s * bx + c * by)
+    dx = p[P_ANCHOR + 2 * i] - z[instant + X] - (c * bx - s * by)
+    dy = p[P_ANCHOR + 2 * i + 1] - z[instant + Y] - (s * bx + c * by)
     return sqrt(dx * dx + dy * dy)
 
 
-def elastic_energy(p: "float[:]", z: "float[:]", block: int) -> float:
-    """Elastic energy of the four springs at a block of ``z``, J."""
+def elastic_energy(p: Floats, z: Floats, instant: int) -> float:
+    """Elastic energy of the four springs at an instant in ``z``, J."""
     energy = 0.0
     for i in range(4):
-        extension = spring_length(p, z, block, i) - p[P_NATURAL_LENGTH]
+        extension = spring_length(p, z, instant, i) - p[P_NATURAL_LENGTH]
         energy += p[P_RELATIVE_STIFFNESS + i] * spring_energy(p, extension)
     return energy
 
 
-def shortest_spring(p: "float[:]", z: "float[:]", block: int) -> float:
-    """Length of the shortest of the four springs at a block of ``z``, m."""
+def shortest_spring(p: Floats, z: Floats, instant: int) -> float:
+    """Length of the shortest of the four springs at an instant in ``z``, m."""
     shortest = 1e300
     for i in range(4):
-        shortest = min(shortest, spring_length(p, z, block, i))
+        shortest = min(shortest, spring_length(p, z, instant, i))
     return shortest

@@ -1,26 +1,30 @@
-"""Motion of a contact that sticks: with the surface, or creeping against it under its load.
+"""Motion of a contact that sticks: with the surface, or presliding against it under its load.
 
-A contact is sheared before it slides. With a stick creep v_c the surface leaves the block behind
-as if the contact were a film (regularised Coulomb friction) of the viscosity eta = mu_s N / v_c:
+A contact is sheared before it slides. With a presliding speed v_c the surface leaves the block
+behind as if the contact were a film (regularised Coulomb friction) of the viscosity
+eta = mu_s N / v_c:
 
     F_x = -eta U_x,   F_y = -kappa^2 eta U_y,   M = -kappa^2 eta (a^2 / 2) Omega.
 
 (U_x, U_y, Omega) is the sliding velocity and (F_x, F_y, M) the friction that holds the block: mass
-times the surface's acceleration, less springs, damping and external loads. So v_c is the creep
+times the surface's acceleration, less springs, damping and external loads. So v_c is the speed
 under the load mu_s N along x; on one linear spring x' = V - v_c K x / (mu_s N). A contact that has
-grown stronger by its age creeps no slower, and breaks away at what it then holds. Where mu_k is
+grown stronger by its age preslides no slower, and breaks away at what it then holds. Where mu_k is
 larger than mu_s, it takes the place of mu_s.
 
-The creep has no inertia, so that the velocity of a stick follows from its place: with inertia it
+Presliding has no inertia, so that the velocity of a stick follows from its place: with inertia it
 would lag behind this by v_c / (mu_s g), and be stiff. What the block's momentum changes by is the
-surface's work, see `held_energy`. (The creep of `creep` is another: a slip.)
+surface's work, see `held_energy`. (Quasi-steady sliding, see `steady_sliding`, is a slip.)
 """
+
+from __future__ import annotations
 
 from math import sqrt
 
-from .coefficient import holding_coefficient
+from . import Floats
 from .contact import set_contact, set_holding_load, set_sliding_velocity
-from .disc import disc_friction
+from .friction.coefficient import holding_coefficient
+from .friction.disc import disc_friction
 from .layout import (
     OMEGA,
     P_CURVATURE,
@@ -32,8 +36,8 @@ from .layout import (
     P_LATERAL,
     P_MASS,
     P_NORMAL_FORCE,
+    P_PRESLIDING,
     P_RADIUS,
-    P_STICK_CREEP,
     P_STICK_RATIO,
     VX,
     VY,
@@ -48,30 +52,30 @@ from .layout import (
 from .surface import surface_motion
 
 
-def set_stick_velocity(p: "float[:]", u: "float[:]", w: "float[:]", creep: float):
+def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
     """Velocity of a block that sticks at the place in ``w[W_STATE:]``, where it is free.
 
-    ``creep`` is the sliding speed per load, m/(s N): P_STICK_CREEP, or 0 for the surface's own
-    velocity. Leaves the surface's motion there and the sliding velocity in ``w``: the creep, and
-    what guides keep from following.
+    ``presliding`` is the sliding speed per load, m/(s N): P_PRESLIDING, or 0 for the surface's own
+    velocity. Leaves the surface's motion there and the sliding velocity in ``w``: the presliding,
+    and what guides keep from following.
     """
     surface_motion(p, u, w, W_STATE)
     w[W_STATE + VX] = w[W_SURFACE]
     if p[P_LATERAL] > 0.0:
         w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
         w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
-    if creep != 0.0:
-        add_stick_creep(p, u, w, creep)
+    if presliding != 0.0:
+        add_presliding(p, u, w, presliding)
     else:
         set_sliding_velocity(w, W_STATE)
 
 
-def add_stick_creep(p: "float[:]", u: "float[:]", w: "float[:]", c: float):
-    """Add the creep to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
+def add_presliding(p: Floats, u: Floats, w: Floats, c: float):
+    """Add presliding to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
 
     Leaves the contact in ``w``, friction as of `set_holding_load`.
     The friction that it answers to has a part of its own: damping, and on a turning surface the
-    acceleration of what creeps on it.
+    acceleration of what slides on it.
     """
     set_contact(p, u, w, W_STATE)
     set_holding_load(p, w)
@@ -102,13 +106,13 @@ def add_stick_creep(p: "float[:]", u: "float[:]", w: "float[:]", c: float):
     set_holding_load(p, w)
 
 
-def set_creeping_stick(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
-    """Velocity, contact, friction and mean sliding speed of a stick that creeps, into ``w``.
+def set_presliding(p: Floats, u: Floats, w: Floats) -> float:
+    """Velocity, contact, friction and mean sliding speed of a stick with presliding, into ``w``.
 
     Returns what the surface's power differs by from friction times its velocity, W, beside the
     change of `held_energy`: that of the surface's own acceleration is in both.
     """
-    set_stick_velocity(p, u, w, p[P_STICK_CREEP])
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
     ux = w[W_SLIDING]
     w[W_MEAN_SPEED] = abs(ux)
     power = -p[P_MASS] * w[W_SURFACE + 3] * w[W_STATE + VX]
@@ -124,27 +128,27 @@ def set_creeping_stick(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
     return power
 
 
-def held_energy(p: "float[:]", z: "float[:]", block: int) -> float:
-    """Kinetic energy of the motions that the contact holds at a block of ``z``, J.
+def held_energy(p: Floats, z: Floats, instant: int) -> float:
+    """Kinetic energy of the motions that the contact holds at an instant in ``z``, J.
 
-    In a stick that creeps, velocities follow from places without a force: what this changes by is
+    With presliding, velocities follow from places without a force: what this changes by is
     the surface's work.
     """
-    vx = z[block + VX]
+    vx = z[instant + VX]
     energy = 0.5 * p[P_MASS] * vx * vx
     if p[P_LATERAL] > 0.0:
-        vy = z[block + VY]
-        omega = z[block + OMEGA]
+        vy = z[instant + VY]
+        omega = z[instant + OMEGA]
         energy += 0.5 * p[P_MASS] * vy * vy + 0.5 * p[P_INERTIA] * omega * omega
     return energy
 
 
-def fastest_creep(p: "float[:]", u: "float[:]", w: "float[:]") -> float:
-    """Scaled sliding speed that no stick at the moment in ``w[W_STATE:]`` exceeds, m/s.
+def fastest_presliding(p: Floats, u: Floats, w: Floats) -> float:
+    """Scaled sliding speed that no stick at the instant in ``w[W_STATE:]`` exceeds, m/s.
 
     That of a load at the limit, and 4/3 of it where the load is all moment.
     """
-    if p[P_STICK_CREEP] == 0.0:
+    if p[P_PRESLIDING] == 0.0:
         return 0.0
     limit = holding_coefficient(p, u, w) * p[P_NORMAL_FORCE] / p[P_STICK_RATIO]
-    return 1.5 * p[P_STICK_CREEP] * limit
+    return 1.5 * p[P_PRESLIDING] * limit

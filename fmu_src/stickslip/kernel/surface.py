@@ -1,14 +1,10 @@
 """The moving surface: a belt (translation) or a slab that turns about a centre at (0, R)."""
 
-from math import cos, sin
+from __future__ import annotations
 
+from . import Floats
 from .layout import (
     P_CURVATURE,
-    P_RIPPLE,
-    P_RIPPLE_PHASE,
-    P_RIPPLE_RATE,
-    P_RIPPLE_SECOND,
-    P_RIPPLE_SECOND_PHASE,
     P_RUN_UP,
     TIME,
     U_SPEED,
@@ -19,12 +15,13 @@ from .layout import (
     X,
     Y,
 )
+from .terms import with_surface_acceleration, with_surface_speed
 
 
-def set_surface_phase(p: "float[:]", w: "float[:]", t: float):
-    """Say whether the internal step that begins at t lies in the run-up or behind it.
+def set_surface_phase(p: Floats, w: Floats, t: float):
+    """Say whether the internal step that begins at t lies in the speed ramp or behind it.
 
-    No internal step straddles the end of the run-up, so the phase belongs to the step and not
+    No internal step straddles the end of the speed ramp, so the phase belongs to the step and not
     to the time: the acceleration, which jumps there, is unambiguous at both ends of every step.
     """
     w[W_RUNNING_UP] = 0.0
@@ -32,47 +29,27 @@ def set_surface_phase(p: "float[:]", w: "float[:]", t: float):
         w[W_RUNNING_UP] = 1.0
 
 
-def steady_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
-    """Speed of the surface without ripple, m/s: a linear run-up, then constant."""
+def steady_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
+    """Speed of the surface without ripple, m/s: a linear speed ramp, then constant."""
     if w[W_RUNNING_UP] == 1.0:
         return u[U_SPEED] * t / p[P_RUN_UP]
     return u[U_SPEED]
 
 
-def surface_speed(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
-    """Speed of the surface where the block rests, m/s.
-
-    The steady speed times 1 + A (sin a + B sin(2 a + second phase)), a = 2 pi f t + phase
-    (speed_ripple).
-    """
-    speed = steady_speed(p, u, w, t)
-    if p[P_RIPPLE] != 0.0:
-        angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
-        wave = sin(angle)
-        if p[P_RIPPLE_SECOND] != 0.0:
-            wave += p[P_RIPPLE_SECOND] * sin(2.0 * angle + p[P_RIPPLE_SECOND_PHASE])
-        speed *= 1.0 + p[P_RIPPLE] * wave
-    return speed
+def surface_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
+    """Speed of the surface where the block rests, m/s."""
+    return with_surface_speed(p, u, w, steady_speed(p, u, w, t), t)
 
 
-def surface_acceleration(p: "float[:]", u: "float[:]", w: "float[:]", t: float) -> float:
+def surface_acceleration(p: Floats, u: Floats, w: Floats, t: float) -> float:
     """Rate of `surface_speed`, m/s^2."""
     rate = 0.0
     if w[W_RUNNING_UP] == 1.0:
         rate = u[U_SPEED] / p[P_RUN_UP]
-    if p[P_RIPPLE] != 0.0:
-        angle = p[P_RIPPLE_RATE] * t + p[P_RIPPLE_PHASE]
-        wave, slope = sin(angle), cos(angle)
-        if p[P_RIPPLE_SECOND] != 0.0:
-            second = 2.0 * angle + p[P_RIPPLE_SECOND_PHASE]
-            wave += p[P_RIPPLE_SECOND] * sin(second)
-            slope += 2.0 * p[P_RIPPLE_SECOND] * cos(second)
-        rate *= 1.0 + p[P_RIPPLE] * wave
-        rate += steady_speed(p, u, w, t) * p[P_RIPPLE] * p[P_RIPPLE_RATE] * slope
-    return rate
+    return with_surface_acceleration(p, u, w, rate, steady_speed(p, u, w, t), t)
 
 
-def surface_motion(p: "float[:]", u: "float[:]", w: "float[:]", state: int):
+def surface_motion(p: Floats, u: Floats, w: Floats, state: int):
     """Motion of the surface under the block's centre, into ``w[W_SURFACE:]``.
 
     Three velocities and three accelerations (x, y, turning). With curvature c = 1/R the surface

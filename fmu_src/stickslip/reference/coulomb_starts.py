@@ -90,7 +90,7 @@ class BeltStart:
         return v if time >= self.run_up else v * time / self.run_up
 
     def _breaks_away(self, time: float, place: float) -> tuple[float, float] | None:
-        """Time and place, s and m, of a stick's end within the run-up; None where it outlasts it.
+        """Time and place, s and m, of a stick's end within the speed ramp; None if later.
 
         K x + c V + m a = F_s with the belt's acceleration a: a quadratic in time.
         """
@@ -106,10 +106,10 @@ class BeltStart:
         return time + held, place + speed * held + 0.5 * a * held * held
 
     def _caught(self, place: float, speed: float, begin: float) -> tuple[float, float] | None:
-        """Time and place at which a slip that begins at ``begin`` (inf: after the run-up) ends.
+        """Time and place at which a slip that begins at ``begin`` (inf: after the speed ramp) ends.
 
-        None where it never does: its velocity does not reach the belt's in the run-up, nor in the
-        first period after it, and later ones are no faster.
+        None where it never does: its velocity does not reach the belt's in the speed ramp, nor in
+        the first period after it, and later ones are no faster.
         """
         o = self.oscillator
         decay, rate = self.ratio * o.omega, o.omega * math.sqrt(1.0 - self.ratio**2)

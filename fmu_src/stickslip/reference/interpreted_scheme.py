@@ -13,7 +13,7 @@ import math
 import numpy as np
 from scipy import signal
 
-from .scheme_types import BLOCK, STEPS
+from .scheme_types import INTERVAL, STEPS
 from .spring_angles import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,
@@ -88,15 +88,15 @@ def interpreted_run(
     state, time, rows, sticking = np.zeros(6), 0.0, [], True
     while time < duration:
         if sticking:
-            state[0] += speed * BLOCK
+            state[0] += speed * INTERVAL
             state[3:] = speed, 0.0, 0.0
-            time += BLOCK
+            time += INTERVAL
             rows.append([time, *state[:3]])
-            sticking = state[0] + speed * BLOCK < limit
+            sticking = state[0] + speed * INTERVAL < limit
             continue
         updated = treatment == "updated"
         alpha = _alpha(state[2], reach) if updated else fixed_angles(treatment)
-        length, samples = (BLOCK, STEPS + 1) if updated else (WHOLE_SLIP, WHOLE_SLIP_SAMPLES)
+        length, samples = (INTERVAL, STEPS + 1) if updated else (WHOLE_SLIP, WHOLE_SLIP_SAMPLES)
         times = np.linspace(0.0, length, samples)
         forces = load(samples, mu_k * weight, scatter * weight, rng)
         system = linear_system(mass, stiffness, alpha)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -116,6 +117,8 @@ class LeineOscillator:
         def coasting(time, state):
             return self.slip(time, state)[1]
 
-        restick.terminal, restick.direction = True, 1.0
-        coasting.direction = 1.0
+        rising: Any = restick  # functions carry what solve_ivp asks of its events
+        rising.terminal, rising.direction = True, 1.0
+        strongest: Any = coasting
+        strongest.direction = 1.0
         return [restick, standing, coasting]

@@ -17,8 +17,8 @@ from .scheme_effects import (
     turn_springs,
 )
 from .scheme_types import (
-    BLOCK,
     CUT,
+    INTERVAL,
     LONGEST_SLIP_BLOCKS,
     OUT_OF_TIME,
     ROW_STEPS,
@@ -176,7 +176,7 @@ def _block(rig, faults, effects, memory, t, until, to_the_end):
             record(memory, t, SLIP)
         if t >= until:
             return t, False
-    return begin + BLOCK, False
+    return begin + INTERVAL, False
 
 
 @njit(cache=True)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numba import njit
 
-from .scheme_effects import WARMTH, held_in_stick, load_in_stick, surface_speed, surface_travel
+from .scheme_effects import RECENT_HEAT, held_in_stick, load_in_stick, surface_speed, surface_travel
 from .scheme_types import BROKE_AWAY, OUT_OF_TIME, STICK, STICK_STEP
 
 BISECTIONS = 50  # halves 10 ms or 0.1 ms to below the resolution of a double
@@ -54,7 +54,7 @@ def stick(rig, faults, effects, memory, t, until):
     x0 = memory.q[0]
     if effects.on:
         end = _break_away(rig, faults, effects, share, extra * rig.normal_force, x0, t, until)
-        memory.past[WARMTH] *= math.exp((begin - end) / effects.relaxation)
+        memory.past[RECENT_HEAT] *= math.exp((begin - end) / effects.relaxation)
     else:
         limit = (rig.mu_s + extra) * rig.normal_force
         threshold = limit / springs if springs > 0.0 else math.inf

@@ -44,7 +44,7 @@ class SchemeEffects(NamedTuple):
 
 NO_EFFECTS = SchemeEffects()
 
-WARMTH, DISTANCE, FRICTION = 0, 1, 2  # places in the memory of what has been
+RECENT_HEAT, DISTANCE, FRICTION = 0, 1, 2  # places in the memory of what has been
 SMALLEST_SLIDING = 1e-9  # m/s, below which a strip's sliding has no direction
 # neighbouring strips that share a direction: twenty directions leave 1e-3 of the spin moment open
 TOGETHER = 5
@@ -61,12 +61,14 @@ def surface_speed(rig, effects, t):
 
 @njit(cache=True)
 def surface_travel(rig, effects, t):
-    """Way of the surface since the start, m."""
-    way = rig.speed * t
+    """Travel of the surface since the start, m."""
+    travel = rig.speed * t
     if effects.ripple != 0.0:
         start, now = effects.ripple_phase, effects.ripple_rate * t + effects.ripple_phase
-        way += rig.speed * effects.ripple / effects.ripple_rate * (math.cos(start) - math.cos(now))
-    return way
+        travel += (
+            rig.speed * effects.ripple / effects.ripple_rate * (math.cos(start) - math.cos(now))
+        )
+    return travel
 
 
 @njit(cache=True)
@@ -82,7 +84,7 @@ def place_factor(effects, place):
 def kinetic_factor(effects, past, place):
     """mu_k over its value at the start: place, recent heat and distance slid."""
     factor = place_factor(effects, place)
-    factor *= max(0.0, 1.0 - effects.weakening_per_joule * past[WARMTH])
+    factor *= max(0.0, 1.0 - effects.weakening_per_joule * past[RECENT_HEAT])
     if effects.run_in != 0.0:
         drift = 1.0 - math.exp(-past[DISTANCE] / effects.run_in_distance)
         factor *= max(0.0, 1.0 + effects.run_in * drift)
@@ -181,8 +183,8 @@ def turn_springs(effects, attachment, length, alpha):
 
 @njit(cache=True)
 def remember(rig, effects, past, t, v, h):
-    """Carry warmth and distance over a step ``h`` (s) of slip or stick."""
+    """Carry the lumped thermal state and the distance over a step ``h`` (s) of slip or stick."""
     sliding = abs(surface_speed(rig, effects, t) - v[0])
     heat = abs(past[FRICTION]) * sliding
-    past[WARMTH] += h * (heat - past[WARMTH] / effects.relaxation)
+    past[RECENT_HEAT] += h * (heat - past[RECENT_HEAT] / effects.relaxation)
     past[DISTANCE] += h * sliding

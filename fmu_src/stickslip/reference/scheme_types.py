@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-BLOCK = 0.01  # s, the study's
+INTERVAL = 0.01  # s, the pieces of time that the study steps through
 STEPS = 99  # a block is sampled at 100 instants
-STEP = BLOCK / STEPS
+STEP = INTERVAL / STEPS
 STICK_STEP = 20.0 / 1999.0  # s: 2000 samples over 20 s, the study's
 ROW_STEPS = 11  # a row every ninth part of a block, 1.1 ms
 LONGEST_SLIP_BLOCKS = 100  # fault F14

@@ -3,36 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Self
+from typing import Self, TypedDict
 
 import numpy as np
 
-from ..compiled import compiled_kernel
-from ..kernel.layout import (
-    DONE,
-    E_CAPACITY,
-    E_FIRST,
-    E_WIDTH,
-    MODE,
-    SHOWN,
-    STICK,
-    TIME,
-    U_FILM,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    W_SIZE,
-    Z_HAS_NEXT,
-    Z_SIZE,
-    Z_STARTED,
-    Z_STATUS,
-    X,
-)
-from ..kernel.status import WHY_NOT
+from ..arrays import STATE as NAMES
+from ..arrays import RunArrays, inputs, interface_temperature
+from ..kernel.layout import MODE, SHOWN, STICK, X
 from ..parameters import Parameters
 
 #: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
-STATE = 6
+STATE = len(NAMES)
+
+
+class SimulateInputs(TypedDict):
+    """The arguments of `simulate` that say what the interface is."""
+
+    interface_temperature: float | None
+    film_thickness: float
 
 
 @dataclass(frozen=True)
@@ -44,7 +32,7 @@ class Interface:
     film_thickness: float = 0.0
 
     @property
-    def inputs(self) -> dict[str, float | None]:
+    def inputs(self) -> SimulateInputs:
         """As `simulate` takes it."""
         return {"interface_temperature": self.temperature, "film_thickness": self.film_thickness}
 
@@ -58,64 +46,55 @@ class RunEnded(ValueError):
 
 
 class LiveRun:
-    """The compiled kernel at one moment of a run.
+    """The compiled kernel at one instant of a run.
 
     Everything that the run remembers is in it, so that a copy goes on exactly as the original
     would. interface: its temperature and the water in it.
     """
 
     def __init__(self, parameters: Parameters, interface: Interface = DRY) -> None:
-        self._kernel = compiled_kernel()
-        self._p, self._u = np.array(parameters.pack()), np.zeros(U_SIZE)
-        self._u[U_SPEED], self._u[U_FILM] = parameters.surface.speed, interface.film_thickness
-        self._u[U_TEMPERATURE] = interface.temperature
-        if interface.temperature is None:
-            self._u[U_TEMPERATURE] = parameters.temperature_dependence.reference_degC
-        self._z, self._w = np.zeros(Z_SIZE), np.zeros(W_SIZE)
-        self._e = np.zeros(E_FIRST + E_WIDTH)
-        self._e[E_CAPACITY] = 1.0
-        self._kernel.initialise(self._p, self._z, 0.0)
+        temperature = interface_temperature(parameters, interface.temperature)
+        u = inputs(parameters.surface.speed, temperature, interface.film_thickness)
+        self._run = RunArrays.begin(parameters.pack(), u)
 
     @property
     def time(self) -> float:
         """s"""
-        return float(self._z[SHOWN + TIME])
+        return self._run.time
 
     @property
     def state(self) -> np.ndarray:
         """(6,) x, y, phi, vx, vy, omega; a copy."""
-        return self._z[SHOWN + X : SHOWN + X + STATE].copy()
+        return np.array(self._run.z[SHOWN + X : SHOWN + X + STATE])
 
     @property
     def sticks(self) -> bool:
         """Does the contact hold?"""
-        return bool(self._z[SHOWN + MODE] == STICK)
+        return bool(self._run.z[SHOWN + MODE] == STICK)
 
     def copy(self) -> Self:
-        """The same moment, to go another way from."""
+        """The same instant, to go on differently from."""
         twin = object.__new__(type(self))
-        twin.__dict__ = self.__dict__ | {"_z": self._z.copy()}
+        twin._run = self._run.copy()
         return twin
 
     def of(self, parameters: Parameters) -> Self:
-        """A copy of the same moment, to go on as a rig of other parameters."""
+        """A copy of the same instant, to go on as a rig of other parameters."""
         twin = self.copy()
-        twin._p = np.array(parameters.pack())
+        twin._run.p = np.array(parameters.pack())
         return twin
 
     def advance(self, time: float) -> Self:
         """Go on to ``time`` (s). RunEnded where that cannot be."""
-        arrays = self._p, self._u, self._z, self._w, self._e
-        if self._kernel.advance(*arrays, time) != DONE:
-            raise RunEnded(f"at t = {self.time:.9g} s: {WHY_NOT[self._z[Z_STATUS]]}")
+        if not self._run.advance(time):
+            raise RunEnded(f"at {self._run.failure}")
         return self
 
     def displace(self, change: np.ndarray) -> Self:
         """Add ``change`` (6,) to the state; a contact that holds keeps the surface's velocity."""
-        p, u, z, w = self._p, self._u, self._z, self._w
-        z[SHOWN + X : SHOWN + X + STATE] += change
+        self._run.z[SHOWN + X : SHOWN + X + STATE] += change
         if self.sticks:
-            self._kernel.look_at(p, u, z, w, SHOWN)
-            self._kernel.follow_surface(p, u, z, w, SHOWN, 0.0)
-        z[Z_STARTED], z[Z_HAS_NEXT] = 0.0, 0.0
-        return self.advance(self.time)
+            self._run.follow_surface()
+        if not self._run.settle(self.time):
+            raise RunEnded(f"at {self._run.failure}")
+        return self

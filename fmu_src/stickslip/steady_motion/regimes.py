@@ -32,7 +32,7 @@ STARTS = {
 }
 #: Of the disturbed start, m and rad.
 ASIDE, TURNED = 1e-4, 1e-3
-#: Run-up of the third start where the scenario has none, s.
+#: Speed ramp of the third start where the scenario has none, s.
 RAMP_TIME = 10.0
 #: Shortest run at constant speed that a regime is read from, s, and in natural periods.
 SHORTEST, PERIODS = 20.0, 20.0

@@ -48,8 +48,8 @@ class Stability:
     multipliers : (n,) moduli of the multipliers of one cycle, the largest first; n = 2 for each of
         y and phi that is free, none where the rig guides the block
     period : of a cycle, s
-    amplification : what a disturbance of the start grows by at most in the whole run, its run-up
-        included; NaN where the run's own motion was looked at
+    amplification : what a disturbance of the start grows by at most in the whole run, its speed
+        ramp included; NaN where the run's own motion was looked at
     straight : whether the motion along the x axis was looked at, as of a rig without imperfections
         that starts on its line; else the run's own motion, of a rig that has no such line
     """
@@ -257,7 +257,7 @@ def _amplification(
     for name in ("y", "phi"):
         if name not in parameters.rig.degrees_of_freedom:
             continue
-        start = {name: START / (arm if name == "phi" else 1.0)}
+        start: dict[str, float] = {name: START / (arm if name == "phi" else 1.0)}
         moved = parameters.model_copy(
             update={"initial": parameters.initial.model_copy(update=start)}
         )
@@ -270,7 +270,7 @@ def _amplification(
 
 
 def _course(live: LiveRun, moment: float) -> np.ndarray:
-    """Change of the state (6,) per way along x of a block that sticks at ``moment`` (s)."""
+    """Change of the state (6,) per travel along x of a block that sticks at ``moment`` (s)."""
     span = 1e-3 * (moment - live.time)
     there = live.copy().advance(moment)
     change = there.copy().advance(moment + span).state - there.state

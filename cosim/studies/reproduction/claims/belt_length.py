@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from functools import cache
 
-from cosim.report.drawing import panels, picture
+from matplotlib.figure import Figure
+
+from cosim.report.style import panels, picture
 from thermal import Belt, BeltIceModel, ThermalParameters
-from thermal.single_pass import FROM_FACTORS, PRINTED, SinglePass
+from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
 from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn
 from ..drawing import COLOURS, LABELS, study_line
 from ..printed import STUDY, TEMPERATURES
 
 #: Temperature of the belt after one pass, degC, as printed; length in m
-TABLE = {length: one.value for length, one in TEMPERATURES.items()}
+TABLE = {length: one.number for length, one in TEMPERATURES.items()}
 DIGIT = 1e-4
 RUN = 20.0  # s at constant speed
 SPEED = 0.82
@@ -57,8 +59,8 @@ def finite_elements(
     force = FROM_FACTORS.friction_force
     for step in range(round((ramp + RUN) / MACRO_STEP)):
         middle = (step + 0.5) * MACRO_STEP
-        way = speed * MACRO_STEP * (min(middle / ramp, 1.0) if ramp else 1.0)
-        model.step(MACRO_STEP, force * way, way)
+        travel = speed * MACRO_STEP * (min(middle / ramp, 1.0) if ramp else 1.0)
+        model.step(MACRO_STEP, force * travel, travel)
     outputs = model.outputs()
     rise = outputs["belt_entry_temperature"] - parameters.ambient.temperature_degC
     return rise, outputs["belt_share"]
@@ -85,18 +87,19 @@ def cooling_rate() -> float:
     return 2.0 * HEAT_TRANSFER / (BELT.density * BELT.thickness * BELT.heat_capacity)
 
 
+def _rises(length: float) -> tuple[float, ...]:
+    """Where the belt meets the ice, K: as printed and, where it is computed, mended and exact."""
+    printed = PRINTED.temperature_degC(length) - PRINTED.ambient_degC
+    if length not in EXACT_LENGTHS:
+        return (printed,)
+    return printed, all_mended(length), finite_elements(length)[0]
+
+
 def judge_length() -> Claim:
     """C13: whether the rise on a belt of 1 m goes unseen."""
     ambient = PRINTED.ambient_degC
-    rises = {
-        length: (
-            PRINTED.temperature_degC(length) - ambient,
-            all_mended(length) if length in EXACT_LENGTHS else None,
-            finite_elements(length)[0] if length in EXACT_LENGTHS else None,
-        )
-        for length in TABLE
-    }
-    exact = rises[1.0][2]
+    rises = {length: _rises(length) for length in TABLE}
+    exact = finite_elements(1.0)[0]
     told = round(TABLE[1.0] - ambient, 4)
     passes = repeated(FROM_FACTORS, 1.0) - ambient
     return Claim(
@@ -259,12 +262,12 @@ def _misprinted() -> Turn:
     "Rise of the belt where it meets the ice, over its length, after 20 s at "
     "0.82 m/s. Study: table 3.5.",
 )
-def _draw(rises: dict[float, tuple[float | None, ...]]):
+def _draw(rises: dict[float, tuple[float, ...]]) -> Figure:
     figure, axes = panels(1, 1, height=2.8, width=5.5)
     ax = axes[0, 0]
     names = ("one pass, as printed", "mended check", "finite elements")
     for i, (model, name) in enumerate(zip(LABELS, names, strict=True)):
-        known = {length: one[i] for length, one in rises.items() if one[i] is not None}
+        known = {length: one[i] for length, one in rises.items() if i < len(one)}
         style = "o-" if len(known) == len(rises) else "o"  # no line over lengths not computed
         ax.plot(list(known), list(known.values()), style, color=COLOURS[model], label=name)
     study_line(ax, SENSITIVITY, "camera's sensitivity")

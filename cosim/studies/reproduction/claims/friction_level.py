@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.drawing import GREY, panels, picture
+from cosim.report.style import GREY, panels, picture
 
 from ..cases import (
     DATASET_1,
@@ -241,8 +241,8 @@ def _turns(of: dict[str, Variant]) -> list[Turn]:
             weights = EVEN[:i] + (weight,) + EVEN[i + 1 :]
             full, cut = (of[name].weighed(weights) for name in ("exact_full", "exact_cut"))
             turns.append(_turn(f"exact: {o.name} {word}", full, cut))
-    fitted, cut = of["exact_fitted"], of["exact_fitted_cut"]
-    turns.append(_turn("exact: pretension fitted to each", fitted.misfit, cut.misfit))
+    fitted = [of[name].misfit for name in ("exact_fitted", "exact_fitted_cut")]
+    turns.append(_turn("exact: pretension fitted to each", *fitted))
     return turns
 
 
@@ -254,8 +254,8 @@ def _turn(change: str, full: float, cut: float) -> Turn:
 def _row(i: int, of: dict[str, Variant]) -> Row:
     o = OBSERVATIONS[i]
     models = (of[f"{model}_full"].values[i] for model in ("printed", "mended", "exact"))
-    derived = {"derived": o.value, "how": o.how} if o.how else {}
-    return Row(f"{o.name}, µ full", o.unit, o.study, *models, **derived)
+    derived = o.value if o.how else None
+    return Row(f"{o.name}, µ full", o.unit, o.study, *models, derived=derived, how=o.how)
 
 
 def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]:
@@ -267,7 +267,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     enough = alone.misfit < ENOUGH * min(with_12.misfit, with_2.misfit)
     answer = ("yes" if enough else "in part") if better else "no"
     loose, fitted = of["exact_full"], of["exact_fitted"]
-    alike = [f"{of[name].values[0]:.1f}" for name in ("exact_full", "exact_cut")]
+    counts = [f"{of[name].values[0]:.1f}" for name in ("exact_full", "exact_cut")]
     turned = f"{alone.values[OBSERVATIONS.index(ROTATION)]:.0f}"
     best = min(of.values(), key=lambda variant: variant.misfit)
     return (
@@ -275,7 +275,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
         f"misfit {share[0]} with µ cut to a quarter, {share[1]} "
         f"with µ full and F1 mended, {share[2]} with F12 mended too, {share[3]} with F2 too. With "
         f"F1 alone mended the block still turns by {turned}°.",
-        f"The number of oscillations cannot decide: {alike[0]} with µ full, {alike[1]} with a "
+        f"The number of oscillations cannot decide: {counts[0]} with µ full, {counts[1]} with a "
         "quarter in the exact model, for the block slides most of the time and swings at its own "
         "frequency.",
         f"Pretension is not printed: the exact model's misfit with µ full is {loose.misfit:.2f} "
@@ -293,7 +293,7 @@ def _remarks(of: dict[str, Variant], faults: tuple[str, ...]) -> tuple[str, ...]
     "the wording of the observation tells.",
 )
 def _draw_observations(of: dict[str, Variant]):
-    figure, axes = panels(1, len(OBSERVATIONS), height=3.9, sharey=True)
+    figure, axes = panels(1, len(OBSERVATIONS), height=3.9, width=10.0, sharey=True)
     names = [variant.name for variant in of.values()]
     places = range(len(names))
     for i, (ax, o) in enumerate(zip(axes[0], OBSERVATIONS, strict=True)):

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED
 
-from cosim.report.drawing import panels, picture
+from cosim.report.style import panels, picture
 
 from ..cases import (
     DATASET_2,
@@ -30,8 +30,8 @@ from ..printed import STUDY
 from ..readings import ENOUGH, Reading, outcomes, steady_figures
 
 RATIOS = (0.5, 0.77, 1.0)
-COUNTED = int(STUDY["oscillations_at_1"].value)
-MEASURED = int(STUDY["oscillations_measured"].value)
+COUNTED = int(STUDY["oscillations_at_1"].number)
+MEASURED = int(STUDY["oscillations_measured"].number)
 #: What the study's words say of the other two; the captions that count them are not to be had
 DERIVED = {
     0.5: ("28 to 30", "one or two less than that at 0.77"),
@@ -64,6 +64,19 @@ def _more(counts: dict[float, float]) -> bool:
     return all(MORE[0] <= gap <= MORE[1] for gap in gaps)
 
 
+def _counted(ratio: float, counts: dict[str, dict[float, float]]) -> Row:
+    """The oscillations at a ratio, by model, beside what the study counts or says of them."""
+    derived, how = DERIVED.get(ratio, (None, ""))
+    return Row(
+        f"oscillations in 20 s, µ_k/µ_s = {ratio:g}",
+        "1",
+        None if ratio in DERIVED else STUDY["oscillations_at_1"],
+        *(of_model[ratio] for of_model in counts.values()),
+        derived=derived,
+        how=how,
+    )
+
+
 def judge() -> Claim:
     """Counts in 20 s by model."""
     by_ratio = {ratio: _figures(ratio) for ratio in RATIOS}
@@ -71,16 +84,7 @@ def judge() -> Claim:
         model: {ratio: by_ratio[ratio][model].oscillations for ratio in RATIOS}
         for model in ("printed", "mended", "exact")
     }
-    rows = [
-        Row(
-            f"oscillations in 20 s, µ_k/µ_s = {ratio:g}",
-            "1",
-            None if ratio in DERIVED else STUDY["oscillations_at_1"],
-            *(counts[model][ratio] for model in counts),
-            **_source(ratio),
-        )
-        for ratio in RATIOS
-    ]
+    rows = [_counted(ratio, counts) for ratio in RATIOS]
     rows += [
         Row(
             f"half the range of x, µ_k/µ_s = {ratio:g}",
@@ -128,10 +132,6 @@ def judge() -> Claim:
         place="§5.4, fig. 5.11",
         rests="a count in a window that is taken for 20 s, and the readings of the scheme",
     )
-
-
-def _source(ratio: float) -> dict[str, str]:
-    return dict(zip(("derived", "how"), DERIVED.get(ratio, ()), strict=False))
 
 
 def _gap(counts: dict[float, float]) -> float:

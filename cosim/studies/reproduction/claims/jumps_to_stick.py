@@ -7,13 +7,13 @@ from functools import cache
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.drawing import INK, panels, picture
+from cosim.report.style import INK, panels, picture
+from cosim.studies.reproduction.cases import ASSUMED, CASE, cases
 
 from ..cases import CYCLES, Case, exact_motion, exact_parameters, longest, many, scheme
 from ..claim import OPEN, Check, Claim, Margin, Row, Turn, responsible
 from ..drawing import COLOURS
 from ..printed import STUDY
-from ..series import ASSUMED, CASE, cases
 
 NAMED = tuple(CASE.changed(stiffness=68.22, mass=2.03, speed=v) for v in (0.50, 0.63, 0.82))
 # a block of 10 ms changes x' by at most 10 ms of the largest acceleration, omega v; a jump is more
@@ -47,62 +47,13 @@ def judge() -> Claim:
         lambda faults: sum(many(_jumps, witnesses, faults)) > 0 if witnesses else False
     )
     exact = _exact_jump()
-    rows = [
-        Row(
-            f"jumps to stick in 25 cycles, v {case.speed:.2f} m/s",
-            "1",
-            None,
-            float(_jumps(case, PRINTED)),
-            float(_jumps(case, MENDED)),
-            float(exact),
-            derived="1 or more",
-            how="a run is named for its jump, §5.1",
-        )
-        for case in NAMED
-    ]
-    rows.append(
-        Row(
-            f"runs with a jump, of {len(plan)}",
-            "1",
-            STUDY["runs_with_a_jump"],
-            float(len(jumping)),
-            float(mended),
-        )
-    )
     before = sum(_jumps(case, PRINTED) for case in witnesses)
     left = {f: sum(many(_jumps, witnesses, PRINTED.without(f))) for f in ("F6", "F14")}
     return Claim(
         "C14",
         "jumps to stick in mid-slip (k 68.22, m 2.03, v ≥ 0.50) are an anomaly of the model",
-        tuple(rows),
-        (
-            Check(
-                "the jumps are an anomaly of the model: the scheme has some, a sound model none",
-                bool(jumping),
-                mended == 0 and bool(jumping),
-                exact == 0 and bool(jumping),
-                margin=Margin("jumps, exact, in the named runs", exact, 0.0),
-            ),
-            *(
-                Check(
-                    f"the run at {case.speed:.2f} m/s is one that jumps",
-                    _jumps(case, PRINTED) > 0,
-                    None,
-                    None,
-                    margin=Margin(f"jumps at {case.speed:.2f} m/s", _jumps(case, PRINTED), 1.0),
-                    turns=(*_other_laws(case), _located(case)),
-                )
-                for case in NAMED
-            ),
-            Check(
-                f"no more than {RARE} of the {len(plan)} runs jump",
-                len(jumping) <= RARE,
-                None,
-                None,
-                margin=Margin("runs with a jump", len(jumping), RARE),
-                turns=(_no_rotation(plan), *_plan_under_other_laws(plan)),
-            ),
-        ),
+        _rows(len(plan), len(jumping), mended, exact),
+        _checks(plan, len(jumping), mended, exact),
         remarks=(
             f"Faults whose mending alone ends the jumps of {len(witnesses)} runs that have them: "
             f"{', '.join(faults) or 'none'}. Jumps in these runs: {before} as printed, "
@@ -121,6 +72,65 @@ def judge() -> Claim:
         "assumed, not those of the study's runs.",
         place="§5.1, fig. 5.2d and 5.5",
         rests=f"chance in which run it is; on 0 jumps in {len(plan)} runs of the mended scheme",
+    )
+
+
+def _rows(plan: int, jumping: int, mended: int, exact: int) -> tuple[Row, ...]:
+    """Jumps in the named runs, by model, and how many runs of the plan have some."""
+    rows = [
+        Row(
+            f"jumps to stick in 25 cycles, v {case.speed:.2f} m/s",
+            "1",
+            None,
+            float(_jumps(case, PRINTED)),
+            float(_jumps(case, MENDED)),
+            float(exact),
+            derived="1 or more",
+            how="a run is named for its jump, §5.1",
+        )
+        for case in NAMED
+    ]
+    rows.append(
+        Row(
+            f"runs with a jump, of {plan}",
+            "1",
+            STUDY["runs_with_a_jump"],
+            float(jumping),
+            float(mended),
+        )
+    )
+    return tuple(rows)
+
+
+def _checks(plan: list[Case], jumping: int, mended: int, exact: int) -> tuple[Check, ...]:
+    """Whose the jumps are, which runs have them, and how many."""
+    return (
+        Check(
+            "the jumps are an anomaly of the model: the scheme has some, a sound model none",
+            jumping > 0,
+            mended == 0 and jumping > 0,
+            exact == 0 and jumping > 0,
+            margin=Margin("jumps, exact, in the named runs", exact, 0.0),
+        ),
+        *(
+            Check(
+                f"the run at {case.speed:.2f} m/s is one that jumps",
+                _jumps(case, PRINTED) > 0,
+                None,
+                None,
+                margin=Margin(f"jumps at {case.speed:.2f} m/s", _jumps(case, PRINTED), 1.0),
+                turns=(*_other_laws(case), _located(case)),
+            )
+            for case in NAMED
+        ),
+        Check(
+            f"no more than {RARE} of the {len(plan)} runs jump",
+            jumping <= RARE,
+            None,
+            None,
+            margin=Margin("runs with a jump", jumping, RARE),
+            turns=(_no_rotation(plan), *_plan_under_other_laws(plan)),
+        ),
     )
 
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from stickslip.reference.faults import PRINTED
 
-from cosim.report.drawing import SERIES, panels, picture
+from cosim.report.style import SERIES, panels, picture
+from cosim.studies.reproduction.cases import ASSUMED, CASE, Grid, grid
 
 from ..cases import (
     EXTRA_STIFFNESS,
@@ -27,8 +28,7 @@ from ..cases import (
 from ..claim import OPEN, PUT_IN, Check, Claim, Margin, Row, Turn
 from ..drawing import LABELS, MODELS
 from ..printed import STUDY
-from ..series import ASSUMED, CASE, Grid, grid
-from .mean_displacement import LEVEL, LOAD_POWER
+from .trends import LEVEL, LOAD_POWER
 
 ALL_STIFFNESSES = (*STIFFNESSES, EXTRA_STIFFNESS)
 # lines over mass count as horizontal where mu_k strays by less than this part of its mean
@@ -64,9 +64,38 @@ def judge() -> Claim:
     """Range, mass, speed, stiffness."""
     mu = grid(lambda case, figures: figures.mean_friction / case.weight, ALL_STIFFNESSES)
     spreads = {model: _spread_over_speed(mu[model]) for model in MODELS}
-    by_speed = {model: mu[model].mean(axis=(0, 1)) for model in MODELS}
     strays = [_strays(mu[model]) for model in MODELS]
     changes = [_change_over_mass(mu[model]) for model in MODELS]
+    return Claim(
+        "C10",
+        "mean µ_k is 0.05 to 0.11, constant in mass, falls with speed, and its spread "
+        "shrinks with stiffness",
+        _rows(mu, spreads, strays, changes),
+        _checks(mu, spreads, strays),
+        remarks=(
+            "The study says both: its summary, that friction coefficients depend linearly on "
+            "mass; §5.3, that a similar one is found per mass, with figure 5.8. Linear in mass is "
+            "the friction force. The claim here is §5.3's; of the summary's: over the masses µ_k "
+            f"changes by {100 * changes[-1]:.1f} % in the exact model.",
+            f"As printed the spread at the stiffest is {_ratio(spreads['printed']):.2f} of that at "
+            f"the softest, with r in the rise (F2 mended) {_without_rotation():.3f}: what shrinks "
+            "it there is the rotation. Guided along x it stays as it is. A free block turns by "
+            "what the study leaves open, the pretension and the slope, and its spread shrinks "
+            "with some of these and grows with others.",
+            "Over a whole cycle the mean sliding speed is the surface's own; in slip it is that "
+            "divided by the share of slip, which stiffness brings to 1. So µ_k at high stiffness "
+            "differs between speeds by what the friction law differs.",
+        ),
+        assumed=(*ASSUMED, GUIDED_ASSUMED),
+        pictures=(_draw(mu),),
+        place="§5.3, fig. 5.8 to 5.10; executive summary",
+        rests="a friction law that is put in: constant in mass, falling with speed; the spread on "
+        "whether and how far the block turns",
+    )
+
+
+def _rows(mu: Grid, spreads: Grid, strays: list[float], changes: list[float]) -> tuple[Row, ...]:
+    """The range of µ_k, and its spreads over mass and over speed."""
     rows = [
         Row("smallest mean µ_k", "1", STUDY["least_mu_k"], *(float(mu[m].min()) for m in MODELS)),
         Row("largest mean µ_k", "1", STUDY["largest_mu_k"], *(float(mu[m].max()) for m in MODELS)),
@@ -88,65 +117,46 @@ def judge() -> Claim:
         )
         for i, k in enumerate(ALL_STIFFNESSES)
     ]
-    return Claim(
-        "C10",
-        "mean µ_k is 0.05 to 0.11, constant in mass, falls with speed, and its spread "
-        "shrinks with stiffness",
-        tuple(rows),
-        (
-            Check(
-                "lies in 0.05 to 0.11: the friction data behind it are not printed",
-                None,
-                None,
-                None,
-            ),
-            Check(
-                f"constant in mass within {100 * HORIZONTAL:.0f} %",
-                *(value < HORIZONTAL for value in strays),
-                margin=Margin("largest spread over mass, exact", strays[-1], HORIZONTAL),
-                turns=(_load_dependent(),),
-            ),
-            Check(
-                "falls with speed",
-                *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS),
-                margin=Margin(
-                    "smallest step from one speed to the next, exact",
-                    float(np.diff(by_speed["exact"]).max()),
-                    0.0,
-                ),
-                turns=(_constant(),),
-            ),
-            Check(
-                f"spread over speed shrinks from the softest to the stiffest springs, by more "
-                f"than {100 * FLAT:.0f} %",
-                *(_shrinks(spreads[model]) for model in MODELS),
-                margin=Margin(
-                    "spread at the stiffest by that at the softest, exact",
-                    _ratio(spreads["exact"]),
-                    1.0 - FLAT,
-                ),
-                turns=(*map(_weakened, OTHER_WEAKENINGS), *_bent(), *_free()),
-            ),
+    return tuple(rows)
+
+
+def _checks(mu: Grid, spreads: Grid, strays: list[float]) -> tuple[Check, ...]:
+    """Range, mass, speed, stiffness."""
+    by_speed = {model: mu[model].mean(axis=(0, 1)) for model in MODELS}
+    return (
+        Check(
+            "lies in 0.05 to 0.11: the friction data behind it are not printed",
+            None,
+            None,
+            None,
         ),
-        remarks=(
-            "The study says both: its summary, that friction coefficients depend linearly on "
-            "mass; §5.3, that a similar one is found per mass, with figure 5.8. Linear in mass is "
-            "the friction force. The claim here is §5.3's; of the summary's: over the masses µ_k "
-            f"changes by {100 * changes[-1]:.1f} % in the exact model.",
-            f"As printed the spread at the stiffest is {_ratio(spreads['printed']):.2f} of that at "
-            f"the softest, with r in the rise (F2 mended) {_without_rotation():.3f}: what shrinks "
-            "it there is the rotation. Guided along x it stays as it is. A free block turns by "
-            "what the study leaves open, the pretension and the slope, and its spread shrinks "
-            "with some of these and grows with others.",
-            "Over a whole cycle the mean sliding speed is the surface's own; in slip it is that "
-            "divided by the share of slip, which stiffness brings to 1. So µ_k at high stiffness "
-            "differs between speeds by what the friction law differs.",
+        Check(
+            f"constant in mass within {100 * HORIZONTAL:.0f} %",
+            *(value < HORIZONTAL for value in strays),
+            margin=Margin("largest spread over mass, exact", strays[-1], HORIZONTAL),
+            turns=(_load_dependent(),),
         ),
-        assumed=(*ASSUMED, GUIDED_ASSUMED),
-        pictures=(_draw(mu),),
-        place="§5.3, fig. 5.8 to 5.10; executive summary",
-        rests="a friction law that is put in: constant in mass, falling with speed; the spread on "
-        "whether and how far the block turns",
+        Check(
+            "falls with speed",
+            *(bool(np.all(np.diff(by_speed[model]) < 0.0)) for model in MODELS),
+            margin=Margin(
+                "smallest step from one speed to the next, exact",
+                float(np.diff(by_speed["exact"]).max()),
+                0.0,
+            ),
+            turns=(_constant(),),
+        ),
+        Check(
+            f"spread over speed shrinks from the softest to the stiffest springs, by more "
+            f"than {100 * FLAT:.0f} %",
+            *(_shrinks(spreads[model]) for model in MODELS),
+            margin=Margin(
+                "spread at the stiffest by that at the softest, exact",
+                _ratio(spreads["exact"]),
+                1.0 - FLAT,
+            ),
+            turns=(*map(_weakened, OTHER_WEAKENINGS), *_bent(), *_free()),
+        ),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
-from cosim.report.drawing import panels, picture
+from cosim.report.style import panels, picture
 
 from ..cases import (
     DATASET_1,
@@ -25,10 +25,15 @@ from ..printed import STUDY
 from ..readings import AS_PRINTED, MARKS, READINGS, outcomes, reading_figures
 
 SEEDS = tuple(range(8))
-FAR_TURN = STUDY["rotation_dataset_1"].value
-MEASURED = STUDY["rotation_measured"].value
+FAR_TURN = STUDY["rotation_dataset_1"].number
+MEASURED = STUDY["rotation_measured"].number
 # the motion is chaotic: the largest angle of one run and of another differ by as much
 FACTOR = 1.5
+
+
+#: Dataset -> figures as printed, mended and exact.
+Found = dict[str, tuple[MotionFigures, MotionFigures, MotionFigures]]
+CASES = {"#1": DATASET_1, "#2": DATASET_2}
 
 
 def _farthest(case: Case, faults: Faults) -> Motion:
@@ -52,72 +57,20 @@ def _stays(ours: MotionFigures) -> bool:
 
 def judge() -> Claim:
     """Largest rotation and angular speed over several seeds."""
-    rows, found = [], {}
-    for name, case in (("#1", DATASET_1), ("#2", DATASET_2)):
-        exact = figures(exact_motion(exact_parameters(case)))
-        found[name] = (_largest(case, PRINTED), _largest(case, MENDED), exact)
-        angle, rate = (STUDY[f"{what}_dataset_{name[1:]}"] for what in ("rotation", "swing"))
-        rows.append(
-            Row(
-                f"largest rotation, dataset {name}, of {len(SEEDS)} runs{EXACT_START}",
-                "deg",
-                angle,
-                *(one.max_rotation for one in found[name]),
-            )
+    found = {
+        name: (
+            _largest(case, PRINTED),
+            _largest(case, MENDED),
+            figures(exact_motion(exact_parameters(case))),
         )
-        rows.append(
-            Row(
-                f"angle by duration of the fastest swing, dataset {name}",
-                "deg/s",
-                rate,
-                *(one.swing_rate for one in found[name]),
-            )
-        )
-    far = [one.max_rotation > FAR_TURN / FACTOR for one in found["#1"]]
-    near = [_stays(one) for one in found["#2"]]
-    both = [one and other for one, other in zip(far, near, strict=True)]
-    loose = {
-        name: figures(exact_motion(exact_parameters(case, pretension=0.0)))
-        for name, case in (("#1", DATASET_1), ("#2", DATASET_2))
+        for name, case in CASES.items()
     }
     smaller = found["#2"][0].max_rotation < found["#1"][0].max_rotation
     return Claim(
         "C7",
         "dataset #1 rotates up to 150°, dataset #2 stays within 20°",
-        tuple(rows),
-        (
-            Check(
-                f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°",
-                *far,
-                faults=responsible(_turns_still),
-                margin=Margin(
-                    "largest rotation #1, exact, its start",
-                    found["#1"][2].max_rotation,
-                    FAR_TURN / FACTOR,
-                    "°",
-                ),
-            ),
-            Check(
-                f"dataset #2 stays within {FACTOR * MEASURED:.0f}°",
-                *near,
-                margin=Margin(
-                    "largest rotation #2, exact, its start",
-                    found["#2"][2].max_rotation,
-                    FACTOR * MEASURED,
-                    "°",
-                ),
-            ),
-            Check(
-                "one and the same model does both",
-                *both,
-                margin=Margin(
-                    "marks of the two datasets met by the best reading",
-                    max(sum(one.met) for one in outcomes()),
-                    len(MARKS),
-                ),
-                turns=(_without_pretension(loose), *_readings()),
-            ),
-        ),
+        _rows(found),
+        _checks(found),
         remarks=(
             f"As printed, dataset #2 turns {'less' if smaller else 'no less'} than dataset #1, by "
             f"{found['#2'][0].max_rotation:.0f}°: not within the {MEASURED:.0f}° that the study "
@@ -138,6 +91,74 @@ def judge() -> Claim:
             RIG_ASSUMED,
         ),
         pictures=(_draw(),),
+    )
+
+
+def _rows(found: Found) -> tuple[Row, ...]:
+    """Angle and swing of each dataset, by model."""
+    rows = []
+    for name, models in found.items():
+        angle, rate = (STUDY[f"{what}_dataset_{name[1:]}"] for what in ("rotation", "swing"))
+        rows.append(
+            Row(
+                f"largest rotation, dataset {name}, of {len(SEEDS)} runs{EXACT_START}",
+                "deg",
+                angle,
+                *(one.max_rotation for one in models),
+            )
+        )
+        rows.append(
+            Row(
+                f"angle by duration of the fastest swing, dataset {name}",
+                "deg/s",
+                rate,
+                *(one.swing_rate for one in models),
+            )
+        )
+    return tuple(rows)
+
+
+def _checks(found: Found) -> tuple[Check, ...]:
+    """How far each dataset turns, and whether one model does both."""
+    far = [one.max_rotation > FAR_TURN / FACTOR for one in found["#1"]]
+    near = [_stays(one) for one in found["#2"]]
+    both = [one and other for one, other in zip(far, near, strict=True)]
+    loose = {
+        name: figures(exact_motion(exact_parameters(case, pretension=0.0)))
+        for name, case in CASES.items()
+    }
+    return (
+        Check(
+            f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°",
+            *far,
+            faults=responsible(_turns_still),
+            margin=Margin(
+                "largest rotation #1, exact, its start",
+                found["#1"][2].max_rotation,
+                FAR_TURN / FACTOR,
+                "°",
+            ),
+        ),
+        Check(
+            f"dataset #2 stays within {FACTOR * MEASURED:.0f}°",
+            *near,
+            margin=Margin(
+                "largest rotation #2, exact, its start",
+                found["#2"][2].max_rotation,
+                FACTOR * MEASURED,
+                "°",
+            ),
+        ),
+        Check(
+            "one and the same model does both",
+            *both,
+            margin=Margin(
+                "marks of the two datasets met by the best reading",
+                max(sum(one.met) for one in outcomes()),
+                len(MARKS),
+            ),
+            turns=(_without_pretension(loose), *_readings()),
+        ),
     )
 
 
@@ -177,7 +198,7 @@ def _readings() -> list[Turn]:
 )
 def _draw():
     figure, axes = panels(1, 2, height=2.7)
-    for ax, name, case in ((axes[0, 0], "#1", DATASET_1), (axes[0, 1], "#2", DATASET_2)):
+    for ax, (name, case) in zip(axes[0], CASES.items(), strict=True):
         runs: dict[str, Motion] = {
             "printed": _farthest(case, PRINTED),
             "mended": _farthest(case, MENDED),
@@ -187,7 +208,7 @@ def _draw():
             style = {"color": COLOURS[model], "label": LABELS[model], "lw": 1.0}
             ax.plot(run.time, np.degrees(run.phi), **style)
         for sign in (1, -1):
-            study = STUDY[f"rotation_dataset_{name[1:]}"].value
+            study = STUDY[f"rotation_dataset_{name[1:]}"].number
             study_line(ax, sign * study, "study's largest" if sign == 1 else "_")
         largest = np.degrees(np.abs(runs["printed"].phi).max())
         ax.set_title(f"dataset {name}: as printed up to {largest:.0f}°")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 
 from stickslip import simulate
 from stickslip.reference.faults import PRINTED
@@ -37,67 +39,54 @@ def _as_told(ratio: float) -> bool:
     return STUDY[0] / LEEWAY <= ratio <= LEEWAY * STUDY[1]
 
 
+@dataclass(frozen=True)
+class Times:
+    """Seconds of a run with updated angles and with angle zero; the exact model has one.
+
+    python, numpy: script with strips in either, over `DURATION`; compiled, exact: over `WHOLE`.
+    """
+
+    python: tuple[float, float]
+    numpy: tuple[float, float]
+    compiled: tuple[float, float]
+    exact: float
+
+    @property
+    def per_run(self) -> float:
+        """Of the script with strips in Python over `WHOLE`, updated, s."""
+        return self.python[0] / DURATION * WHOLE
+
+
+def _measured() -> Times:
+    script = partial(interpreted_run, DURATION)
+
+    def both(repeats: int, together: bool) -> tuple[float, float]:
+        updated, zero = (
+            seconds(partial(script, treatment=kind, together=together), repeats)
+            for kind in ("updated", "zero")
+        )
+        return updated, zero
+
+    python, numpy = both(1, False), both(3, True)
+    updated, zero = (scheme(DATASET_1, PRINTED, treatment=kind) for kind in ("updated", "zero"))
+    compiled = [seconds(partial(one.run, duration=WHOLE), 5) for one in (updated, zero)]
+    parameters = exact_parameters(DATASET_1)
+    exact = seconds(partial(simulate, parameters, WHOLE), 5)
+    return Times(python, numpy, (compiled[0], compiled[1]), exact)
+
+
 def judge() -> Claim:
     """Script with strips in Python, script with strips in numpy, compiled scheme, exact model."""
-    python = [
-        seconds(lambda kind=kind: interpreted_run(DURATION, treatment=kind), 1)
-        for kind in ("updated", "zero")
-    ]
-    numpy = [
-        seconds(lambda kind=kind: interpreted_run(DURATION, treatment=kind, together=True), 3)
-        for kind in ("updated", "zero")
-    ]
-    schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in ("updated", "zero")]
-    compiled = [seconds(lambda one=one: one.run(duration=WHOLE), 5) for one in schemes]
-    parameters = exact_parameters(DATASET_1)
-    exact = seconds(lambda: simulate(parameters, WHOLE), 5)
-    ratio = python[0] / python[1]
-    per_second = python[0] / DURATION * WHOLE
-    others = {"strips in numpy": numpy[0] / numpy[1], "compiled": compiled[0] / compiled[1]}
+    times = _measured()
+    ratio = times.python[0] / times.python[1]
+    others = {
+        "strips in numpy": times.numpy[0] / times.numpy[1],
+        "compiled": times.compiled[0] / times.compiled[1],
+    }
     return Claim(
         "C12",
         "updating the spring angles takes 5 to 8 min, other treatments 20 to 30 s",
-        (
-            Row(
-                f"run time of {CYCLES} cycles, updated, strips in Python",
-                "min",
-                PRINTED_TIMES["minutes_updated"],
-                CYCLES * python[0] / 60.0,
-                digits=3,
-            ),
-            Row(
-                f"run time of {CYCLES} cycles, zero, strips in Python",
-                "s",
-                PRINTED_TIMES["seconds_others"],
-                CYCLES * python[1],
-                digits=3,
-            ),
-            Row(
-                "run time, updated / zero, strips in Python",
-                "1",
-                None,
-                ratio,
-                derived=f"{STUDY[0]:.0f} to {STUDY[1]:.0f}",
-                how="5 min/30 s to 8 min/20 s",
-            ),
-            Row("run time, updated / zero, strips in numpy", "1", None, numpy[0] / numpy[1]),
-            Row("run time, updated / zero, compiled", "1", None, None, compiled[0] / compiled[1]),
-            Row(
-                "script (strips in Python) / compiled scheme, 20 s, updated",
-                "1",
-                None,
-                None,
-                per_second / compiled[0],
-            ),
-            Row(
-                "script (strips in Python) / exact model, 20 s",
-                "1",
-                None,
-                None,
-                None,
-                per_second / exact,
-            ),
-        ),
+        _rows(times),
         (
             Check(
                 "`updated` takes 10 to 24 times as long as the others, within a factor of "
@@ -115,13 +104,66 @@ def judge() -> Claim:
         remarks=(
             "The cost is not the stiffness matrix: `updated` samples friction a hundred times in "
             "every 10 ms, a fixed matrix a hundred times in a second. Compiled, the exact model "
-            f"takes {1e3 * exact:.0f} ms for {WHOLE:.0f} s here.",
+            f"takes {1e3 * times.exact:.0f} ms for {WHOLE:.0f} s here.",
         ),
         scope="as a ratio, within a factor of "
-        f"{LEEWAY:.0f}: the times themselves are {CYCLES * python[0] / 60.0:.2g} min and "
-        f"{CYCLES * python[1]:.2g} s on this machine",
+        f"{LEEWAY:.0f}: the times themselves are {CYCLES * times.python[0] / 60.0:.2g} min and "
+        f"{CYCLES * times.python[1]:.2g} s on this machine",
         place="§4.3.2, §4.3.3",
         rests="how the study's script samples friction; machine and library are not printed",
         leading=2,
         assumed=("a fixed matrix is solved once a slip, over 2 s at 100 samples a second",),
+    )
+
+
+def _rows(times: Times) -> tuple[Row, ...]:
+    """The times, and their ratios."""
+    return (
+        Row(
+            f"run time of {CYCLES} cycles, updated, strips in Python",
+            "min",
+            PRINTED_TIMES["minutes_updated"],
+            CYCLES * times.python[0] / 60.0,
+            digits=3,
+        ),
+        Row(
+            f"run time of {CYCLES} cycles, zero, strips in Python",
+            "s",
+            PRINTED_TIMES["seconds_others"],
+            CYCLES * times.python[1],
+            digits=3,
+        ),
+        Row(
+            "run time, updated / zero, strips in Python",
+            "1",
+            None,
+            times.python[0] / times.python[1],
+            derived=f"{STUDY[0]:.0f} to {STUDY[1]:.0f}",
+            how="5 min/30 s to 8 min/20 s",
+        ),
+        Row(
+            "run time, updated / zero, strips in numpy", "1", None, times.numpy[0] / times.numpy[1]
+        ),
+        Row(
+            "run time, updated / zero, compiled",
+            "1",
+            None,
+            None,
+            times.compiled[0] / times.compiled[1],
+        ),
+        Row(
+            "script (strips in Python) / compiled scheme, 20 s, updated",
+            "1",
+            None,
+            None,
+            times.per_run / times.compiled[0],
+        ),
+        Row(
+            "script (strips in Python) / exact model, 20 s",
+            "1",
+            None,
+            None,
+            None,
+            times.per_run / times.exact,
+        ),
     )

@@ -7,28 +7,35 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.gap.read import Campaign
+from cosim.gap.data import Campaign
 
-from .chance import BOOTSTRAPS, p_of_the_best
-from .observations import Observation, observations
-from .report import open_figures, ranked, remarks, where
-from .result import SummaryGap
-from .score import Target, gap, misfit, scatter_of_kin
+from .candidates import Candidate, extensions, free_candidate, not_felt, plain_candidate
+from .draws import (
+    Bench,
+    Draw,
+    Observation,
+    Target,
+    draw,
+    gap,
+    misfit,
+    observations,
+    scatter_of_kin,
+    without_effect,
+)
+from .result import SummaryGap, open_figures, ranked, remarks, where
 from .search import (
     FIRST,
     SEEDS,
     even_shares,
-    first_look,
-    look_closely,
     near,
     ordered,
     polished,
     refined,
+    screening,
     widen,
+    with_all_seeds,
 )
-from .table import Bench, Draw, draw, without_effect
-from .trial import WITHIN, Trial, fitted
-from .ways import Way, free_way, not_felt, plain_way, ways
+from .trial import BOOTSTRAPS, WITHIN, Trial, fitted, p_of_the_best
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32
@@ -71,7 +78,7 @@ class Found:
     def rivals(self) -> tuple[str, ...]:
         """Effects that do as well as the best, itself included, best first."""
         order = sorted(self.tried, key=lambda trial: trial.bic)
-        close = [t.way.effects[-1] for t in order if t.bic - self.best.bic <= APART]
+        close = [t.candidate.effects[-1] for t in order if t.bic - self.best.bic <= APART]
         return tuple(dict.fromkeys(close))
 
 
@@ -90,15 +97,15 @@ def find_summary_gap(
     seen = observations(campaign)
     bench = Bench(campaign, seen, seed, jobs, step)
     target = Target.of(seen)
-    way = plain_way(campaign)
-    known, *draws = first_look(bench, way, PLAIN_DRAWS)
+    candidate = plain_candidate(campaign)
+    known, *draws = screening(bench, candidate, PLAIN_DRAWS)
     known = bench.run([known], SEEDS - 1)[0]
     none = np.zeros(len(seen))
     if bench.smooth:
         best = ordered(draws, target, none)[:2]
-        draws += [polished(bench, way, one, target) for one in best]
-    draws = look_closely(bench, draws, target, none, PLAIN_CLOSELY)
-    plain = Trial.of(way, [known, *draws], target, scatter_of_kin(draws))
+        draws += [polished(bench, candidate, one, target) for one in best]
+    draws = with_all_seeds(bench, draws, target, none, PLAIN_CLOSELY)
+    plain = Trial.of(candidate, [known, *draws], target, scatter_of_kin(draws))
     found: list[Found] = []
     trial = plain
     while len(found) < MOST_EFFECTS and trial.lack_of_fit < (FITS if not found else REPAIRED):
@@ -123,33 +130,33 @@ def find_summary_gap(
 def _add(bench: Bench, before: Trial, target: Target) -> Found:
     """Every effect on top of ``before``; those in the running searched to the end."""
     none = np.zeros(len(target.sizes))  # one seed does not tell a scatter
-    share = 1.0 if before.way.effects else NEAR_PLAIN[bench.smooth]
-    looks = [
-        (way, ordered(first_look(bench, way, FIRST, before.best, share), target, none))
-        for way in ways(bench.campaign, before.way)
+    share = 1.0 if before.candidate.effects else NEAR_PLAIN[bench.smooth]
+    screened = [
+        (candidate, ordered(screening(bench, candidate, FIRST, before.best, share), target, none))
+        for candidate in extensions(bench.campaign, before.candidate)
     ]
-    looks.sort(key=lambda look: misfit(look[1][0], target, none))
+    screened.sort(key=lambda one_screened: misfit(one_screened[1][0], target, none))
     tried = []
-    for place, (way, draws) in enumerate(looks):
-        draws = refined(bench, way, draws, target, none, place < IN_THE_RUNNING)
-        tried.append(_nested(way, draws, before, target))
+    for place, (candidate, draws) in enumerate(screened):
+        draws = refined(bench, candidate, draws, target, none, place < IN_THE_RUNNING)
+        tried.append(_nested(candidate, draws, before, target))
     tried.sort(key=lambda trial: trial.bic)
     tried[0] = _with_ranges(bench, tried[0], before, target)
     return Found(before, tuple(tried), p_of_the_best(before, tried, bench.seed))
 
 
-def _nested(way: Way, draws: Sequence[Draw], before: Trial, target: Target) -> Trial:
-    """The trial of ``way``; an effect may also be off, so it is never worse than without."""
-    off = [without_effect(way, one) for one in before.close]
-    return Trial.of(way, [*draws, *off], target, scatter_of_kin(draws))
+def _nested(candidate: Candidate, draws: Sequence[Draw], before: Trial, target: Target) -> Trial:
+    """The trial of ``candidate``; an effect may also be off, so it is never worse than without."""
+    off = [without_effect(candidate, one) for one in before.close]
+    return Trial.of(candidate, [*draws, *off], target, scatter_of_kin(draws))
 
 
 def _with_ranges(bench: Bench, trial: Trial, before: Trial, target: Target) -> Trial:
     """The trial with more draws about its good ones: its intervals, and perhaps a better best."""
-    own = [one for one in trial.draws if len(one.shares) == len(trial.way.spans)]
-    draws = widen(bench, trial.way, own, target, WITHIN, RANGE_DRAWS)
-    draws = look_closely(bench, draws, target, trial.kin, SEEDS)
-    return _nested(trial.way, draws, before, target)
+    own = [one for one in trial.draws if len(one.shares) == len(trial.candidate.spans)]
+    draws = widen(bench, trial.candidate, own, target, WITHIN, RANGE_DRAWS)
+    draws = with_all_seeds(bench, draws, target, trial.kin, SEEDS)
+    return _nested(trial.candidate, draws, before, target)
 
 
 def _share_that_fits(bench: Bench, trial: Trial, target: Target) -> float:
@@ -158,23 +165,23 @@ def _share_that_fits(bench: Bench, trial: Trial, target: Target) -> float:
     As well: within twice the best gap. A small share says that the fit hangs on exact numbers.
     """
     own = len(trial.friction_spans)
-    table = even_shares(trial.way, ROBUST_DRAWS, bench.seed + 3)
+    table = even_shares(trial.candidate, ROBUST_DRAWS, bench.seed + 3)
     table[:, own:] = trial.best.shares[own:]
-    draws = bench.run([draw(trial.way, shares, len(bench.seen)) for shares in table])
+    draws = bench.run([draw(trial.candidate, shares, len(bench.seen)) for shares in table])
     limit = 2.0 * gap(trial.best.mean, target)
     return float(np.mean([gap(one.mean, target) <= limit for one in draws]))
 
 
 def _with_free_friction(bench: Bench, plain: Trial, target: Target) -> Trial | None:
     """The plain model with friction set free: would other coefficients do instead of an effect?"""
-    way = free_way(plain.way)
-    if way == plain.way:
+    candidate = free_candidate(plain.candidate)
+    if candidate == plain.candidate:
         return None
     none = np.zeros(len(target.sizes))
-    draws = first_look(bench, way, PLAIN_DRAWS)
-    draws += near(bench, way, ordered(draws, target, none)[:3], PLAIN_DRAWS // 2)
-    draws = refined(bench, way, draws, target, none, running=False)
-    return Trial.of(way, draws, target, scatter_of_kin(draws))
+    draws = screening(bench, candidate, PLAIN_DRAWS)
+    draws += near(bench, candidate, ordered(draws, target, none)[:3], PLAIN_DRAWS // 2)
+    draws = refined(bench, candidate, draws, target, none, running=False)
+    return Trial.of(candidate, draws, target, scatter_of_kin(draws))
 
 
 def _answer(
@@ -196,7 +203,7 @@ def _answer(
         observations=seen,
         verdict=verdict,
         effects=effects,
-        found=last.way.effects if last else (),
+        found=last.candidate.effects if last else (),
         classes=classes,
         where=where(seen, before),
         ranking=ranked(first.tried, plain) if first else (),
@@ -229,7 +236,7 @@ def _judge(
     if not held:
         return "unknown", (), ()
     classes = tuple(one.rivals for one in held if len(one.rivals) > 1)
-    effects = held[-1].best.way.effects
+    effects = held[-1].best.candidate.effects
     if held[-1].best.lack_of_fit < REPAIRED:
         return "unknown", effects, classes
     if classes:

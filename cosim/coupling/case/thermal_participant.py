@@ -1,0 +1,162 @@
+"""Belt and ice as a participant of a coupled run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosim.coupling import inputs, outputs, port_table
+from thermal import BeltIceModel
+
+#: Change of a total that is rounding, as a part of the total: it was added up from 1e4 steps.
+ROUNDING = 1e-12
+
+PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
+    interface_temperature="degC",
+    belt_entry_temperature="degC",
+    belt_exit_temperature="degC",
+    ice_face_temperature="degC",
+    belt_share="1",
+    melt_rate="kg/s",
+    melted_mass="kg",
+    refrozen_mass="kg",
+    wiped_ice_mass="kg",
+    film_thickness="m",
+    heat_received="J",
+    railing_heat="J",
+    belt_heat="J",
+    ice_heat="J",
+    air_heat="J",
+    support_heat="J",
+    latent_heat="J",
+    meltwater_heat="J",
+    heat_residual="J",
+)
+
+Observer = Callable[[float, BeltIceModel], None]
+
+
+class UnfeltMelting(RuntimeError):
+    """The ice melts beside friction that stays dry; the message is one line."""
+
+
+class Handed(NamedTuple):
+    """What the mechanical side has handed over since the start: heat in J, travel in m."""
+
+    heat: float = 0.0
+    surface_travel: float = 0.0
+    x: float = 0.0
+
+
+class State(NamedTuple):
+    """All that a continuation depends on: the model's own state, and what has crossed the ports."""
+
+    model: NDArray[np.float64]
+    taken: Handed
+    now: Handed
+    railed: float
+    time: float
+
+
+class ThermalParticipant:
+    """`BeltIceModel` with the ports of a coupled run.
+
+    Heat and travel arrive as totals since the start, and a step takes what was added: exactly the
+    joules and the metres of the step, whatever its size. The belt's travel under the contact is
+    what the surface has travelled more than the block; its travel over the railing is all of it,
+    for it goes on where the block sticks.
+
+    observer: called as observer(time, model) with every state that a step starts from, so never
+    with one that a coupling scheme takes back; `observe` does the same for the last one.
+    melts: whether the ice may; a step in which it does is else refused by UnfeltMelting.
+    """
+
+    def __init__(
+        self,
+        model: BeltIceModel,
+        name: str = "thermal",
+        observer: Observer | None = None,
+        melts: bool = True,
+    ):
+        self.name = name
+        self._melts = melts
+        self.model = model
+        self.ports = port_table(PORTS)
+        self._observer = observer
+        self._time = 0.0
+        self._now = self._taken = Handed()
+        self._railed = 0.0
+        self._fresh = model.state()
+
+    def enter_initialisation(self, start: float, stop: float) -> None:
+        """Back to the state that the participant was made with."""
+        self.model.restore(self._fresh)
+        self._time = start
+        self._now = self._taken = Handed()
+        self._railed = 0.0
+
+    def exit_initialisation(self) -> None:
+        """What was handed over before the start is no heat of this run."""
+        self._taken = self._now
+        self._railed = self._now.surface_travel
+
+    def write(self, values: Mapping[str, float]) -> None:
+        """New totals: heat in J, surface_travel and x in m."""
+        self._now = self._now._replace(**values)
+
+    def read(self) -> dict[str, float]:
+        """All outputs of the model."""
+        return self.model.outputs()
+
+    def step(self, time: float, size: float) -> None:
+        """Advance from time by size (s) with the heat and the travel added since the last step."""
+        self._time = time
+        self.observe()
+        now, taken = self._now, self._taken
+        travelled = now.surface_travel
+        heat = now.heat - taken.heat
+        if -ROUNDING * abs(now.heat) <= heat < 0.0:
+            # not taken yet: the total stays that of the mechanical side
+            heat, now = 0.0, now._replace(heat=taken.heat)
+        slid = (now.surface_travel - taken.surface_travel) - (now.x - taken.x)
+        if abs(slid) <= ROUNDING * (abs(now.surface_travel) + abs(now.x)):
+            # stick; taken as it is, its sign would tell the belt to run backwards
+            slid, now = 0.0, now._replace(surface_travel=taken.surface_travel, x=taken.x)
+        self._advance(size, heat, slid, travelled - self._railed)
+        self._taken, self._railed = now, travelled
+        self._time = time + size
+
+    def _advance(self, size: float, heat: float, slid: float, railed: float) -> None:
+        """Step the model; back again where it may not melt and does."""
+        before = None if self._melts else self.model.state()
+        self.model.step(size, heat, slid, railed)
+        if before is not None and self.model.meltwater.melted > 0.0:
+            self.model.restore(before)
+            raise UnfeltMelting(
+                "the face of the ice has come to 0 degC and melts, which friction does not feel:"
+                " switch on mixed_lubrication (the water is sheared), asperity_melting or"
+                " temperature_dependence"
+            )
+
+    def observe(self) -> None:
+        """Show the present state to the observer."""
+        if self._observer is not None:
+            self._observer(self._time, self.model)
+
+    def get_state(self) -> State:
+        """Temperatures, ledger and what was taken so far."""
+        return State(self.model.state(), self._taken, self._now, self._railed, self._time)
+
+    def set_state(self, state: State) -> None:
+        """Go back to a state that `get_state` gave."""
+        model, self._taken, self._now, self._railed, self._time = state
+        self.model.restore(model)
+
+    def free_state(self, state: State) -> None:
+        """States are plain arrays; nothing to free."""
+
+    def close(self) -> None:
+        """Nothing is held open."""

@@ -1,0 +1,198 @@
+"""campaign.toml as checked tables: keys, units, bounds."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar
+
+import stickslip
+from pydantic import BaseModel, Field, create_model, model_validator
+from stickslip.quantity import Table, quantity
+
+from cosim.gap.data.errors import CampaignError
+from cosim.names import nearest
+from cosim.scenario.faults import ScenarioError, checked
+
+if TYPE_CHECKING:
+    Rig = stickslip.Rig  # for those who read its keys: they are the same
+else:
+    #: The rig as the experimenter knows it; each run has its own mass.
+    Rig = create_model(
+        "Rig",
+        __base__=Table,
+        __doc__="Springs, attachments, contact and guides of the rig.",
+        **{
+            key: (field.annotation, field)
+            for key, field in stickslip.Rig.model_fields.items()
+            if key != "mass"
+        },
+    )
+
+
+class Model(Table):
+    """Where the workflow starts."""
+
+    scheme: Literal["exact", "study"] = Field(
+        "exact", description="exact geometry and events, or the source study's scheme as printed"
+    )
+
+
+class Noise(Table):
+    """Standard deviation of one sample; what is not given is estimated."""
+
+    x: float = quantity(math.inf, "m", "noise of x", gt=0)
+    y: float = quantity(math.inf, "m", "noise of y", gt=0)
+    phi: float = quantity(math.inf, "rad", "noise of phi", gt=0)
+    force: float = quantity(math.inf, "N", "noise of the spring force", gt=0)
+
+    @property
+    def given(self) -> dict[str, float]:
+        """channel -> noise, of the channels that the file names."""
+        return {channel: getattr(self, channel) for channel in sorted(self.model_fields_set)}
+
+
+def _coefficient(description: str):
+    """A value with its standard deviation; one that is not known has an infinite one."""
+    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": "1"})
+
+
+class Friction(Table):
+    """Coefficients that were measured by themselves: value and standard deviation."""
+
+    mu_s: tuple[float, float] = _coefficient("static friction coefficient")
+    mu_k: tuple[float, float] = _coefficient("kinetic friction coefficient")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, (value, deviation) in self.given.items():
+            if not (value > 0.0 and deviation > 0.0):
+                raise ValueError(
+                    f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation] "
+                    "with both above 0"
+                )
+        return self
+
+    @property
+    def given(self) -> dict[str, tuple[float, float]]:
+        """coefficient -> (value, standard deviation), of those that the file names."""
+        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
+
+
+def _figure(unit: str, description: str):
+    """A value with its standard deviation; one that is not known has an infinite one."""
+    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
+
+
+class Summary(Table):
+    """Figures of a run whose time series is not at hand: value and standard deviation."""
+
+    mean_x: tuple[float, float] = _figure("m", "mean of x")
+    mean_y: tuple[float, float] = _figure("m", "mean of y")
+    amplitude_x: tuple[float, float] = _figure("m", "half the range of x")
+    frequency: tuple[float, float] = _figure("Hz", "oscillations of x per second")
+    slip_share: tuple[float, float] = _figure("1", "share of the time in slip")
+    slip_duration: tuple[float, float] = _figure("s", "mean length of a slip")
+    stick_duration: tuple[float, float] = _figure("s", "mean length of a stick")
+    break_away_x: tuple[float, float] = _figure("m", "mean of x at break-away")
+    restick_x: tuple[float, float] = _figure("m", "mean of x at re-stick")
+    max_rotation_deg: tuple[float, float] = _figure("deg", "largest rotation either way")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, (value, deviation) in self.given.items():
+            if not deviation > 0.0:
+                raise ValueError(
+                    f"{key} has the standard deviation {deviation:g}, allowed is [value, standard "
+                    "deviation] with one above 0"
+                )
+            if key == "slip_share" and not 0.0 <= value <= 1.0:
+                raise ValueError(f"slip_share = {value:g} is not a share, allowed is 0 to 1")
+        return self
+
+    @property
+    def given(self) -> dict[str, tuple[float, float]]:
+        """figure -> (value, standard deviation), of those that the file names."""
+        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
+
+
+class RunTable(Table):
+    """One [[run]]."""
+
+    file: str = Field("", description="CSV file beside campaign.toml")
+    mass: float = quantity(math.nan, "kg", "mass of the block", gt=0)
+    stiffness: float = quantity(math.nan, "N/m", "stiffness of one of the four springs", gt=0)
+    surface_speed: float = quantity(math.nan, "m/s", "set-point of the surface's speed")
+    ambient_degC: float = quantity(-8.0, "degC", "temperature of the room", ge=-273.15, le=100)
+    hold_out: bool = Field(False, description="never used for fitting")
+    summary: Summary = Summary()
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key in ("mass", "stiffness", "surface_speed"):
+            if key not in self.model_fields_set:
+                raise ValueError(f"{key} is missing, allowed is a number")
+        if self.surface_speed == 0.0:
+            raise ValueError("surface_speed = 0: nothing is driven, allowed is any other number")
+        if bool(self.file) == bool(self.summary.given):
+            what = "both" if self.file else "neither"
+            raise ValueError(f"file and summary: {what} given, allowed is one of the two")
+        return self
+
+
+class CampaignTable(Table):
+    """campaign.toml but for its runs."""
+
+    name: str = Field("unnamed", description="name of the campaign", min_length=1, max_length=200)
+    rig: Rig = Rig()
+    model: Model = Model()
+    noise: Noise = Noise()
+    friction: Friction = Friction()
+
+
+FILE_NAME = "campaign.toml"
+Checked = TypeVar("Checked", bound=BaseModel)
+
+
+def read_tables(path: Path) -> tuple[CampaignTable, list[RunTable]]:
+    """The campaign's table and those of its runs; CampaignError in one line."""
+    tables = _parse(path)
+    runs = tables.pop("run", None)
+    if not isinstance(runs, list) or not all(isinstance(run, dict) for run in runs):
+        near = nearest("run", [key for key in tables if key not in CampaignTable.model_fields])
+        hint = f" (nearest: {near})" if runs is None and near else ""
+        raise CampaignError(f"{path}: run: no runs{hint}, allowed is a table [[run]] for each run")
+    if not runs:
+        raise CampaignError(f"{path}: run: no runs, allowed is a table [[run]] for each run")
+    if "name" not in tables:
+        tables["name"] = path.resolve().parent.name or "unnamed"
+    campaign = _checked(CampaignTable, tables, str(path))
+    return campaign, [
+        _checked(RunTable, run, f"{path}: run {number}") for number, run in enumerate(runs, 1)
+    ]
+
+
+def _parse(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except FileNotFoundError:
+        raise CampaignError(
+            f"{path}: no such file, allowed is a campaign.toml or a folder with one"
+        ) from None
+    except OSError as error:
+        raise CampaignError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise CampaignError(
+            f"{path}: byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"
+        ) from None
+    except (ValueError, RecursionError) as error:  # TOMLDecodeError is a ValueError
+        raise CampaignError(f"{path}: not TOML: {' '.join(str(error).split())}") from None
+
+
+def _checked(model: type[Checked], tables: Mapping[str, Any], where: str) -> Checked:
+    try:
+        return checked(model, tables)
+    except ScenarioError as fault:
+        raise CampaignError(f"{where}: {fault}") from None

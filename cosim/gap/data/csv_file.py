@@ -1,0 +1,168 @@
+"""A tracker's CSV file as numbers: separators, decimal commas, comments and marks as they come."""
+
+from __future__ import annotations
+
+import io
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from cosim.gap.data.errors import CampaignError
+from cosim.names import nearest
+
+TIME = "t"
+UNITS = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}
+ALIASES = {"time": "t"}
+#: What trackers write where they lost the mark.
+MISSING = ("", "-", "--", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "None", "inf", "-inf")
+#: `x`, `x [m]`, `x (m)`, `x/m`
+HEADER = re.compile(r"^\s*(?P<name>[^\[(/]*?)\s*(?:[\[(/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\s*$")
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Numbers of a file: channel -> (n,) array, `t` among them; ``lines`` are theirs in the file.
+
+    ``ignored`` are columns that nothing is known of.
+    """
+
+    values: dict[str, np.ndarray]
+    lines: np.ndarray
+    ignored: tuple[str, ...]
+
+
+def read_columns(path: Path) -> Columns:
+    """Columns t, x [, y] [, phi] [, force] of a file; CampaignError in one line."""
+    lines = _lines(path)
+    header, rows = _split_header(path, lines)
+    separator = _separator(header)
+    names, ignored = _names(path, _fields(header, separator))
+    decimal = _decimal(path, separator, len(names), [text for _, text in rows[:50]])
+    table = _parse(path, rows, separator, decimal, len(names))
+    numbers = np.array([number for number, _ in rows])
+    values = {
+        name: _numbers(path, name, table[column], numbers)
+        for column, name in enumerate(names)
+        if name in UNITS
+    }
+    return Columns(values, numbers, ignored)
+
+
+def _lines(path: Path) -> list[tuple[int, str]]:
+    """Numbered lines that are not blank."""
+    try:
+        raw = path.read_bytes()
+    except FileNotFoundError:
+        raise CampaignError(
+            f"{path}: no such file, allowed is a CSV file beside campaign.toml"
+        ) from None
+    except OSError as error:
+        raise CampaignError(f"{path}: cannot be read: {error.strerror}") from None
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\x00" in raw[:1000]:
+        raise CampaignError(f"{path}: is not text in UTF-8 (UTF-16 or binary?), allowed is UTF-8")
+    text = raw.decode("utf-8-sig", errors="replace")  # only comments can hold what is not ASCII
+    return [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip()]
+
+
+def _split_header(path: Path, lines: list[tuple[int, str]]) -> tuple[str, list[tuple[int, str]]]:
+    """Header row and data rows; a header may itself be a comment, as numpy writes it."""
+    rows = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
+    if not rows:
+        raise CampaignError(f"{path}: no data, allowed is a header row t,x[,y][,phi] and numbers")
+    if not _is_numeric(rows[0][1]):
+        return rows[0][1], rows[1:]
+    comments = [line.lstrip().lstrip("#") for number, line in lines if number < rows[0][0]]
+    if comments and TIME in _known(_fields(comments[-1], _separator(comments[-1]))):
+        return comments[-1], rows
+    raise CampaignError(
+        f"{path}: line {rows[0][0]} holds numbers where the header row is expected, allowed is a "
+        "first row t,x[,y][,phi][,force]"
+    )
+
+
+def _is_numeric(line: str) -> bool:
+    fields = [field for field in re.split(r"[;,\s]+", line) if field]
+    return all(re.fullmatch(r"[-+\d.eE]+|nan|NaN", field) for field in fields)
+
+
+def _separator(header: str) -> str:
+    return next((mark for mark in (";", "\t", ",") if mark in header), r"\s+")
+
+
+def _fields(line: str, separator: str) -> list[str]:
+    line = line.strip() if separator == r"\s+" else line.rstrip("\r\n")
+    return [field.strip().strip("\"'") for field in re.split(separator, line)]
+
+
+def _known(fields: list[str]) -> list[str]:
+    """Names of the columns, as far as they can be read off."""
+    found = [HEADER.match(field) for field in fields]
+    names = [match["name"].lower() if match else "" for match in found]
+    return [ALIASES.get(name, name) for name in names]
+
+
+def _names(path: Path, fields: list[str]) -> tuple[list[str], tuple[str, ...]]:
+    names = _known(fields)
+    for name, field in zip(names, fields, strict=True):
+        unit = (HEADER.match(field) or {"unit": None})["unit"]
+        if name in UNITS and unit and unit != UNITS[name]:
+            raise CampaignError(f"{path}: column {name}: unit {unit}, allowed is {UNITS[name]}")
+        if names.count(name) > 1 and name in UNITS:
+            raise CampaignError(f"{path}: column {name}: there twice, allowed is once")
+    for needed in (TIME, "x"):
+        if needed not in names:
+            near = nearest(needed, [name for name in names if name and name not in UNITS])
+            hint = f"; is {near} meant?" if near else ""
+            raise CampaignError(
+                f"{path}: column {needed}: missing (there: {', '.join(fields)}), allowed is "
+                f"t,x[,y][,phi][,force]{hint}"
+            )
+    return names, tuple(f for n, f in zip(names, fields, strict=True) if f and n not in UNITS)
+
+
+def _decimal(path: Path, separator: str, width: int, rows: list[str]) -> str:
+    """The decimal mark; a comma that also separates columns cannot be told and is refused."""
+    if separator != ",":
+        text = "".join(rows)
+        return "," if "," in text and "." not in text else "."
+    if rows and all(len(row.split(",")) >= 2 * width for row in rows) and "." not in "".join(rows):
+        raise CampaignError(
+            f"{path}: twice as many fields as columns: decimal commas between commas? allowed is "
+            "a decimal point, or decimal commas with semicolons between the columns"
+        )
+    return "."
+
+
+def _parse(
+    path: Path, rows: list[tuple[int, str]], separator: str, decimal: str, width: int
+) -> pd.DataFrame:
+    if not rows:
+        raise CampaignError(f"{path}: a header row without numbers, allowed is at least one row")
+    text = [line.strip() if separator == r"\s+" else line for _, line in rows]
+    longest = max(range(len(text)), key=lambda row: text[row].count(separator))
+    extra = _fields(text[longest], separator)[width:]
+    if any(extra):
+        raise CampaignError(
+            f"{path}: line {rows[longest][0]} has {width + len(extra)} fields, the header has "
+            f"{width}; allowed is the same number"
+        )
+    return pd.read_csv(
+        io.StringIO("\n".join(text)), sep=separator, decimal=decimal, header=None,
+        names=range(width), usecols=range(width), index_col=False, skipinitialspace=True,
+        na_values=MISSING, skip_blank_lines=False,
+    )  # fmt: skip
+
+
+def _numbers(path: Path, name: str, column: pd.Series, lines: np.ndarray) -> np.ndarray:
+    values = pd.to_numeric(column, errors="coerce").to_numpy(dtype=float)
+    strange = np.flatnonzero(np.isnan(values) & column.notna().to_numpy())
+    if strange.size:
+        row = strange[0]
+        raise CampaignError(
+            f'{path}: line {lines[row]}: {name} = "{str(column.iloc[row])[:40]}" is not a number, '
+            "allowed is a number, or nothing for a missing sample"
+        )
+    return np.where(np.isfinite(values), values, np.nan)

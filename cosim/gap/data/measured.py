@@ -1,0 +1,183 @@
+"""What a measured campaign is made of: tracks, sticks, runs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cosim.gap.data.campaign_file import Rig
+
+#: Measured quantities, in the order in which they are looked at.
+CHANNELS = ("x", "y", "phi", "force")
+
+
+@dataclass(frozen=True)
+class Track:
+    """What a tracker saw of one run.
+
+    Attributes
+    ----------
+    time : (n,) array, s since the first row, strictly increasing; jitter and gaps as they are
+    x, y, phi, force : (n,) arrays, m, m, rad, N; NaN is a missing sample or an outlier; None
+        where the channel was not measured
+    time_offset : time of the first row in the file, s
+    outliers : channel -> number of samples that were taken out
+    """
+
+    time: np.ndarray = field(repr=False)
+    x: np.ndarray = field(repr=False)
+    y: np.ndarray | None = field(default=None, repr=False)
+    phi: np.ndarray | None = field(default=None, repr=False)
+    force: np.ndarray | None = field(default=None, repr=False)
+    time_offset: float = 0.0
+    outliers: Mapping[str, int] = field(default_factory=dict)
+
+    def __getitem__(self, channel: str) -> np.ndarray:
+        """Samples of a measured channel; KeyError for one that was not measured."""
+        values = getattr(self, channel) if channel in CHANNELS else None
+        if values is None:
+            raise KeyError(channel)
+        return values
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The channels that were measured."""
+        return tuple(name for name in CHANNELS if getattr(self, name) is not None)
+
+    @property
+    def duration(self) -> float:
+        """s"""
+        return float(self.time[-1] - self.time[0])
+
+    @property
+    def interval(self) -> float:
+        """Median time between two rows, s."""
+        return float(np.median(np.diff(self.time)))
+
+
+@dataclass(frozen=True)
+class Stick:
+    """A stretch in which the block moves with the surface.
+
+    Attributes
+    ----------
+    start, end : re-stick and break-away, s on the track's clock; finer than the samples where the
+        noise allows
+    first, last : indices of the first and the last sample inside
+    start_sd, end_sd : their standard deviations, s; infinite where the track (or what lies between
+        two gaps) begins or ends in the stick, and re-stick or break-away was not seen
+    """
+
+    start: float
+    end: float
+    first: int
+    last: int
+    start_sd: float = math.inf
+    end_sd: float = math.inf
+
+    @property
+    def duration(self) -> float:
+        """s"""
+        return self.end - self.start
+
+
+@dataclass(frozen=True)
+class MeasuredRun:
+    """A run: how it was set up, and what was seen of it (a track, or figures alone).
+
+    Attributes
+    ----------
+    mass : kg
+    stiffness : of one of the four springs, N/m
+    surface_speed : set-point, m/s
+    ambient_degC : degC
+    hold_out : never used for fitting
+    track, summary : one of the two; summary is figure -> (value, standard deviation)
+    noise : channel -> standard deviation of one sample of this run
+    sticks : from the track alone, in order of time
+    """
+
+    name: str
+    file: Path | None
+    mass: float
+    stiffness: float
+    surface_speed: float
+    ambient_degC: float
+    hold_out: bool
+    track: Track | None = field(default=None, repr=False)
+    summary: Mapping[str, tuple[float, float]] | None = None
+    noise: Mapping[str, float] = field(default_factory=dict)
+    sticks: tuple[Stick, ...] = field(default=(), repr=False)
+
+    @property
+    def motion(self) -> Track:
+        """What the tracker saw; ValueError for a run of which only figures are known."""
+        if self.track is None:
+            raise ValueError(f"{self.name}: only figures are known of this run, it has no track")
+        return self.track
+
+    @property
+    def total_stiffness(self) -> float:
+        """Of the four springs along x, N/m."""
+        return 4.0 * self.stiffness
+
+    @property
+    def natural_frequency(self) -> float:
+        """omega = sqrt(4 k / m), rad/s."""
+        return math.sqrt(self.total_stiffness / self.mass)
+
+    @property
+    def operating_point(self) -> tuple[float, float, float, float]:
+        """Speed, mass, stiffness, ambient temperature."""
+        return self.surface_speed, self.mass, self.stiffness, self.ambient_degC
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Everything that is known of some runs on one rig.
+
+    Attributes
+    ----------
+    path : the folder
+    scheme : "exact" or "study", where the workflow starts
+    noise : channel -> standard deviation of a sample, over all runs; that of a run is in the run
+    noise_estimated : channels whose noise is not given, but taken from the data
+    remarks : what the reader should know, a line each
+    friction : coefficient -> (value, standard deviation), of those that are known beforehand
+    """
+
+    name: str
+    path: Path
+    rig: Rig
+    scheme: str
+    noise: Mapping[str, float]
+    noise_estimated: tuple[str, ...]
+    runs: tuple[MeasuredRun, ...]
+    remarks: tuple[str, ...] = ()
+    friction: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    @property
+    def fit_runs(self) -> tuple[MeasuredRun, ...]:
+        """Runs that parameters may be fitted to."""
+        return tuple(run for run in self.runs if not run.hold_out)
+
+    @property
+    def held_out_runs(self) -> tuple[MeasuredRun, ...]:
+        """Runs that are for judging alone."""
+        return tuple(run for run in self.runs if run.hold_out)
+
+    def parameters(self, run: MeasuredRun) -> dict[str, dict[str, Any]]:
+        """What is known of a run, as tables of `stickslip.Parameters`; the rest is for the fit.
+
+        A slab's curvature is known: `Parameters` takes it from rig.slab_radius.
+        """
+        return {
+            "rig": self.rig.model_dump() | {"mass": run.mass},
+            "springs": {"stiffness": run.stiffness},
+            "surface": {"speed": run.surface_speed},
+        }

@@ -1,0 +1,104 @@
+"""One measured run beside the model: from parameters to residuals in units of the noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from stickslip.kernel import layout
+from stickslip.packing import GRAVITY, pack
+from stickslip.restarted import Force, Restart, simulate_restarted, track_restarted
+
+from .drive import SPEED_OFFSET, driven_speed, model_parameters
+from .segments import Segment
+
+#: Columns of the model's outputs, and of its places, that a tracker can see.
+COLUMN = {"x": layout.O_X, "y": layout.O_Y, "phi": layout.O_PHI}
+#: Residual, in units of the noise, where the model gave up or left for ever.
+LOST = 1e3
+#: Part of the weight that pulls the block aside: the sine of a rig's tilt.
+TILT = "offset.tilt"
+#: Integrator's tolerance in a fit: far below the noise, and cheap along a line. A block that comes
+#: to rest in the plane turns ever faster: there a tolerance as large as the speed that counts as
+#: rest is dear, as the error of a step keeps the block moving.
+TOLERANCE, TOLERANCE_ACROSS = 1e-6, 3e-8
+#: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
+_LONGER = 2.0
+
+
+@dataclass(frozen=True)
+class SegmentedRun:
+    """A run, cut into segments.
+
+    Attributes
+    ----------
+    name : of the run
+    known : every parameter of the model, `block.parameter` -> value
+    speed, temperature : inputs, m/s and degC
+    time : (n,) s since the first sample
+    channels : name -> (n,) measured values, NaN where missing
+    noise : name -> standard deviation of the channel
+    segments : the pieces
+    """
+
+    name: str
+    known: Mapping[str, float]
+    speed: float
+    temperature: float
+    time: np.ndarray
+    channels: Mapping[str, np.ndarray]
+    noise: Mapping[str, float]
+    segments: tuple[Segment, ...]
+    seen: Mapping[str, np.ndarray] = field(init=False)
+
+    def __post_init__(self) -> None:
+        seen = {name: np.isfinite(values) for name, values in self.channels.items()}
+        object.__setattr__(self, "seen", seen)
+
+    @property
+    def starts(self) -> np.ndarray:
+        """(segments, 6) first guesses of the segments' states."""
+        return np.array([segment.state for segment in self.segments])
+
+    def simulate(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        """The model's outputs (n, O_SIZE) with parameters and segments' states (segments, 6)."""
+        return self._simulated(simulate_restarted, values, states)
+
+    def places(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        """As `simulate`, but x, y and phi alone (n, 3)."""
+        return self._simulated(track_restarted, values, states)
+
+    def force(self, values: Mapping[str, float]) -> Force | None:
+        """What else acts on the block along x."""
+        return None
+
+    def _simulated(self, simulate, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        flat = {**self.known, **model_parameters(self.speed, values)}
+        speed = driven_speed(self.speed, flat)
+        flat.pop(SPEED_OFFSET, None)
+        aside = flat.pop(TILT, 0.0) * flat["rig.mass"] * GRAVITY
+        p = np.array(pack(flat))
+        p[layout.P_LONGEST_STEP] *= _LONGER
+        restarts = [
+            Restart(segment.first, state, segment.hold_since)
+            for segment, state in zip(self.segments, states, strict=True)
+        ]
+        force = self.force(values)
+        return simulate(p, speed, self.temperature, self.time, restarts, force, aside)
+
+    def residuals(self, places: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
+        """(rows,) model less measurement over noise, channel by channel, without missing ones."""
+        parts = []
+        for name, values in self.channels.items():
+            model = places[:, COLUMN[name]] + offsets.get(f"offset.{name}", 0.0)
+            parts.append(((model - values) / self.noise[name])[self.seen[name]])
+        rows = np.concatenate(parts)
+        return np.clip(np.nan_to_num(rows, nan=LOST), -LOST, LOST)
+
+    def segment_of_rows(self) -> np.ndarray:
+        """(rows,) number of the segment that each residual belongs to."""
+        number = np.zeros(len(self.time), dtype=int)
+        for i, segment in enumerate(self.segments):
+            number[segment.first : segment.last] = i
+        return np.concatenate([number[self.seen[name]] for name in self.channels])

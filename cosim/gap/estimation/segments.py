@@ -1,0 +1,134 @@
+"""Where a measured run is cut, and from which state the model starts each piece."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+#: Stick-slip cycles in a segment: enough for the period to tell, few enough for a small error of
+#: the period to stay small.
+CYCLES = 3
+#: Half width, in samples, of the stretch that tells position and velocity outside a stick.
+_REACH = 6
+#: A segment starts with a stick that lasts this part of a cycle; a shorter one may be none.
+_LASTS = 0.1
+#: A segment that would leave less than this share of its length at the end of a run takes it in.
+_REMNANT = 0.5
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A piece of a run: samples first ... last - 1.
+
+    Attributes
+    ----------
+    state : (6,) first guess of x, y, phi, vx, vy, omega; NaN: the model's own goes on
+    free : which of them are fitted
+    hold_since : when the stick began that it starts in, s; NaN in slip
+    """
+
+    first: int
+    last: int
+    state: np.ndarray
+    free: tuple[int, ...]
+    hold_since: float
+
+
+def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float = CYCLES):
+    """Segments of a run: tuple of `Segment`.
+
+    period : of a cycle, s. A segment starts at the beginning of a stick where there is one near the
+    place where it is due, else where the block moves against the surface as fast as it ever does:
+    near a stick a small error of the velocity would decide between stick and slip.
+    planar: y is measured and the model may move across.
+    """
+    length = cycles * period
+    sticks = [stick for stick in sticks if stick.end - stick.start >= _LASTS * period]
+    onsets = np.array([stick.first for stick in sticks if np.isfinite(stick.start_sd)], dtype=int)
+    starts = _starts(track, onsets, speed, length, period)
+    ends = [*starts[1:], len(track.time)]
+    by_first = {stick.first: stick for stick in sticks}
+    return tuple(
+        _segment(track, first, last, by_first.get(first), speed, planar)
+        for first, last in zip(starts, ends, strict=True)
+    )
+
+
+def joined(segments: Sequence[Segment], time: np.ndarray, length: float) -> tuple[Segment, ...]:
+    """The same segments put together to longer ones of about this length, s.
+
+    A longer one starts where a short one does, and thus from a state that a fit in short segments
+    has found.
+    """
+    ends = [time[segment.last - 1] for segment in segments]
+    chosen = [0]
+    for number in range(1, len(segments)):
+        begin = time[segments[number].first]
+        due = time[segments[chosen[-1]].first] + length
+        rest = ends[-1] - begin
+        if begin + 0.5 * (ends[number] - begin) > due and rest > _REMNANT * length:
+            chosen.append(number)
+    lasts = [segments[number].first for number in chosen[1:]] + [segments[-1].last]
+    return tuple(replace(segments[i], last=last) for i, last in zip(chosen, lasts, strict=True))
+
+
+def _starts(track, onsets, speed: float, length: float, period: float) -> list[int]:
+    time = track.time
+    starts, end = [0], time[-1] - _REMNANT * length
+    while True:
+        due = time[starts[-1]] + length
+        if due > end:
+            return starts
+        near = onsets[np.abs(time[onsets] - due) < max(0.5 * length, period)]
+        near = near[(time[near] <= end) & (near > starts[-1])]
+        if near.size:
+            starts.append(int(near[np.abs(time[near] - due).argmin()]))
+        else:
+            starts.append(_fastest(track, due, speed, period))
+
+
+def _fastest(track, due: float, speed: float, period: float) -> int:
+    """The sample within half a cycle of ``due`` at which the sliding is fastest."""
+    low, high = np.searchsorted(track.time, [due - 0.5 * period, due + 0.5 * period])
+    low, high = max(low, 1), min(high, len(track.time))
+    seen = low + np.flatnonzero(np.isfinite(track.x[low:high]))
+    if seen.size < 2 * _REACH:
+        return int(np.searchsorted(track.time, due))
+    steps = np.arange(_REACH, seen.size - _REACH + 1)
+    moved = track.x[seen[steps + _REACH - 1]] - track.x[seen[steps - _REACH]]
+    time = track.time[seen[steps + _REACH - 1]] - track.time[seen[steps - _REACH]]
+    return int(seen[steps[np.abs(moved / time - speed).argmax()]])
+
+
+def _segment(track, first: int, last: int, stick, speed: float, planar: bool) -> Segment:
+    state = np.full(6, np.nan)
+    if first == 0:
+        state[:] = 0.0  # what is measured is put in its place
+    across: tuple[int, ...] = ()
+    if planar:  # friction along x alone leaves a block that sticks free to swing across
+        _fill_moving(track, first, state, track.y, 1)
+        across = (1, 4) if first else (1, 2, 4)  # how it was put down turned, nobody has seen
+    if stick is None:
+        _fill_moving(track, first, state, track.x, 0)
+        return Segment(first, last, state, (0, 3, *across), np.nan)
+    rows = slice(stick.first, stick.last + 1)
+    time = track.time[rows] - track.time[stick.first]
+    state[0] = np.nanmean(track.x[rows] - speed * time)
+    return Segment(first, last, state, (0, *across), stick.start)
+
+
+def _fill_moving(track, first: int, state: np.ndarray, values: np.ndarray, at: int) -> None:
+    """Position and velocity from a parabola through the samples about the first.
+
+    values : (n,) measured positions; at : where they stand in the state
+    """
+    low, high = max(0, first - _REACH), min(len(track.time), first + _REACH + 1)
+    time = track.time[low:high] - track.time[first]
+    seen = np.isfinite(values[low:high])
+    if seen.sum() > 3:
+        fit = np.polynomial.polynomial.polyfit(time[seen], values[low:high][seen], 2)
+        state[at], state[at + 3] = fit[0], fit[1]
+    elif np.isnan(state[at]) and seen.any():
+        state[at], state[at + 3] = np.mean(values[low:high][seen]), 0.0

@@ -1,0 +1,1 @@
+"""Which effect the plain model lacks: refit, compare, allow for chance, or say unknown."""

@@ -1,6 +1,0 @@
-"""Model flights between measured states, and the fit of parameters to them.
-
-A stick-slip record is compared with the model in windows of a few cycles. Each window starts from
-a state that is itself fitted to the data (in a stick: the position alone), so that a small error
-of the period does not add up over a run and swamp everything else. What is left is the gap.
-"""

@@ -1,0 +1,150 @@
+"""Temperature of belt and ice as an animation: a GIF, which every browser plays."""
+
+from __future__ import annotations
+
+import io
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import Normalize, to_rgb
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from PIL import Image
+
+from cosim.report.results import Views
+from cosim.report.style import GREY, INK, RC, SKY, plain_ticks, readable
+from thermal import RigView
+
+Array = NDArray[np.float64]
+
+#: s: how long an animation lasts, within what the eye follows (frames per second).
+LASTS = 12.0
+SLOWEST, FASTEST = 3, 25
+DPI = 100
+COLOURS = "inferno"
+#: Ice above the height to which this part of the largest rise reaches is not shown.
+FAINT = 0.01
+LEAST_HEIGHT = 5e-3
+SMALLEST_RISE = 1e-9
+
+
+def animation(views: Views, ambient: float, name: str) -> bytes:
+    """A GIF file of at least one view (time in s, what is seen), one frame for each.
+
+    ambient: degC of the air; name: of the case.
+    """
+    palette = _palette()
+    with matplotlib.rc_context(RC):
+        picture = _Picture(views, ambient, name)
+        frames = [
+            picture.frame(time, view).quantize(palette=palette, dither=Image.Dither.NONE)
+            for time, view in views
+        ]
+    speed = np.clip(len(frames) / LASTS, SLOWEST, FASTEST)
+    file = io.BytesIO()
+    frames[0].save(
+        file,
+        format="GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=round(1000.0 / speed),
+        loop=0,
+    )
+    return file.getvalue()
+
+
+def _palette() -> Image.Image:
+    """The same 256 colours for all frames, those of the map above all: no steps, no flicker."""
+    map_ = matplotlib.colormaps[COLOURS](np.linspace(0.0, 1.0, 239))[:, :3]
+    greys = np.linspace(0.0, 1.0, 16)[:, None] * np.ones(3)
+    colours = np.concatenate((map_, greys, [to_rgb(SKY)]))
+    image = Image.new("P", (1, 1))
+    image.putpalette(np.round(255.0 * colours).astype(np.uint8).tobytes())
+    return image
+
+
+class _Picture:
+    """The figure of which each frame changes the colours and the time."""
+
+    def __init__(self, views: Views, ambient: float, name: str) -> None:
+        self._ambient, self._name = ambient, name
+        rises = (
+            np.array([np.nanmax([np.nanmax(view.belt), np.nanmax(view.ice)]) for _, view in views])
+            - ambient
+        )
+        self._scaled = readable(rises, "K", SMALLEST_RISE)
+        top = self._scaled.factor * max(float(rises.max()), SMALLEST_RISE)
+        self._norm = Normalize(0.0, top)
+        first = views[0][1]
+        figure = Figure(figsize=(9.0, 5.6), dpi=DPI, layout="constrained")
+        self._canvas = FigureCanvasAgg(figure)
+        ice, belt = figure.subplots(2, 1, height_ratios=[1.6, 1.0])
+        self._ice = self._mesh(ice, first.x, first.height, first.ice)
+        self._belt = self._mesh(belt, first.offset, -first.depth, first.belt)
+        self._label_ice(ice, _shown_height(views, ambient))
+        self._label_belt(belt, first.contact)
+        figure.colorbar(self._ice, ax=[ice, belt], label=f"rise over the air [{self._scaled.unit}]")
+        self._title = figure.suptitle("", x=0.008, ha="left", color=INK)
+
+    def _mesh(self, axes: Axes, x: Array, z: Array, field: Array):
+        return axes.pcolormesh(
+            1e3 * x,
+            1e3 * z,
+            self._rise(field),
+            shading="gouraud" if np.isfinite(field).all() else "nearest",
+            cmap=COLOURS,
+            norm=self._norm,
+            rasterized=True,
+        )
+
+    def _rise(self, field: Array) -> Array:
+        return np.ma.masked_invalid(self._scaled(field.T - self._ambient))
+
+    def _label_ice(self, axes: Axes, height: float) -> None:
+        axes.set_ylim(0.0, 1e3 * height)
+        axes.set_title("ice, section through its middle: the part at the contact")
+        axes.set_xlabel("along the belt [mm]")
+        axes.set_ylabel("above the contact [mm]")
+        _plain(axes)
+
+    def _label_belt(self, axes: Axes, contact: float) -> None:
+        half = 0.5e3 * contact
+        axes.plot(
+            [-half, half],
+            [0.0, 0.0],
+            color=SKY,
+            linewidth=5.0,
+            clip_on=False,
+            solid_capstyle="butt",
+        )
+        axes.set_title("belt, the whole loop; the ice stands on the blue line")
+        axes.set_xlabel("behind the middle of the contact [mm]")
+        axes.set_ylabel("depth [mm]")
+        _plain(axes)
+        axes.yaxis.set_major_formatter(lambda depth, _: f"{abs(depth):g}")
+
+    def frame(self, time: float, view: RigView) -> Image.Image:
+        """The picture at a time (s)."""
+        self._ice.set_array(self._rise(view.ice))
+        self._belt.set_array(self._rise(view.belt))
+        self._title.set_text(f"Temperature of ice and belt: {self._name}, t = {time:.2f} s")
+        self._canvas.draw()
+        return Image.fromarray(np.asarray(self._canvas.buffer_rgba())).convert("RGB")
+
+
+def _plain(axes: Axes) -> None:
+    plain_ticks(axes)
+    axes.grid(visible=False)
+    for spine in axes.spines.values():
+        spine.set_color(GREY)
+
+
+def _shown_height(views: Views, ambient: float) -> float:
+    """Height (m) of the ice up to which there is something to see."""
+    warm = np.nanmax([np.nanmax(view.ice, axis=0) for _, view in views], axis=0) - ambient
+    height = views[0][1].height
+    seen = height[warm > FAINT * max(float(np.nanmax(warm)), SMALLEST_RISE)]
+    highest = 1.2 * float(seen.max()) if seen.size else 0.0
+    return min(max(highest, LEAST_HEIGHT), float(height.max()))

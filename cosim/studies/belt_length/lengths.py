@@ -1,0 +1,135 @@
+"""Over the length of the belt: the shortest on which the drift stays below a limit, and a map.
+
+The shortest of a rig as it is, and in doubt: between the lengths for which the doubt is known.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from joblib import Parallel, delayed
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from .case import Case
+from .drift import run_drift
+from .uncertainty import INTERVAL, Uncertainty
+
+#: Longest belt that is tried, m.
+LONGEST = 50.0
+#: How well the length is found, relative; the drift is known to less.
+_TOLERANCE = 5e-3
+#: The rises of a study -> the quantiles of each in `Uncertainty`.
+QUANTILES = {
+    "run": {"median": "median", "high": "high"},
+    "interface": {"median": "interface_median", "high": "interface_high"},
+}
+#: What the levels are called.
+LEVELS = {"median": "median", "high": f"{INTERVAL[1]:.0%} level"}
+
+
+@dataclass(frozen=True)
+class Length:
+    """Shortest belt, m; None with the reason. says: for tables, such as 1.6, <1 or >4."""
+
+    length: float | None
+    says: str
+    reason: str = ""
+
+
+def shortest_belt(
+    case: Case, limit: float, drift: Callable[[Case], float], longest: float = LONGEST
+) -> float | None:
+    """Length, m; the shortest that has room when that does already, None when `longest` does not.
+
+    drift: of a case, K; it falls with the length. limit: K, > 0.
+    """
+
+    def over_the_limit(log_length: float) -> float:
+        return math.log(max(drift(case.with_length(math.exp(log_length))), 1e-9) / limit)
+
+    low, high = math.log(case.shortest), math.log(max(longest, case.shortest))
+    if over_the_limit(low) <= 0.0:
+        return case.shortest
+    if over_the_limit(high) > 0.0:
+        return None
+    return math.exp(brentq(over_the_limit, low, high, xtol=_TOLERANCE))
+
+
+def shortest_in_doubt(
+    lengths: Sequence[float], doubts: Sequence[Uncertainty | None], limit: float
+) -> dict[str, dict[str, Length]]:
+    """Shortest belts by rise and level, `QUANTILES`; limit in K.
+
+    lengths: in m, increasing, with the doubt on each. Nothing is told beyond them.
+    """
+    if None in doubts:
+        unknown = Length(None, "", "no doubt was computed: --samples 0, or the ice melts")
+        return {rise: dict.fromkeys(levels, unknown) for rise, levels in QUANTILES.items()}
+    return {
+        rise: {
+            level: _between(lengths, [getattr(one, name) for one in doubts], limit, LEVELS[level])
+            for level, name in levels.items()
+        }
+        for rise, levels in QUANTILES.items()
+    }
+
+
+def _between(lengths: Sequence[float], rises: Sequence[float], limit: float, level: str) -> Length:
+    """Beyond the last belt that is above the limit; straight in the logarithms of both."""
+    above = [i for i, rise in enumerate(rises) if rise > limit]
+    if not above:
+        return Length(lengths[0], f"<{lengths[0]:g}", "the shortest of the belts asked for")
+    last = above[-1]
+    if last == len(lengths) - 1:
+        return Length(
+            None,
+            f">{lengths[-1]:g}",
+            f"on {lengths[-1]:g} m, the longest belt asked for, the {level} is {rises[-1]:.2g} K",
+        )
+    # a rise that falls to nothing within a step would draw the place to the shorter belt
+    below = max(rises[last + 1], 0.1 * limit)
+    part = math.log(rises[last] / limit) / math.log(rises[last] / below)
+    length = lengths[last] * (lengths[last + 1] / lengths[last]) ** part
+    return Length(length, f"{length:.2g}")
+
+
+#: Corners of the map: m and m/s.
+LENGTHS, SPEEDS = (0.3, 10.0), (0.05, 1.5)
+
+
+@dataclass(frozen=True)
+class DriftMap:
+    """drift (lengths, speeds), K; NaN where a map was stopped before it came there."""
+
+    lengths: NDArray[np.float64]
+    speeds: NDArray[np.float64]
+    drift: NDArray[np.float64]
+
+
+def _column(case: Case, speeds: NDArray[np.float64]) -> list[float]:
+    return [run_drift(replace(case, speed=float(speed))) for speed in speeds]
+
+
+def empty_map(points: int) -> DriftMap:
+    """points x points places, evenly in the logarithm, with nothing known."""
+    return DriftMap(
+        np.geomspace(*LENGTHS, points),
+        np.geomspace(*SPEEDS, points),
+        np.full((points, points), np.nan),
+    )
+
+
+def fill_map(
+    grid: DriftMap, case: Case, jobs: int, progress: Callable[[int], None] = lambda done: None
+) -> None:
+    """Drifts of a case on other belts, in `jobs` processes; what interrupts it leaves the rest."""
+    columns = Parallel(n_jobs=jobs, return_as="generator")(
+        delayed(_column)(case.with_length(float(length)), grid.speeds) for length in grid.lengths
+    )
+    for i, column in enumerate(columns):
+        grid.drift[i] = column
+        progress(grid.speeds.size)

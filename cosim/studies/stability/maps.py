@@ -1,0 +1,300 @@
+"""The scenario, and the two maps around it: growth of small disturbances, and regimes.
+
+Growth over pretension and speed. Regimes over speed and mu_s/mu_k, from three starts, beside what
+is known in closed form.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from stickslip import Parameters
+from stickslip.packing import GRAVITY
+from stickslip.parameters import EffectTables
+from stickslip.reference.coulomb_oscillator import CoulombOscillator
+from stickslip.reference.coulomb_starts import BeltStart
+from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension
+from stickslip.steady_motion.regimes import (
+    RAMP,
+    REST,
+    RIDING,
+    SLIDING,
+    STARTS,
+    STICK_SLIP,
+    other_starts,
+    regime_of,
+)
+from stickslip.steady_motion.stability import growth_in_a_cycle, guided
+
+from cosim.report.page import Picture, render
+from cosim.scenario import Scenario
+
+#: Length of a run after the surface has its speed, s, and in natural periods.
+SECONDS, PERIODS = 20.0, 40.0
+
+
+class NotAMotion(ValueError):
+    """A scenario that has no stick-slip motion to be studied; one line: what, what is allowed."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scenario's mechanics and the assessment of its own run.
+
+    interface: what friction feels there, of belt and ice as cold as the air.
+    """
+
+    name: str
+    parameters: Parameters
+    interface: Interface
+    assessment: Assessment
+
+
+def case_of(scenario: Scenario) -> Case:
+    """The scenario with its own assessment. NotAMotion where there is nothing to assess."""
+    parameters, interface = scenario.mechanics, Interface(scenario.ambient.temperature_degC)
+    if fault := _fault(parameters):
+        raise NotAMotion(f"{scenario.name}: {fault}")
+    found = assess(parameters, scenario.run.duration, interface, look=lambda: None)
+    if found is None:
+        raise NotAMotion(
+            f"{scenario.name}: run.duration = {scenario.run.duration:g} s: the motion ends early, "
+            "or is over before five swings at constant speed; allowed is a longer run that can be "
+            "followed"
+        )
+    return Case(scenario.name, parameters, interface, found)
+
+
+def _fault(parameters: Parameters) -> str:
+    """What keeps a rig from having steady motions that could be told apart, or nothing."""
+    law = parameters.rate_and_state
+    if parameters.surface.speed == 0.0:
+        return "surface.speed = 0: needed is a surface that moves"
+    if parameters.natural_frequency == 0.0:
+        return "springs.stiffness = 0: needed are springs"
+    if parameters.friction.mu_k == 0.0:
+        return "friction.mu_k = 0: needed is friction in slip, for a map over mu_s/mu_k"
+    if law.direct != 0.0 or law.evolution != 0.0:
+        return "rate_and_state: its runs take too long to be repeated; leave it out"
+    return ""
+
+
+def run_length(parameters: Parameters) -> float:
+    """Speed ramp and what follows it, s."""
+    return parameters.surface.run_up_time + max(SECONDS, PERIODS / parameters.natural_frequency)
+
+
+def at_speed(parameters: Parameters, speed: float) -> Parameters:
+    """The same rig on a surface of another speed; a block that starts with the surface's keeps it.
+
+    The direction is that of the scenario.
+    """
+    speed = float(np.copysign(speed, parameters.surface.speed))
+    surface = parameters.surface.model_copy(update={"speed": speed})
+    initial = parameters.initial
+    if initial.vx == parameters.surface.speed:
+        initial = initial.model_copy(update={"vx": speed})
+    return parameters.model_copy(update={"surface": surface, "initial": initial})
+
+
+@dataclass(frozen=True)
+class PretensionMap:
+    """growth (n, m): largest multiplier of a cycle at pretensions (n,) m and speeds (m,) m/s.
+
+    sticks (n, m): whether the block sticks there. NaN: not computed, or no motion that can be
+    followed.
+    """
+
+    pretensions: np.ndarray
+    speeds: np.ndarray
+    growth: np.ndarray
+    sticks: np.ndarray
+
+
+def pretension_map(
+    case: Case, pretensions: np.ndarray, speeds: np.ndarray, done: Callable[[int], object]
+) -> PretensionMap:
+    """The map around a case; ``done`` is called with 1 after each cell."""
+    growth = np.full((len(pretensions), len(speeds)), np.nan)
+    sticks = growth.copy()
+    for j, speed in enumerate(speeds):
+        moving = at_speed(case.parameters, speed)
+        for i, pretension in enumerate(pretensions):
+            parameters = with_pretension(moving, pretension)
+            growth[i, j], sticks[i, j] = _cell(parameters, case.interface)
+            done(1)
+    return PretensionMap(np.asarray(pretensions), np.asarray(speeds), growth, sticks)
+
+
+def _cell(parameters: Parameters, interface: Interface) -> tuple[float, float]:
+    """Growth, and 1 where the block sticks on its line, else 0; NaN where it cannot be followed."""
+    duration = run_length(parameters)
+    try:
+        growth = growth_in_a_cycle(parameters, duration, interface)
+        return growth, float(regime_of(guided(parameters), duration, interface).slip_share < 1.0)
+    except RunEnded:
+        return np.nan, np.nan
+
+
+MAPPED = (REST, RIDING, RAMP)
+#: Blocks with which the motion along the line is still that of a Coulomb oscillator.
+HARMLESS = {"lateral_friction", "structural_damping", "imperfections"}
+
+
+@dataclass(frozen=True)
+class RegimeMap:
+    """Names of regimes (3, n, m) from `MAPPED`, at ratios mu_s/mu_k (n,) and speeds (m,) m/s.
+
+    simulated: by the model; an empty name is a run that ended early. closed_form: of the Coulomb
+    oscillator with the same numbers; None where the scenario's motion is not that of one.
+    """
+
+    ratios: np.ndarray
+    speeds: np.ndarray
+    simulated: np.ndarray
+    closed_form: np.ndarray | None
+    fastest_from_rest: float | None
+
+    @property
+    def wrong(self) -> int | None:
+        """Cells, of all three starts, in which simulation and closed form differ."""
+        if self.closed_form is None:
+            return None
+        return int(np.sum((self.simulated != self.closed_form) & (self.simulated != "")))
+
+
+def regime_map(
+    case: Case, ratios: np.ndarray, speeds: np.ndarray, done: Callable[[int], object]
+) -> RegimeMap:
+    """The map around a case, whose mu_k is kept; ``done`` is called with 1 after each cell."""
+    simulated = np.full((len(MAPPED), len(ratios), len(speeds)), "", dtype=object)
+    closed = simulated.copy()
+    known = is_coulomb_oscillator(case.parameters)
+    for i, ratio in enumerate(ratios):
+        for j, speed in enumerate(speeds):
+            parameters = _with_ratio(at_speed(case.parameters, speed), ratio)
+            simulated[:, i, j] = _simulated(parameters, case.interface)
+            if known:
+                closed[:, i, j] = predicted(parameters)
+            done(1)
+    fastest = belt_start(case.parameters).fastest_from_rest if known else None
+    return RegimeMap(
+        np.asarray(ratios), np.asarray(speeds), simulated, closed if known else None, fastest
+    )
+
+
+def _with_ratio(parameters: Parameters, ratio: float) -> Parameters:
+    friction = parameters.friction
+    changed = friction.model_copy(update={"mu_s": ratio * friction.mu_k})
+    return parameters.model_copy(update={"friction": changed})
+
+
+def _simulated(parameters: Parameters, interface: Interface) -> list[str]:
+    starts = other_starts(parameters)
+    names = []
+    for start in MAPPED:
+        started = starts[start]
+        try:
+            names.append(regime_of(started, run_length(started), interface).name)
+        except RunEnded:
+            names.append("")
+    return names
+
+
+def is_coulomb_oscillator(parameters: Parameters) -> bool:
+    """Is the motion along the line that of `BeltStart`?
+
+    Imperfections of a hundredth move the borders by as much.
+    """
+    plain = Parameters()
+    effects = set(EffectTables.model_fields) - HARMLESS
+    return (
+        all(getattr(parameters, name) == getattr(plain, name) for name in effects)
+        and parameters.rig.surface == "belt"
+        and not parameters.springs.force_curve_extension
+        and parameters.friction.stick_creep == 0.0
+        and parameters.structural_damping.coefficient < _critical_damping(parameters)
+    )
+
+
+def _critical_damping(parameters: Parameters) -> float:
+    """Above it, N s/m, the block does not vibrate."""
+    return 4.0 * math.pi * parameters.natural_frequency * parameters.rig.mass
+
+
+def belt_start(parameters: Parameters) -> BeltStart:
+    """The oscillator of the motion along the line, on a belt that runs up as that of RAMP."""
+    rig, friction, load = parameters.rig, parameters.friction, parameters.rig.mass * GRAVITY
+    return BeltStart(
+        CoulombOscillator(
+            rig.mass,
+            4.0 * parameters.springs.stiffness,
+            abs(parameters.surface.speed),
+            max(friction.mu_s, friction.mu_k) * load,
+            friction.mu_k * load,
+        ),
+        parameters.structural_damping.coefficient,
+        other_starts(parameters)[RAMP].surface.run_up_time,
+    )
+
+
+def predicted(parameters: Parameters) -> list[str]:
+    """Names of the regimes from `MAPPED` in closed form."""
+    start = belt_start(parameters)
+    sticks = {
+        REST: start.sticks_from_rest(),
+        RIDING: start.sticks_riding(),
+        RAMP: start.sticks_after_run_up(),
+    }
+    return [STICK_SLIP if sticks[name] else SLIDING for name in MAPPED]
+
+
+def as_json(
+    case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
+) -> dict[str, Any]:
+    """Case and maps with plain numbers, SI; what was not computed is None."""
+    return {
+        "name": case.name,
+        **case.assessment.as_dict(),
+        "starts": STARTS,
+        "pretension_map": None
+        if stretched is None
+        else {
+            "pretensions": stretched.pretensions.tolist(),
+            "speeds": stretched.speeds.tolist(),
+            "growth": _plain(stretched.growth),
+            "sticks": _plain(stretched.sticks),
+        },
+        "regime_map": None
+        if regimes is None
+        else {
+            "ratios": regimes.ratios.tolist(),
+            "speeds": regimes.speeds.tolist(),
+            "simulated": dict(zip(MAPPED, regimes.simulated.tolist(), strict=True)),
+            "closed_form": None
+            if regimes.closed_form is None
+            else dict(zip(MAPPED, regimes.closed_form.tolist(), strict=True)),
+            "cells_that_differ": regimes.wrong,
+            "fastest_from_rest": regimes.fastest_from_rest,
+        },
+    }
+
+
+def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
+    """HTML of the numbers of `as_json`, what they say, and the maps."""
+    return render(
+        "stability.html.j2",
+        "cosim.studies.stability",
+        numbers=numbers,
+        sentences=sentences,
+        pictures=pictures,
+    )
+
+
+def _plain(table: np.ndarray) -> list[list[float | None]]:
+    """JSON has no NaN."""
+    return [[value if math.isfinite(value) else None for value in row] for row in table.tolist()]

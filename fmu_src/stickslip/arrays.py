@@ -1,0 +1,129 @@
+"""The kernel's arrays for one run, laid out in one place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from types import ModuleType, SimpleNamespace
+from typing import Any, Self
+
+import numpy as np
+
+from .compiled import compiled_kernel
+from .kernel import advance, outputs
+from .kernel.layout import (
+    DONE,
+    E_CAPACITY,
+    E_FIRST,
+    E_WIDTH,
+    SHOWN,
+    TIME,
+    U_FILM,
+    U_FORCE_Y,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    W_SIZE,
+    Z_HAS_NEXT,
+    Z_SIZE,
+    Z_STARTED,
+    Z_STATUS,
+)
+from .parameters import Parameters
+from .status import WHY_NOT
+
+#: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
+STATE = ("x", "y", "phi", "vx", "vy", "omega")
+
+# the kernel as it stands, for whoever wants to step through it
+INTERPRETED = SimpleNamespace(
+    initialise=advance.initialise,
+    advance=advance.advance,
+    show=outputs.show,
+    record=outputs.record,
+)
+
+
+def inputs(
+    speed: float, temperature: float, film_thickness: float = 0.0, aside: float = 0.0
+) -> np.ndarray:
+    """``u`` of a surface's speed (m/s), an interface (degC, m) and a force along y (N)."""
+    u = np.zeros(U_SIZE)
+    u[U_SPEED], u[U_TEMPERATURE] = speed, temperature
+    u[U_FILM], u[U_FORCE_Y] = film_thickness, aside
+    return u
+
+
+def interface_temperature(parameters: Parameters, temperature: float | None) -> float:
+    """degC; left out, the reference temperature of temperature_dependence."""
+    if temperature is None:
+        return float(parameters.temperature_dependence.reference_degC)
+    return temperature
+
+
+@dataclass
+class RunArrays:
+    """One run of a kernel: parameters, inputs, memory, scratch space and log of events.
+
+    Everything that the run remembers is in ``z``. kernel : the compiled one, or `INTERPRETED`,
+    whose arrays are lists.
+    """
+
+    kernel: ModuleType | SimpleNamespace
+    p: Any
+    u: Any
+    z: Any
+    w: Any
+    e: Any
+
+    @classmethod
+    def begin(
+        cls,
+        p: Sequence[float],
+        u: np.ndarray,
+        start: float = 0.0,
+        events: int = 1,
+        interpreted: bool = False,
+    ) -> Self:
+        """A run that starts at the time ``start`` (s), with room for so many events in its log."""
+        array: Callable[[Any], Any] = list if interpreted else np.array
+        kernel = INTERPRETED if interpreted else compiled_kernel()
+        e = array(np.zeros(E_FIRST + E_WIDTH * events))
+        e[E_CAPACITY] = float(events)
+        z, w = array(np.zeros(Z_SIZE)), array(np.zeros(W_SIZE))
+        run = cls(kernel, array(np.asarray(p, dtype=float)), array(u), z, w, e)
+        kernel.initialise(run.p, run.z, start)
+        return run
+
+    def copy(self) -> Self:
+        """The same instant, to go on differently from."""
+        return replace(self, z=self.z.copy())
+
+    @property
+    def all(self) -> tuple[Any, Any, Any, Any, Any]:
+        """As the kernel takes them."""
+        return self.p, self.u, self.z, self.w, self.e
+
+    @property
+    def time(self) -> float:
+        """s"""
+        return float(self.z[SHOWN + TIME])
+
+    @property
+    def failure(self) -> str:
+        """Why `advance` gave up, with the remedy."""
+        return f"t = {self.time:.9g} s: {WHY_NOT[int(self.z[Z_STATUS])]}"
+
+    def advance(self, time: float) -> bool:
+        """Go on to ``time`` (s); False where that cannot be."""
+        return bool(self.kernel.advance(*self.all, time) == DONE)
+
+    def follow_surface(self) -> None:
+        """Give a block that sticks the velocity of the surface."""
+        self.kernel.look_at(self.p, self.u, self.z, self.w, SHOWN)
+        self.kernel.follow_surface(self.p, self.u, self.z, self.w, SHOWN, 0.0)
+
+    def settle(self, time: float) -> bool:
+        """Start afresh from what ``z`` shows now, at ``time`` (s); False where that cannot be."""
+        self.z[Z_STARTED], self.z[Z_HAS_NEXT] = 0.0, 0.0
+        return self.advance(time)

@@ -1,0 +1,1 @@
+"""Effects that change what a contact at rest holds."""

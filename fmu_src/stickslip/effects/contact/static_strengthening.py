@@ -1,0 +1,106 @@
+"""Frictional ageing: mu_s grows with the time at rest.
+
+With its logarithm, mu_s + b log10(1 + t / t_0), as Dieterich found for rock and as ice does, or up
+to a limit, mu_s + c (1 - exp(-t / t_1)).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import exp, log10
+
+from ...quantity import Table, quantity
+from ..candidate import Candidate, FreeParameter, Scales
+from ..effect import Case, Effect
+
+
+class StaticStrengthening(Table):
+    """Static friction grows with the time at rest: with its logarithm, or up to a limit."""
+
+    rate: float = quantity(
+        0.0, "1", "growth of mu_s per decade of hold time", ge=0, le=2, typical=(0.01, 0.3)
+    )
+    hold_time: float = quantity(
+        0.01,
+        "s",
+        "hold time above which mu_s grows: log10(1 + t / hold_time)",
+        gt=0,
+        tried=(1e-3, 0.1),
+    )
+    saturating: float = quantity(
+        0.0, "1", "growth of mu_s that a long hold comes to", ge=0, le=5, typical=(0.02, 0.5)
+    )
+    saturation_time: float = quantity(
+        0.3,
+        "s",
+        "hold time over which it does: 1 - exp(-t / saturation_time)",
+        gt=0,
+        tried=(0.05, 2.0),
+    )
+
+
+def static_growth(
+    hold: float, rate: float, hold_time: float, saturating: float, saturation_time: float
+) -> float:
+    """What ``hold`` seconds at rest add to mu_s: so much a decade, or so much in the end."""
+    growth = 0.0
+    if rate != 0.0:
+        growth += rate * log10(1.0 + hold / hold_time)
+    if saturating != 0.0:
+        growth += saturating * (1.0 - exp(-hold / saturation_time))
+    return growth
+
+
+#: A usual hold, s.
+_HOLD = 0.5
+
+
+def candidates(s: Scales) -> Iterator[Candidate]:
+    """Logarithmic at once or after an onset, and saturating."""
+    rate = FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
+    yield Candidate(
+        "static_strengthening",
+        "logarithmic",
+        (rate,),
+        {"static_strengthening.hold_time": 0.01},
+        grows=2.0,
+    )
+    for time in (0.03, 0.5):
+        onset = FreeParameter("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
+        yield Candidate(
+            "static_strengthening",
+            "logarithmic after an onset",
+            (rate, onset),
+            grows=log10(1.0 + _HOLD / time),
+        )
+    for time in (0.1, 0.5):
+        yield Candidate(
+            "static_strengthening",
+            "saturating",
+            (
+                FreeParameter("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
+                # over a much shorter time it would be another mu_s, not a law of the hold
+                FreeParameter(
+                    "static_strengthening.saturation_time",
+                    time,
+                    0.5,
+                    0.03,
+                    30.0,
+                    log=True,
+                    plain_below=True,
+                ),
+            ),
+            grows=1.0,
+        )
+
+
+EFFECT = Effect(
+    id="static_strengthening",
+    table=StaticStrengthening,
+    switch=("rate", "saturating"),
+    enters="contact",
+    source="Dieterich, J. Geophys. Res. 77 (1972); Schulson & Fortt, 0.3 a decade on ice",
+    terms=(static_growth,),
+    candidates=candidates,
+    case=Case({"rate": 0.08}),
+)

@@ -1,0 +1,45 @@
+"""Stick is judged by a part of the spring force: the study counts one spring of four.
+
+The search for the break-away (`kernel.rest`) scales the load with it, so the core of the kernel
+knows the ratio by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...quantity import Table, quantity
+from ..candidate import Candidate, FreeParameter, Scales
+from ..effect import Case, Effect
+
+
+class StickStiffness(Table):
+    """Stick is judged by a part of the spring force: the study counts one spring of four."""
+
+    ratio: float = quantity(
+        1.0,
+        "1",
+        "part of the load that stick is judged by: 1 all, 0.25 the study",
+        gt=0,
+        le=1,
+        typical=(0.25, 0.75),
+    )
+
+
+def candidates(s: Scales) -> Iterator[Candidate]:
+    """A large or a small part."""
+    for part in (0.8, 0.5, 0.3):
+        ratio = FreeParameter("stick_stiffness.ratio", part, 0.15, 0.05, 1.0)
+        yield Candidate("stick_stiffness", "part of the springs", (ratio,))
+
+
+EFFECT = Effect(
+    id="stick_stiffness",
+    table=StickStiffness,
+    switch=("ratio",),
+    enters="contact",
+    source="a fault of the source study: one spring instead of four in stick",
+    core={"ratio": "STICK_RATIO"},
+    candidates=candidates,
+    case=Case({"ratio": 0.25}),
+)

@@ -1,0 +1,111 @@
+"""What an effect is: parameters, terms of the kernel, candidates for a fit, a case to be shown.
+
+The plain model is Coulomb friction along x alone, linear springs and a steady belt. Every effect
+is a table of a scenario, a group of FMU parameters `effect.parameter`, and off at its defaults, so
+that the plain model, one effect or several are the same kernel with other numbers.
+
+An effect is one file. It declares an `Effect` named ``EFFECT`` and stands in the list of
+`stickslip.effects`; the kernel's slots and the calls of its terms are made from that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..quantity import Table
+from .candidate import Candidate, Scales
+
+#: A function of numbers: floats in, a float out, `math` only. Its name says where it enters or what
+#: it is; its arguments are bound by their names, see `stickslip.generation.places`.
+Term = Callable[..., float]
+
+
+def no_candidates(scales: Scales) -> Iterable[Candidate]:
+    """Of an effect that `gap` does not offer to a fit."""
+    return ()
+
+
+@dataclass(frozen=True)
+class State:
+    """A number that an effect remembers, integrated with the motion.
+
+    Attributes
+    ----------
+    name : by which the effect's terms take it
+    rate : its rate of change; beside the common words it can take ``speed``, the mean local
+        sliding speed, m/s, and ``friction_power``, W
+    start : parameter that it starts from; "" is 0
+    scale : what of it counts as much as the motion's own speed (``speed``, m/s), for the error
+        test; None is the energy of that motion, J
+    """
+
+    name: str
+    rate: Term
+    start: str = ""
+    scale: Term | None = None
+
+
+@dataclass(frozen=True)
+class Case:
+    """A size of an effect that shows, and the rig in which it does.
+
+    Attributes
+    ----------
+    effect : the effect's parameters
+    rig : what else differs from the plain rig of the page, with the effect and without
+    window : times that are shown, s
+    warmer : of the interface above the effect's own reference_degC, K
+    water : mean thickness of the water that the page names, m
+    """
+
+    effect: Mapping[str, Any]
+    rig: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    window: tuple[float, float] = (4.0, 8.0)
+    warmer: float = 0.0
+    water: float = 0.0
+
+
+@dataclass(frozen=True)
+class Effect:
+    """An entry of the catalogue.
+
+    Attributes
+    ----------
+    id : name of the scenario's table, of the FMU's parameter group and of the candidate in `gap`
+    table : the parameters: names, units, defaults, bounds
+    switch : the parameters any of which turns it on, most telling first
+    enters : where in the model: friction, springs, surface, contact
+    source : where the effect is named or its law comes from
+    case : how it is shown
+    terms : what it adds to the kernel; each is named by its place there
+    derived : numbers made of the parameters once a run; each is named by its function
+    series : derived numbers of which there are several, and how many
+    sums : word -> function of a member of each series; the word is its sum over them
+    states : what it remembers
+    core : parameters that the core of the kernel knows, and under which name (`P_...`)
+    candidates : what a fit may turn in a campaign of such scales
+    offered : whether `gap` tries them by itself, or only where somebody names the effect: one more
+        law is one more chance to be wrong, and a campaign's answer is not to change by it
+    """
+
+    id: str
+    table: type[Table]
+    switch: tuple[str, ...]
+    enters: str
+    source: str
+    case: Case
+    terms: tuple[Term, ...] = ()
+    derived: tuple[Callable[..., Any], ...] = ()
+    series: Mapping[str, int] = field(default_factory=dict)
+    sums: Mapping[str, Term] = field(default_factory=dict)
+    states: tuple[State, ...] = ()
+    core: Mapping[str, str] = field(default_factory=dict)
+    candidates: Callable[[Scales], Iterable[Candidate]] = no_candidates
+    offered: bool = True
+
+    @property
+    def sentence(self) -> str:
+        """What it adds to the plain model."""
+        return (self.table.__doc__ or "").split("\n")[0]

@@ -1,0 +1,1 @@
+"""Effects of how the surface moves."""

@@ -1,0 +1,105 @@
+"""The speed of the surface is periodic in time.
+
+v (1 + A (sin a + B sin(2 a + b))),        a = 2 pi f t + phase
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import cos, pi, radians, sin
+
+from ...quantity import Table, quantity
+from ..candidate import Candidate, FreeParameter, Scales
+from ..effect import Case, Effect
+from ..periodic import periodic, second_amplitude, second_phase
+
+
+class SpeedRipple(Table):
+    """The speed of the surface is periodic in time."""
+
+    amplitude: float = quantity(
+        0.0, "1", "amplitude as part of the speed", ge=0, le=1, typical=(0.02, 0.3)
+    )
+    frequency: float = quantity(1.0, "Hz", "frequency", gt=0, le=1000, typical=(0.1, 10.0))
+    phase_deg: float = quantity(0.0, "deg", "phase at the start", tried=(-180.0, 180.0))
+    second_amplitude: float = second_amplitude()
+    second_phase_deg: float = second_phase()
+
+
+def angular_rate(frequency: float) -> float:
+    """rad/s"""
+    return 2.0 * pi * frequency
+
+
+def phase(phase_deg: float) -> float:
+    """rad"""
+    return radians(phase_deg)
+
+
+def second_harmonic_phase(second_phase_deg: float) -> float:
+    """rad"""
+    return radians(second_phase_deg)
+
+
+def fastest_rate(angular_rate: float, second_amplitude: float) -> float:
+    """Rate of what varies fastest, rad/s."""
+    return angular_rate * (2.0 if second_amplitude != 0.0 else 1.0)
+
+
+def surface_speed(
+    steady_speed: float,
+    time: float,
+    amplitude: float,
+    angular_rate: float,
+    phase: float,
+    second_amplitude: float,
+    second_harmonic_phase: float,
+) -> float:
+    """Speed with the ripple, m/s."""
+    angle = angular_rate * time + phase
+    wave = sin(angle)
+    if second_amplitude != 0.0:
+        wave += second_amplitude * sin(2.0 * angle + second_harmonic_phase)
+    return steady_speed * (1.0 + amplitude * wave)
+
+
+def surface_acceleration(
+    steady_acceleration: float,
+    steady_speed: float,
+    time: float,
+    amplitude: float,
+    angular_rate: float,
+    phase: float,
+    second_amplitude: float,
+    second_harmonic_phase: float,
+) -> float:
+    """Rate of `surface_speed`, m/s^2."""
+    angle = angular_rate * time + phase
+    wave, slope = sin(angle), cos(angle)
+    if second_amplitude != 0.0:
+        second = 2.0 * angle + second_harmonic_phase
+        wave += second_amplitude * sin(second)
+        slope += 2.0 * second_amplitude * cos(second)
+    rate = steady_acceleration * (1.0 + amplitude * wave)
+    return rate + steady_speed * amplitude * angular_rate * slope
+
+
+def candidates(s: Scales) -> Iterator[Candidate]:
+    """Of a frequency, or of a roller, whose frequency goes with the speed."""
+    frequency = FreeParameter("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
+    yield from periodic("speed_ripple", frequency, "sine")
+    length = FreeParameter("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    yield from periodic("speed_ripple", length, "sine of a roller")
+
+
+EFFECT = Effect(
+    id="speed_ripple",
+    table=SpeedRipple,
+    switch=("amplitude",),
+    enters="surface",
+    source="the source study: the speed of the belt is not steady",
+    terms=(surface_speed, surface_acceleration, fastest_rate),
+    derived=(angular_rate, phase, second_harmonic_phase),
+    candidates=candidates,
+    case=Case({"amplitude": 0.3, "frequency": 0.7}),
+)

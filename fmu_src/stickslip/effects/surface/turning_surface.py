@@ -1,0 +1,47 @@
+"""The surface is a turning slab: its speed varies over the disc and has a lateral part.
+
+With the curvature c = 1/R the surface turns at v c about (0, R), see `kernel.surface`; stick and
+quasi-steady sliding need its accelerations, so the core of the kernel knows c by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...quantity import Table, quantity
+from ..candidate import ACROSS, Candidate, FreeParameter, Scales
+from ..effect import Case, Effect
+
+
+class TurningSurface(Table):
+    """The surface is a turning slab: its speed varies over the disc and has a lateral part."""
+
+    curvature: float = quantity(
+        0.0,
+        "1/m",
+        "1/R of a surface that turns about (0, R); 0 is a belt",
+        ge=-20,
+        le=20,
+        typical=(-4.0, 4.0),
+    )
+
+
+def candidates(s: Scales) -> Iterator[Candidate]:
+    """Turning either way, under friction across the motion or without."""
+    for across in (ACROSS, {}):
+        for sign in (0.5, -0.5):
+            curvature = FreeParameter("turning_surface.curvature", sign, 0.2, -20.0, 20.0)
+            form = "disc friction" if across else "friction along x"
+            yield Candidate("turning_surface", form, (curvature,), across, lateral=True)
+
+
+EFFECT = Effect(
+    id="turning_surface",
+    table=TurningSurface,
+    switch=("curvature",),
+    enters="surface",
+    source="the source study's rotating slab, whose turning it leaves out",
+    core={"curvature": "CURVATURE"},
+    candidates=candidates,
+    case=Case({"curvature": 4.0}, {"lateral_friction": {"ratio": 1.0}}),
+)

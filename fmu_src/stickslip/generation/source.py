@@ -1,0 +1,49 @@
+"""The kernel as the text of one module, from the core's files and the effects' declarations.
+
+That one text is what numba compiles, what becomes C, and what travels inside the FMU.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from importlib import resources
+
+from ..effects import EFFECTS
+from ..effects.effect import Effect
+from ..kernel import MODULES
+from ..kernel.layout import constants
+from .terms import terms_source
+
+#: How the core spells an array of floats, and how the text does: pyccel's way, a string to others.
+_ARRAY, _SPELLED = "Floats", "float[:]"
+
+
+def kernel_source(effects: Sequence[Effect] = EFFECTS) -> str:
+    """The core's files in order, without their mutual imports, between layout and terms."""
+    made = {"layout": layout_source(effects), "terms": terms_source(effects)}
+    return "\n".join(
+        f"# {name}\n{made[name] if name in made else _core(name)}\n" for name in MODULES
+    )
+
+
+def layout_source(effects: Sequence[Effect] = EFFECTS) -> str:
+    """Where each number stands, as assignments."""
+    return "\n".join(f"{name} = {value!r}" for name, value in constants(effects).items()) + "\n"
+
+
+def _core(name: str) -> str:
+    file = f"{name.replace('.', '/')}.py"
+    tree = ast.parse((resources.files("stickslip.kernel") / file).read_text("utf-8"))
+    tree.body = [node for node in tree.body if not _is_for_files_only(node)]
+    for node in ast.walk(tree):
+        if isinstance(node, ast.arg) and isinstance(node.annotation, ast.Name):
+            if node.annotation.id == _ARRAY:
+                node.annotation = ast.Constant(_SPELLED)
+    return ast.unparse(tree)
+
+
+def _is_for_files_only(node: ast.stmt) -> bool:
+    if not isinstance(node, ast.ImportFrom):
+        return False
+    return bool(node.level) or node.module == "__future__"

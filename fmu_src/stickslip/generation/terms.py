@@ -1,0 +1,234 @@
+"""Text of the functions through which the kernel calls the effects' terms.
+
+For each of the `PLACES` one function ``with_<place>`` that takes what is there and returns it with
+every effect that is on; for the states their rates, starts and scales; and the questions that the
+core asks of the effects: whether they feel an input, have a memory, or vary over the contact. The
+calls are direct, and what is off costs a comparison.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..effects.effect import Effect, Term
+from .functions import EffectFunctions, arguments, imports_text
+from .places import CONSTANTS, LOCAL, MEMORY, PLACES, RATE_WORDS, WORDS, Place
+from .slots import (
+    derived_slots,
+    functions_in_kernel,
+    kernel_terms,
+    parameter_slots,
+    state_slot,
+)
+
+_ARRAY = '"float[:]"'
+
+
+def terms_source(effects: Sequence[Effect]) -> str:
+    """The whole text. Raises ValueError for a term whose place or argument nobody knows."""
+    for effect in effects:
+        _check(effect)
+    texts, imports = [], set()
+    for effect in effects:
+        text, taken = EffectFunctions(effect).text(functions_in_kernel(effect))
+        texts += [text] if text else []
+        texts += [_sum(effect, word) for word in effect.sums]
+        imports |= taken
+    texts += [_place_function(place, effects) for place in PLACES]
+    texts += _state_functions(effects)
+    texts += _questions(effects)
+    return imports_text(imports) + "\n\n\n" + "\n\n\n".join(texts) + "\n"
+
+
+def _check(effect: Effect) -> None:
+    """That words, parameters and states keep apart, and that what is off is zero."""
+    known = {place.name for place in PLACES}
+    for term in kernel_terms(effect):
+        if term.__name__ not in known:
+            raise ValueError(
+                f"effect {effect.id}: no place {term.__name__!r} in the kernel; "
+                f"there are {', '.join(sorted(known))}"
+            )
+        for name in effect.switch:
+            if effect.table.model_fields[name].default != 0.0:
+                raise ValueError(f"effect {effect.id}: {name} is not off at 0")
+    own = {*effect.table.model_fields, *(f.__name__ for f in effect.derived)}
+    both = own & {*WORDS, *CONSTANTS}
+    if both:
+        raise ValueError(f"effect {effect.id}: {', '.join(sorted(both))}: the kernel's own words")
+
+
+def bound(effect: Effect, name: str, local: Iterable[str]) -> str:
+    """The kernel's expression for an argument of a term; ``local``: words of its place."""
+    if name in local:
+        return name
+    if name in effect.sums:
+        return _sum_call(effect, name, local)
+    if name in {state.name for state in effect.states}:
+        return f"w[W_STATE + {state_slot(effect, name)}]"
+    if name in parameter_slots(effect):
+        return f"p[{parameter_slots(effect)[name]}]"
+    if name in derived_slots(effect):
+        return f"p[{derived_slots(effect)[name][0]}]"
+    if name in WORDS:
+        return WORDS[name]
+    if name in CONSTANTS:
+        return CONSTANTS[name]
+    raise ValueError(f"effect {effect.id}: nothing in the kernel is called {name!r}")
+
+
+def guard(effect: Effect, function: Term) -> str:
+    """Condition under which a term counts."""
+    taken = [name for name in effect.switch if name in arguments(function)] or effect.switch
+    slots = parameter_slots(effect)
+    return " or ".join(f"p[{slots[name]}] != 0.0" for name in taken)
+
+
+def _call(effect: Effect, function: Term, local: Iterable[str]) -> str:
+    given = ", ".join(bound(effect, name, local) for name in arguments(function))
+    return f"{EffectFunctions(effect).name(function)}({given})"
+
+
+def _terms_at(place: str, effects: Iterable[Effect]) -> list[tuple[Effect, Term]]:
+    return [(e, term) for e in effects for term in kernel_terms(e) if term.__name__ == place]
+
+
+def _signature(place: Place) -> str:
+    arrays = [f"{name}: {_ARRAY}" for name in place.arrays.split()]
+    value = f"{place.so_far or 'value'}: float"
+    return ", ".join([*arrays, value, *(f"{word}: float" for word in place.words)])
+
+
+def _place_function(place: Place, effects: Sequence[Effect]) -> str:
+    value = place.so_far or "value"
+    local = (value, *place.words) if place.so_far else place.words
+    sign = {"add": "+=", "multiply": "*=", "replace": "="}[place.joins]
+    lines = [f"def with_{place.name}({_signature(place)}) -> float:"]
+    lines.append(f'    """Returns with every effect: {place.meaning}."""')
+    terms = _terms_at(place.name, effects)
+    for number, (effect, term) in enumerate(terms):
+        lines.append(f"    if {guard(effect, term)}:")
+        lines.append(f"        {value} {sign} {_call(effect, term, local)}")
+        if place.name == "surface_acceleration" and number + 1 < len(terms):
+            lines += _speed_for_the_next(effect, effects)
+    return "\n".join([*lines, f"    return {value}"])
+
+
+def _speed_for_the_next(effect: Effect, effects: Sequence[Effect]) -> list[str]:
+    """The speed that the next effect's acceleration is made of, with that of this effect."""
+    for other, term in _terms_at("surface_speed", effects):
+        if other is effect:
+            return [f"        steady_speed = {_call(other, term, ('steady_speed', 'time'))}"]
+    return []
+
+
+def _sum(effect: Effect, word: str) -> str:
+    """A function that adds up what a function gives for each member of its series."""
+    function = effect.sums[word]
+    names = arguments(function)
+    series = [name for name in names if name in effect.series]
+    others = [name for name in names if name not in effect.series]
+    slots = derived_slots(effect)
+    given = ", ".join(f"p[{slots[n][0]} + i]" if n in series else n for n in names)
+    signature = ", ".join([f"p: {_ARRAY}", *(f"{name}: float" for name in others)])
+    return "\n".join(
+        [
+            f"def {effect.id}_{word}({signature}) -> float:",
+            f'    """Sum of `{effect.id}_{function.__name__}` over its series."""',
+            "    total = 0.0",
+            f"    for i in range({effect.series[series[0]]}):",
+            f"        total += {EffectFunctions(effect).name(function)}({given})",
+            "    return total",
+        ]
+    )
+
+
+def _sum_call(effect: Effect, word: str, local: Iterable[str]) -> str:
+    names = [name for name in arguments(effect.sums[word]) if name not in effect.series]
+    given = ", ".join(["p", *(bound(effect, name, local) for name in names)])
+    return f"{effect.id}_{word}({given})"
+
+
+def _state_functions(effects: Sequence[Effect]) -> list[str]:
+    rates = [
+        f"def set_state_rates(p: {_ARRAY}, u: {_ARRAY}, w: {_ARRAY}, out: int, "
+        "friction_power: float, speed: float):",
+        '    """Rates of the effects\' states, into ``w[out:]``: power in W, mean speed in m/s."""',
+    ]
+    starts = [
+        f"def set_starting_states(p: {_ARRAY}, z: {_ARRAY}, at: int):",
+        '    """Put the effects\' states at the start of a run into the instant ``z[at:]``."""',
+    ]
+    scales = [
+        f"def with_state_scale(p: {_ARRAY}, i: int, value: float, speed: float) -> float:",
+        '    """Of state i, what counts as much as ``speed`` (m/s); ``value`` for the others."""',
+    ]
+    for effect in effects:
+        for state in effect.states:
+            at = state_slot(effect, state.name)
+            rates += [
+                "    rate = 0.0",
+                f"    if {guard(effect, state.rate)}:",
+                f"        rate = {_call(effect, state.rate, RATE_WORDS)}",
+                f"    w[out + {at} - 1] = rate",
+            ]
+            value = f"p[{parameter_slots(effect)[state.start]}]" if state.start else "0.0"
+            starts.append(f"    z[at + {at}] = {value}")
+            if state.scale is not None:
+                scales.append(f"    if i == {at}:")
+                scales.append(f"        value = {_call(effect, state.scale, ('speed',))}")
+    return ["\n".join(rates), "\n".join(starts), "\n".join([*scales, "    return value"])]
+
+
+def _questions(effects: Sequence[Effect]) -> list[str]:
+    """Functions of ``p`` that say whether any effect is on that takes a word."""
+    in_kernel = [(effect, term) for effect in effects for term in functions_in_kernel(effect)]
+    local = [(e, term) for name in LOCAL for e, term in _terms_at(name, effects)]
+    remembers = [
+        (e, term)
+        for e, term in in_kernel
+        if {*MEMORY, *(state.name for state in e.states)} & _taken(e, term)
+    ]
+    return [
+        _question(
+            "feels_temperature",
+            "Does the interface temperature matter to friction?",
+            [(e, term) for e, term in in_kernel if "temperature" in _taken(e, term)],
+        ),
+        _question(
+            "feels_film",
+            "Does water in the contact matter to friction?",
+            [(e, term) for e, term in in_kernel if "film_thickness" in _taken(e, term)],
+        ),
+        _question(
+            "has_state_law",
+            "Does a law of speed and state say what the contact holds, from rest on?",
+            _terms_at("state_law", effects),
+        ),
+        _question(
+            "has_local_law",
+            "Does mu_k vary with the local sliding speed?",
+            [(e, term) for e, term in local if "speed" in _taken(e, term)],
+        ),
+        _question(
+            "has_memory",
+            "Does friction depend on place, distance slid or a state of an effect?",
+            remembers,
+        ),
+    ]
+
+
+def _taken(effect: Effect, function: Term) -> set[str]:
+    """Words that a function takes, by itself or by way of a sum."""
+    names = set(arguments(function))
+    for word in names & set(effect.sums):
+        names |= set(arguments(effect.sums[word]))
+    return names
+
+
+def _question(name: str, meaning: str, terms: list[tuple[Effect, Term]]) -> str:
+    conditions = dict.fromkeys(guard(effect, term) for effect, term in terms)
+    lines = [f"def {name}(p: {_ARRAY}) -> bool:", f'    """{meaning}"""']
+    for condition in conditions:
+        lines += [f"    if {condition}:", "        return True"]
+    return "\n".join([*lines, "    return False"])

@@ -1,0 +1,1 @@
+"""The law of friction: its coefficients, the integral over the disc, force and moment."""

@@ -1,0 +1,120 @@
+"""Friction coefficients: mu_s and mu_k with what the effects make of them.
+
+A coefficient meets the effects in this order: place on the surface, temperature, what has been
+(heat, distance slid), the local sliding speed of the dry contact, melting, a film, water that
+bears part of the load; last, what speed and state of the whole contact add.
+"""
+
+from __future__ import annotations
+
+from .. import Floats
+from ..layout import (
+    HOLD_SINCE,
+    MODE,
+    P_MU_K,
+    P_MU_S,
+    STICK,
+    TIME,
+    U_FILM,
+    U_TEMPERATURE,
+    W_STATE,
+)
+from ..terms import (
+    feels_film,
+    feels_temperature,
+    has_state_law,
+    with_dry_factor,
+    with_film_friction,
+    with_flooded_share,
+    with_kinetic_factor,
+    with_kinetic_temperature_factor,
+    with_melting,
+    with_mixed,
+    with_place_variation,
+    with_state_law,
+    with_static_growth,
+    with_static_temperature_factor,
+)
+
+
+def surface_factor(p: Floats, u: Floats, w: Floats) -> float:
+    """Friction of the place on the surface under the block, relative to the surface's mean.
+
+    The place is x less the travel of the surface.
+    """
+    return max(0.0, with_place_variation(p, u, w, 1.0))
+
+
+def is_felt(p: Floats, i: int) -> bool:
+    """Does input i of ``u`` matter to the motion?"""
+    if i == U_TEMPERATURE:
+        return feels_temperature(p)
+    if i == U_FILM:
+        return feels_film(p)
+    return True
+
+
+def dry_share(p: Floats, u: Floats, w: Floats) -> float:
+    """Part of the load that the solid contact bears."""
+    return 1.0 - with_flooded_share(p, u, w, 0.0)
+
+
+def kinetic_coefficient(p: Floats, u: Floats, w: Floats) -> float:
+    """mu_k before any dependence on the sliding speed, at the instant in ``w[W_STATE:]``."""
+    mu = p[P_MU_K] * surface_factor(p, u, w)
+    mu = with_kinetic_temperature_factor(p, u, w, mu)
+    mu = with_kinetic_factor(p, u, w, mu)
+    return max(0.0, mu)
+
+
+def local_coefficient(p: Floats, u: Floats, w: Floats, mu: float, speed: float) -> float:
+    """mu_k at a local sliding speed (m/s), where ``mu`` is the value without that dependence.
+
+    The path dry -> boundary -> hydrodynamic friction as the speed grows; where a part of the load
+    is not on the solid contact, all that holds for the rest.
+    """
+    mu = with_dry_factor(p, u, w, mu, speed)
+    mu = with_melting(p, u, w, mu, speed)
+    mu = with_film_friction(p, u, w, mu, speed)
+    flooded = with_flooded_share(p, u, w, 0.0)
+    if flooded != 0.0:
+        mu = with_mixed(p, u, w, mu, speed, flooded)
+    return mu
+
+
+def state_coefficient(p: Floats, u: Floats, w: Floats, speed: float) -> float:
+    """What speed (mean, m/s) and state of the whole contact add to mu_k; 0 where no law is on."""
+    if not has_state_law(p):
+        return 0.0
+    return dry_share(p, u, w) * with_state_law(p, u, w, 0.0, speed)
+
+
+def slow_coefficient(p: Floats, u: Floats, w: Floats, speed: float) -> float:
+    """mu_k of a slip whose speed (m/s) is small to every law but that of speed and state."""
+    mu = local_coefficient(p, u, w, kinetic_coefficient(p, u, w), 0.0)
+    if has_state_law(p):
+        mu = max(0.0, mu + state_coefficient(p, u, w, speed))
+    return mu
+
+
+def onset_coefficient(p: Floats, u: Floats, w: Floats) -> float:
+    """mu_k at the first instant of a slip."""
+    return slow_coefficient(p, u, w, 0.0)
+
+
+def holding_coefficient(p: Floats, u: Floats, w: Floats) -> float:
+    """Coefficient that a contact at rest can hold: mu_s, or mu_k where that is larger.
+
+    mu_s grows with the time at rest (frictional ageing). With mu_k > mu_s a block that breaks away
+    at mu_s is stopped at once; at rest it therefore holds up to mu_k. With a law of speed and
+    state that says what it holds, and mu_s is not used. Water holds nothing at rest.
+    """
+    onset = onset_coefficient(p, u, w)
+    if has_state_law(p):
+        return onset
+    mu = p[P_MU_S] * surface_factor(p, u, w)
+    mu = with_static_temperature_factor(p, u, w, mu)
+    if w[W_STATE + MODE] == STICK:
+        hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
+        mu = with_static_growth(p, u, w, mu, hold)
+    return max(dry_share(p, u, w) * mu, onset)

@@ -1,0 +1,15 @@
+"""How warm a belt comes round: ramp and run of an experiment, then for ever, at four lengths."""
+
+from thermal import Belt, SteadySliding, ThermalParameters
+
+SPEED, FORCE = 0.5, 4.03  # m/s, N of friction
+
+after_a_run, for_ever = {}, {}  # rise where the belt enters the contact, K; key: length, m
+for length in (1.0, 2.0, 4.0, 8.0):
+    sliding = SteadySliding(ThermalParameters(belt=Belt(length=length)), SPEED, FORCE)
+    sliding.ramp(10.0)
+    after_a_run[length] = sliding.run(20.0).entry
+    for_ever[length] = sliding.settle().entry
+    print(
+        f"{length:g} m: {after_a_run[length]:.3f} K after a run, {for_ever[length]:.3f} K for ever"
+    )

@@ -1,0 +1,57 @@
+"""The bell-shaped friction of a rubber belt: the formula, over the disc, and in `gap`."""
+
+from math import exp, log10
+
+import numpy as np
+import pytest
+from disc_integral import law_over_disc
+from stickslip import Parameters, friction_coefficient
+from stickslip.effects.candidate import Scales
+from stickslip.kernel.friction.force import friction_in_slip
+from stickslip.kernel.layout import P_NORMAL_FORCE, U_SIZE, W_FRICTION, W_SIZE
+
+from cosim.gap.candidates.catalogue import candidates
+
+MU, RADIUS = 0.2, 0.04
+BELL = {"height": 0.8, "peak_speed": 0.1, "narrowness": 0.7}
+RIG = Parameters(friction={"mu_k": MU}, lateral_friction={"ratio": 1.0}, viscoelastic_peak=BELL)
+
+
+def law(speed: float) -> float:
+    away = BELL["narrowness"] * log10(max(speed, 1e-300) / BELL["peak_speed"])
+    return MU * (1.0 + BELL["height"] * exp(-(away**2)))
+
+
+def test_the_formula_and_its_landmarks():
+    """The peak, 1/e of it a width away on either side, and nothing left far away."""
+    width = 10.0 ** (1.0 / BELL["narrowness"])
+    speeds = np.array([1e-9, 0.1 / width, 0.05, 0.1, 0.1 * width, 1e7])
+    found = friction_coefficient(RIG, speeds)
+    assert found == pytest.approx([law(v) for v in speeds], rel=1e-13)
+    assert found[3] == pytest.approx(1.8 * MU, rel=1e-13)
+    assert found[[1, 4]] == pytest.approx(MU * (1.0 + 0.8 / np.e), rel=1e-13)
+    assert found[[0, 5]] == pytest.approx(MU, rel=1e-12)
+
+
+@pytest.mark.parametrize("motion", [(0.3, 0.0), (0.3, 0.1), (0.3, 0.25), (0.1, 0.3), (0.0, 0.3)])
+def test_over_the_disc(motion):
+    """The kernel's quadrature of a law that varies over the contact, against an adaptive one."""
+    p, u, w = RIG.pack(), [0.0] * U_SIZE, [0.0] * W_SIZE
+    friction_in_slip(p, u, w, motion[0], 0.0, motion[1])
+    found = -w[W_FRICTION] / p[P_NORMAL_FORCE], -w[W_FRICTION + 2] / (p[P_NORMAL_FORCE] * RADIUS)
+    assert found == pytest.approx(law_over_disc(law, *motion, 1e-6 * MU), abs=2e-3 * MU)
+
+
+def test_gap_tries_it_where_it_is_named():
+    """Unasked it is not offered, so that no campaign's answer changes by its being there."""
+    scales = Scales(0.15, 1.0, 1.0, 10.0, 20.0, 0.02, 0.67, 6.57)
+    assert "viscoelastic_peak" not in {each.effect for each in candidates(scales)}
+    named = [
+        c for c in candidates(scales, {"viscoelastic_peak"}) if c.effect == "viscoelastic_peak"
+    ]
+    table = Parameters().viscoelastic_peak
+    for candidate in named:
+        for free in candidate.free_parameters:
+            assert free.low < free.start < free.high
+            assert hasattr(table, free.key.removeprefix("viscoelastic_peak."))
+    assert len(named) == 2

@@ -1,0 +1,28 @@
+"""Tensor grids: where their lines lie, and their quadrilaterals as files for ParaView hold them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def graded(length: float, elements: int, stretch: float) -> Array:
+    """Element boundaries from 0 to length, m; a geometric row, last over first is `stretch`."""
+    sizes = stretch ** (np.arange(elements) / max(1, elements - 1))
+    return np.concatenate(([0.0], np.cumsum(sizes) * (length / sizes.sum())))
+
+
+def quadrilaterals(columns: int, rows: int) -> NDArray[np.int64]:
+    """Cells of a grid of nodes, numbered row by row within each column: (cells, 4)."""
+    corner = (np.arange(columns - 1)[:, None] * rows + np.arange(rows - 1)).ravel()
+    return np.stack((corner, corner + rows, corner + rows + 1, corner + 1), axis=1)
+
+
+def grid_points(x: Array, z: Array) -> Array:
+    """Nodes of a grid in the plane y = 0: (columns * rows, 3), m."""
+    grid = np.zeros((x.size, z.size, 3))
+    grid[..., 0] = x[:, None]
+    grid[..., 2] = z
+    return grid.reshape(-1, 3)

@@ -1,0 +1,226 @@
+"""A standing block of ice as eigenmodes: warmed at its contact face, cooled by the air, melting.
+
+Its Galerkin space is diagonalised, so a constant flux is advanced exactly, whatever the step.
+Melting lowers the block (see `space`). Within a step the ice sinks at a constant speed and the
+heat that this moves is a constant load, taken at the mean of the temperatures at the step's ends:
+second order in the step. The modes belong to one height; they are formed anew when the present one
+is off by `_TOLERANCE` of itself. Temperatures are rises above the air.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from thermal.relaxation import LastDurations, decay, mean_decay, mean_response
+
+from .space import IceSpace
+
+Array = NDArray[np.float64]
+
+#: Change of the height, relative, that the modes bear; the conductance upwards then errs by twice
+#: that, to one side and the other in turn.
+_TOLERANCE = 2e-4
+
+#: Part of the first height that has to be left.
+_LEAST_HEIGHT = 0.05
+
+#: Modes that carry the heat of long times; see `_modes`.
+_SLOWEST = 40
+
+
+class IceMelted(RuntimeError):
+    """So much ice has melted that there is no block any more."""
+
+
+class Response(NamedTuple):
+    """What a step of given duration does, per mode unless said."""
+
+    decay: Array
+    mean: Array  # mean of the decay
+    forced: Array  # amplitude at the end for load 1 W on the contact
+    held: Array  # amplitude at the end for load 1 on the mode
+    held_mean: Array  # mean amplitude for load 1 on the mode
+    face_mean: float  # step-mean of the face for 1 W, K/W
+    face_end: float  # end of the face for 1 W, K/W
+    loss_free: Array  # J lost to the air per amplitude
+    loss_held: Array  # J lost to the air for load 1 on the mode
+    loss_forced: float  # J lost to the air for load 1 W on the contact
+
+
+def _modes(space: IceSpace, height_ratio: float) -> tuple[Array, Array]:
+    """Rates (n,) 1/s and shapes (n, n) in the trial space, shapes^T capacity shapes = 1.
+
+    A dense eigensolver errs by rounding times the fastest rate, which over long runs is not small
+    against the slowest. A Rayleigh-Ritz step with the form's factor among the slowest modes, and
+    Rayleigh quotients for all, err by rounding.
+    """
+    factor = space.factor(height_ratio)
+    shapes = eigh(factor.T @ factor, space.capacity)[1]
+    slow = shapes[:, :_SLOWEST]
+    powers = factor @ slow
+    slow[:] = slow @ eigh(powers.T @ powers, slow.T @ space.capacity @ slow)[1]
+    shapes /= np.sqrt(np.sum(shapes * (space.capacity @ shapes), axis=0))
+    return np.sum(np.square(factor @ shapes), axis=0), shapes
+
+
+class IceBody:
+    """Temperature of a block of ice in a Galerkin space; `amplitudes` (n,), `rates` (n,) 1/s.
+
+    `melted_depth`: how far the face has receded, m.
+    """
+
+    def __init__(self, space: IceSpace) -> None:
+        self.space = space
+        self.melted_depth = 0.0
+        self._fitted_depth = 0.0
+        self._diagonalise()
+        self.amplitudes: Array = np.zeros(self.rates.size)
+
+    def _diagonalise(self) -> None:
+        """Modes of the present height."""
+        space, height_ratio = self.space, self.height_ratio
+        self.rates, self._shapes = _modes(space, height_ratio)
+        self._face = space.contact @ self._shapes
+        self._heat = space.heat @ self._shapes
+        self._air = space.air(height_ratio) @ self._shapes
+        self._sinking = self._shapes.T @ space.sinking @ self._shapes
+        self.response = LastDurations(self._response)
+
+    @property
+    def height_ratio(self) -> float:
+        """Present height over that at the start, J of `space`: 1 until ice melts."""
+        return 1.0 - self.melted_depth / self.space.height
+
+    def _response(self, duration: float) -> Response:
+        x = self.rates * duration
+        mean, response = mean_decay(x), mean_response(x)
+        held, held_mean = duration * mean, duration * response
+        forced = self._face * held
+        return Response(
+            decay=decay(x),
+            mean=mean,
+            forced=forced,
+            held=held,
+            held_mean=held_mean,
+            face_mean=float(np.sum(self._face**2 * held_mean)),
+            face_end=float(self._face @ forced),
+            loss_free=self._air * held,
+            loss_held=self._air * duration * held_mean,
+            loss_forced=float(np.sum(self._air * self._face * held_mean) * duration),
+        )
+
+    def face_response(self, duration: float, recession: float = 0.0) -> tuple[float, float]:
+        """Contact face for 1 W on the contact, K/W: mean over the step and at its end.
+
+        recession: how far the face recedes in the step, m.
+        """
+        response = self.response(duration)
+        middle, end = self._height_ratios(recession)
+        return response.face_mean / middle, response.face_end / end
+
+    def free_face(
+        self, duration: float, sinking: Array | None = None, recession: float = 0.0
+    ) -> tuple[float, float]:
+        """Mean contact face without flux, K: mean over the step and at its end.
+
+        sinking: load on the modes from `sinking`; recession: of the face in the step, m.
+        """
+        response = self.response(duration)
+        mean, end = self.amplitudes * response.mean, self.amplitudes * response.decay
+        if sinking is not None:
+            mean = mean + response.held_mean * sinking
+            end = end + response.held * sinking
+        ratio_middle, ratio_end = self._height_ratios(recession)
+        return float(self._face @ mean) / ratio_middle, float(self._face @ end) / ratio_end
+
+    def _height_ratios(self, recession: float) -> tuple[float, float]:
+        """Height ratios in the middle and at the end of a step in which the face recedes (m)."""
+        part = recession / self.space.height
+        return self.height_ratio - 0.5 * part, self.height_ratio - part
+
+    def sinking(
+        self, duration: float, recession: float, load: float, before: Array | None = None
+    ) -> Array:
+        """Load on the modes (n,) from ice that sinks towards a face that recedes (m) in a step.
+
+        load: W on the contact; before: an estimate of what is returned.
+        """
+        end = self._after(duration, load, before)
+        speed = recession / (duration * self._height_ratios(recession)[0])
+        return speed * (self._sinking @ (0.5 * (self.amplitudes + end)))
+
+    def _after(self, duration: float, load: float, sinking: Array | None) -> Array:
+        """Amplitudes at the end of a step."""
+        response = self.response(duration)
+        end = self.amplitudes * response.decay + response.forced * load
+        return end if sinking is None else end + response.held * sinking
+
+    def advance(
+        self, duration: float, load: float, sinking: Array | None = None, recession: float = 0.0
+    ) -> float:
+        """Advance by duration (s) under a load (W) on the contact; heat to the air, J.
+
+        sinking: load on the modes; recession: of the face in the step, m. IceMelted when less than
+        5 % of the height is left.
+        """
+        response = self.response(duration)
+        loss = self.amplitudes @ response.loss_free + load * response.loss_forced
+        if sinking is not None:
+            loss += response.loss_held @ sinking
+        self.amplitudes[:] = self._after(duration, load, sinking)
+        if recession != 0.0:
+            self._recede(recession)
+        return float(loss)
+
+    def _recede(self, depth: float) -> None:
+        self.melted_depth += depth
+        if self.height_ratio < _LEAST_HEIGHT:
+            raise IceMelted(
+                f"the ice has melted: of its {self.space.height:g} m less than"
+                f" {_LEAST_HEIGHT * self.space.height:g} m are left"
+            )
+        bears = _TOLERANCE * (self.space.height - self._fitted_depth)
+        gone = self.melted_depth - self._fitted_depth
+        if abs(gone) > bears:
+            self._fit(self.melted_depth + np.copysign(bears, gone))
+
+    def _fit(self, depth: float) -> None:
+        """Form the modes of another depth; the field, and with it the heat, stays what it is."""
+        field = self.space.capacity @ (self._shapes @ self.amplitudes)
+        present, self.melted_depth = self.melted_depth, depth
+        self._diagonalise()
+        self.melted_depth, self._fitted_depth = present, depth
+        self.amplitudes = self._shapes.T @ field
+
+    def fill(self, rise: float) -> None:
+        """Make the whole block as warm, K above the air."""
+        # phi^T C phi = 1, so the coefficients of 1 are phi^T C 1: the heat of each mode
+        self.amplitudes[:] = rise * self._heat
+
+    def heat(self) -> float:
+        """Heat stored above ambient, J."""
+        return float(self._heat @ self.amplitudes)
+
+    def face(self) -> float:
+        """Mean temperature rise of the contact face, K."""
+        return float(self._face @ self.amplitudes) / self.height_ratio
+
+    def nodal(self) -> Array:
+        """Temperature rise at the degrees of freedom, K: (N,)."""
+        return self.space.trial @ (self._shapes @ self.amplitudes) / self.height_ratio
+
+    def state(self) -> Array:
+        """Everything that a continuation needs, as a copy."""
+        return np.concatenate(([self.melted_depth, self._fitted_depth], self.amplitudes))
+
+    def restore(self, state: Array) -> None:
+        """Take a state that `state` returned; the continuation is the same bit for bit."""
+        depth, fitted = float(state[0]), float(state[1])
+        if fitted != self._fitted_depth:
+            self._fit(fitted)
+        self.melted_depth = depth
+        self.amplitudes = np.array(state[2:])

@@ -1,0 +1,192 @@
+"""A sample's shape from a mesh file: tetrahedra that stand on the plane z = 0, in metres.
+
+Any format that meshio reads (Gmsh .msh, VTK .vtk and .vtu, Abaqus, Nastran, ...). Of curved
+tetrahedra the corners are taken. What would give wrong temperatures is refused: what is not one
+piece, is folded or flat somewhere, has a hollow inside, or is in another unit.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from pathlib import Path
+
+import meshio
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from thermal.parameters import ParameterError
+
+Array = NDArray[np.float64]
+Cells = NDArray[np.int64]
+
+#: Largest and smallest extent of a sample, m: outside lies a slip of the unit.
+LARGEST, SMALLEST = 2.0, 2e-3
+
+#: Heights, relative to the sample's, that are the same.
+FLAT = 1e-6
+
+#: Volume of an element over the cube of its longest edge, below which it counts as flat.
+THINNEST = 1e-9
+
+_TETRAHEDRA = {"tetra", "tetra10"}
+_FACETS = ((1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2))
+
+
+class MeshError(ParameterError):
+    """A mesh that cannot be a sample of ice; one line: file, what is wrong, what is allowed."""
+
+
+def read_sample(file: str | Path) -> tuple[Array, Cells]:
+    """Nodes (nodes, 3) m and tetrahedra (cells, 4) of a sample that stands on z = 0.
+
+    MeshError when the file is none, or not such a mesh.
+    """
+    file = Path(file)
+    points, cells = _volume(file, _read(file))
+    fault = (
+        _fault_of_size(points)
+        or _fault_of_elements(points, cells)
+        or _fault_of_surface(points, cells)
+    )
+    if fault:
+        raise MeshError(f"{file}: {fault}")
+    return points, cells
+
+
+def _read(file: Path) -> meshio.Mesh:
+    if not file.is_file():
+        raise MeshError(f"{file}: no such file, allowed is a mesh of tetrahedra")
+    said = io.StringIO()
+    try:
+        # meshio prints what it finds wrong and ends the process for some files
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            return meshio.read(file)
+    except (SystemExit, Exception) as error:  # readers of forty formats, each with its own errors
+        told = said.getvalue() if isinstance(error, SystemExit) else str(error)
+        why = " ".join(told.split())[:120] or type(error).__name__
+        raise MeshError(
+            f"{file}: cannot be read as a mesh ({why}), allowed is a file that meshio"
+            " reads, such as .msh, .vtk or .vtu"
+        ) from error
+
+
+def _volume(file: Path, mesh: meshio.Mesh) -> tuple[Array, Cells]:
+    """Tetrahedra and their nodes, without those that no tetrahedron uses."""
+    blocks = [block.data[:, :4] for block in mesh.cells if block.type in _TETRAHEDRA]
+    others = {block.type for block in mesh.cells if block.dim == 3} - _TETRAHEDRA
+    if not blocks or others:
+        found = ", ".join(sorted(others or {block.type for block in mesh.cells})) or "nothing"
+        what = "has other volume cells" if others else "has no volume cells"
+        raise MeshError(f"{file}: {what} ({found}), allowed are tetrahedra")
+    points = np.asarray(mesh.points, dtype=np.float64)
+    cells = np.concatenate(blocks).astype(np.int64)
+    if cells.size == 0 or cells.min() < 0 or cells.max() >= len(points):
+        raise MeshError(f"{file}: its tetrahedra name nodes that are not there")
+    used, cells = np.unique(cells, return_inverse=True)
+    if points.shape[1] != 3 or not np.isfinite(points[used]).all():
+        raise MeshError(f"{file}: has nodes without three finite coordinates")
+    return points[used], cells.reshape(-1, 4)
+
+
+def _fault_of_size(points: Array) -> str | None:
+    low, high = points.min(axis=0), points.max(axis=0)
+    extent = high - low
+    size = " x ".join(f"{x:g}" for x in extent)
+    if extent.max() > LARGEST:
+        unit = "mm" if extent.max() > 10.0 * LARGEST else "cm"
+        return (
+            f"the sample is {size} m, allowed is up to {LARGEST:g} m: is the file in {unit}?"
+            f" Coordinates are in metres"
+        )
+    if extent.min() < SMALLEST:
+        return f"the sample is {size} m, allowed is at least {SMALLEST:g} m each way"
+    if abs(low[2]) > FLAT * extent[2]:
+        return f"its lowest node is at z = {low[2]:g} m, allowed is a base at z = 0"
+    return None
+
+
+def _fault_of_elements(points: Array, cells: Cells) -> str | None:
+    corners = points[cells]
+    edges = corners[:, 1:] - corners[:, :1]
+    volume = np.abs(np.linalg.det(edges)) / 6.0
+    longest = np.linalg.norm(
+        np.concatenate(
+            (edges, np.diff(corners[:, 1:], axis=1), corners[:, 1:2] - corners[:, 3:]), axis=1
+        ),
+        axis=2,
+    ).max(axis=1)
+    flat = int(np.count_nonzero(volume <= THINNEST * longest**3))
+    if flat:
+        return f"{flat} of its {len(cells)} tetrahedra have no volume"
+    return None
+
+
+def facets_of(cells: Cells) -> tuple[Cells, Cells, Cells]:
+    """Facets (facets, 3), sorted nodes; for each side (cells * 4,) its facet, and its cell."""
+    sides = np.sort(np.concatenate([cells[:, list(facet)] for facet in _FACETS]), axis=1)
+    facets, number = np.unique(sides, axis=0, return_inverse=True)
+    return facets, number.ravel(), np.tile(np.arange(len(cells)), 4)
+
+
+def _fault_of_surface(points: Array, cells: Cells) -> str | None:
+    facets, number, owner = facets_of(cells)
+    count = np.bincount(number)
+    if count.max() > 2:
+        return f"{np.count_nonzero(count > 2)} facets belong to more than two tetrahedra"
+    return _fault_of_neighbours(points, cells, facets, number, owner, count) or _fault_of_boundary(
+        points, facets[count == 1]
+    )
+
+
+def _fault_of_neighbours(
+    points: Array, cells: Cells, facets: Cells, number: Cells, owner: Cells, count: Cells
+) -> str | None:
+    """Tetrahedra hang together, and lie on opposite sides of the facet between them."""
+    order = np.argsort(number, kind="stable")
+    starts = np.concatenate(([0], np.cumsum(count)[:-1]))[count == 2]
+    one, two = order[starts], order[starts + 1]
+    graph = coo_matrix((np.ones(one.size), (owner[one], owner[two])), shape=(len(cells),) * 2)
+    pieces = connected_components(graph, directed=False)[0]
+    if pieces > 1:
+        return (
+            f"it falls into {pieces} pieces that share no facet, allowed is one: merge nodes at"
+            " the same place, keep one body"
+        )
+    a, b, c = (points[facets[count == 2]][:, i] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    # the corner of a tetrahedron that is not on the side of that number
+    apex = cells.T.ravel()
+    heights = [np.einsum("ij,ij->i", points[apex[side]] - a, normal) for side in (one, two)]
+    folded = int(np.count_nonzero(heights[0] * heights[1] >= 0.0))
+    return f"{folded} pairs of tetrahedra overlap: the mesh is folded" if folded else None
+
+
+def _fault_of_boundary(points: Array, surface: Cells) -> str | None:
+    """The surface is closed and in one piece, and a part of it is the base."""
+    edges = np.sort(
+        np.concatenate([surface[:, [0, 1]], surface[:, [1, 2]], surface[:, [0, 2]]]), axis=1
+    )
+    _, number, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
+    if np.any(count != 2):
+        return (
+            f"its surface is not closed: {np.count_nonzero(count != 2)} edges do not lie"
+            " between two facets"
+        )
+    belongs = coo_matrix(
+        (np.ones(number.size), (np.tile(np.arange(len(surface)), 3), number.ravel()))
+    )
+    shells = connected_components(belongs @ belongs.T, directed=False)[0]
+    if shells > 1:
+        return f"it has {shells - 1} hollows inside, allowed is solid ice"
+    if not base_of(points, surface).any():
+        return "it has no flat base at z = 0, allowed is a face of the sample on that plane"
+    return None
+
+
+def base_of(points: Array, surface: Cells) -> NDArray[np.bool_]:
+    """Which facets of the surface lie on the plane z = 0."""
+    height = points[:, 2].max()
+    return np.all(np.abs(points[surface][:, :, 2]) <= FLAT * height, axis=1)
