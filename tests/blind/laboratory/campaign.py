@@ -21,7 +21,8 @@ PLANAR = {"lateral_friction", "turning_surface", "spring_misalignment", "measure
 GUIDED = {"guide_friction", "slack_springs", "measurement.latency"}  # x alone, a wide field
 DAMPING = {"film_drag", "structural_damping", "guide_friction"}  # would still fast runs
 TRIES = 40  # campaigns drawn at most until one shows what it hides
-SEARCH = 4  # strengths tried at most for a size
+SEARCH = 6  # strengths tried at most for a size
+LARGEST = 4  # over the largest size asked for, beyond which a campaign is drawn anew
 COARSE = 2  # a search's steps over a record's own
 FINEST = 2e-5  # m, noise of the best tracker
 
@@ -241,7 +242,8 @@ def attempt(order: Order, rng: np.random.Generator) -> tuple[Campaign, bool]:
         fault = find_amount(plan, motions, order.fault, tracker, target, rng)
         sizes.append(fault_size(plan, motions, fault, tracker))
     sizes, tracker = better_camera(order, sizes, tracker)
-    shows = all(s.size >= order.sizes[0] for s in sizes) and seen_over_scatter(order, plan, hidden)
+    fits = all(order.sizes[0] <= s.size <= LARGEST * order.sizes[1] for s in sizes)
+    shows = fits and seen_over_scatter(order, plan, hidden)
     made = Campaign(
         order,
         plan,

@@ -136,7 +136,7 @@ def film_drag(rng: np.random.Generator, r: Reference) -> Law:
     shape = f"power {power}" if form == 1 else "thinning"
     curve = f"u^{power}" if form == 1 else "u/(1 + u)"
     text = f"drag strength * {r.friction:.4g} N * {curve}, u = sliding speed / {r.speed:.4g} m/s"
-    return Law("film_drag", shape, text, lambda p, s: set_to(p, "film", s * r.friction), 0.15, 0.8)
+    return Law("film_drag", shape, text, lambda p, s: set_to(p, "film", s * r.friction), 0.06, 0.8)
 
 
 def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
@@ -229,7 +229,7 @@ def structural_damping(rng: np.random.Generator, r: Reference) -> Law:
         f"power {power}",
         text,
         lambda p, s: set_to(p, "damping", s * r.friction),
-        0.1,
+        0.03,
         1.0,
     )
 
