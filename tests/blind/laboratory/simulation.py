@@ -1,0 +1,91 @@
+"""Run an apparatus: from a state, for a time, by the integrator of its contact."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from .apparatus import ELASTO_PLASTIC, GRAVITY, LUGRE, POINTS, SMOOTH, Record
+from .contacts import (
+    elasto_plastic_step,
+    jump_step,
+    lugre_step,
+    smooth_step,
+)
+from .forces import belt_speed, disturbance
+from .friction_law import SLOW, TRAVEL, age_contact, kinetic_and_excess
+
+STEP = 1e-4  # s
+SAMPLE = 1e-3  # s between the rows that are kept
+# columns of a row: state, bristles, slow states (enough to go on from), friction N, slip m/s
+BRISTLES, SLOWS, FRICTION, SLIP = 6, 6 + 2 * POINTS, 6 + 2 * POINTS + SLOW, 7 + 2 * POINTS + SLOW
+COLUMNS = SLIP + 1
+
+
+@njit
+def march(records, start, begin, count, every, h):
+    """Rows at begin, and after every `every` steps of h, s; shape (count + 1, COLUMNS)."""
+    p = records[0]
+    row = start.copy()
+    s, z, slow = row[:BRISTLES], row[BRISTLES:SLOWS], row[SLOWS:FRICTION]
+    rows = np.empty((count + 1, COLUMNS))
+    total, friction = np.zeros(3), row[FRICTION]
+    slip = 0.0
+    for k in range(count + 1):
+        if k > 0:
+            for j in range(every):
+                t = begin + ((k - 1) * every + j) * h
+                push, load, springs, mu, extra = disturbance(p, slow, t, h, s, friction)
+                load *= p.mass * GRAVITY
+                belt = belt_speed(p, t + 0.5 * h) + extra
+                kinetic, excess = kinetic_and_excess(p, slow, s[0], load)
+                kinetic *= mu
+                excess *= mu
+                if p.contact == LUGRE:
+                    friction = lugre_step(
+                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
+                    )
+                elif p.contact == ELASTO_PLASTIC:
+                    friction = elasto_plastic_step(
+                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
+                    )
+                elif p.contact == SMOOTH:
+                    friction = smooth_step(
+                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
+                    )
+                else:
+                    friction = jump_step(
+                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
+                    )
+                ux, uy = s[3] - belt, s[4] if p.planar else 0.0
+                slip = sqrt(ux * ux + uy * uy)
+                slow[TRAVEL] += belt * h
+                age_contact(p, slow, slip, abs(friction * ux), h)
+        rows[k] = row
+        rows[k, FRICTION], rows[k, SLIP] = friction, slip
+    return rows
+
+
+def at_rest_on_belt(p: Record, x: float, y: float = 0.0, phi: float = 0.0) -> NDArray:
+    """A row to start from: the block placed at x, m, and carried along by the belt."""
+    row = np.zeros(COLUMNS)
+    row[:3] = x, y, phi
+    row[3] = p["belt_speed"]
+    return row
+
+
+def simulate(
+    p: Record,
+    start: NDArray,
+    duration: float,
+    *,
+    begin: float = 0.0,
+    sample: float = SAMPLE,
+    step: float = STEP,
+) -> NDArray:
+    """Rows of a motion every `sample`, s, from a start row at time `begin`, s."""
+    every = max(1, round(sample / step))
+    return march(p.reshape(1), start, begin, round(duration / sample), every, sample / every)

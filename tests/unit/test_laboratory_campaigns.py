@@ -1,0 +1,293 @@
+"""The foreign laboratory's campaigns: files, sizes, seeds, cameras, suites; nothing leaks."""
+
+from __future__ import annotations
+
+import ast
+import json
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+import blind.laboratory  # noqa: E402
+from blind.laboratory import held_back, out_of_catalogue, recording  # noqa: E402
+from blind.laboratory.__main__ import answer, write_campaign, write_suite  # noqa: E402
+from blind.laboratory.campaign import (  # noqa: E402
+    Order,
+    make_campaign,
+    move,
+    plain_records,
+)
+from blind.laboratory.laws import LAWS  # noqa: E402
+from blind.laboratory.plans import draw_plan  # noqa: E402
+from blind.laboratory.recording import FAULTS, Tracker, film  # noqa: E402
+from blind.laboratory.size import measure  # noqa: E402
+from blind.laboratory.suites import BLURRED, SUITES, orders_of  # noqa: E402
+
+EFFECTS = {
+    "lateral_friction",
+    "turning_surface",
+    "static_strengthening",
+    "velocity_weakening",
+    "film_drag",
+    "thermal_weakening",
+    "run_in",
+    "spring_hardening",
+    "structural_damping",
+    "speed_ripple",
+    "surface_pattern",
+    "load_dependence",
+    "spring_misalignment",
+}
+MEASUREMENT = {"scale", "clock", "rotation", "drift", "latency", "smoothing", "quantisation"}
+CLEAN = Tracker(100.0, 1e-9, 1e-9, True, 0.0, 0, 0.0, 0.0, True, False)
+
+
+@pytest.fixture(scope="module")
+def hidden():
+    return make_campaign(Order("jump", ("velocity_weakening",), scatter=0.03), [3])
+
+
+@pytest.fixture(scope="module")
+def written(hidden, tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("laboratory") / "c001"
+    write_campaign(hidden, folder)
+    return folder
+
+
+def test_files_are_as_the_interfaces_say(hidden, written):
+    told = tomllib.loads((written / "campaign.toml").read_text())
+    assert set(told) <= {"name", "rig", "noise", "run"}
+    assert told["rig"]["surface"] == "belt" and told["rig"]["inertia"] == "disc"
+    assert 5 <= len(told["run"]) <= 8
+    assert 1 <= sum(run["hold_out"] for run in told["run"]) <= 2
+    for run, plan in zip(told["run"], hidden.plan.runs, strict=True):
+        keys = {"file", "mass", "stiffness", "surface_speed", "ambient_degC", "hold_out"}
+        assert set(run) == keys
+        data = pd.read_csv(written / run["file"])
+        assert list(data)[:2] == ["t", "x"] and set(data) <= {"t", "x", "y", "phi"}
+        assert data.notna().all(axis=None) and (np.diff(data["t"]) > 0).all()
+        assert data["t"].iloc[-1] == pytest.approx(hidden.plan.duration, abs=0.6)
+        assert run["mass"] == pytest.approx(float(plan.plain["mass"]), rel=0.01)
+        assert run["stiffness"] == pytest.approx(float(plan.plain["stiffness"]), rel=0.04)
+        assert run["surface_speed"] == pytest.approx(float(plan.plain["belt_speed"]), rel=0.04)
+
+
+def test_nothing_hidden_is_told(written):
+    text = (written / "campaign.toml").read_text()
+    words = EFFECTS | set(out_of_catalogue.KINDS) | set(held_back.KINDS) | {"jump", "mu_"}
+    assert not any(word in text for word in words)
+    assert not list(written.glob("*.json"))
+
+
+def test_answer_states_what_is_hidden(hidden):
+    told = json.loads(json.dumps(answer(hidden)))
+    assert told["verdict"] == ["named"] and told["effects"] == ["velocity_weakening"]
+    assert 5.0 <= told["hidden"][0]["size"]["size"] <= told["hidden"][0]["size"]["raw"]
+    factors = [run["mu_factor"] for run in told["runs"]]
+    assert 0.003 < np.std(factors) < 0.1
+
+
+def test_same_seed_same_campaign(hidden, written, tmp_path):
+    again = make_campaign(hidden.order, [3])
+    write_campaign(again, tmp_path / "c001")
+    for file in written.iterdir():
+        assert file.read_bytes() == (tmp_path / "c001" / file.name).read_bytes()
+    assert answer(again) == answer(hidden)
+
+
+def test_size_is_nothing_where_nothing_is_hidden_and_goes_with_the_noise(hidden):
+    plains = plain_records(hidden.plan)[:3]
+    short = hidden.plan.__class__(**{**vars(hidden.plan), "runs": hidden.plan.runs[:3]})
+    step = 5e-5
+    assert measure(plains, move(short, plains), 1e-4, 1, step).raw < 1e-6
+    one = measure(plains, hidden.motions[:3], 1e-4, 1, step)
+    other = measure(plains, hidden.motions[:3], 2e-4, 1, step)
+    assert one.size == pytest.approx(2 * other.size)
+    assert 0 < one.size < one.raw
+
+
+def test_what_friction_numbers_can_do_has_no_size():
+    """A change of mu_k alone is made good by the plain model's own mu_k."""
+    plan = draw_plan(np.random.default_rng(5), "bench", "smooth")
+    plains = plain_records(plan)[:3]
+    short = plan.__class__(**{**vars(plan), "runs": plan.runs[:3]})
+    changed = [p.copy() for p in plains]
+    for p in changed:
+        p["mu_k"] *= 1.005
+    size = measure(plains, move(short, changed), 1e-5, 1, 1e-4)
+    assert size.size < 0.15 * size.raw
+
+
+@pytest.mark.parametrize("name", sorted(EFFECTS))
+def test_every_law_changes_the_motion_and_every_shape_is_drawn(name):
+    """Each has two shapes or more, and its strength counts."""
+    rig = "planar" if name in ("lateral_friction", "spring_misalignment") else "guided"
+    rig = "planar" if name == "turning_surface" else rig
+    plan = draw_plan(np.random.default_rng(8), rig, "jump", aside=rig == "planar", loads=True)
+    laws = [LAWS[name](np.random.default_rng(seed), plan.reference) for seed in range(40)]
+    chosen = {law.shape.split(",")[0]: law for law in laws}
+    assert len(chosen) >= 2 and {law.effect for law in laws} == {name}
+    run = max(plan.runs, key=lambda run: (run.mass, run.speed))
+    short = plan.__class__(**{**vars(plan), "runs": (run,), "duration": 3.0})
+    (plain,) = move(short, [run.plain], 2)
+    for law in chosen.values():
+        record = run.plain.copy()
+        law.apply(record, law.start, plan.reference)
+        (changed,) = move(short, [record], 2)
+        assert np.isfinite(changed).all()
+        assert np.abs(changed[:, :2] - plain[:, :2]).max() > 2e-5, law.text
+
+
+@pytest.mark.parametrize("kinds", [out_of_catalogue.KINDS, held_back.KINDS])
+def test_every_kind_out_of_the_catalogue_changes_the_motion(kinds):
+    plan = draw_plan(np.random.default_rng(9), "guided", "jump")
+    run = plan.runs[2]
+    short = plan.__class__(**{**vars(plan), "runs": (run,), "duration": 3.0})
+    (plain,) = move(short, [run.plain], 2)
+    for name, kind in kinds.items():
+        record = run.plain.copy()
+        kind(record, 1.0, np.random.default_rng(1), plan.reference)
+        (changed,) = move(short, [record], 2)
+        assert np.isfinite(changed).all()
+        assert np.abs(changed[:, 0] - plain[:, 0]).max() > 5e-5, name
+
+
+def test_load_of_a_law_goes_with_the_power_told():
+    plan = draw_plan(np.random.default_rng(2), "guided", "jump", loads=True)
+    law = LAWS["film_drag"](np.random.default_rng(1), plan.reference)
+    law = law.__class__(**{**vars(law), "exponents": {"mass": 1.0}})
+    films, masses = [], []
+    for p in plain_records(plan):
+        record = p.copy()
+        law.apply(record, 0.1, plan.reference)
+        films.append(float(record["film"]))
+        masses.append(float(p["mass"]))
+    assert np.polyfit(np.log(masses), np.log(films), 1)[0] == pytest.approx(1.0)
+
+
+def swinging() -> tuple[np.ndarray, np.ndarray]:
+    """Rows of a swing of 20 mm in x and 5 mm in y, every ms, and their times."""
+    t = np.arange(8001) * 1e-3
+    rows = np.zeros((t.size, 3))
+    rows[:, 0], rows[:, 1] = 0.02 * np.sin(9 * t), 0.005 * np.cos(4 * t)
+    return rows, t
+
+
+@pytest.mark.parametrize(
+    "fault,amount,x_of",
+    [
+        (recording.scale, 0.03, lambda t: 1.03 * 0.02 * np.sin(9 * t)),
+        (recording.clock, 0.03, lambda t: 0.02 * np.sin(9 * t / 1.03)),
+        (
+            recording.rotation,
+            0.1,
+            lambda t: np.cos(0.1) * 0.02 * np.sin(9 * t) - np.sin(0.1) * 0.005 * np.cos(4 * t),
+        ),
+        (
+            recording.rolling_shutter,
+            0.02,
+            lambda t: 0.02 * np.sin(9 * (t + 0.02 * 0.02 * np.sin(9 * t) / 0.1)),
+        ),
+        (
+            recording.smoothing,
+            0.03,
+            lambda t: np.exp(-0.5 * (9 * 0.03) ** 2) * 0.02 * np.sin(9 * t),
+        ),
+        (
+            recording.lagging,
+            0.03,
+            lambda t: 0.02 * np.sin(9 * t - np.arctan(0.27)) / np.hypot(1, 0.27),
+        ),
+    ],
+)
+def test_faults_of_the_camera(fault, amount, x_of):
+    rows, _ = swinging()
+    shown = film(rows, 1e-3, CLEAN, (fault, amount), np.random.default_rng(0))
+    inner = slice(50, -50)
+    assert shown["x"][inner] == pytest.approx(x_of(shown["t"][inner]), abs=4e-5)
+
+
+def test_quantised_frames_and_a_zero_that_wanders():
+    rows, t = swinging()
+    step = film(rows, 1e-3, CLEAN, (recording.quantisation, 1e-3), np.random.default_rng(0))
+    assert step["x"] / 1e-3 == pytest.approx(np.round(step["x"] / 1e-3), abs=1e-9)
+    _, path = recording.creep(t, rows[:, :2], 0.002, float(t[-1]))
+    assert path[-1, 0] - rows[-1, 0] == pytest.approx(0.002, rel=0.01)
+
+
+def test_tracker_makes_gaps_outliers_and_zeros():
+    rows, _ = swinging()
+    bad = Tracker(100.0, 1e-4, 1e-3, True, 2e-3, 3, 0.01, 1e-3, True, True)
+    shown = film(rows, 1e-3, bad, None, np.random.default_rng(1))
+    assert set(shown) == {"t", "x", "y", "phi"}
+    assert (np.diff(shown["t"]) > 0).all() and np.diff(shown["t"]).max() > 0.03
+    wrong = shown["x"] - 0.02 * np.sin(9 * shown["t"])
+    assert 1e-4 < abs(np.median(wrong)) < 4e-3
+    away = np.abs(wrong - np.median(wrong)) > 6e-4
+    assert 0.002 < away.mean() < 0.03
+
+
+def test_suites_have_their_counts():
+    counts = {
+        "contact_and_shapes": 60,
+        "one_effect": 112,
+        "scatter": 112,
+        "nothing": 100,
+        "out_of_catalogue": 40,
+        "held_back": 40,
+        "faults": 40,
+        "two_effects": 30,
+        "three_effects": 10,
+        "scaling": 20,
+    }
+    assert {name: len(orders_of(name, 1)) for name in SUITES} == counts
+    assert len(orders_of("nothing", 1, 7)) == 7
+    assert orders_of("two_effects", 4) == orders_of("two_effects", 4) != orders_of("two_effects", 5)
+
+
+def test_suites_hold_what_they_are_for():
+    mixed = orders_of("contact_and_shapes", 2)
+    assert sum(not o.effects for o in mixed) == 15 and {o.contact for o in mixed} == {"lugre"}
+    one = orders_of("one_effect", 2)
+    assert {o.effects[0] for o in one} == EFFECTS == set(LAWS)
+    assert {o.contact for o in one} == {"lugre", "elasto_plastic", "smooth", "jump"}
+    assert {o.scatter for o in orders_of("scatter", 2)} == {0.03}
+    assert {o.fault for o in orders_of("faults", 2)} == {f"measurement.{m}" for m in MEASUREMENT}
+    assert set(FAULTS) == {f"measurement.{m}" for m in MEASUREMENT}
+    for name, number in (("two_effects", 2), ("three_effects", 3)):
+        for order in orders_of(name, 2):
+            assert len(set(order.effects)) == number
+            assert not any(pair <= set(order.effects) for pair in BLURRED)
+    assert all(o.exponents for o in orders_of("scaling", 2))
+
+
+def test_held_back_kinds_are_others():
+    developed, kept = set(out_of_catalogue.KINDS), set(held_back.KINDS)
+    assert not developed & kept and len(developed | kept) >= 10
+    assert {o.kind for o in orders_of("held_back", 1)} == kept
+    assert {o.kind for o in orders_of("out_of_catalogue", 1)} == developed
+
+
+def test_a_suite_is_written_with_its_answers_apart(tmp_path):
+    answers = tmp_path / "answers.json"
+    told = write_suite("nothing", tmp_path / "campaigns", 11, 1, answers)
+    assert json.loads(answers.read_text()) == told
+    assert told["c001"]["verdict"] == ["none"] and told["c001"]["effects"] == []
+    assert [p.name for p in (tmp_path / "campaigns").iterdir()] == ["c001"]
+
+
+def test_the_laboratory_knows_nothing_of_the_product():
+    allowed = {"numpy", "numba", "scipy"} | set(sys.stdlib_module_names)
+    for file in Path(blind.laboratory.__file__).parent.glob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.Import):
+                assert {name.name.split(".")[0] for name in node.names} <= allowed
+            elif isinstance(node, ast.ImportFrom) and node.level == 0:
+                assert (node.module or "").split(".")[0] in allowed
+            elif isinstance(node, ast.ImportFrom):
+                assert node.level == 1
