@@ -5,19 +5,17 @@ What it is made of is in `stickslip.generation.derived`; ``print(stickslip.deriv
 
 from __future__ import annotations
 
-import linecache
 from typing import TYPE_CHECKING, Any
 
 from .effects import EFFECTS
 from .generation.derived import derived_source
+from .generation.functions import define
 from .kernel.layout import constants
 
 TEXT = derived_source(EFFECTS)
-_NAME = "<numbers of the effects>"
 
 globals().update(constants())
-exec(compile(TEXT, _NAME, "exec"), globals())
-linecache.cache[_NAME] = (len(TEXT), None, TEXT.splitlines(keepends=True), _NAME)  # for tracebacks
+define(TEXT, "<numbers of the effects>", globals())
 
 if TYPE_CHECKING:
 

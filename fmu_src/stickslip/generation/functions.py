@@ -5,10 +5,11 @@ from __future__ import annotations
 import ast
 import builtins
 import inspect
+import linecache
 import sys
 from collections.abc import Callable, Collection, Iterable
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..effects.effect import Effect
 
@@ -142,3 +143,9 @@ def imports_text(imports: set[tuple[str, str]]) -> str:
         f"from {module} import {', '.join(sorted(n for m, n in imports if m == module))}"
         for module in modules
     )
+
+
+def define(text: str, name: str, namespace: dict[str, Any]) -> None:
+    """Define what a made text defines; a traceback shows its lines under the name."""
+    exec(compile(text, name, "exec"), namespace)
+    linecache.cache[name] = (len(text), None, text.splitlines(keepends=True), name)

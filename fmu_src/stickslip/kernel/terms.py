@@ -5,19 +5,17 @@ What they are is in `stickslip.generation.terms`; ``print(stickslip.kernel.terms
 
 from __future__ import annotations
 
-import linecache
 from typing import TYPE_CHECKING, Any
 
 from ..effects import EFFECTS
+from ..generation.functions import define
 from ..generation.terms import terms_source
 from .layout import constants
 
 TEXT = terms_source(EFFECTS)
-_NAME = "<terms of the effects>"
 
 globals().update(constants())
-exec(compile(TEXT, _NAME, "exec"), globals())
-linecache.cache[_NAME] = (len(TEXT), None, TEXT.splitlines(keepends=True), _NAME)  # for tracebacks
+define(TEXT, "<terms of the effects>", globals())
 
 if TYPE_CHECKING:
 
