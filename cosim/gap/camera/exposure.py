@@ -23,7 +23,7 @@ from .filters import filtered
 #: they are longer than so many of these.
 _GAP = 1.5
 #: Two moments of the same motion are apart by at least this part of an interval.
-_APART = 1e-6
+_APART = 1e-9
 
 
 @dataclass(frozen=True)
@@ -73,15 +73,16 @@ class Exposure:
         places, rates = states[:, :3].copy(), states[:, 3:] * self.camera.clock
         sticks = np.isnan(rates[:, 0])
         carried = self.camera.turned(np.tile([speed, 0.0, 0.0], (len(states), 1)))
-        rates[sticks, 0] = carried[sticks, 0]
+        when = self.moments[at]
+        drift = self.camera.drift_rate(when)
+        rates[sticks, 0] = (carried[:, 0] + drift[:, 0])[sticks]
         if self.camera.per_metre:
             slow = 1.0 + self.camera.per_metre * np.where(sticks, 0.0, rates[:, 0])
             rates = rates / slow[:, None]
             late = self.moments[at] - self.frames[at] - self.camera.per_metre * places[:, 0]
             places = places + rates * np.nan_to_num(late)[:, None]
-        when = self.moments[at]
         places[:, :2] -= self.camera.drift(when)
-        rates[:, :2] -= self.camera.drift_rate(when)
+        rates[:, :2] -= drift
         result = np.hstack([self.camera.turned_back(places), self.camera.turned_back(rates)])
         result[np.isnan(states)] = np.nan
         return result
