@@ -3,7 +3,7 @@
 Light and lens, then the chip, then the stand, the filter and the clock:
 
     p(s) = (1 + a) R(alpha) r(s) + d(s)                  the picture of the place r at true time s
-    q(t) = p(t + c q_x(t))                               read out line by line: implicit in q_x
+    q(t) = p(t + c (q_x(t) - q_x(0)))                    read out line by line: implicit in q_x
     w(t) = int K(u) q(t - u) du,     written at (1 + b) t
 
 a `measurement.scale`, b `.clock`, alpha `.rotation`, c `.latency` over 0.1 m, d `.drift` (linear,

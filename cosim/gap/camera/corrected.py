@@ -77,7 +77,8 @@ def undone(
     since = (columns[time] - first) / camera.clock
     if camera.per_metre:
         seen = np.isfinite(x)
-        since = since + camera.per_metre * np.interp(since, since[seen], x[seen])
+        place = np.interp(since, since[seen], x[seen])
+        since = since + camera.per_metre * (place - place[0])
     y = columns.get("y", np.zeros_like(x))
     places = camera.turned_back(np.stack([x, y], axis=1) - camera.drift(since))
     result["x"] = places[:, 0]

@@ -35,14 +35,15 @@ class Exposure:
     camera : that took them
     frames : (m,) true times, s after the first sample, at which a frame began
     rows : (n,) which of them the written samples are; the others lie in between
-    place : (m,) written x at these times, m
+    start : x that the delay of a rolling shutter counts from, m: the first one, as a delay of all
+        samples alike is not seen, and none is to lie before the run's beginning
     moments : (m,) true times at which the block was seen
     """
 
     camera: Camera
     frames: np.ndarray
     rows: np.ndarray
-    place: np.ndarray
+    start: float
     moments: np.ndarray
 
     @staticmethod
@@ -58,9 +59,9 @@ class Exposure:
             place = np.interp(frames, time[seen] / camera.clock, x[seen])
         moments = frames
         if camera.per_metre:
-            moments = np.maximum.accumulate(frames + camera.per_metre * place)
+            moments = np.maximum.accumulate(frames + camera.per_metre * (place - place[0]))
             moments = moments + _APART * (frames - frames[0])
-        return Exposure(camera, frames, rows, place, moments)
+        return Exposure(camera, frames, rows, float(place[0]), moments)
 
     def true_states(self, states: np.ndarray, first: np.ndarray, speed: float) -> np.ndarray:
         """(k, 6) written states x, y, phi, vx, vy, omega as the block's own.
@@ -79,7 +80,7 @@ class Exposure:
         if self.camera.per_metre:
             slow = 1.0 + self.camera.per_metre * np.where(sticks, 0.0, rates[:, 0])
             rates = rates / slow[:, None]
-            late = self.moments[at] - self.frames[at] - self.camera.per_metre * places[:, 0]
+            late = self.moments[at] - self.frames[at] - self._delay(places[:, 0])
             places = places + rates * np.nan_to_num(late)[:, None]
         places[:, :2] -= self.camera.drift(when)
         rates[:, :2] -= drift
@@ -103,13 +104,17 @@ class Exposure:
             return filtered(self.frames, picture, rates, wanted, kernel)
         return picture[self.rows]
 
+    def _delay(self, x: np.ndarray) -> np.ndarray:
+        """How long after its frame's beginning a place x, m, is seen, s."""
+        return self.camera.per_metre * (x - self.start)
+
     def _read_out(self, picture: np.ndarray, rates: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """At the frames' own times instead of the moments; places and rates (m, 3)."""
         c = self.camera.per_metre
         fast = 1.0 - c * rates[:, 0]
         seen_late = self.moments - self.frames
-        x = (picture[:, 0] - rates[:, 0] * seen_late) / fast
-        later = c * x - seen_late
+        x = (picture[:, 0] - rates[:, 0] * (seen_late + c * self.start)) / fast
+        later = self._delay(x) - seen_late
         return picture + rates * later[:, None], rates / fast[:, None]
 
 

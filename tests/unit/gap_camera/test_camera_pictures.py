@@ -91,7 +91,9 @@ def test_picture_is_that_of_a_camera_made_by_other_means(dense, camera, numbers)
         noisy(written[:, 0], 3),
     )
     columns = [dense[name] for name in ("x", "y", "phi", "vx", "vy", "omega")]
-    block = np.stack([np.interp(exposure.moments, dense.time, c) for c in columns], axis=1)
+    # a delay of all samples alike is not in the picture
+    moments = exposure.moments + exposure.camera.per_metre * exposure.start
+    block = np.stack([np.interp(moments, dense.time, c) for c in columns], axis=1)
     # the last moments of a rolling shutter lie beyond the motion
     inside = exposure.moments[exposure.rows] < dense.time[-1] - 0.02
     made = exposure.written(block[:, :3], block[:, 3:])[:, :2]
