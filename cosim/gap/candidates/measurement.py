@@ -30,6 +30,8 @@ m x'' = -4 k x + mu m g in slip, x' = v in stick; the data x(t)):
   past as a delay that is longer where the motion bends. Nearly a class with a contact that lets go
   over a distance or a speed where the corners are all that is seen; these round break-aways and
   re-sticks differently, and by more in fast runs.
+  A stick that creeps before it lets go, where the model's contact is rigid, is taken for a filter
+  or for a scale: creep and the transition to slip are plain, and are fitted before any of these.
 * **quantisation** is no number of a fit: see `cosim.gap.camera.quantisation`.
 """
 

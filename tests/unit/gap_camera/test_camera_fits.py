@@ -8,6 +8,7 @@ from scipy.stats import norm
 from stickslip.effects.candidate import FreeParameter, Scales
 
 from cosim.gap import read_campaign
+from cosim.gap.camera.faults import QUANTITIES, SENTENCES, fault_of
 from cosim.gap.candidates.extend import extended
 from cosim.gap.candidates.measurement import measurement_candidates
 from cosim.gap.estimation.intervals import intervals
@@ -104,3 +105,16 @@ def test_a_perfect_camera_has_no_fault(motions, tmp_path):
         assert abs(faulty.fitted.values[key]) < FAR * (high - low) / (2.0 * 1.96)
         # one free number takes chi squared of one; each fit stops within a small part of one
         assert plain.fitted.cost - faulty.fitted.cost < 11.0
+
+
+def test_faults_are_offered_where_they_can_be_seen():
+    along = measurement_candidates(SCALES, ("x",))
+    plane = measurement_candidates(SCALES, ("x", "y", "phi"))
+    assert {law.effect for law in plane} - {law.effect for law in along} == {"measurement.rotation"}
+    assert {law.effect for law in plane} == set(SENTENCES) - {"measurement.quantisation"}
+    for law in plane:
+        for free in law.free_parameters:
+            assert fault_of(free.key) == law.effect and free.key in QUANTITIES
+            assert free.low < free.start < free.high and not free.per_run
+    keys = {free.key for law in along for free in law.free_parameters}
+    assert not any(key.endswith("_y") for key in keys)
