@@ -69,6 +69,7 @@ PLACES = (
     Place("kinetic_temperature_factor", "mu_k in proportion", "multiply"),
     Place("kinetic_factor", "mu_k in proportion, by what has been", "multiply"),
     Place("static_temperature_factor", "mu_s in proportion", "multiply"),
+    Place("static_factor", "mu_s in proportion, by what has been", "multiply"),
     Place("static_growth", "mu_s after ``hold`` seconds of rest, on top", "add", words=("hold",)),
     # the local law: mu_k at a local sliding speed (m/s)
     Place("dry_factor", "mu_k of the dry contact in proportion", "multiply", words=("speed",)),
@@ -85,6 +86,7 @@ PLACES = (
     # of the whole contact, at its mean sliding speed; where there is such a law, what it gives at
     # rest is also what the contact holds, and mu_s is not used
     Place("state_law", "mu_k by speed and state of the contact, on top", "add", words=("speed",)),
+    Place("kinetic_growth", "mu_k of a contact that sliding has not yet renewed, on top", "add"),
     Place("contact_drag", "force of the whole contact per sliding speed, N s/m", "add", arrays="p"),
     Place("surface_speed", "speed of the surface, m/s", "replace", "steady_speed", ("time",)),
     Place(

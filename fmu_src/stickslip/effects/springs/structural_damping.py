@@ -37,6 +37,7 @@ EFFECT = Effect(
     table=StructuralDamping,
     switch=("coefficient", "rotational"),
     enters="springs",
+    axis="velocity",
     source="damping of a real rig",
     core={"coefficient": "DAMPING", "rotational": "DAMPING_ROTATION"},
     candidates=candidates,
