@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, create_model, model_validator
 
-from .dry_friction import Friction
+from .friction.parameters import Friction
 from .effects import EFFECTS
 from .kernel.layout import CURVE_LIMIT
 from .packing import pack

@@ -11,8 +11,8 @@ from typing import Any, Self
 
 from pydantic import Field, model_validator
 
-from .kernel.layout import CURVE_LIMIT
-from .quantity import Table, quantity
+from ..kernel.layout import CURVE_LIMIT
+from ..quantity import Table, quantity
 
 #: Columns of a file: sliding speed, m/s, and coefficient.
 COLUMNS = ("v", "mu")
