@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, create_model, model_validator
 
-from .friction.parameters import Friction
 from .effects import EFFECTS
+from .friction.parameters import Friction
 from .kernel.layout import CURVE_LIMIT
 from .packing import pack
 from .quantity import Table, quantity
