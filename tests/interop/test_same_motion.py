@@ -29,8 +29,8 @@ CASES = {
         "lateral_friction": {"ratio": 1.0},
         "initial": {"vx": 0.15, "y": 0.002},
     },
-    "an aged contact, and heat that diffuses": {
-        "static_strengthening": {"rate": 0.05, "memory_distance": 2e-3},
+    "heat that diffuses, and a contact that runs in": {
+        "static_strengthening": {"power": 0.05},
         "thermal_weakening": {"per_joule": 0.1, "diffusion": 1.0, "static_relative": 1.0},
         "run_in": {"change": -0.2, "stretching": 0.7, "static_absolute": 1.0},
         "initial": {"vx": 0.15},

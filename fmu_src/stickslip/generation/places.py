@@ -86,7 +86,6 @@ PLACES = (
     # of the whole contact, at its mean sliding speed; where there is such a law, what it gives at
     # rest is also what the contact holds, and mu_s is not used
     Place("state_law", "mu_k by speed and state of the contact, on top", "add", words=("speed",)),
-    Place("kinetic_growth", "mu_k of a contact that sliding has not yet renewed, on top", "add"),
     Place("contact_drag", "force of the whole contact per sliding speed, N s/m", "add", arrays="p"),
     Place("surface_speed", "speed of the surface, m/s", "replace", "steady_speed", ("time",)),
     Place(

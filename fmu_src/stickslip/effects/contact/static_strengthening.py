@@ -3,10 +3,6 @@
 With its logarithm, mu_s + b log10(1 + t / t_0), as Dieterich found for rock and as ice does, up to
 a limit, mu_s + c (1 - exp(-t / t_1)), or with a power, mu_s + d t^n, t in s (Rabinowicz, Proc.
 Phys. Soc. 71, 1958).
-
-Sliding renews the contacts over a distance D (Dieterich, Pure Appl. Geophys. 116, 1978): with the
-age theta of the contact, theta' = 1 at rest and 1 - v theta / D in slip, mu_k is larger by what
-that age is worth. With D = 0 sliding forgets the hold at once.
 """
 
 from __future__ import annotations
@@ -16,7 +12,7 @@ from math import exp, log10
 
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
-from ..effect import Case, Effect, State
+from ..effect import Case, Effect
 
 
 class StaticStrengthening(Table):
@@ -48,82 +44,26 @@ class StaticStrengthening(Table):
     exponent: float = quantity(
         0.3, "1", "power of the hold time with which it grows", ge=0.02, le=2, tried=(0.1, 0.8)
     )
-    memory_distance: float = quantity(
-        0.0,
-        "m",
-        "sliding distance over which aged contacts are renewed; 0: sliding forgets at once",
-        ge=0,
-        tried=(2e-4, 5e-3),
-    )
-
-
-def strength(
-    time: float,
-    rate: float,
-    hold_time: float,
-    saturating: float,
-    saturation_time: float,
-    power: float,
-    exponent: float,
-) -> float:
-    """What an age of so many seconds is worth."""
-    growth = 0.0
-    if rate != 0.0:
-        growth += rate * log10(1.0 + time / hold_time)
-    if saturating != 0.0:
-        growth += saturating * (1.0 - exp(-time / saturation_time))
-    if power != 0.0:
-        growth += power * time**exponent
-    return growth
 
 
 def static_growth(
     hold: float,
-    age: float,
     rate: float,
     hold_time: float,
     saturating: float,
     saturation_time: float,
     power: float,
     exponent: float,
-    memory_distance: float,
 ) -> float:
-    """What ``hold`` seconds at rest, and what is left of the age before them, add to mu_s."""
-    time = hold
-    if memory_distance != 0.0:
-        time = max(hold, age)
-    return strength(time, rate, hold_time, saturating, saturation_time, power, exponent)
-
-
-def kinetic_growth(
-    age: float,
-    rate: float,
-    hold_time: float,
-    saturating: float,
-    saturation_time: float,
-    power: float,
-    exponent: float,
-    memory_distance: float,
-) -> float:
-    """What the age that sliding has left adds to mu_k."""
-    if memory_distance == 0.0:
-        return 0.0
-    left = max(0.0, age)
-    return strength(left, rate, hold_time, saturating, saturation_time, power, exponent)
-
-
-def age_rate(speed: float, age: float, memory_distance: float) -> float:
-    """Rate of the contact's age: 1 at rest, 1 - v theta / D in sliding; 0 where none counts."""
-    if memory_distance == 0.0:
-        return 0.0
-    return 1.0 - speed * age / memory_distance
-
-
-def age_scale(speed: float, memory_distance: float) -> float:
-    """Age of a contact that slides at the motion's own speed, s."""
-    if memory_distance == 0.0:
-        return 1.0
-    return memory_distance / speed
+    """What ``hold`` seconds at rest add to mu_s: so much a decade, in the end, or by a power."""
+    growth = 0.0
+    if rate != 0.0:
+        growth += rate * log10(1.0 + hold / hold_time)
+    if saturating != 0.0:
+        growth += saturating * (1.0 - exp(-hold / saturation_time))
+    if power != 0.0:
+        growth += power * hold**exponent
+    return growth
 
 
 #: A usual hold, s.
@@ -131,7 +71,7 @@ _HOLD = 0.5
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Logarithmic at once or after an onset, saturating, a power, and renewed over a distance."""
+    """Logarithmic at once or after an onset, saturating, and a power."""
     rate = FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
     yield Candidate(
         "static_strengthening",
@@ -177,22 +117,6 @@ def candidates(s: Scales) -> Iterator[Candidate]:
         ),
         grows=_HOLD**exponent,
     )
-    # over a much shorter distance than a stroke sliding forgets at once
-    renewal = FreeParameter(
-        "static_strengthening.memory_distance",
-        0.1 * s.travel,
-        0.5,
-        0.01 * s.travel,
-        s.travel,
-        log=True,
-    )
-    yield Candidate(
-        "static_strengthening",
-        "logarithmic, renewed over a distance",
-        (rate, renewal),
-        {"static_strengthening.hold_time": 0.01},
-        grows=2.0,
-    )
 
 
 EFFECT = Effect(
@@ -202,8 +126,7 @@ EFFECT = Effect(
     enters="contact",
     axis="hold time",
     source="Dieterich, J. Geophys. Res. 77 (1972); Schulson & Fortt, 0.3 a decade on ice",
-    terms=(static_growth, kinetic_growth),
-    states=(State("age", age_rate, scale=age_scale),),
+    terms=(static_growth,),
     candidates=candidates,
     case=Case({"rate": 0.08}),
 )

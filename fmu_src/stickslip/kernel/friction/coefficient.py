@@ -28,7 +28,6 @@ from ..terms import (
     with_film_friction,
     with_flooded_share,
     with_kinetic_factor,
-    with_kinetic_growth,
     with_kinetic_temperature_factor,
     with_melting,
     with_mixed,
@@ -93,20 +92,16 @@ def local_coefficient(p: Floats, u: Floats, w: Floats, mu: float, speed: float) 
 
 def state_coefficient(p: Floats, u: Floats, w: Floats, speed: float) -> float:
     """What speed (mean, m/s) and state of the whole contact add to mu_k; 0 where no law is on."""
-    more = with_kinetic_growth(p, u, w, 0.0)
-    if has_state_law(p):
-        more += with_state_law(p, u, w, 0.0, speed)
-    if more == 0.0:
+    if not has_state_law(p):
         return 0.0
-    return dry_share(p, u, w) * more
+    return dry_share(p, u, w) * with_state_law(p, u, w, 0.0, speed)
 
 
 def slow_coefficient(p: Floats, u: Floats, w: Floats, speed: float) -> float:
     """mu_k of a slip whose speed (m/s) is small to every law but that of speed and state."""
     mu = local_coefficient(p, u, w, kinetic_coefficient(p, u, w), 0.0)
-    more = state_coefficient(p, u, w, speed)
-    if more != 0.0:
-        mu = max(0.0, mu + more)
+    if has_state_law(p):
+        mu = max(0.0, mu + state_coefficient(p, u, w, speed))
     return mu
 
 
