@@ -222,6 +222,31 @@ def test_load_dependence_in_break_away_and_slip(exponent, mass):
     )
 
 
+@pytest.mark.parametrize("mass", [0.5, 2.0])
+@pytest.mark.parametrize(
+    ("law", "factor"),
+    [
+        ({"adhesion": 3.0}, lambda n: (n + 3.0) / n * 8.0 / (8.0 + 3.0)),
+        ({"logarithmic": 0.4}, lambda n: 1.0 - 0.4 * np.log10(n / 8.0)),
+        ({"logarithmic": -0.4}, lambda n: 1.0 + 0.4 * np.log10(n / 8.0)),
+    ],
+)
+def test_adhesion_and_so_much_a_decade_of_the_load(law, factor, mass):
+    run = simulate(
+        unit(
+            rig=UNIT["rig"] | {"mass": mass},
+            friction={"mu_s": 0.1, "mu_k": 0.07},
+            load_dependence=law | {"reference_force": 8.0},
+        ),
+        30.0,
+    )
+    normal = mass * GRAVITY
+    assert run.events[0, 2] == pytest.approx(0.1 * normal * factor(normal), rel=1e-11)
+    slip = run["mode"] == 1
+    force = np.abs(run["friction_force_x"][slip])
+    np.testing.assert_allclose(force, 0.07 * normal * factor(normal), rtol=1e-12)
+
+
 @pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0])
 def test_stick_by_a_part_of_the_springs_breaks_away_later(ratio):
     """One spring counted of four: break-away at four times the displacement."""
