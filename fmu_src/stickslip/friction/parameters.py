@@ -94,6 +94,27 @@ class Friction(Table):
         return self
 
 
+def table_of(values: Mapping[str, float]) -> dict[str, tuple[float, ...]]:
+    """`table_speed` and `table_mu` from the FMU's names, `friction.table_speed[1]` and so on.
+
+    The table ends before the first place that is not there or whose speed does not grow.
+
+    >>> table_of({f"friction.table_{of}[{i}]": 0.1 * i for of in ("speed", "mu") for i in (1, 2)})
+    {'table_speed': (0.1, 0.2), 'table_mu': (0.1, 0.2)}
+    """
+    speed: list[float] = []
+    mu: list[float] = []
+    for i in range(1, CURVE_LIMIT + 1):
+        at = values.get(f"friction.table_speed[{i}]")
+        if at is None or (speed and at <= speed[-1]):
+            break
+        speed.append(at)
+        mu.append(values[f"friction.table_mu[{i}]"])
+    if len(speed) < 2:  # the places of a table that there is not
+        return {"table_speed": (), "table_mu": ()}
+    return {"table_speed": tuple(speed), "table_mu": tuple(mu)}
+
+
 def read_table(file: Path) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Sliding speeds (m/s) and coefficients of a CSV file with a header row.
 
