@@ -54,7 +54,7 @@ def unit_and_meaning(key: str) -> tuple[str, str]:
         return faults.QUANTITIES[key]
     block, _, name = key.partition(".")
     table: Any = Scenario.model_fields[block].annotation  # a class of keys
-    field = table.model_fields[name]
+    field = table.model_fields[name.partition("[")[0]]  # one of several numbers is as all of them
     unit = (field.json_schema_extra or {}).get("unit", "1")
     return ("" if unit == "1" else unit), field.description
 

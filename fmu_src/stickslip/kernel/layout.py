@@ -34,8 +34,9 @@ Slots = Sequence[tuple[str, int]]
 # --- numbers that are no places ---------------------------------------------------------------
 STICK = 0  # modes
 SLIP = 1
-CURVE_LIMIT = 16  # points of a force-length curve that ``p`` has room for
+CURVE_LIMIT = 16  # points of a force-length curve, or a table of friction, that ``p`` has room for
 CURVE_WIDTH = 4  # extension, force, stiffness, energy
+TABLE_WIDTH = 3  # sliding speed, coefficient, its slope
 STAGES = 12  # of a step
 ALL_STAGES = 16  # with the slope at its end and those that only the interpolant needs
 POWERS = 7  # coefficients of the interpolant for each state
@@ -117,7 +118,7 @@ PARAMETERS = (
     ("P_CURVE_POINTS", 1),  # points of the tabulated force-length curve; 0: none
     ("P_CURVE", CURVE_LIMIT * CURVE_WIDTH),
     ("P_MU_S", 1),
-    ("P_MU_K", 1),
+    ("P_MU_K", 1),  # at rest, where a table gives it
     ("P_LOCAL_LAW", 1),  # 1 where mu_k depends on the local sliding speed
     ("P_RUN_UP", 1),  # time of the surface's speed ramp, s
     ("P_TOLERANCE", 1),
@@ -131,6 +132,9 @@ PARAMETERS = (
     ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see tableau
     ("P_PRESLIDING", 1),  # sliding speed of a stick per load, m/(s N), see stick
     ("P_RELATIVE_STIFFNESS", 4),  # of each spring: what its force is multiplied by
+    ("P_MU_SCALE", 1),  # what the factors of mu_k multiply: mu_k, or 1 where a table gives it
+    ("P_TABLE_POINTS", 1),  # points of the table of mu_k over the sliding speed; 0: none
+    ("P_TABLE", CURVE_LIMIT * TABLE_WIDTH),
 )
 
 # --- e: log of events -------------------------------------------------------------------------
