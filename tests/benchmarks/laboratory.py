@@ -45,7 +45,7 @@ from laboratory_score.tables import by_suite, markdown  # noqa: E402
 from laboratory_score.wrong import listing  # noqa: E402
 from tqdm import tqdm  # noqa: E402
 
-LIMIT = 900  # s after which an answer is no longer waited for
+LIMIT = 600  # s of the processor after which an answer is no longer waited for
 LINES = "campaigns.jsonl"
 
 
@@ -84,26 +84,26 @@ def ask(folder: Path) -> tuple[dict | None, str]:
         gap = find_gap(read_campaign(folder), jobs=1)
         return json.loads(as_json(gap, "model.toml")), ""
     except TooLong:
-        return None, f"no answer in {LIMIT} s"
+        return None, f"no answer in {LIMIT} s of the processor"
     except CampaignError as error:
         return None, f"refused: {error}"
     except Exception:  # a benchmark goes on; the words are in the listing
         return None, traceback.format_exc()[-1500:]
 
 
-def within(limit: int, what: Callable[[], tuple[dict | None, str]]) -> tuple[dict | None, str]:
-    """What is returned within so many seconds."""
+def within(limit: float, what: Callable[[], tuple[dict | None, str]]) -> tuple[dict | None, str]:
+    """What is returned within so many seconds of the processor."""
 
     def stop(*_: object) -> None:
         raise TooLong
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.alarm(limit)
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, limit)
     try:
         return what()
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def judge(task: Task, keep: Path | None = None) -> dict:

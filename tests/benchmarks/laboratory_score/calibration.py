@@ -31,8 +31,10 @@ Points = list[tuple[float, Share]]
 
 def none_points(rows: Sequence[Row]) -> Points:
     """Level, share of campaigns without anything hidden whose p is at or below it."""
-    stated = [p for row in rows if hides_nothing(row) and (p := p_of_none(row)) is not None]
-    return [(level, share(stated, lambda p, at=level: p <= at)) for level in LEVELS if stated]
+    empty = [row for row in rows if hides_nothing(row)]
+    stated = [p for row in empty if (p := p_of_none(row)) is not None]
+    counts = [(level, sum(p <= level for p in stated)) for level in LEVELS if stated]
+    return [(level, Share(hits, len(stated))) for level, hits in counts]
 
 
 def verdict_point(rows: Sequence[Row]) -> Points:
@@ -42,13 +44,10 @@ def verdict_point(rows: Sequence[Row]) -> Points:
 
 
 def interval_points(rows: Sequence[Row]) -> Points:
-    """Level, share of intervals that miss the truth with 1 - level stated."""
+    """1 - level of an interval, share of intervals that miss the truth."""
     found = [each for row in rows for each in compared(row)]
-    return [
-        (level, share(found, lambda each, at=level: not each.covers(1.0 - at)))
-        for level in LEVELS
-        if found
-    ]
+    missed = [(level, sum(not e.covers(1.0 - level) for e in found)) for level in LEVELS if found]
+    return [(level, Share(hits, len(found))) for level, hits in missed]
 
 
 def probability_points(rows: Sequence[Row]) -> Points:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from .parameters import WANTED, Compared, compared
 from .shares import share
 from .targets import scores
 
+SIZES = (0.0, 2.0, 5.0, 10.0, 20.0, 1e9)  # edges of the size classes, noise units
 MET = {True: "yes", False: "no", None: ""}
 
 
@@ -64,6 +66,19 @@ def hidden_table(rows: Sequence[Row]) -> str:
     return table(("hidden", "right", *Outcome), lines)
 
 
+def size_table(rows: Sequence[Row]) -> str:
+    """Right answers by the size of the smallest hidden thing."""
+    sized = [(row.truth.size, row) for row in rows if row.truth.size is not None]
+    lines = []
+    for low, high in pairwise(SIZES):
+        some = [row for size, row in sized if low <= size < high]
+        if some:
+            counts = Counter(outcome(row) for row in some)
+            name = f"{low:g} to {high:g}" if high < SIZES[-1] else f"from {low:g}"
+            lines.append((name, share(some, is_right), *(counts[kind] or "" for kind in Outcome)))
+    return table(("size / noise", "right", *Outcome), lines)
+
+
 def contact_table(rows: Sequence[Row]) -> str:
     """Right answers by the form of the contact, where it is told."""
     forms = sorted({str(row.truth.contact["form"]) for row in rows if row.truth.contact})
@@ -106,6 +121,7 @@ def markdown(rows: Sequence[Row], title: str) -> str:
         "What is wanted": wanted_table(rows),
         "Kinds of answers": kinds_table(rows),
         "By what is hidden": hidden_table(rows),
+        "By size": size_table(rows),
         "By contact": contact_table(rows),
         "Parameters of right answers": parameter_table(found),
         "Time of an answer, each on one core": times(rows),

@@ -101,7 +101,7 @@ WANTED: dict[str, tuple[tuple[str, Holds, str], ...]] = {
     "faults": (
         ("named as such", is_named, ">0.90"),
         ("in a stated class with it", is_named_or_class, ""),
-        ("named as physics", of.names_physics, "<0.0"),
+        ("named as physics", of.names_physics, "<0"),
     ),
     "two_effects": (("both named", is_named, ">0.85"),),
     "three_effects": (("all three named", is_named, ""),),
@@ -122,7 +122,7 @@ def scores(suite: str, rows: Sequence[Row]) -> list[Score]:
     if hiding:
         found.append(counted(hiding, "named, in a class, or as a part", is_stated_at_all))
     if empty:
-        wanted = "<0.0" if suite == "contact_and_shapes" else ""
+        wanted = "<0" if suite == "contact_and_shapes" else ""
         found += [
             counted(empty, "nothing hidden: named", gives_name, wanted),
             counted(empty, "nothing hidden: named, or as a part", gives_part),
@@ -135,9 +135,7 @@ def scores(suite: str, rows: Sequence[Row]) -> list[Score]:
         ]
     physics = [row for row in full if not row.truth.is_fault]
     if physics:
-        found.append(
-            counted(physics, "named as a fault of the measurement", of.names_fault, "<0.0")
-        )
+        found.append(counted(physics, "named as a fault of the measurement", of.names_fault, "<0"))
     right = [row for row in hiding if of.is_right(row) and of.gap(row, "after") is not None]
     if right:
         what = f"right answers: held-out gap after <= {SMALL_GAP}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 
 from .answers import Row
@@ -56,13 +57,26 @@ def answer_lines(row: Row) -> list[str]:
             f"{number(each['held_out_gap'])}, fit {number(each['fit_gap'])}, "
             f"dBIC {number(each['delta_bic'])}; {numbers}"
         )
+    for name, at in places(row).items():
+        if at is None or at > FIRST:
+            lines.append(f"- {name}: {'not in the ranking' if at is None else f'place {at}'}")
     if row.found.get("share") is not None:
-        lines.append(f"- share: {row.found['share']}")
+        lines.append(f"- share of the misfit that is taken: {number(row.found['share'])}")
+    lines += [f"- ladder: {json.dumps(step)}" for step in row.found.get("ladder") or ()]
     if exponents_stated(row):
         lines.append(f"- exponents stated: {exponents_stated(row)}")
     if row.found.get("remarks"):
         lines.append("- remarks: " + "; ".join(row.found["remarks"]))
     return lines
+
+
+def places(row: Row) -> dict[str, int | None]:
+    """Where each hidden effect stands in the ranking, from 1."""
+    ranked = [each["effect"] for each in (row.found or {}).get("ranking", [])]
+    return {
+        name: ranked.index(name) + 1 if name in ranked else None
+        for name in sorted(row.truth.effects)
+    }
 
 
 def is_listed(row: Row) -> bool:

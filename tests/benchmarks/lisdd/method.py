@@ -53,7 +53,7 @@ class Found:
 
 def fitted(columns: Array, y: Array) -> Array:
     """Least squares coefficients."""
-    return np.linalg.lstsq(columns, y, rcond=None)[0]
+    return np.asarray(np.linalg.lstsq(columns, y, rcond=None)[0], np.float64)
 
 
 def squares(columns: Array, y: Array) -> float:

@@ -33,7 +33,7 @@ WIDTH = 1.2  # windows of the averages, in periods: of 0.6 to 1.2 the one with t
 HELD_OUT = (1, 5)  # runs that a fit does not see
 
 # Force of a term of strength 1 on a block of a mass, from place, speed and sliding speed.
-Force = Callable[[float, Array, Array, Array], Array]
+Force = Callable[[float, float, float, float], float]
 TERMS: dict[str, Force] = {
     "film_drag": lambda mass, x, v, sliding: sliding,
     "structural_damping": lambda mass, x, v, sliding: -v,
@@ -65,13 +65,13 @@ class Run:
 
 def move(mass: float, speed: float, phase: float, term: str, strength: float) -> Run:
     """A run without noise; ValueError where the block does not slide throughout."""
-    force = TERMS[term] if term else None
+    force = TERMS.get(term)
     omega = np.sqrt(STIFFNESS / mass)
     rest, swing = FRICTION * mass * GRAVITY / STIFFNESS, SWING * speed / omega
 
-    def rate(t: float, state: Array) -> list[float]:
+    def rate(_: float, state: Array) -> list[float]:
         x, v = state
-        push = strength * float(force(mass, x, v, speed - v)) if force else 0.0
+        push = strength * force(mass, x, v, speed - v) if force else 0.0
         return [v, (push - STIFFNESS * x) / mass + FRICTION * GRAVITY]
 
     t = np.arange(int(RATE * DURATION)) / RATE
@@ -146,10 +146,10 @@ def regression(runs: list[Run], regimes: int = 4, width: float = WIDTH) -> Regre
             y.append((bend @ x + run.omega**2 * place) / deviation)
             plain.append(GRAVITY / deviation)
             mean_speed.append(run.speed - v)
-            cubed = np.cbrt(weight @ x**3)  # so that a term's own x^3 is the mean of x^3
+            cubed = float(np.cbrt(weight @ x**3))  # so that a term's own x^3 is the mean of x^3
             for name, force in TERMS.items():
-                acts = force(run.mass, cubed, np.float64(v), np.float64(run.speed - v))
-                library[name].append(float(acts) / run.mass / deviation)
+                push = force(run.mass, cubed, v, run.speed - v)
+                library[name].append(push / run.mass / deviation)
     edges = np.quantile(mean_speed, np.linspace(0, 1, regimes + 1)[1:-1])
     return Regression(
         np.array(y),
