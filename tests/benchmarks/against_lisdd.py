@@ -6,9 +6,9 @@ A block that always slides: no stick, a smooth equation of motion, 6 runs of 8 s
 four terms missing. Sizes are noise units over whole runs, mu and starts fitted (lisdd/problem.py).
 LISDD has the four terms for a library and knows springs and mass exactly; `find_gap` has its whole
 catalogue and does not know that the block never sticks. Level 5 %. LISDD is asked on --draws
-campaigns of each kind (recordings of a few motions, for which the intervals hold), `find_gap`, which
-takes seconds, on --count of them, and five times as many with nothing missing. All four terms act
-everywhere, so that LISDD is shown without its regimes of sliding speed as well.
+campaigns of each kind (recordings of a few motions, for which the intervals hold), `find_gap`,
+which takes seconds, on --count of them, and five times as many with nothing missing. All four terms
+act everywhere, so that LISDD is shown without its regimes of sliding speed as well.
 """
 
 from __future__ import annotations

@@ -22,6 +22,7 @@ from .parameters import compared
 from .shares import Share, share
 from .targets import hides_nothing, refuses_none
 
+TICKS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0)
 LEVELS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
 BINS = (0.0, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0)  # of stated probabilities
 TESTED = 0.05  # level of the test behind the verdict `none`
@@ -63,14 +64,20 @@ def probability_points(rows: Sequence[Row]) -> Points:
 
 
 def draw(axes: Axes, points: Points, colour: str, label: str, marker: str = "o") -> None:
-    """Points with their intervals."""
+    """Points with their intervals, each of all there is, or of a bin of it (diamonds)."""
+    totals = [each.total for _, each in points]
     at = [level for level, _ in points]
     seen = np.array([each.value for _, each in points])
     ends = np.array([each.interval() for _, each in points]).reshape(-1, 2)
     bars = np.abs(ends.T - seen)
-    count = points[0][1].total if points else 0
+    count = sum(totals) if marker == "D" else max(totals, default=0)
     name = f"{label} ({count})" if count else f"{label}: none yet"
-    axes.errorbar(at, seen, bars, fmt=marker, capsize=2, color=colour, label=name)
+    axes.errorbar(at, seen, bars, fmt=marker, capsize=2, color=colour, label=name, clip_on=False)
+
+
+def root(value: np.ndarray) -> np.ndarray:
+    """Square root of what is not negative, as limits of axes may be for a moment."""
+    return np.sqrt(np.maximum(value, 0.0))
 
 
 def frame(axes: Axes, stated: str, seen: str) -> None:
@@ -78,9 +85,14 @@ def frame(axes: Axes, stated: str, seen: str) -> None:
     axes.plot([0, 1], [0, 1], color=GREY, lw=0.8, ls="--")
     axes.set_xlabel(stated)
     axes.set_ylabel(seen)
-    axes.set_xlim(-0.02, 1.02)
-    axes.set_ylim(-0.02, 1.02)
-    axes.set_aspect("equal")
+    for scale, limit, ticks in (
+        (axes.set_xscale, axes.set_xlim, axes.set_xticks),
+        (axes.set_yscale, axes.set_ylim, axes.set_yticks),
+    ):
+        scale("function", functions=(root, np.square))  # small error rates are what matters
+        limit(0.0, 1.0)
+        ticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    axes.set_box_aspect(1.0)
     axes.legend(loc="upper left")
 
 
@@ -94,7 +106,7 @@ def calibration_figure(rows: Sequence[Row]) -> Figure:
     frame(none, "level", "nothing hidden: refused at that level")
     draw(intervals, interval_points(rows), BLUE, "parameters of right answers")
     frame(intervals, "1 - level of an interval", "intervals that miss the truth")
-    draw(names, probability_points(rows), BLUE, "stated probability")
+    draw(names, probability_points(rows), BLUE, "stated probability", "D")
     frame(names, "stated probability of a wrong name", "names that are wrong")
     return figure
 
