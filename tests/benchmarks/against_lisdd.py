@@ -19,7 +19,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -36,9 +36,8 @@ from lisdd.problem import (  # noqa: E402
     HELD_OUT,
     TERMS,
     Run,
-    campaign,
     measured,
-    of_size,
+    motion,
     regression,
 )
 from lisdd.problem import write as write_files  # noqa: E402
@@ -81,13 +80,6 @@ def by_find_gap(runs: list[Run], random: np.random.Generator) -> Answer:
         gap = find_gap(read_campaign(folder), jobs=1)
         seconds = time.perf_counter() - begin
     return Answer(gap.verdict != "none", frozenset(gap.effects), seconds)
-
-
-@cache
-def motion(term: str, size: float, seed: int) -> list[Run]:
-    """Runs without noise."""
-    random = np.random.default_rng([seed, sorted(TERMS).index(term) if term else len(TERMS)])
-    return of_size(random, term, size) if term else campaign(random)
 
 
 def asked(ask: Ask, term: str, size: float, seed: int, noise: int) -> Answer:

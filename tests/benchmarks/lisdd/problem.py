@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -115,6 +116,13 @@ def of_size(random: np.random.Generator, term: str, wanted: float) -> list[Run]:
             return runs
         strength *= wanted / found
     raise ValueError(f"{term}: no strength for a size of {wanted:g}")
+
+
+@cache
+def motion(term: str, wanted: float, seed: int) -> list[Run]:
+    """A campaign without noise by a seed: with a term of a size, or with nothing missing ("")."""
+    random = np.random.default_rng([seed, sorted(TERMS).index(term) if term else len(TERMS)])
+    return of_size(random, term, wanted) if term else campaign(random)
 
 
 def measured(runs: list[Run], random: np.random.Generator) -> list[Run]:
