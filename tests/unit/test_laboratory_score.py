@@ -186,6 +186,21 @@ def test_a_period_is_known_as_far_as_it_is_written():
     assert not compared(with_interval("speed_ripple.frequency", 0.8744, 1e-6, answer))
 
 
+def test_amounts_of_faults_have_their_own_parameters():
+    turned = told("measurement.rotation")
+    turned["hidden"][0] |= {"shape": "rotation", "strength": 0.08}
+    said = ["measurement.rotation"]
+    (each,) = compared(with_interval("measurement.rotation", -0.07, 0.02, turned, effects=said))
+    assert (each.value, each.low, each.high) == pytest.approx((0.07, 0.05, 0.09))
+    past = told("measurement.smoothing")
+    past["hidden"][0] |= {"shape": "lagging", "strength": 0.01}
+    said = ["measurement.smoothing"]
+    (each,) = compared(
+        with_interval("measurement.smoothing_past", 0.012, 0.004, past, effects=said)
+    )
+    assert each.covers()
+
+
 def test_what_a_suite_has_to_show():
     rows = [row(told("run_in"), found("named", ["run_in"]), "contact_and_shapes")] * 9
     rows += [row(told("run_in"), found("unknown"), "contact_and_shapes")]

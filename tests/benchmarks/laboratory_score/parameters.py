@@ -32,7 +32,15 @@ STEADY = {
 }
 # Contacts whose static friction is a number of their own, and not the peak of a curve.
 WITH_STATIC = {"jump", "lugre", "elasto_plastic"}
-AMOUNTS = {f"{FAULT}{name}" for name in ("scale", "clock", "rotation", "smoothing")}
+# Shape of a fault -> the parameter that is its amount, in the same unit.
+AMOUNTS = {
+    "scale": f"{FAULT}scale",
+    "clock": f"{FAULT}clock",
+    "rotation": f"{FAULT}rotation",
+    "rolling_shutter": f"{FAULT}latency",
+    "smoothing": f"{FAULT}smoothing",
+    "lagging": f"{FAULT}smoothing_past",
+}
 UNSIGNED = {"turning_surface.curvature", f"{FAULT}rotation"}
 
 
@@ -92,8 +100,8 @@ def true_values(row: Row) -> Iterator[tuple[str, float, float]]:
             yield "speed_ripple.frequency", *rounded(match[1])
         if name == "surface_pattern" and (match := re.search(r"every ([\d.]+) m", law)):
             yield "surface_pattern.wavelength", *rounded(match[1])
-        if name in AMOUNTS and shape != "lagging":
-            yield name, float(hidden["strength"]), 0.0
+        if name.startswith(FAULT) and shape in AMOUNTS:
+            yield AMOUNTS[shape], float(hidden["strength"]), 0.0
 
 
 def compared(row: Row) -> list[Compared]:
