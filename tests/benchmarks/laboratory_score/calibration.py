@@ -71,7 +71,7 @@ def draw(axes: Axes, points: Points, colour: str, label: str, marker: str = "o")
     ends = np.array([each.interval() for _, each in points]).reshape(-1, 2)
     bars = np.abs(ends.T - seen)
     count = sum(totals) if marker == "D" else max(totals, default=0)
-    name = f"{label} ({count})" if count else f"{label}: none yet"
+    name = f"{label} ({count or 'none yet'})"
     axes.errorbar(at, seen, bars, fmt=marker, capsize=2, color=colour, label=name, clip_on=False)
 
 
@@ -104,8 +104,8 @@ def calibration_figure(rows: Sequence[Row]) -> Figure:
     draw(none, none_points(rows), BLUE, "p of the plain model")
     draw(none, verdict_point(rows), RED, "verdict not `none`", "s")
     frame(none, "level", "nothing hidden: refused at that level")
-    draw(intervals, interval_points(rows), BLUE, "parameters of right answers")
-    frame(intervals, "1 - level of an interval", "intervals that miss the truth")
+    draw(intervals, interval_points(rows), BLUE, "parameters")
+    frame(intervals, "1 - level of an interval", "right answers: intervals that miss the truth")
     draw(names, probability_points(rows), BLUE, "stated probability", "D")
     frame(names, "stated probability of a wrong name", "names that are wrong")
     return figure
