@@ -72,7 +72,9 @@ def draw(axes: Axes, points: Points, colour: str, label: str, marker: str = "o")
     bars = np.abs(ends.T - seen)
     count = sum(totals) if marker == "D" else max(totals, default=0)
     name = f"{label} ({count or 'none yet'})"
-    axes.errorbar(at, seen, bars, fmt=marker, capsize=2, color=colour, label=name, clip_on=False)
+    # points at 0 and 1 are drawn whole; an empty series that is not clipped upsets the layout
+    how = {"fmt": marker, "capsize": 2, "color": colour, "clip_on": not points}
+    axes.errorbar(at, seen, bars, label=name, **how)
 
 
 def root(value: np.ndarray) -> np.ndarray:
