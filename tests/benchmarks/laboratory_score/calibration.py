@@ -73,8 +73,8 @@ def draw(axes: Axes, points: Points, colour: str, label: str, marker: str = "o")
     count = sum(totals) if marker == "D" else max(totals, default=0)
     name = f"{label} ({count or 'none yet'})"
     # points at 0 and 1 are drawn whole; an empty series that is not clipped upsets the layout
-    how = {"fmt": marker, "capsize": 2, "color": colour, "clip_on": not points}
-    axes.errorbar(at, seen, bars, label=name, **how)
+    clipped = not points
+    axes.errorbar(at, seen, bars, fmt=marker, capsize=2, color=colour, label=name, clip_on=clipped)
 
 
 def root(value: np.ndarray) -> np.ndarray:
