@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -37,6 +37,17 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="DIR",
         help="write a small plan there to try this command on, and do nothing else",
     )
+    parser.add_argument(
+        "--level",
+        metavar="P",
+        type=_chance,
+        default=0.05,
+        help="chance that something is named where nothing is (default: 0.05)",
+    )
+    parser.add_argument(
+        "--power", metavar="P", type=_chance, default=0.9,
+        help="chance that an effect of the smallest size is named (default: 0.9)",
+    )  # fmt: skip
     parser.add_argument(
         "--no-page", action="store_true", help=f"only {RESULT}: no figures, no page"
     )
@@ -72,7 +83,10 @@ def execute(arguments: Namespace) -> int:
     for remark in planned.campaign.remarks:
         print(f"note: {remark}", file=sys.stderr)
     with tqdm(disable=None, unit="step", leave=False) as bar:
-        answer = plan.make_plan(planned, jobs=arguments.jobs, progress=bar.update)
+        answer = plan.make_plan(
+            planned, level=arguments.level, wanted=arguments.power, jobs=arguments.jobs,
+            progress=bar.update,
+        )  # fmt: skip
     text = data.as_json(answer)
     with held_interrupts():
         write_text(text, folder / RESULT)
@@ -97,3 +111,13 @@ def _shown(answer: Any, lines: list[str], folder: Path, arguments: Namespace) ->
     lines = [*lines, f"  files: {', '.join(names)}"]
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
     return DONE
+
+
+def _chance(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < 1.0:
+        raise ArgumentTypeError(f"{text!r} is not allowed, allowed is a number between 0 and 1")
+    return value

@@ -99,7 +99,8 @@ def run_text(run: NextRun) -> str:
         return f"{setting}: {run.effects[0]} from {was} to {percent_text(run.after)}"
     truth, other = run.effects
     was = "never" if math.isinf(run.before) else f"at {run.before:.2g} times its smallest size"
-    return f"{setting}: {truth} told from {other} {was}, then at {run.after:.2g} times"
+    then = "as soon as it is seen" if run.after <= 1.0 else f"at {run.after:.2g} times"
+    return f"{setting}: {truth} told from {other} {was}, then {then}"
 
 
 def closing_lines(plan: Plan) -> list[str]:

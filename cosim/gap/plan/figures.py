@@ -7,21 +7,22 @@ import math
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from cosim.report.style import BLUE, INK, LIGHT_GREY, ORANGE, PALE_BLUE, RED, panels, picture
 
 from .data import size_text
 from .plan import Plan, Size
 
-#: Times a smallest size up to which the colours tell more.
-_FAR = 10.0
+#: Times a smallest size up to which the colours tell more; so dark that text is still read.
+_FAR = 30.0
 
 
 @picture("smallest_sizes", (
     "The smallest size of each effect that would be named, as percent of friction: so much more "
     "friction moves the block as much. Blue: named, by itself or in a class; orange: told from "
-    "every other effect. Beside the bar, the size in the parameter's own unit. Pale: sizes that are "
-    "typical of such rigs; what of them lies left of the bar's end would be missed."
+    "every other effect. Beside the bar, the size in the parameter's own unit. Pale: sizes that "
+    "are typical of such rigs; what of them lies left of the bar's end would be missed."
 ))  # fmt: skip
 def draw_sizes(plan: Plan) -> Figure:
     """A row for each effect."""
@@ -52,7 +53,7 @@ def draw_sizes(plan: Plan) -> Figure:
     axis.set_xscale("log")
     axis.set_xlim(left, right)
     axis.set_yticks(range(len(sizes)), [size.effect for size in sizes])
-    axis.invert_yaxis()
+    axis.set_ylim(len(sizes) - 0.5, -0.5)
     axis.grid(visible=False, axis="y")
     axis.set_xlabel("smallest size, percent of friction")
     for label, colour in (("named", BLUE), ("by itself", ORANGE), ("typical", PALE_BLUE)):
@@ -92,7 +93,7 @@ def draw_pairs(plan: Plan) -> Figure:
     shown = np.array([[times.get((row, column), np.nan) for column in names] for row in rows])
     shown = shown.reshape(len(rows), len(names))
     colours = np.where(shown > 1.0, np.minimum(shown, _FAR), np.nan)
-    axis.imshow(colours, norm=LogNorm(1.0, _FAR), cmap="Oranges", aspect="auto")
+    axis.imshow(colours, norm=LogNorm(1.0, 3.0 * _FAR), cmap="Oranges", aspect="auto")
     for i, j in np.ndindex(*shown.shape):
         if rows[i] == names[j]:
             axis.add_patch(_square(j, i))
@@ -106,7 +107,5 @@ def draw_pairs(plan: Plan) -> Figure:
     return figure
 
 
-def _square(column: int, row: int):
-    from matplotlib.patches import Rectangle
-
+def _square(column: int, row: int) -> Rectangle:
     return Rectangle((column - 0.5, row - 0.5), 1.0, 1.0, color=LIGHT_GREY)

@@ -132,7 +132,7 @@ def read_plan(path: str | Path) -> PlannedCampaign:
         )
     campaign = Campaign(
         table.name, path.parent, table.rig, table.model.scheme, noise, (), (),
-        tuple(remarks), table.friction.given,
+        friction=table.friction.given,
     )  # fmt: skip
     _check_scheme(path, campaign)
     runs = [_planned(path, campaign, run, number) for number, run in enumerate(tables, 1)]
@@ -142,7 +142,10 @@ def read_plan(path: str | Path) -> PlannedCampaign:
             f"{path}: hold_out: true in every run, there is nothing to fit; allowed is false in at "
             "least one"
         )
-    campaign = replace(campaign, runs=tuple(run.setting for run in runs))
+    if len(fitted) < len(runs):
+        remarks.append(f"held out, and not counted: {len(runs) - len(fitted)} of {len(runs)} runs")
+    settings = tuple(run.setting for run in runs)
+    campaign = replace(campaign, runs=settings, remarks=tuple(remarks))
     return PlannedCampaign(campaign, fitted, expected)
 
 
