@@ -95,10 +95,15 @@ def laws_of(plan: PlannedCampaign, rehearsal: Rehearsal) -> tuple[tuple[Law, ...
         why = _silent(candidate, plan)
         if why:
             silent[candidate.effect] = why
-        elif candidate.free_parameters:
+        elif candidate.free_parameters and not _mirrored(candidate):
             neutral = known[candidate.free_parameters[0].key]
             laws.append(Law(candidate, neutral, _periods(candidate, plan)))
     return tuple(laws), silent
+
+
+def _mirrored(candidate: Candidate) -> bool:
+    """Whether it is another one, seen in a mirror: across a straight rig both sides are alike."""
+    return candidate.lateral and candidate.free_parameters[0].start < 0.0
 
 
 def _periods(candidate: Candidate, plan: PlannedCampaign) -> int:

@@ -24,7 +24,7 @@ from .planned import Rehearsal, own_data
 from .visibility import Visible
 
 #: Rounds of a refit of another law in place of the true one.
-_ROUNDS = 8
+_ROUNDS = 5
 
 
 @dataclass(frozen=True)
