@@ -26,9 +26,11 @@ from .planned import Rehearsal
 
 #: Part of its usual start that a law has for its linear response.
 FAINT = 0.02
-#: Rounds of a refit of the plain model, and sizes that are tried: with the derivatives kept, and
-#: with their own, which set out from where the former have ended.
-_ROUNDS, _SEARCH = {True: 6, False: 3}, {True: 12, False: 6}
+#: Rounds of a refit of the plain model: with the derivatives kept, and with their own, which set
+#: out from where the former have ended.
+_ROUNDS = {True: 6, False: 3}
+#: Sizes that are tried: enough of them where one, though too large, is seen; and at the very most.
+_ENOUGH, _MOST = 6, 16
 #: How near to the wanted noncentrality sizes have to come: 4 % of it move a chance of 90 % by one
 #: percent.
 _NEAR = 0.04
@@ -87,7 +89,7 @@ def smallest(rehearsal: Rehearsal, law: Law, target: float, per_cent: float) -> 
         nothing = np.zeros((left.size, 0))
         return Visible(law, np.inf, 0.0, 0.0, left, nothing, percent)
     part, squares, point = _search(rehearsal, law, target, linear)
-    reached = squares >= (1.0 - 2.0 * _NEAR) * target
+    reached = squares >= _reached(target)
     response, others = _tangent(rehearsal, nuisance, law, part, point)
     return Visible(
         law, part if reached else np.inf, squares, linear * part**2, response, others, percent
@@ -130,18 +132,24 @@ def _approached(
     """Length in proportion to size leads there in few steps; what is bracketed is halved."""
     low, high = 0.0, np.inf
     tried: list[tuple[float, float, Point]] = []
-    for _ in range(_SEARCH[chord]):
+    for count in range(1, _MOST + 1):
         tried.append((part, *refitted(rehearsal, law, part, at, chord)))
         squares, at = tried[-1][1:]
         ended = squares < target and part >= law.most
-        if abs(squares / target - 1.0) < _NEAR or ended:
+        seen = [each for each in tried if each[1] >= _reached(target)]
+        if abs(squares / target - 1.0) < _NEAR or ended or (seen and count >= _ENOUGH):
             break
         low, high = (part, high) if squares < target else (low, part)
         leap = np.sqrt(target / max(squares, _NONE))
         part = min(part * float(np.clip(leap, 1.0 / _LEAP, _LEAP)), law.most)
         if not low < part < high:
             part = 0.5 * (low + high)
-    return min(tried, key=lambda each: abs(np.log(max(each[1], _NONE) / target)))
+    return min(seen or tried, key=lambda each: abs(np.log(max(each[1], _NONE) / target)))
+
+
+def _reached(target: float) -> float:
+    """Noncentrality that counts as the wanted one."""
+    return (1.0 - 2.0 * _NEAR) * target
 
 
 def refitted(
