@@ -27,6 +27,7 @@ COMMANDS = {
     "effects": "the catalogue of effects: what each adds, its parameters, and a figure",
     "friction-map": "friction against speed and temperature in steady coupled sliding",
     "gap": "what model and measurement disagree on: names the missing effect, adds it, shows it",
+    "plan": "what a campaign could name before it is made: smallest sizes, pairs, the next run",
     "reproduce": "the source study's claims C1 to C15, each with its number, ours, and a verdict",
     "stability": "which steady motions a rig has, and which it can keep to: maps and a page",
     "sweep": "parameter sweep: every combination of some values",

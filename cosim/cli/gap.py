@@ -51,9 +51,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--no-page", action="store_true", help=f"only {RESULT} and {MODEL}: no figures, no FMU"
     )
-    parser.add_argument(
-        "--jobs", metavar="N", type=_count, default=2, help="processes (default: 2)"
-    )
+    parser.add_argument("--jobs", metavar="N", type=count, default=2, help="processes (default: 2)")
     parser.add_argument(
         "--seed",
         metavar="N",
@@ -161,7 +159,8 @@ def _bar() -> Iterator[Callable[..., None]]:
         yield step
 
 
-def _count(text: str) -> int:
+def count(text: str) -> int:
+    """A number of processes."""
     number = _whole(text)
     if number < 1:
         raise ArgumentTypeError(f"{text} is not allowed, allowed is 1 or more")

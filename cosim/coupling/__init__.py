@@ -6,7 +6,6 @@ What couples the models of this product is in `cosim.coupling.case`.
 
 from cosim.coupling.fmu_participant import FmuParticipant
 from cosim.coupling.fmu_unit import FmuError
-from cosim.coupling.ledger import EnergyFlow, Ledger
 from cosim.coupling.participant import (
     Causality,
     CouplingError,
@@ -18,7 +17,7 @@ from cosim.coupling.participant import (
     outputs,
     port_table,
 )
-from cosim.coupling.result import CoupledResult
+from cosim.coupling.result import CoupledResult, EnergyFlow, Ledger
 from cosim.coupling.run import run
 from cosim.coupling.scheme import GaussSeidel, Scheme
 from cosim.coupling.system import Connection, CoupledSystem

@@ -5,9 +5,8 @@ import time as clock
 from collections.abc import Callable
 
 from cosim.coupling.exchange import Exchange, initial_exchange
-from cosim.coupling.ledger import ledger_of
 from cosim.coupling.participant import CouplingError, ParticipantError
-from cosim.coupling.result import CoupledResult, Recording, Status
+from cosim.coupling.result import CoupledResult, Recording, Status, ledger_of
 from cosim.coupling.scheme import Scheme, macro_grid
 from cosim.coupling.system import CoupledSystem
 from cosim.interrupts import deferred_interrupt

@@ -15,6 +15,7 @@ from cosim.files import writable, write_text
 NOISE = 2e-4
 MASS, STIFFNESS, NATURAL_LENGTH = 0.87, 38.5, 0.17
 SPEEDS = (0.06, 0.10, 0.15, 0.25)
+MU_S, MU_K = 0.30, 0.22
 #: s
 DURATION, INTERVAL = 10.0, 0.01
 HIDDEN = {"velocity_weakening": {"linear": 0.8}}
@@ -37,6 +38,25 @@ def write_example(folder: Path, seed: int = 0) -> Path:
     return write_text(_campaign(names), folder / CAMPAIGN)
 
 
+def write_planned_example(folder: Path) -> Path:
+    """The same campaign before it is made: a TOML file without tracks, in a folder that is made.
+
+    Raises OutputRefused where the folder cannot be written to.
+    """
+    writable(folder, (CAMPAIGN,))
+    known = {
+        "name": "planned",
+        "rig": {"spring_natural_length": NATURAL_LENGTH},
+        "noise": {"x": NOISE},
+        "friction": {"mu_s": MU_S, "mu_k": MU_K},
+    }
+    setting = {"mass": MASS, "stiffness": STIFFNESS}
+    record = {"duration": DURATION, "rate": 1.0 / INTERVAL}
+    runs = [setting | {"surface_speed": speed} | record for speed in SPEEDS]
+    tables = [tomli_w.dumps(known), *[f"[[run]]\n{tomli_w.dumps(run)}" for run in runs]]
+    return write_text("\n".join(tables), folder / CAMPAIGN)
+
+
 def _campaign(names: Sequence[str]) -> str:
     """The last run is held out."""
     known = {
@@ -57,7 +77,7 @@ def _parameters(speed: float) -> Parameters:
         {
             "rig": {"mass": MASS, "spring_natural_length": NATURAL_LENGTH},
             "springs": {"stiffness": STIFFNESS},
-            "friction": {"mu_s": 0.30, "mu_k": 0.22},
+            "friction": {"mu_s": MU_S, "mu_k": MU_K},
             "surface": {"speed": speed},
             **HIDDEN,
         }

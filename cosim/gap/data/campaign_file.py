@@ -6,10 +6,10 @@ import math
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 import stickslip
-from pydantic import BaseModel, Field, create_model, model_validator
+from pydantic import AllowInfNan, BaseModel, BeforeValidator, Field, create_model, model_validator
 from stickslip.quantity import Table, quantity
 
 from cosim.gap.data.errors import CampaignError
@@ -68,15 +68,39 @@ def _measured(unit: str, description: str) -> Any:
     return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
 
 
-class Friction(Measured):
-    """Coefficients that were measured by themselves: value and standard deviation."""
+def _expected(value: Any) -> Any:
+    """A number alone is expected, not known: its standard deviation is infinite."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return (float(value), math.inf) if is_number else value
 
-    mu_s: tuple[float, float] = _measured("1", "static friction coefficient")
-    mu_k: tuple[float, float] = _measured("1", "kinetic friction coefficient")
+
+Coefficient = Annotated[
+    tuple[float, Annotated[float, AllowInfNan(True)]], BeforeValidator(_expected)
+]
+
+
+class Friction(Measured):
+    """Coefficients that were measured by themselves: value and standard deviation.
+
+    A number alone is what a plan expects; a fit does not know it.
+    """
+
+    mu_s: Coefficient = _measured("1", "static friction coefficient")
+    mu_k: Coefficient = _measured("1", "kinetic friction coefficient")
+
+    @property
+    def given(self) -> dict[str, tuple[float, float]]:
+        """coefficient -> (value, standard deviation), of those that were measured."""
+        return {key: pair for key, pair in super().given.items() if math.isfinite(pair[1])}
+
+    @property
+    def expected(self) -> dict[str, float]:
+        """coefficient -> value, of those that the file names, measured or not."""
+        return {key: pair[0] for key, pair in super().given.items()}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, (value, deviation) in self.given.items():
+        for key, (value, deviation) in super().given.items():
             if not (value > 0.0 and deviation > 0.0):
                 raise ValueError(
                     f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation] "
@@ -122,14 +146,24 @@ class RunTable(Table):
     ambient_degC: float = quantity(-8.0, "degC", "temperature of the room", ge=-273.15, le=100)
     hold_out: bool = Field(False, description="never used for fitting")
     summary: Summary = Summary()
+    duration: float = quantity(20.0, "s", "of the record, while it is planned", gt=0)
+    rate: float = quantity(100.0, "Hz", "samples a second, while it is planned", gt=0)
 
     @model_validator(mode="after")
-    def _check(self) -> Self:
+    def _check_setting(self) -> Self:
         for key in ("mass", "stiffness", "surface_speed"):
             if key not in self.model_fields_set:
                 raise ValueError(f"{key} is missing, allowed is a number")
         if self.surface_speed == 0.0:
             raise ValueError("surface_speed = 0: nothing is driven, allowed is any other number")
+        return self
+
+
+class MeasuredRunTable(RunTable):
+    """One [[run]] that was made."""
+
+    @model_validator(mode="after")
+    def _check_source(self) -> Self:
         if bool(self.file) == bool(self.summary.given):
             what = "both" if self.file else "neither"
             raise ValueError(f"file and summary: {what} given, allowed is one of the two")
@@ -150,8 +184,13 @@ FILE_NAME = "campaign.toml"
 Checked = TypeVar("Checked", bound=BaseModel)
 
 
-def read_tables(path: Path) -> tuple[CampaignTable, list[RunTable]]:
-    """The campaign's table and those of its runs; CampaignError in one line."""
+def read_tables(
+    path: Path, kind: type[RunTable] = MeasuredRunTable
+) -> tuple[CampaignTable, list[RunTable]]:
+    """The campaign's table and those of its runs; CampaignError in one line.
+
+    kind : `RunTable` where the runs are only planned
+    """
     tables = _parse(path)
     runs = tables.pop("run", None)
     if not isinstance(runs, list) or not all(isinstance(run, dict) for run in runs):
@@ -164,7 +203,7 @@ def read_tables(path: Path) -> tuple[CampaignTable, list[RunTable]]:
         tables["name"] = path.resolve().parent.name or "unnamed"
     campaign = _checked(CampaignTable, tables, str(path))
     return campaign, [
-        _checked(RunTable, run, f"{path}: run {number}") for number, run in enumerate(runs, 1)
+        _checked(kind, run, f"{path}: run {number}") for number, run in enumerate(runs, 1)
     ]
 
 

@@ -1,0 +1,123 @@
+"""`stickslip plan`: its arguments, what it asks, what it leaves behind."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_output
+from cosim.cli.gap import STDOUT, count
+from cosim.files import OutputRefused, writable, write_text
+from cosim.interrupts import held_interrupts
+
+EXAMPLE = "stickslip plan cold_room/campaign.toml -o results/cold_room-plan"
+RESULT, PAGE = "plan.json", "report.html"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "campaign",
+        nargs="?",
+        help="TOML file, or a folder with campaign.toml: as for `stickslip gap`, but a [[run]] "
+        "needs no file: `duration` (s, default 20) and `rate` (Hz, default 100) take its place",
+    )
+    add_output(parser, f"folder of {PAGE}, figures and {RESULT} (default: results/NAME-plan)")
+    parser.add_argument(
+        "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
+    )
+    parser.add_argument(
+        "--write-example",
+        metavar="DIR",
+        help="write a small plan there to try this command on, and do nothing else",
+    )
+    parser.add_argument(
+        "--level",
+        metavar="P",
+        type=_chance,
+        default=0.05,
+        help="chance that something is named where nothing is (default: 0.05)",
+    )
+    parser.add_argument(
+        "--power", metavar="P", type=_chance, default=0.9,
+        help="chance that an effect of the smallest size is named (default: 0.9)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--no-page", action="store_true", help=f"only {RESULT}: no figures, no page"
+    )
+    parser.add_argument("--jobs", metavar="N", type=count, default=2, help="processes (default: 2)")
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.gap import CampaignError
+
+    return (CampaignError, OutputRefused)
+
+
+def execute(arguments: Namespace) -> int:
+    """Read, plan, write, report; 0, or 1 when stopped."""
+    from cosim.gap import CampaignError
+    from cosim.gap.example import write_planned_example
+
+    if arguments.write_example is not None:
+        print(write_planned_example(Path(arguments.write_example)))
+        return DONE
+    if arguments.campaign is None:
+        raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
+    with held_interrupts():
+        plan, data = import_module("cosim.gap.plan"), import_module("cosim.gap.plan.data")
+        safe_name = import_module("cosim.gap.show.model_file").safe_name
+    planned = plan.read_plan(arguments.campaign)
+    folder = Path(arguments.output or Path("results") / f"{safe_name(planned.campaign.name)}-plan")
+    writable(folder, (RESULT, PAGE))
+    copy = Path(arguments.json) if arguments.json not in (None, STDOUT) else None
+    if copy is not None:
+        writable(copy.parent, (copy.name,))
+    for remark in planned.campaign.remarks:
+        print(f"note: {remark}", file=sys.stderr)
+    with tqdm(disable=None, unit="step", leave=False) as bar:
+        answer = plan.make_plan(
+            planned, level=arguments.level, wanted=arguments.power, jobs=arguments.jobs,
+            progress=bar.update,
+        )  # fmt: skip
+    text = data.as_json(answer)
+    with held_interrupts():
+        write_text(text, folder / RESULT)
+        if copy is not None:
+            write_text(text, copy)
+    if arguments.json == STDOUT:
+        print(text, end="")
+    return _shown(answer, data.closing_lines(answer), folder, arguments)
+
+
+def _shown(answer: Any, lines: list[str], folder: Path, arguments: Namespace) -> int:
+    """Figures and page where they are wanted, then the closing lines."""
+    try:
+        if not arguments.no_page:
+            with held_interrupts():
+                page = import_module("cosim.gap.plan.page")
+            page.write_page(answer, folder, folder / PAGE)
+    except KeyboardInterrupt:
+        print(f"error: interrupted while drawing; {RESULT} is in {folder}", file=sys.stderr)
+        return FAILED
+    names = [str(folder / name) for name in (PAGE, RESULT)[arguments.no_page :]]
+    lines = [*lines, f"  files: {', '.join(names)}"]
+    print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
+    return DONE
+
+
+def _chance(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < 1.0:
+        raise ArgumentTypeError(f"{text!r} is not allowed, allowed is a number between 0 and 1")
+    return value
