@@ -33,7 +33,7 @@ from stickslip.kernel.layout import (
     Z_SIZE,
 )
 from stickslip.kernel.outputs import show
-from stickslip.packing import pack
+from stickslip.packing import NOT_BESIDE_STATE_LAW, pack
 from stickslip.status import WHY_NOT
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 
@@ -189,12 +189,13 @@ class StickSlip3DOF(Fmi2Slave):
                     f"{entry['name']} = {value:g}: must lie in {bracket}"
                     f"{'-inf' if low is None else low}, {'inf' if high is None else high}]"
                 )
-        creep = values["friction.stick_creep"]
-        if creep and (values["rate_and_state.direct"] or values["rate_and_state.evolution"]):
-            raise Refused(
-                f"friction.stick_creep = {creep:g} m/s beside rate_and_state, whose contact creeps "
-                "by its own law; give one of the two"
-            )
+        if values["rate_and_state.direct"] or values["rate_and_state.evolution"]:
+            for name, why in NOT_BESIDE_STATE_LAW.items():
+                if values[f"friction.{name}"]:
+                    raise Refused(
+                        f"friction.{name} = {values[f'friction.{name}']:g} m/s beside "
+                        f"rate_and_state, {why}; give one of the two"
+                    )
 
     # --- stepping ---
 

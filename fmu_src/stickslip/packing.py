@@ -46,10 +46,12 @@ from .kernel.layout import (
     P_STIFFNESS,
     P_TABLEAU,
     P_TOLERANCE,
+    P_TRANSITION_EXPONENT,
+    P_TRANSITION_SPEED,
     RAYS,
     REMEMBERED,
 )
-from .kernel.terms import has_local_law, has_memory
+from .kernel.terms import has_ageing, has_local_law, has_memory
 from .tableau import flat_tableau
 
 GRAVITY = 9.81  # m/s^2
@@ -64,8 +66,16 @@ SLOTS = {
     "springs.stiffness": P_STIFFNESS,
     "friction.mu_s": P_MU_S,
     "friction.mu_k": P_MU_K,
+    "friction.transition_speed": P_TRANSITION_SPEED,
+    "friction.transition_exponent": P_TRANSITION_EXPONENT,
     "surface.run_up_time": P_RUN_UP,
     "solver.tolerance": P_TOLERANCE,
+}
+
+#: What of ``friction`` a law of speed and state takes the place of, and why.
+NOT_BESIDE_STATE_LAW = {
+    "stick_creep": "whose contact creeps by its own law",
+    "transition_speed": "whose contact has no mu_s to fall from",
 }
 
 
@@ -87,8 +97,9 @@ def pack(values: Mapping[str, float]) -> list[float]:
     limit = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
     p[P_PRESLIDING] = values["friction.stick_creep"] / limit if limit > 0.0 else 0.0
     set_effect_numbers(p, values)
-    p[P_LOCAL_LAW] = float(has_local_law(p))
-    p[P_FEEDING] = float(REMEMBERED if has_memory(p) else MOVING)
+    falls = p[P_TRANSITION_SPEED] > 0.0
+    p[P_LOCAL_LAW] = float(falls or has_local_law(p))
+    p[P_FEEDING] = float(REMEMBERED if has_memory(p) or (falls and has_ageing(p)) else MOVING)
     for i, name in enumerate(("x", "y", "phi", "vx", "vy", "omega")):
         p[P_INITIAL + i] = values[f"initial.{name}"]
     for i, departure in enumerate(departures.start):

@@ -15,7 +15,7 @@ from pydantic import Field, create_model, model_validator
 
 from .effects import EFFECTS
 from .kernel.layout import CURVE_LIMIT
-from .packing import pack
+from .packing import NOT_BESIDE_STATE_LAW, pack
 from .quantity import Table, quantity
 
 
@@ -129,6 +129,16 @@ class Friction(Table):
         "is sheared before it slides; 0 is off",
         ge=0,
     )
+    transition_speed: float = quantity(
+        0.0,
+        "m/s",
+        "v_s, sliding speed over which friction falls from mu_s to mu_k: "
+        "mu_k + (mu_s - mu_k) exp(-(v / v_s)^transition_exponent); 0: at once",
+        ge=0,
+    )
+    transition_exponent: float = quantity(
+        1.0, "1", "of the transition: 1 exponential, 2 Gaussian", ge=0.5, le=3
+    )
 
 
 class Surface(Table):
@@ -222,11 +232,14 @@ class Parameters(EffectTables):
                 "give one of the two"
             )
         law = self.rate_and_state
-        if self.friction.stick_creep != 0.0 and (law.direct != 0.0 or law.evolution != 0.0):
-            raise ValueError(
-                f"friction.stick_creep = {self.friction.stick_creep:g} m/s beside rate_and_state, "
-                "whose contact creeps by its own law; give one of the two"
-            )
+        if law.direct != 0.0 or law.evolution != 0.0:
+            for name, why in NOT_BESIDE_STATE_LAW.items():
+                value = getattr(self.friction, name)
+                if value != 0.0:
+                    raise ValueError(
+                        f"friction.{name} = {value:g} m/s beside rate_and_state, {why}; "
+                        "give one of the two"
+                    )
         speed = abs(self.surface.speed)
         if 0.0 < speed <= self.friction.stick_creep:
             raise ValueError(

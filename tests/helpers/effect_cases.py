@@ -54,6 +54,13 @@ def with_stick_creep(parameters: Parameters, creep: float) -> Parameters:
     return parameters.model_copy(update={"friction": friction})
 
 
+def with_transition(parameters: Parameters, speed: float, exponent: float = 1.0) -> Parameters:
+    """The same, its friction falling from mu_s to mu_k over a speed, m/s."""
+    law = {"transition_speed": speed, "transition_exponent": exponent}
+    friction = parameters.friction.model_copy(update=law)
+    return parameters.model_copy(update={"friction": friction})
+
+
 def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) -> Parameters:
     """A random rig that moves in the plane, with the given effects on at random sizes."""
     mu_s = draw.uniform(0.1, 0.4)

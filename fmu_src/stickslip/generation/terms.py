@@ -199,6 +199,11 @@ def _questions(effects: Sequence[Effect]) -> list[str]:
             [(e, term) for e, term in local if "speed" in _taken(e, term)],
         ),
         _question(
+            "has_ageing",
+            "Does what a contact holds grow with its age?",
+            _terms_at("static_growth", effects),
+        ),
+        _question(
             "has_memory",
             "Does friction depend on place, distance slid or a state of an effect?",
             remembers,

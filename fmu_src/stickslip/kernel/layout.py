@@ -72,7 +72,9 @@ DISCRETE_STATES = (
     ("MODE", 1),
     ("DIRECTION", 3),  # unit vector of the scaled sliding velocity
     ("SLIPS", 1),  # break-aways since the start
-    ("HOLD_SINCE", 1),  # when the present stick began, s
+    ("HOLD_SINCE", 1),  # since when the contact has aged, s: the present stick's beginning
+    ("AGE_AWAY", 1),  # age of the contact when it last broke away, s
+    ("DISTANCE_AWAY", 1),  # DISTANCE at that moment, m
     ("SLIP_TIME", 1),  # time spent in slip since the start, s
     ("QUASI_STEADY", 1),  # 1 where the direction of a slow slip follows from the load alone
 )
@@ -131,6 +133,8 @@ PARAMETERS = (
     ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see tableau
     ("P_PRESLIDING", 1),  # sliding speed of a stick per load, m/(s N), see stick
     ("P_RELATIVE_STIFFNESS", 4),  # of each spring: what its force is multiplied by
+    ("P_TRANSITION_SPEED", 1),  # over which friction falls from mu_s to mu_k, m/s; 0: at once
+    ("P_TRANSITION_EXPONENT", 1),
 )
 
 # --- e: log of events -------------------------------------------------------------------------
@@ -207,6 +211,10 @@ def scratch(size: int, states: int) -> Slots:
         ("W_STEADY", 3),  # direction of sliding that the load asks for, see steady_sliding
         ("W_RUNNING_UP", 1),  # 1 while the internal step lies in the surface's speed ramp
         ("W_SPAN", 1),  # size of the step that the slopes belong to, s
+        (
+            "W_EXCESS",
+            1,
+        ),  # what friction at the first instant of a slip has over mu_k, see coefficient
     )
 
 

@@ -24,7 +24,8 @@ from ..layout import (
 from ..terms import with_contact_drag
 from .coefficient import (
     kinetic_coefficient,
-    local_coefficient,
+    set_excess,
+    sliding_coefficient,
     slow_coefficient,
     state_coefficient,
 )
@@ -81,7 +82,8 @@ def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: 
     w[W_MEAN_SPEED] = mean_speed
     reference = mu
     if p[P_LOCAL_LAW] == 1.0:
-        reference = local_coefficient(p, u, w, mu, mean_speed)
+        set_excess(p, u, w, mu)
+        reference = sliding_coefficient(p, u, w, mu, mean_speed)
     aged = state_coefficient(p, u, w, mean_speed)
     whole = max(0.0, reference + aged)
     w[W_PAIR] *= whole
