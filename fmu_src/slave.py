@@ -18,6 +18,7 @@ from math import isfinite, ulp
 
 from pythonfmu import Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.enums import Fmi2Status
+from stickslip.contradictions import contradiction
 from stickslip.kernel.advance import advance, initialise
 from stickslip.kernel.layout import (
     DONE,
@@ -33,7 +34,7 @@ from stickslip.kernel.layout import (
     Z_SIZE,
 )
 from stickslip.kernel.outputs import show
-from stickslip.packing import NOT_BESIDE_STATE_LAW, pack
+from stickslip.packing import pack
 from stickslip.status import WHY_NOT
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
 
@@ -189,13 +190,9 @@ class StickSlip3DOF(Fmi2Slave):
                     f"{entry['name']} = {value:g}: must lie in {bracket}"
                     f"{'-inf' if low is None else low}, {'inf' if high is None else high}]"
                 )
-        if values["rate_and_state.direct"] or values["rate_and_state.evolution"]:
-            for name, why in NOT_BESIDE_STATE_LAW.items():
-                if values[f"friction.{name}"]:
-                    raise Refused(
-                        f"friction.{name} = {values[f'friction.{name}']:g} m/s beside "
-                        f"rate_and_state, {why}; give one of the two"
-                    )
+        refusal = contradiction(values)
+        if refusal:
+            raise Refused(refusal)
 
     # --- stepping ---
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import cos, hypot, pi, radians, sin, sqrt
+from math import cos, hypot, log, pi, radians, sin, sqrt
 from random import Random
 from typing import NamedTuple
 
@@ -20,8 +20,11 @@ from .kernel.layout import (
     MOVING,
     P_ANCHOR,
     P_ATTACH,
+    P_BRISTLE_DAMPING,
+    P_BRISTLE_STIFFNESS,
     P_CURVE,
     P_CURVE_POINTS,
+    P_FAST_SLIP,
     P_FEEDING,
     P_FREE_PHI,
     P_FREE_Y,
@@ -50,11 +53,13 @@ from .kernel.layout import (
     P_TRANSITION_SPEED,
     RAYS,
     REMEMBERED,
+    SHEARED,
 )
 from .kernel.terms import has_ageing, has_local_law, has_memory
 from .tableau import flat_tableau
 
 GRAVITY = 9.81  # m/s^2
+LAG = 1e-4
 
 # where each parameter of the core stands, for those that enter the kernel as they are
 SLOTS = {
@@ -70,12 +75,6 @@ SLOTS = {
     "friction.transition_exponent": P_TRANSITION_EXPONENT,
     "surface.run_up_time": P_RUN_UP,
     "solver.tolerance": P_TOLERANCE,
-}
-
-#: What of ``friction`` a law of speed and state takes the place of, and why.
-NOT_BESIDE_STATE_LAW = {
-    "stick_creep": "whose contact creeps by its own law",
-    "transition_speed": "whose contact has no mu_s to fall from",
 }
 
 
@@ -96,10 +95,13 @@ def pack(values: Mapping[str, float]) -> list[float]:
     p[P_MU_K] = with_coefficient_factor(p, values, p[P_MU_K])
     limit = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
     p[P_PRESLIDING] = values["friction.stick_creep"] / limit if limit > 0.0 else 0.0
+    _set_bristles(p, values, limit)
     set_effect_numbers(p, values)
     falls = p[P_TRANSITION_SPEED] > 0.0
     p[P_LOCAL_LAW] = float(falls or has_local_law(p))
-    p[P_FEEDING] = float(REMEMBERED if has_memory(p) or (falls and has_ageing(p)) else MOVING)
+    p[P_FEEDING] = float(SHEARED if p[P_BRISTLE_STIFFNESS] > 0.0 else MOVING)
+    if has_memory(p) or (falls and has_ageing(p)):
+        p[P_FEEDING] = float(REMEMBERED)
     for i, name in enumerate(("x", "y", "phi", "vx", "vy", "omega")):
         p[P_INITIAL + i] = values[f"initial.{name}"]
     for i, departure in enumerate(departures.start):
@@ -115,6 +117,22 @@ def pack(values: Mapping[str, float]) -> list[float]:
     tableau = flat_tableau()
     p[P_TABLEAU : P_TABLEAU + len(tableau)] = tableau
     return p
+
+
+def _set_bristles(p: list[float], values: Mapping[str, float], limit: float) -> None:
+    """Stiffness and damping of a contact that is sheared by so much under the load ``limit``, N.
+
+    From the sliding speed P_FAST_SLIP on no more than exp(-FAST) of friction's excess is left.
+    """
+    distance = values["friction.presliding_distance"]
+    if distance > 0.0:
+        p[P_BRISTLE_STIFFNESS] = limit / distance
+        critical = 2.0 * sqrt(p[P_BRISTLE_STIFFNESS] * p[P_MASS])
+        p[P_BRISTLE_DAMPING] = values["friction.bristle_damping"] * critical
+        speed = p[P_TRANSITION_SPEED]
+        lag = distance * limit / p[P_MASS] / speed**2
+        fast = max(3.0, log(lag / LAG))
+        p[P_FAST_SLIP] = speed * fast ** (1.0 / p[P_TRANSITION_EXPONENT])
 
 
 class Departures(NamedTuple):

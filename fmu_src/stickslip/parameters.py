@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, create_model, model_validator
 
+from .contradictions import contradiction
 from .effects import EFFECTS
 from .kernel.layout import CURVE_LIMIT
-from .packing import NOT_BESIDE_STATE_LAW, pack
+from .packing import pack
 from .quantity import Table, quantity
 
 
@@ -139,6 +140,21 @@ class Friction(Table):
     transition_exponent: float = quantity(
         1.0, "1", "of the transition: 1 exponential, 2 Gaussian", ge=0.5, le=3
     )
+    presliding_distance: float = quantity(
+        0.0,
+        "m",
+        "z_0, shear of the contact under the load mu_s N: its bristles are deflected before they "
+        "slide (LuGre); needs transition_speed; 0: a rigid contact",
+        ge=0,
+        le=0.01,
+    )
+    bristle_damping: float = quantity(
+        0.4,
+        "1",
+        "of the bristles, as part of the critical damping 2 sqrt(sigma_0 m)",
+        ge=0,
+        le=2,
+    )
 
 
 class Surface(Table):
@@ -231,15 +247,9 @@ class Parameters(EffectTables):
                 'rig.surface = "slab" already sets turning_surface.curvature to 1/slab_radius; '
                 "give one of the two"
             )
-        law = self.rate_and_state
-        if law.direct != 0.0 or law.evolution != 0.0:
-            for name, why in NOT_BESIDE_STATE_LAW.items():
-                value = getattr(self.friction, name)
-                if value != 0.0:
-                    raise ValueError(
-                        f"friction.{name} = {value:g} m/s beside rate_and_state, {why}; "
-                        "give one of the two"
-                    )
+        refusal = contradiction(self.flat())
+        if refusal:
+            raise ValueError(refusal)
         speed = abs(self.surface.speed)
         if 0.0 < speed <= self.friction.stick_creep:
             raise ValueError(

@@ -13,6 +13,7 @@ import numpy as np
 
 from .arrays import STATE, RunArrays, inputs
 from .kernel.layout import (
+    BRISTLES,
     HOLD_SINCE,
     INSTANT,
     MODE,
@@ -137,6 +138,8 @@ def _set(run: RunArrays, time: float, restart: Restart) -> None:
     z[SHOWN] = time
     given = np.isfinite(restart.state)
     z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
+    if given.any():  # the shear of the contact belongs to what it was set to
+        z[SHOWN + BRISTLES] = -1.0
     if np.isfinite(
         restart.hold_since
     ):  # a stick's velocity is the surface's; it preslides from there

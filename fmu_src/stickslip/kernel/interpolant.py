@@ -16,6 +16,7 @@ from __future__ import annotations
 from math import isfinite
 
 from . import Floats
+from .bristles.law import has_bristles
 from .layout import (
     ALL_STAGES,
     BETWEEN,
@@ -107,7 +108,7 @@ def interpolate(p: Floats, u: Floats, z: Floats, w: Floats, target: int, time: f
         y = ((y + z[at + 4 * STATES]) * t + z[at + 3 * STATES]) * r
         y = ((y + z[at + 2 * STATES]) * t + z[at + STATES]) * r
         z[target + 1 + i] += (y + z[at]) * t
-    if z[target + MODE] == STICK:
+    if z[target + MODE] == STICK and not has_bristles(p):
         finish_stick(p, u, z, w, HERE, target)
 
 

@@ -169,7 +169,7 @@ def test_the_age_of_a_contact_is_lost_over_a_distance():
 
 
 def test_what_is_left_of_an_age_is_what_the_next_stick_begins_with():
-    """With D far longer than a slip nothing is lost: the next stick goes on at the last one's age."""
+    """With D far longer than a slip nothing is lost: the next stick goes on at the last's age."""
     kept, lost = (
         on_a_line(2.0, 0.01, 5e-3, static_strengthening=AGEING | {"slip_distance": distance})
         for distance in (1e3, 1e-5)

@@ -1,0 +1,168 @@
+"""Bristles between block and surface: the law of LuGre, for a disc in the plane.
+
+A contact is sheared before it slides. Bristles of the stiffness sigma_0 = mu_s N / z_0 are deflected
+by z and give way at the friction N g(u) of a slip (Canudas de Wit, Olsson, Astrom & Lischinsky, IEEE
+Trans. Automat. Contr. 40, 1995):
+
+    F = -(sigma_0 z + sigma_1 z'),    z' = u - sigma_0 |u| z / (N g(u)),
+
+g the coefficient that falls from mu_s to mu_k over v_s, see `friction.coefficient`, and sigma_1 a part
+of the critical damping 2 sqrt(sigma_0 m).
+
+In the plane z has a part (z_x, z_y) of the slide and one z_r of the spin, in the scaled velocities
+(U_x, kappa U_y, kappa a Omega). Shear is uniform over the contact as long as nothing gives way, so
+that the spin's stiffness is a^2 sigma_0 / 2. With the force f and the moment m of the sliding disc,
+per N and N a, g included,
+
+    z_s' = s_s - (sigma_0 |s_s| / (N f)) z_s,    z_r' = s_r - (sigma_0 |s_r| / (2 N m)) z_r,
+
+whose steady state is the disc's friction; along x alone this is the law above. What lies between
+(each point of the disc would have its own bristles) is lumped.
+
+In a slip much faster than v_s the bristles only follow: they are left out there (BRISTLES 0), z as it
+was, and friction is that of the slip, `friction.force`.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from .. import Floats
+from ..contact import holding_ratio, set_holding_load
+from ..friction.force import add_contact_drag, set_sliding_coefficients
+from ..layout import (
+    P_BRISTLE_DAMPING,
+    P_BRISTLE_STIFFNESS,
+    P_LATERAL,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+    SHEAR_X,
+    W_FRICTION,
+    W_PAIR,
+    W_SHEARING,
+    W_SLIDING,
+    W_STATE,
+    W_YIELD_RATE,
+)
+
+# Of its friction that a contact keeps where a law leaves it none: bristles without any would have
+# no stiffness that a step could follow.
+LEAST_FRICTION = 1e-3
+# Slide over spin, or spin over slide, below which one is as good as none: rounding of the
+# quadrature over the contact would be all that is left of its friction.
+NEXT_TO_NONE = 1e-12
+
+
+def has_bristles(p: Floats) -> bool:
+    """Is the contact sheared before it slides?"""
+    return p[P_BRISTLE_STIFFNESS] > 0.0
+
+
+def least_friction(p: Floats) -> float:
+    """Friction that a contact with bristles always has, N."""
+    return LEAST_FRICTION * max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
+
+
+def yield_rate(p: Floats, own: float, other: float, limit: float, whole: float) -> float:
+    """Rate at which bristles give way, 1/s: sigma_0 own / limit.
+
+    own, other: speeds of the slide and the spin or the other way round, m/s; limit: friction against
+    the first, N, and ``whole`` over the limit of it where it vanishes beside the other.
+    """
+    if own > NEXT_TO_NONE * other:
+        return p[P_BRISTLE_STIFFNESS] * own / max(limit, own / (own + other) * least_friction(p))
+    return p[P_BRISTLE_STIFFNESS] * other / max(whole, least_friction(p))
+
+
+def set_bristle_friction(p: Floats, u: Floats, w: Floats):
+    """Friction of the sheared contact, its rates of shear and mean speed, from the contact in ``w``.
+
+    Into ``w[W_FRICTION:]`` (N, N, N m), ``w[W_SHEARING:]`` and ``w[W_MEAN_SPEED]`` (m/s).
+    """
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    stiffness = p[P_BRISTLE_STIFFNESS]
+    damping = p[P_BRISTLE_DAMPING]
+    sx = w[W_SLIDING]
+    sy = kappa * w[W_SLIDING + 1]
+    sr = arm * w[W_SLIDING + 2]
+    set_sliding_coefficients(p, u, w, sx, sy, sr)
+    force = p[P_NORMAL_FORCE] * w[W_PAIR]
+    moment = p[P_NORMAL_FORCE] * w[W_PAIR + 1]
+    sliding = sqrt(sx * sx + sy * sy)
+    spinning = abs(sr)
+    # f = (U/s) mu at next to no slide, m = (s/U) mu / 4 at next to no spin, and 2 mu / 3 of all spin
+    slide = yield_rate(p, sliding, spinning, force, 1.5 * moment)
+    spin = yield_rate(p, spinning, sliding, 2.0 * moment, 0.5 * force)
+    w[W_YIELD_RATE] = max(slide, spin)
+    w[W_SHEARING] = sx - slide * w[W_STATE + SHEAR_X]
+    w[W_SHEARING + 1] = sy - slide * w[W_STATE + SHEAR_X + 1]
+    w[W_SHEARING + 2] = sr - spin * w[W_STATE + SHEAR_X + 2]
+    w[W_FRICTION] = -(stiffness * w[W_STATE + SHEAR_X] + damping * w[W_SHEARING])
+    across = stiffness * w[W_STATE + SHEAR_X + 1] + damping * w[W_SHEARING + 1]
+    turning = stiffness * w[W_STATE + SHEAR_X + 2] + damping * w[W_SHEARING + 2]
+    w[W_FRICTION + 1] = -kappa * across
+    w[W_FRICTION + 2] = -0.5 * arm * turning
+    add_contact_drag(p, w, sx, sy, sr)
+
+
+def storing_power(p: Floats, w: Floats) -> float:
+    """Rate of the bristles' energy, W, from their rates of shear in ``w``."""
+    power = w[W_STATE + SHEAR_X] * w[W_SHEARING] + w[W_STATE + SHEAR_X + 1] * w[W_SHEARING + 1]
+    power += 0.5 * w[W_STATE + SHEAR_X + 2] * w[W_SHEARING + 2]
+    return p[P_BRISTLE_STIFFNESS] * power
+
+
+def bristle_energy(p: Floats, z: Floats, instant: int) -> float:
+    """Energy of the bristles at an instant in ``z``, J."""
+    zx = z[instant + SHEAR_X]
+    zy = z[instant + SHEAR_X + 1]
+    zr = z[instant + SHEAR_X + 2]
+    return 0.5 * p[P_BRISTLE_STIFFNESS] * (zx * zx + zy * zy + 0.5 * zr * zr)
+
+
+def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+    """Shear of a contact that slides steadily as in ``w``, not at rest, into an instant in ``z``."""
+    sx = w[W_SLIDING]
+    sy = p[P_LATERAL] * w[W_SLIDING + 1]
+    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    set_sliding_coefficients(p, u, w, sx, sy, sr)
+    sliding = sqrt(sx * sx + sy * sy)
+    most = p[P_NORMAL_FORCE] / p[P_BRISTLE_STIFFNESS]
+    for i in range(3):
+        z[instant + SHEAR_X + i] = 0.0
+    if sliding > 0.0:
+        z[instant + SHEAR_X] = most * w[W_PAIR] * sx / sliding
+        z[instant + SHEAR_X + 1] = most * w[W_PAIR] * sy / sliding
+    if sr != 0.0:
+        z[instant + SHEAR_X + 2] = 2.0 * most * w[W_PAIR + 1] * sr / abs(sr)
+
+
+def set_holding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+    """Shear of a contact at rest that holds the loads in ``w``, or all it can, into ``z``."""
+    kappa = p[P_LATERAL]
+    set_holding_load(p, w)
+    share = 1.0 / (p[P_BRISTLE_STIFFNESS] * max(1.0, holding_ratio(p, u, w)))
+    z[instant + SHEAR_X] = -share * w[W_FRICTION]
+    z[instant + SHEAR_X + 1] = 0.0
+    z[instant + SHEAR_X + 2] = 0.0
+    if kappa > 0.0:
+        z[instant + SHEAR_X + 1] = -share * w[W_FRICTION + 1] / kappa
+        z[instant + SHEAR_X + 2] = -2.0 * share * w[W_FRICTION + 2] / (kappa * p[P_RADIUS])
+
+
+def yielding_share(p: Floats, w: Floats) -> float:
+    """Part of the sliding that the bristles do not follow, from `set_bristle_friction`.
+
+    0 for bristles without load, 1 in steady sliding; below 0 where they spring back.
+    """
+    sx = w[W_SLIDING]
+    sy = p[P_LATERAL] * w[W_SLIDING + 1]
+    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    size = sx * sx + sy * sy + 0.5 * sr * sr
+    if size == 0.0:
+        return 0.0
+    follow = sx * w[W_SHEARING] + sy * w[W_SHEARING + 1] + 0.5 * sr * w[W_SHEARING + 2]
+    return 1.0 - follow / size

@@ -1,0 +1,113 @@
+"""One internal step of a contact with bristles.
+
+They are stiff only as their own vibration is, so that the explicit method follows them; at a sliding
+speed far above v_s they would be stiffer the faster the slip, and have nothing left to say.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from .. import Floats
+from ..contact import scaled_sliding_speed, speed_scale
+from ..events import time_to_rest
+from ..layout import (
+    BRISTLES,
+    HERE,
+    MODE,
+    NEXT,
+    P_BRISTLE_STIFFNESS,
+    P_FAST_SLIP,
+    P_MASS,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
+    P_RATE,
+    P_TOLERANCE,
+    SLIP,
+    TIME,
+    W_YIELD_RATE,
+)
+from ..rest import look_at
+from ..runge_kutta import load_instant, take_step
+from .events import FAST_SLIP_BEGINS, FAST_SLIP_ENDS, change_mode, slide_steadily
+from .law import set_bristle_friction, yielding_share
+
+# Rate times step up to which DOP853 is stable for bristles of any usual damping; it would find out
+# by itself, and reject every other step.
+STABLE = 6.0
+# Part of the sliding that the bristles may still follow, or spring back from, when they are left
+# out: what is then missing of friction is gone after some z_0 of slip.
+YIELDED = 1e-5
+
+
+def stable_step(p: Floats, w: Floats) -> float:
+    """Longest step with which the method follows the bristles, s; the slopes at its start in ``w``.
+
+    Their own vibration has the rate sqrt(sigma_0 / m), their yielding in slip that of `yield_rate`.
+    """
+    rate = sqrt(p[P_BRISTLE_STIFFNESS] / p[P_MASS])
+    return STABLE / max(rate, w[W_YIELD_RATE])
+
+
+def fast_slip_bound(p: Floats, w: Floats) -> float:
+    """Time in which a fast slip would come to its end at its present rate, s; -1 if it does not.
+
+    With the slopes of `begin_step` and the contact in ``w``.
+    """
+    rest = time_to_rest(p, w)
+    if rest < 0.0:
+        return -1.0
+    speed = scaled_sliding_speed(p, w)
+    aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
+    return rest * max(1e-3, 1.0 - aim / speed)
+
+
+def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Where a fast slip has become slow at NEXT, let it end there, after P_FAST_SLIP or before.
+
+    A step beyond that speed is taken again, shorter.
+    """
+    look_at(p, u, z, w, NEXT)
+    speed = scaled_sliding_speed(p, w)
+    low = 0.0
+    high = z[NEXT + TIME] - z[HERE + TIME]
+    sweep = 0
+    h = high
+    while (speed < p[P_FAST_SLIP] or (speed > FAST_SLIP_ENDS * p[P_FAST_SLIP] and sweep > 0)) and (
+        sweep < 60
+    ):
+        if speed < p[P_FAST_SLIP]:
+            high = h
+        else:
+            low = h
+        h = 0.5 * (low + high)
+        load_instant(p, z, w, HERE)
+        take_step(p, u, z, w, HERE, NEXT, h)
+        look_at(p, u, z, w, NEXT)
+        speed = scaled_sliding_speed(p, w)
+        sweep += 1
+    if speed <= FAST_SLIP_ENDS * p[P_FAST_SLIP]:
+        slide_steadily(p, u, z, w, NEXT, 1.0)
+
+
+def begin_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Leave the bristles out from NEXT on, where the slip is fast and they hardly move any more."""
+    look_at(p, u, z, w, NEXT)
+    if scaled_sliding_speed(p, w) < FAST_SLIP_BEGINS * p[P_FAST_SLIP]:
+        return
+    set_bristle_friction(p, u, w)
+    noise = p[P_TOLERANCE] * speed_scale(p, u) / p[P_RATE]  # of z, in the error test
+    shear = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE] / p[P_BRISTLE_STIFFNESS]
+    if abs(yielding_share(p, w) - 1.0) < YIELDED + 10.0 * noise / shear:
+        slide_steadily(p, u, z, w, NEXT, 0.0)
+
+
+def finish_bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Events of a contact with bristles in the step from HERE to NEXT."""
+    if z[HERE + BRISTLES] == 0.0:
+        end_fast_slip(p, u, z, w)
+        return
+    change_mode(p, u, z, w, e)
+    if z[NEXT + MODE] == SLIP:
+        begin_fast_slip(p, u, z, w)
