@@ -61,6 +61,19 @@ def with_transition(parameters: Parameters, speed: float, exponent: float = 1.0)
     return parameters.model_copy(update={"friction": friction})
 
 
+def with_bristles(
+    parameters: Parameters,
+    distance: float,
+    speed: float = 3e-3,
+    exponent: float = 1.0,
+    damping: float = 0.4,
+) -> Parameters:
+    """The same, its contact sheared by a distance (m) before it slides."""
+    law = {"presliding_distance": distance, "bristle_damping": damping}
+    friction = with_transition(parameters, speed, exponent).friction.model_copy(update=law)
+    return parameters.model_copy(update={"friction": friction})
+
+
 def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) -> Parameters:
     """A random rig that moves in the plane, with the given effects on at random sizes."""
     mu_s = draw.uniform(0.1, 0.4)

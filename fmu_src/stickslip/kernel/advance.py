@@ -12,7 +12,7 @@ from math import isfinite
 from . import Floats
 from .bristles.events import settle_bristles
 from .bristles.law import has_bristles
-from .bristles.step import fast_slip_bound, finish_bristle_step, stable_step
+from .bristles.step import choose_bristles, fast_slip_bound, finish_bristle_step, stable_step
 from .contact import rest_speed, scaled_sliding_speed
 from .events import (
     break_away,
@@ -188,6 +188,7 @@ def spring_status(p: Floats, z: Floats) -> int:
 
 def bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: float) -> int:
     """As `internal_step`, of a contact with bristles; the slopes at HERE are in ``w``."""
+    choose_bristles(p, u, z, w)
     bound = longest_step(p, z, w, -1.0)
     if cap > 0.0:
         bound = min(bound, cap)

@@ -177,5 +177,6 @@ def look_inside(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
         interpolate(p, u, z, w, SHOWN, time)
     else:
         approach(p, u, z, w, time)
-    z[SHOWN + HEAT] = min(max(z[SHOWN + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
+    if not has_bristles(p):  # of which some heat may be booked at the step's end
+        z[SHOWN + HEAT] = min(max(z[SHOWN + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
     z[SHOWN + DISTANCE] = min(max(z[SHOWN + DISTANCE], z[HERE + DISTANCE]), z[NEXT + DISTANCE])
