@@ -59,6 +59,7 @@ from .kernel.terms import has_ageing, has_local_law, has_memory
 from .tableau import flat_tableau
 
 GRAVITY = 9.81  # m/s^2
+# Of its excess, what friction may err by where bristles are left out: worth some 1e-7 m of the way.
 LAG = 1e-4
 
 # where each parameter of the core stands, for those that enter the kernel as they are
@@ -122,7 +123,9 @@ def pack(values: Mapping[str, float]) -> list[float]:
 def _set_bristles(p: list[float], values: Mapping[str, float], limit: float) -> None:
     """Stiffness and damping of a contact that is sheared by so much under the load ``limit``, N.
 
-    From the sliding speed P_FAST_SLIP on no more than exp(-FAST) of friction's excess is left.
+    From the sliding speed P_FAST_SLIP on the bristles trail behind those of steady sliding by no
+    more than the part LAG of the excess of friction: in a slip that gains a = mu_s g, z_0 a / v_s^2
+    times exp(-(u / v_s)^p).
     """
     distance = values["friction.presliding_distance"]
     if distance > 0.0:

@@ -24,6 +24,15 @@ CASES = {
         "surface": {"speed": 0.03},
         "initial": {"vx": 0.03, "y": 0.002},
     },
+    "falling over a speed": {
+        "friction": {"transition_speed": 3e-3, "transition_exponent": 1.5},
+        "static_strengthening": {"rate": 0.03},
+    },
+    "bristles": {
+        "friction": {"transition_speed": 5e-3, "presliding_distance": 5e-5},
+        "static_strengthening": {"rate": 0.03},
+        "surface": {"speed": 0.05, "run_up_time": 0.5},
+    },
     "not as drawn": {
         "lateral_friction": {"ratio": 1.0},
         "rig": {"spring_natural_length": 0.17},

@@ -1,10 +1,10 @@
-"""Stick and slip of a contact with bristles, and where they are left out.
+"""Stick and slip of a contact with bristles, and where these are left out.
 
-Nothing jumps there, so the words are given to what an experimenter would call so. A stick ends, the
-block breaks away, where it slides faster than v_s (friction has lost most of its excess) and the
-bristles follow no further; it sticks again where it slides at less than a tenth of v_s or the bristles
-spring back. The ringing of a block that has come to rest on its bristles is no slip. Only what counts
-slips, and the age of the contact, depend on these words.
+Nothing jumps there, so the words are given to what an experimenter would call so. The block breaks
+away where it slides faster than v_s, so that friction has lost most of its excess, and the bristles
+follow no further; it sticks again where it slides at less than a tenth of v_s, or the bristles
+spring back. The ringing of a block that has come to rest on its bristles is no slip. Only the count
+of slips and the age of the contact depend on these words.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ FAST_SLIP_BEGINS = 1.25
 def mode_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
     """How far the contact is beyond its mode at an instant in ``z``: above 0 it has changed.
 
-    The instant's mode says whether a break-away or a new stick is looked for. Continuous, 1 is much.
+    The instant's mode says whether a break-away or a new stick is looked for.
     """
     look_at(p, u, z, w, instant)
     speed = scaled_sliding_speed(p, w) / p[P_TRANSITION_SPEED]
@@ -140,7 +140,10 @@ def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, insta
         z[Z_ENERGY] -= bristle_energy(p, z, instant)
         z[instant + BRISTLES] = 1.0
         before = z[instant + MODE]
-        if speed > p[P_TRANSITION_SPEED]:
+        slow = p[P_TRANSITION_SPEED]
+        if before == SLIP:
+            slow *= STICK_SPEED
+        if speed > slow:
             z[instant + MODE] = SLIP
             load_instant(p, z, w, instant)
             set_sliding_shear(p, u, z, w, instant)

@@ -1,26 +1,26 @@
 """Bristles between block and surface: the law of LuGre, for a disc in the plane.
 
-A contact is sheared before it slides. Bristles of the stiffness sigma_0 = mu_s N / z_0 are deflected
-by z and give way at the friction N g(u) of a slip (Canudas de Wit, Olsson, Astrom & Lischinsky, IEEE
-Trans. Automat. Contr. 40, 1995):
+A contact is sheared before it slides. Bristles of the stiffness sigma_0 = mu_s N / z_0 are bent by
+z and give way at the friction N g(u) of a slip (Canudas de Wit, Olsson, Astrom & Lischinsky, IEEE
+Trans. Automat. Contr. 40, 1995),
 
     F = -(sigma_0 z + sigma_1 z'),    z' = u - sigma_0 |u| z / (N g(u)),
 
-g the coefficient that falls from mu_s to mu_k over v_s, see `friction.coefficient`, and sigma_1 a part
-of the critical damping 2 sqrt(sigma_0 m).
+with the coefficient g that falls from mu_s to mu_k over v_s, see `friction.coefficient`, and sigma_1
+a part of the critical damping 2 sqrt(sigma_0 m).
 
-In the plane z has a part (z_x, z_y) of the slide and one z_r of the spin, in the scaled velocities
+In the plane z has parts (z_x, z_y) of the slide and z_r of the spin, in the scaled velocities
 (U_x, kappa U_y, kappa a Omega). Shear is uniform over the contact as long as nothing gives way, so
-that the spin's stiffness is a^2 sigma_0 / 2. With the force f and the moment m of the sliding disc,
-per N and N a, g included,
+that the stiffness against a turn is a^2 sigma_0 / 2. With force f and moment m of the sliding disc,
+per N and N a and with g in them,
 
-    z_s' = s_s - (sigma_0 |s_s| / (N f)) z_s,    z_r' = s_r - (sigma_0 |s_r| / (2 N m)) z_r,
+    z_s' = s_s - (sigma_0 |s_s| / (N f)) z_s,    z_r' = s_r - (sigma_0 |s_r| / (2 N m)) z_r:
 
-whose steady state is the disc's friction; along x alone this is the law above. What lies between
-(each point of the disc would have its own bristles) is lumped.
+steady sliding has the disc's friction, and along x alone this is the law above. What lies between
+is lumped: each point of the disc would have bristles of its own.
 
-In a slip much faster than v_s the bristles only follow: they are left out there (BRISTLES 0), z as it
-was, and friction is that of the slip, `friction.force`.
+In a slip much faster than v_s the bristles only follow: they are left out there (BRISTLES is 0), z
+stays as it was, and friction is that of a slip, see `friction.force`.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ from ..layout import (
     W_YIELD_RATE,
 )
 
-# Of its friction that a contact keeps where a law leaves it none: bristles without any would have
-# no stiffness that a step could follow.
+# Of its friction that a contact keeps where a law leaves it none: without a limit bristles would
+# give way faster than any step could follow.
 LEAST_FRICTION = 1e-3
 # Slide over spin, or spin over slide, below which one is as good as none: rounding of the
 # quadrature over the contact would be all that is left of its friction.
@@ -68,8 +68,8 @@ def least_friction(p: Floats) -> float:
 def yield_rate(p: Floats, own: float, other: float, limit: float, whole: float) -> float:
     """Rate at which bristles give way, 1/s: sigma_0 own / limit.
 
-    own, other: speeds of the slide and the spin or the other way round, m/s; limit: friction against
-    the first, N, and ``whole`` over the limit of it where it vanishes beside the other.
+    own, other: speeds of the slide and the spin or the other way round, m/s; limit: friction
+    against the first, N, and ``whole`` what stands for it where the first is next to none.
     """
     if own > NEXT_TO_NONE * other:
         return p[P_BRISTLE_STIFFNESS] * own / max(limit, own / (own + other) * least_friction(p))
@@ -77,7 +77,7 @@ def yield_rate(p: Floats, own: float, other: float, limit: float, whole: float) 
 
 
 def set_bristle_friction(p: Floats, u: Floats, w: Floats):
-    """Friction of the sheared contact, its rates of shear and mean speed, from the contact in ``w``.
+    """Friction of the sheared contact in ``w``, its rates of shear and mean sliding speed.
 
     Into ``w[W_FRICTION:]`` (N, N, N m), ``w[W_SHEARING:]`` and ``w[W_MEAN_SPEED]`` (m/s).
     """
@@ -93,7 +93,7 @@ def set_bristle_friction(p: Floats, u: Floats, w: Floats):
     moment = p[P_NORMAL_FORCE] * w[W_PAIR + 1]
     sliding = sqrt(sx * sx + sy * sy)
     spinning = abs(sr)
-    # f = (U/s) mu at next to no slide, m = (s/U) mu / 4 at next to no spin, and 2 mu / 3 of all spin
+    # f = mu U/s at next to no slide, m = mu s/(4 U) at next to no spin; all spin has m = 2 mu / 3
     slide = yield_rate(p, sliding, spinning, force, 1.5 * moment)
     spin = yield_rate(p, spinning, sliding, 2.0 * moment, 0.5 * force)
     w[W_YIELD_RATE] = max(slide, spin)
@@ -124,7 +124,7 @@ def bristle_energy(p: Floats, z: Floats, instant: int) -> float:
 
 
 def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
-    """Shear of a contact that slides steadily as in ``w``, not at rest, into an instant in ``z``."""
+    """Shear of a contact that slides steadily as in ``w``, not at rest, into ``z``."""
     sx = w[W_SLIDING]
     sy = p[P_LATERAL] * w[W_SLIDING + 1]
     sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]

@@ -1,7 +1,7 @@
 """One internal step of a contact with bristles.
 
-They are stiff only as their own vibration is, so that the explicit method follows them; at a sliding
-speed far above v_s they would be stiffer the faster the slip, and have nothing left to say.
+They are stiff only as their own vibration is, so that the explicit method follows them. At sliding
+speeds far above v_s they would be the stiffer the faster the slip, and have nothing left to say.
 """
 
 from __future__ import annotations
@@ -47,7 +47,6 @@ STABLE = 6.0
 # Part of the sliding that the bristles may still follow, or spring back from, when they are left
 # out: what is then missing of friction is gone after some z_0 of slip.
 YIELDED = 1e-5
-
 # Angle by which friction may then lag behind the sliding: worth a ten-thousandth of it, across.
 TURNS = 1e-4
 
@@ -79,24 +78,31 @@ def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats):
 
     A step beyond that speed is taken again, shorter.
     """
+    look_at(p, u, z, w, HERE)
+    fastest = scaled_sliding_speed(p, w)
     look_at(p, u, z, w, NEXT)
     speed = scaled_sliding_speed(p, w)
+    aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
     low = 0.0
     high = z[NEXT + TIME] - z[HERE + TIME]
+    slowest = speed
     sweep = 0
-    h = high
-    while (speed < p[P_FAST_SLIP] or (speed > FAST_SLIP_ENDS * p[P_FAST_SLIP] and sweep > 0)) and (
-        sweep < 60
-    ):
-        if speed < p[P_FAST_SLIP]:
-            high = h
-        else:
-            low = h
+    beyond = speed < p[P_FAST_SLIP]
+    while beyond and sweep < 60:
         h = 0.5 * (low + high)
+        if sweep % 3 != 2:
+            h = low + (high - low) * (fastest - aim) / (fastest - slowest)
         load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, h)
         look_at(p, u, z, w, NEXT)
         speed = scaled_sliding_speed(p, w)
+        if speed < p[P_FAST_SLIP]:
+            high = h
+            slowest = speed
+        else:
+            low = h
+            fastest = speed
+            beyond = speed > FAST_SLIP_ENDS * p[P_FAST_SLIP]
         sweep += 1
     if speed <= FAST_SLIP_ENDS * p[P_FAST_SLIP]:
         slide_steadily(p, u, z, w, NEXT, 1.0)
