@@ -80,10 +80,11 @@ def change_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     high = z[NEXT + TIME] - z[HERE + TIME]
     excess_low = mode_excess(p, u, z, w, HERE)
     excess_high = excess
-    finest = max(1e-9, p[P_TOLERANCE]) * high  # nothing that moves depends on it but the age
+    enough = max(1e-9, p[P_TOLERANCE])  # nothing that moves depends on it but the age
+    finest = enough * high
     side = 0
     sweep = 0
-    while high - low > finest and excess != 0.0 and excess_low < 0.0 and sweep < 200:
+    while high - low > finest and abs(excess) > enough and excess_low < 0.0 and sweep < 200:
         h = 0.5 * (low + high)
         if sweep % 4 != 3:
             h = high - excess_high * (high - low) / (excess_high - excess_low)
@@ -103,7 +104,7 @@ def change_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
                 excess_low = 0.5 * excess_low
             side = 1
         sweep += 1
-    if excess < 0.0:
+    if excess < -enough:
         load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, high)
     load_instant(p, z, w, NEXT)

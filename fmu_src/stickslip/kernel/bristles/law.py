@@ -6,7 +6,7 @@ Trans. Automat. Contr. 40, 1995),
 
     F = -(sigma_0 z + sigma_1 z'),    z' = u - sigma_0 |u| z / (N g(u)),
 
-with the coefficient g that falls from mu_s to mu_k over v_s, see `friction.coefficient`, and sigma_1
+with the coefficient g that falls from mu_s to mu_k over v_s, see `friction.coefficient`; sigma_1 is
 a part of the critical damping 2 sqrt(sigma_0 m).
 
 In the plane z has parts (z_x, z_y) of the slide and z_r of the spin, in the scaled velocities
