@@ -55,6 +55,7 @@ from .layout import (
     TIME,
     TOO_STIFF,
     U_SIZE,
+    UNKNOWN,
     W_SLIDING,
     Z_ENERGY,
     Z_HAS_NEXT,
@@ -84,7 +85,7 @@ def initialise(p: Floats, z: Floats, time: float):
         z[SHOWN + X + i] = p[P_INITIAL + i]
     z[SHOWN + MODE] = STICK
     z[SHOWN + DIRECTION] = 1.0
-    z[SHOWN + BRISTLES] = -1.0
+    z[SHOWN + BRISTLES] = UNKNOWN
     z[Z_STEP] = 0.01 / p[P_RATE]
     z[Z_ENERGY] = block_energy(p, z, SHOWN)
     z[Z_TIME_BEFORE] = time

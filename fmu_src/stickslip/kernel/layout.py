@@ -34,6 +34,8 @@ Slots = Sequence[tuple[str, int]]
 # --- numbers that are no places ---------------------------------------------------------------
 STICK = 0  # modes
 SLIP = 1
+UNKNOWN = -1.0  # shear of the contact, see BRISTLES
+HELD = -2.0  # not known either, but of a block that has stuck for a while
 CURVE_LIMIT = 16  # points of a force-length curve that ``p`` has room for
 CURVE_WIDTH = 4  # extension, force, stiffness, energy
 STAGES = 12  # of a step
@@ -78,7 +80,7 @@ DISCRETE_STATES = (
     ("DISTANCE_AWAY", 1),  # DISTANCE at that moment, m
     ("SLIP_TIME", 1),  # time spent in slip since the start, s
     ("QUASI_STEADY", 1),  # 1 where the direction of a slow slip follows from the load alone
-    ("BRISTLES", 1),  # 1 where the contact's shear is integrated; 0 in a fast slip; -1 not known
+    ("BRISTLES", 1),  # 1 where the contact's shear is integrated; 0 in a fast slip; else not known
 )
 
 # --- u: inputs --------------------------------------------------------------------------------

@@ -128,7 +128,10 @@ def sheared(parameters):
 
 
 def test_bristles_have_the_shear_that_a_window_asks_for(sheared):
-    """In stick that of the load at rest, in slip that of steady sliding: what was left is small."""
+    """In stick that of a load that grows, in slip that of steady sliding: what is left is small.
+
+    The way into a break-away, some 0.1 s after the first window's begin, makes more of it.
+    """
     times = np.linspace(0.0, 6.0, 601)
     start = Restart(0, state(0, 0, 0, SPEED))
     whole = simulate_restarted(sheared, SPEED, COLD, times, [start])
@@ -145,7 +148,8 @@ def test_bristles_have_the_shear_that_a_window_asks_for(sheared):
         cut = simulate_restarted(sheared, SPEED, COLD, times, [first, window])
         rows = slice(window.row, window.row + 15)
         assert cut[window.row, O_MODE] == whole[window.row, O_MODE]
-        assert np.abs(cut[rows, O_X] - whole[rows, O_X]).max() < 2e-6
+        apart = np.abs(cut[rows, O_X] - whole[rows, O_X])
+        assert apart[:8].max() < 1e-6 and apart.max() < 3e-5
 
 
 def test_a_window_that_sets_nothing_leaves_the_shear(sheared):

@@ -18,6 +18,7 @@ from ..friction.coefficient import age_left
 from ..layout import (
     BRISTLES,
     HEAT,
+    HELD,
     HERE,
     HOLD_SINCE,
     MODE,
@@ -36,6 +37,7 @@ from .law import (
     bristle_energy,
     set_bristle_friction,
     set_holding_shear,
+    set_presliding_shear,
     set_sliding_shear,
     yielding_share,
 )
@@ -132,12 +134,14 @@ def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, insta
     """Make an instant consistent at which a run begins, is set to a state, or its inputs change.
 
     Where the shear is not known, it is that of steady sliding in slip, and in stick what the
-    load asks for; the run's energy then counts from there.
+    load asks for; the run's energy then counts from there. A block that is known to have been HELD
+    has the velocity of its presliding, too.
     """
     look_at(p, u, z, w, instant)
     speed = scaled_sliding_speed(p, w)
     fast = FAST_SLIP_ENDS * p[P_FAST_SLIP]
     if z[instant + BRISTLES] < 0.0:
+        held = z[instant + BRISTLES] == HELD
         z[Z_ENERGY] -= bristle_energy(p, z, instant)
         z[instant + BRISTLES] = 1.0
         before = z[instant + MODE]
@@ -153,6 +157,8 @@ def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, insta
         else:
             z[instant + MODE] = STICK
             set_holding_shear(p, u, z, w, instant)
+            if held:
+                set_presliding_shear(p, u, z, w, instant)
         if z[instant + MODE] != before:
             if before == STICK:
                 note_break_away(z, instant)

@@ -28,24 +28,36 @@ from __future__ import annotations
 from math import sqrt
 
 from .. import Floats
-from ..contact import holding_ratio, set_holding_load
+from ..contact import holding_ratio, scaled_sliding_speed, set_contact, set_holding_load
 from ..friction.force import add_contact_drag, set_sliding_coefficients
 from ..layout import (
+    OMEGA,
     P_BRISTLE_DAMPING,
     P_BRISTLE_STIFFNESS,
+    P_FREE_PHI,
+    P_FREE_Y,
     P_LATERAL,
     P_MU_K,
     P_MU_S,
     P_NORMAL_FORCE,
     P_RADIUS,
+    P_RATE,
+    P_TRANSITION_SPEED,
     SHEAR_X,
+    TIME,
+    VX,
+    VY,
+    W_DIRECTION,
     W_FRICTION,
     W_PAIR,
     W_SHEARING,
     W_SLIDING,
     W_STATE,
+    W_STEADY,
     W_YIELD_RATE,
+    X,
 )
+from ..steady_sliding import LOOK_AHEAD
 
 # Of its friction that a contact keeps where a law leaves it none: without a limit bristles would
 # give way faster than any step could follow.
@@ -151,6 +163,52 @@ def set_holding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
     if kappa > 0.0:
         z[instant + SHEAR_X + 1] = -share * w[W_FRICTION + 1] / kappa
         z[instant + SHEAR_X + 2] = -2.0 * share * w[W_FRICTION + 2] / (kappa * p[P_RADIUS])
+
+
+def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+    """Shear and velocity of a contact whose load grows as the surface carries the block along.
+
+    z' is the rate of the load over sigma_0, and F the load; the sliding velocity s that has this
+    solves s = z' + r(s) z, with the rate of yielding r, by iteration. Inertia is left out.
+    """
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    ahead = LOOK_AHEAD / p[P_RATE]
+    for i in range(3):
+        w[W_STEADY + i] = z[instant + SHEAR_X + i]  # under the load now
+    for i in range(3):
+        w[W_STATE + X + i] += ahead * w[W_STATE + VX + i]
+    w[W_STATE + TIME] += ahead
+    set_contact(p, u, w, W_STATE)
+    set_holding_shear(p, u, z, w, instant)
+    for i in range(3):
+        w[W_STATE + X + i] -= ahead * w[W_STATE + VX + i]
+        w[W_DIRECTION + i] = (z[instant + SHEAR_X + i] - w[W_STEADY + i]) / ahead
+        delay = p[P_BRISTLE_DAMPING] / p[P_BRISTLE_STIFFNESS]
+        z[instant + SHEAR_X + i] = w[W_STEADY + i] - delay * w[W_DIRECTION + i]
+        w[W_STATE + SHEAR_X + i] = z[instant + SHEAR_X + i]
+        w[W_SLIDING + i] = 0.0
+    w[W_STATE + TIME] -= ahead
+    most = p[P_TRANSITION_SPEED]
+    change = most
+    sweep = 0
+    while change > 1e-9 * most and sweep < 100:
+        set_bristle_friction(p, u, w)
+        ex = w[W_DIRECTION] - w[W_SHEARING]
+        ey = w[W_DIRECTION + 1] - w[W_SHEARING + 1]
+        er = w[W_DIRECTION + 2] - w[W_SHEARING + 2]
+        change = sqrt(ex * ex + ey * ey + er * er)
+        w[W_SLIDING] += ex
+        if kappa > 0.0:
+            w[W_SLIDING + 1] += ey / kappa
+            w[W_SLIDING + 2] += er / arm
+        if scaled_sliding_speed(p, w) > most:  # no load that grows is held any more
+            sweep = 100
+        sweep += 1
+    if sweep < 100:
+        z[instant + VX] += w[W_SLIDING]
+        z[instant + VY] += p[P_FREE_Y] * w[W_SLIDING + 1]
+        z[instant + OMEGA] += p[P_FREE_PHI] * w[W_SLIDING + 2]
 
 
 def yielding_share(p: Floats, w: Floats) -> float:
