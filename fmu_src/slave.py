@@ -28,12 +28,14 @@ from stickslip.kernel.layout import (
     P_MU_S,
     P_NORMAL_FORCE,
     P_PRESLIDING,
+    P_TABLE_POINTS,
     U_SIZE,
     U_SPEED,
     W_SIZE,
     Z_SIZE,
 )
 from stickslip.kernel.outputs import show
+from stickslip.kernel.terms import has_dry_law
 from stickslip.packing import pack
 from stickslip.status import WHY_NOT
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
@@ -175,6 +177,11 @@ class StickSlip3DOF(Fmi2Slave):
             tighter = max(self.tolerance, FINEST_TOLERANCE)
             values["solver.tolerance"] = min(values["solver.tolerance"], tighter)
         self.p[:] = pack(values)
+        if self.p[P_TABLE_POINTS] and has_dry_law(self.p):
+            raise Refused(
+                "friction.table_speed beside an effect with another law of the sliding speed; "
+                "give one of the two"
+            )
         initialise(self.p, self.z, self.start)
         self._advance(self.start)
         self.stale = False

@@ -33,6 +33,11 @@ SPECIAL: dict[str, Entry] = {
         "min": 0,
         "description": "moment of inertia about the vertical; 0: that of a disc, m a^2 / 2",
     },
+    **{
+        f"friction.table_{of}[{i + 1}]": {"min": 0}
+        for of in ("speed", "mu")
+        for i in range(layout.CURVE_LIMIT)
+    },
 }
 DESCRIBED = ("name", "unit", "nominal", "min", "max", "description", "start")
 
@@ -129,7 +134,9 @@ UNITS: dict[str, dict[str, float] | None] = {
     "Hz": {"s": -1},
     "s/m": {"s": 1, "m": -1},
     "N/m3": {"kg": 1, "m": -2, "s": -2},
+    "N/m5": {"kg": 1, "m": -4, "s": -2},
     "N.s/m": {"kg": 1, "s": -1},
+    "N.s2/m2": {"kg": 1, "m": -1},
     "N.m.s": {"kg": 1, "m": 2, "s": -1},
     "1/m": {"m": -1},
     "1/s": {"s": -1},

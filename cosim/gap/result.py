@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.gap.camera.faults import is_fault
 from cosim.gap.data import Campaign
 from cosim.gap.diagnostics.model_track import ModelTrack
 from cosim.gap.diagnostics.regimes import RegimeAnalysis
@@ -75,7 +76,8 @@ class FittedModel:
 
     Attributes
     ----------
-    values : `block.parameter` -> fitted value; also `offset.x`, `offset.y`, the tracker's zero, m
+    values : `block.parameter` -> fitted value; also `offset.x`, `offset.y`, the tracker's zero, m,
+        and its faults, `measurement.*`
     settings : parameters that are set, not fitted, where they differ from what is known of the rig
     intervals : `block.parameter` -> 95 % interval (low, high); of those that have one
     degrees_of_freedom : motions that the model has
@@ -98,10 +100,14 @@ class FittedModel:
         raise KeyError(name)
 
     def parameters(self, run: FittedRun) -> dict[str, float]:
-        """`block.parameter` -> value for one run: fitted, set, its own; not the tracker's zero."""
+        """`block.parameter` -> value for one run: fitted, set, its own; not the tracker's."""
         every = {**self.settings, **self.values, **run.own}
         every = model_parameters(run.track.run.surface_speed, every)
-        return {key: value for key, value in every.items() if not key.startswith("offset.")}
+        return {
+            key: value
+            for key, value in every.items()
+            if not (key.startswith("offset.") or is_fault(key))
+        }
 
 
 @dataclass(frozen=True)

@@ -223,7 +223,7 @@ def read_scenario(source: str | Path = "reference") -> Scenario:
         # tomllib lets through what Python itself refuses: a number of 5000 digits, a date of
         # month 13, a thousand nested brackets
         raise ScenarioError(f"{source}: not TOML that can be used: {error}") from None
-    _find_mesh(tables, Path(source).parent)
+    _find_files(tables, Path(source).parent)
     if "name" not in tables:
         tables["name"] = Path(source).name.removesuffix(SUFFIX)
     try:
@@ -232,11 +232,16 @@ def read_scenario(source: str | Path = "reference") -> Scenario:
         raise ScenarioError(f"{source}: {fault}") from None
 
 
-def _find_mesh(tables: dict[str, Any], folder: Path) -> None:
-    """A mesh is named from where the scenario is, and found from everywhere."""
-    ice = tables.get("ice")
-    if isinstance(ice, dict) and isinstance(ice.get("mesh"), str) and ice["mesh"]:
-        ice["mesh"] = str((folder / ice["mesh"]).resolve())
+#: Keys that name a file.
+_FILES = (("ice", "mesh"), ("friction", "table"))
+
+
+def _find_files(tables: dict[str, Any], folder: Path) -> None:
+    """A file is named from where the scenario is, and found from everywhere."""
+    for table, key in _FILES:
+        entries = tables.get(table)
+        if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]:
+            entries[key] = str((folder / entries[key]).resolve())
 
 
 def _read_text(source: str | Path) -> str:

@@ -9,7 +9,7 @@
 from typing import TYPE_CHECKING, Any
 
 from .effects import EFFECTS
-from .friction_law import friction_coefficient
+from .friction.law import friction_coefficient
 from .parameters import Friction, Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
 from .simulate import simulate
 from .trajectory import Trajectory

@@ -35,6 +35,7 @@ from .kernel.layout import (
     P_MASS,
     P_MU_K,
     P_MU_S,
+    P_MU_SCALE,
     P_NATURAL_LENGTH,
     P_NORMAL_FORCE,
     P_PRESLIDING,
@@ -47,6 +48,8 @@ from .kernel.layout import (
     P_SIZE,
     P_SPEED_SCALE,
     P_STIFFNESS,
+    P_TABLE,
+    P_TABLE_POINTS,
     P_TABLEAU,
     P_TOLERANCE,
     P_TRANSITION_EXPONENT,
@@ -54,6 +57,7 @@ from .kernel.layout import (
     RAYS,
     REMEMBERED,
     SHEARED,
+    TABLE_WIDTH,
 )
 from .kernel.terms import has_ageing, has_local_law, has_memory
 from .tableau import flat_tableau
@@ -94,12 +98,14 @@ def pack(values: Mapping[str, float]) -> list[float]:
     p[P_NORMAL_FORCE] = p[P_MASS] * GRAVITY
     p[P_MU_S] = with_coefficient_factor(p, values, p[P_MU_S])
     p[P_MU_K] = with_coefficient_factor(p, values, p[P_MU_K])
+    p[P_MU_SCALE] = p[P_MU_K]
+    _set_table(p, values)
     limit = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
     p[P_PRESLIDING] = values["friction.stick_creep"] / limit if limit > 0.0 else 0.0
     _set_bristles(p, values, limit)
     set_effect_numbers(p, values)
     falls = p[P_TRANSITION_SPEED] > 0.0
-    p[P_LOCAL_LAW] = float(falls or has_local_law(p))
+    p[P_LOCAL_LAW] = float(falls or p[P_TABLE_POINTS] > 0.0 or has_local_law(p))
     p[P_FEEDING] = float(SHEARED if p[P_BRISTLE_STIFFNESS] > 0.0 else MOVING)
     if has_memory(p) or (falls and has_ageing(p)):
         p[P_FEEDING] = float(REMEMBERED)
@@ -192,27 +198,15 @@ def _place_springs(p: list[float], values: Mapping[str, float]) -> None:
 
 
 def _set_curve(p: list[float], values: Mapping[str, float]) -> None:
-    """Points of the force-length curve with monotone slopes (Fritsch & Butland) and energies.
-
-    The curve ends where the extensions stop growing; two points at least make a curve.
-    """
-    x = [values[f"springs.force_curve_extension[{i + 1}]"] for i in range(CURVE_LIMIT)]
-    f = [values[f"springs.force_curve_force[{i + 1}]"] for i in range(CURVE_LIMIT)]
-    count = 1
-    while count < CURVE_LIMIT and x[count] > x[count - 1]:
-        count += 1
-    if count == 1:
+    """Points of the force-length curve with monotone slopes (Fritsch & Butland) and energies."""
+    x, f = _points(values, "springs.force_curve_extension", "springs.force_curve_force")
+    if not x:
         return
+    count = len(x)
     p[P_CURVE_POINTS] = float(count)
     span = [x[i + 1] - x[i] for i in range(count - 1)]
     rise = [(f[i + 1] - f[i]) / span[i] for i in range(count - 1)]
-    slope = [rise[0]] * count
-    slope[-1] = rise[-1]
-    for i in range(1, count - 1):
-        slope[i] = 0.0
-        if rise[i - 1] * rise[i] > 0.0:
-            before, after = 2.0 * span[i] + span[i - 1], span[i] + 2.0 * span[i - 1]
-            slope[i] = (before + after) / (before / rise[i - 1] + after / rise[i])
+    slope = [rise[0], *_inner_slopes(span, rise), rise[-1]]
     energy = 0.0
     for i in range(count):
         if i > 0:
@@ -220,6 +214,68 @@ def _set_curve(p: list[float], values: Mapping[str, float]) -> None:
             energy += h * (f[i - 1] + f[i]) / 2.0 + h * h * (slope[i - 1] - slope[i]) / 12.0
         at = P_CURVE + CURVE_WIDTH * i
         p[at : at + 4] = x[i], f[i], slope[i], energy
+
+
+def _set_table(p: list[float], values: Mapping[str, float]) -> None:
+    """Points of the table of mu_k over the sliding speed, with PCHIP's slopes.
+
+    The table takes the place of mu_k, which is then the table's value at rest. What depends on the
+    load alone multiplies it as it does mu_k.
+    """
+    v, mu = _points(values, "friction.table_speed", "friction.table_mu")
+    if not v:
+        return
+    count = len(v)
+    p[P_TABLE_POINTS] = float(count)
+    span = [v[i + 1] - v[i] for i in range(count - 1)]
+    rise = [(mu[i + 1] - mu[i]) / span[i] for i in range(count - 1)]
+    slope = [
+        _end_slope(span, rise),
+        *_inner_slopes(span, rise),
+        _end_slope(span[::-1], rise[::-1]),
+    ]
+    for i in range(count):
+        at = P_TABLE + TABLE_WIDTH * i
+        p[at : at + TABLE_WIDTH] = v[i], mu[i], slope[i]
+    p[P_MU_SCALE] = with_coefficient_factor(p, values, 1.0)
+    p[P_MU_K] = p[P_MU_SCALE] * mu[0]
+
+
+def _points(values: Mapping[str, float], first: str, second: str) -> tuple[list[float], ...]:
+    """The points of two parameters that make a curve; none where they are fewer than two.
+
+    The curve ends where the first stops growing: the places that it leaves unused do not count.
+    """
+    x = [values[f"{first}[{i + 1}]"] for i in range(CURVE_LIMIT)]
+    y = [values[f"{second}[{i + 1}]"] for i in range(CURVE_LIMIT)]
+    count = 1
+    while count < CURVE_LIMIT and x[count] > x[count - 1]:
+        count += 1
+    return ([], []) if count == 1 else (x[:count], y[:count])
+
+
+def _inner_slopes(span: list[float], rise: list[float]) -> list[float]:
+    """Slopes at the inner points: the weighted harmonic mean of the secants; 0 at an extremum."""
+    slopes = []
+    for i in range(1, len(span)):
+        slope = 0.0
+        if rise[i - 1] * rise[i] > 0.0:
+            before, after = 2.0 * span[i] + span[i - 1], span[i] + 2.0 * span[i - 1]
+            slope = (before + after) / (before / rise[i - 1] + after / rise[i])
+        slopes.append(slope)
+    return slopes
+
+
+def _end_slope(span: list[float], rise: list[float]) -> float:
+    """PCHIP's slope at the first point: of the parabola through three, kept monotone."""
+    if len(span) == 1:
+        return rise[0]
+    slope = ((2.0 * span[0] + span[1]) * rise[0] - span[0] * rise[1]) / (span[0] + span[1])
+    if slope * rise[0] <= 0.0:
+        return 0.0
+    if rise[0] * rise[1] <= 0.0 and abs(slope) > 3.0 * abs(rise[0]):
+        return 3.0 * rise[0]
+    return slope
 
 
 def _set_scales(p: list[float], values: Mapping[str, float]) -> None:

@@ -15,6 +15,7 @@ from pydantic import Field, create_model, model_validator
 
 from .contradictions import contradiction
 from .effects import EFFECTS
+from .friction.parameters import Friction
 from .kernel.layout import CURVE_LIMIT
 from .packing import pack
 from .quantity import Table, quantity
@@ -118,45 +119,6 @@ class Springs(Table):
         return self
 
 
-class Friction(Table):
-    """Coulomb friction between block and surface."""
-
-    mu_s: float = quantity(0.2815, "1", "static friction coefficient", ge=0)
-    mu_k: float = quantity(0.2086, "1", "kinetic friction coefficient", ge=0)
-    stick_creep: float = quantity(
-        0.0,
-        "m/s",
-        "sliding speed in stick at the load mu_s N, smaller in proportion to the load: a contact "
-        "is sheared before it slides; 0 is off",
-        ge=0,
-    )
-    transition_speed: float = quantity(
-        0.0,
-        "m/s",
-        "v_s, sliding speed over which friction falls from mu_s to mu_k: "
-        "mu_k + (mu_s - mu_k) exp(-(v / v_s)^transition_exponent); 0: at once",
-        ge=0,
-    )
-    transition_exponent: float = quantity(
-        1.0, "1", "of the transition: 1 exponential, 2 Gaussian", ge=0.5, le=3
-    )
-    presliding_distance: float = quantity(
-        0.0,
-        "m",
-        "z_0, shear of the contact under the load mu_s N: its bristles are deflected before they "
-        "slide (LuGre); needs transition_speed; 0: a rigid contact",
-        ge=0,
-        le=0.01,
-    )
-    bristle_damping: float = quantity(
-        0.4,
-        "1",
-        "of the bristles, as part of the critical damping 2 sqrt(sigma_0 m)",
-        ge=0,
-        le=2,
-    )
-
-
 class Surface(Table):
     """Drive of the surface under the block."""
 
@@ -211,6 +173,14 @@ class Solver(Table):
     )
 
 
+#: Parameters of several numbers, which the FMU has at their full length.
+CURVES = (
+    ("springs", "force_curve_extension"),
+    ("springs", "force_curve_force"),
+    ("friction", "table_speed"),
+    ("friction", "table_mu"),
+)
+
 if TYPE_CHECKING:
 
     class EffectTables(Table):
@@ -257,10 +227,13 @@ class Parameters(EffectTables):
                 f"surface.speed = {speed:g} m/s: the contact would creep as fast as the surface, "
                 "and stick while it slides; allowed is less than the surface's speed"
             )
-        if self.friction.mu_k > self.friction.mu_s:
+        if self.friction.has_table:
+            self._check_table_alone()
+        said, at_rest = self.friction.at_rest
+        if at_rest > self.friction.mu_s:
             warnings.warn(
-                f"friction.mu_k = {self.friction.mu_k:g} exceeds friction.mu_s = "
-                f"{self.friction.mu_s:g}: the contact then holds up to mu_k",
+                f"friction.{said} = {at_rest:g} exceeds friction.mu_s = "
+                f"{self.friction.mu_s:g}: the contact then holds up to {said}",
                 stacklevel=2,
             )
         if self.rig.spring_natural_length > self.rig.spring_length and self._can_swerve():
@@ -271,6 +244,19 @@ class Parameters(EffectTables):
                 stacklevel=2,
             )
         return self
+
+    def _check_table_alone(self) -> None:
+        """One law of the sliding speed: the table's, or those of the effects."""
+        for effect in EFFECTS:
+            if not any(term.__name__ == "dry_factor" for term in effect.terms):
+                continue
+            for name in effect.switch:
+                value = getattr(getattr(self, effect.id), name)
+                if value != 0.0:
+                    raise ValueError(
+                        f"friction.table_speed beside {effect.id}.{name} = {value:g}, another law "
+                        "of the sliding speed; give one of the two"
+                    )
 
     def _can_swerve(self) -> bool:
         return len(self.rig.degrees_of_freedom) > 1
@@ -296,13 +282,13 @@ class Parameters(EffectTables):
         return values
 
     def _curve_values(self) -> dict[str, float]:
-        """The curve at its full length: unused places repeat the last value, which ends it."""
+        """The curves at their full length: unused places repeat the last value, which ends them."""
         values: dict[str, float] = {}
-        for key in ("force_curve_extension", "force_curve_force"):
-            curve = getattr(self.springs, key)
+        for table, key in CURVES:
+            curve = getattr(getattr(self, table), key)
             rest = curve[-1] if curve else 0.0
             padded = [*curve, *[rest] * (CURVE_LIMIT - len(curve))]
-            values |= {f"springs.{key}[{i + 1}]": value for i, value in enumerate(padded)}
+            values |= {f"{table}.{key}[{i + 1}]": value for i, value in enumerate(padded)}
         return values
 
     def _inertia(self) -> float:

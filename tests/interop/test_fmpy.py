@@ -188,6 +188,12 @@ def test_two_laws_of_creep_are_refused(block):
     refused(block.slave.doStep, 0.0, 0.01)
 
 
+def test_a_table_beside_another_law_of_the_speed_is_refused(block):
+    table = {"friction.table_speed[2]": 0.1, "friction.table_mu[1]": 0.2}
+    block.initialise(**table, **{"velocity_weakening.linear": 0.1})
+    assert "friction.table_speed beside an effect" in block.log.take_errors()
+
+
 def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(block):
     """In a Python host the signal arrives in the slave's own code; there it may not escape."""
     block.initialise()

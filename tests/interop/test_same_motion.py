@@ -33,6 +33,17 @@ CASES = {
         "static_strengthening": {"rate": 0.03},
         "surface": {"speed": 0.05, "run_up_time": 0.5},
     },
+    "friction by a table": {
+        "friction": {"table_speed": [0.0, 0.02, 0.1, 0.4], "table_mu": [0.26, 0.2, 0.16, 0.24]},
+        "lateral_friction": {"ratio": 1.0},
+        "initial": {"vx": 0.15, "y": 0.002},
+    },
+    "heat that diffuses, and a contact that runs in": {
+        "static_strengthening": {"power": 0.05},
+        "thermal_weakening": {"per_joule": 0.1, "diffusion": 1.0, "static_relative": 1.0},
+        "run_in": {"change": -0.2, "stretching": 0.7, "static_absolute": 1.0},
+        "initial": {"vx": 0.15},
+    },
     "not as drawn": {
         "lateral_friction": {"ratio": 1.0},
         "rig": {"spring_natural_length": 0.17},

@@ -25,4 +25,5 @@ def scales(runs: list[MeasuredRun], mu_k: float, extension: float) -> Scales:
         mass=mass,
         force=mass * GRAVITY,
         extension=extension,
+        longest=max(abs(run.surface_speed) * run.motion.duration for run in runs),
     )

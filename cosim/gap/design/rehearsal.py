@@ -74,7 +74,7 @@ def _planned(setting: Setting, experiment: Experiment, track=None, sticks=()) ->
 
 
 def _simulated(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> np.ndarray:
-    """Outputs (n, O_SIZE) from the experiment's start."""
+    """Outputs (n, O_SIZE) from the experiment's start, places as the camera writes them."""
     state, since = np.zeros(6), np.nan
     if experiment.start == "carried":
         state[3], since = experiment.surface_speed, 0.0
@@ -86,7 +86,9 @@ def _simulated(setting: Setting, run: MeasuredRun, experiment: Experiment, value
         run.name, known, run.surface_speed, known["temperature_dependence.reference_degC"],
         setting.time, {}, {}, (segment,),
     )  # fmt: skip
-    return segmented.simulate(values, state[None, :])
+    outputs = segmented.simulate(values, state[None, :])
+    outputs[:, list(COLUMN.values())] = segmented.places(values, state[None, :])
+    return outputs
 
 
 def problem_of(segmented: SegmentedRun, member: Member) -> Problem:

@@ -15,6 +15,7 @@ from cosim.gap.data import MeasuredRun, Stick, find_sticks
 from cosim.gap.data.measured import Track
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.segmented_run import COLUMN
 
 STICK, SLIP = 0.0, 1.0
 
@@ -26,7 +27,7 @@ class ModelTrack:
     Attributes
     ----------
     run : what was measured
-    x, vx : (n,) arrays, m, m/s; the tracker's zero included in x
+    x, vx : (n,) arrays, m, m/s; x as the tracker writes it, its zero and faults included
     mode : (n,) array, 0 stick, 1 slip
     y, phi : (n,) arrays, m, rad, or None where they are not compared
     segment : (n,) array of whole numbers: the model starts anew where it changes
@@ -108,17 +109,18 @@ def _track(problem: Problem, fitted: Fitted, number: int, run: MeasuredRun) -> M
     for axis, key in enumerate(OFFSETS):  # states are measured ones: with the tracker's zero
         states[:, axis] -= offsets.get(key, 0.0)
     outputs = segmented.simulate(values, states)
+    places = segmented.places(values, states)  # what a camera makes of them
     segment = np.zeros(len(segmented.time), dtype=int)
     for place, piece in enumerate(segmented.segments):
         segment[piece.first : piece.last] = place
     return ModelTrack(
         run,
-        x=outputs[:, layout.O_X] + offsets.get("offset.x", 0.0),
+        x=places[:, COLUMN["x"]] + offsets.get("offset.x", 0.0),
         vx=outputs[:, layout.O_VX],
         mode=outputs[:, layout.O_MODE],
-        y=outputs[:, layout.O_Y] + offsets.get("offset.y", 0.0)
+        y=places[:, COLUMN["y"]] + offsets.get("offset.y", 0.0)
         if "y" in segmented.channels
         else None,
-        phi=outputs[:, layout.O_PHI] if "phi" in segmented.channels else None,
+        phi=places[:, COLUMN["phi"]] if "phi" in segmented.channels else None,
         segment=segment,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,11 +10,16 @@ from stickslip.kernel import layout
 from stickslip.packing import GRAVITY, pack
 from stickslip.restarted import Force, Restart, simulate_restarted, track_restarted
 
+from cosim.gap.camera.camera import Camera
+from cosim.gap.camera.exposure import Exposure
+
 from .drive import SPEED_OFFSET, driven_speed, model_parameters
 from .segments import Segment
 
 #: Columns of the model's outputs, and of its places, that a tracker can see.
 COLUMN = {"x": layout.O_X, "y": layout.O_Y, "phi": layout.O_PHI}
+_PLACES = (layout.O_X, layout.O_Y, layout.O_PHI)
+_VELOCITIES = (layout.O_VX, layout.O_VY, layout.O_OMEGA)
 #: Residual, in units of the noise, where the model gave up or left for ever.
 LOST = 1e3
 #: Part of the weight that pulls the block aside: the sine of a rig's tilt.
@@ -62,30 +67,69 @@ class SegmentedRun:
         return np.array([segment.state for segment in self.segments])
 
     def simulate(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        """The model's outputs (n, O_SIZE) with parameters and segments' states (segments, 6)."""
-        return self._simulated(simulate_restarted, values, states)
+        """The block's own outputs (n, O_SIZE) with parameters and segments' states (segments, 6).
+
+        Of the moments at which the camera took its samples; states are as the camera writes them.
+        """
+        values, camera = Camera.split(values)
+        if camera.is_perfect:
+            return self._simulated(simulate_restarted, values, states)
+        exposure = self._exposure(camera)
+        return self._exposed(simulate_restarted, values, states, exposure)[exposure.rows]
 
     def places(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        """As `simulate`, but x, y and phi alone (n, 3)."""
-        return self._simulated(track_restarted, values, states)
+        """x, y and phi alone (n, 3), as the camera writes them."""
+        values, camera = Camera.split(values)
+        if camera.is_perfect:
+            return self._simulated(track_restarted, values, states)
+        exposure = self._exposure(camera)
+        if not camera.needs_velocity:
+            return exposure.written(self._exposed(track_restarted, values, states, exposure))
+        outputs = self._exposed(simulate_restarted, values, states, exposure)
+        return exposure.written(outputs[:, _PLACES], outputs[:, _VELOCITIES])
 
     def force(self, values: Mapping[str, float]) -> Force | None:
         """What else acts on the block along x."""
         return None
 
+    def _exposure(self, camera: Camera) -> Exposure:
+        return Exposure.of(camera, self.time, self.channels.get("x"))
+
+    def _exposed(
+        self, simulate, values: Mapping[str, float], states: np.ndarray, exposure: Exposure
+    ) -> np.ndarray:
+        """The block's own motion at the moments of an exposure; states are as written."""
+        first = np.array([segment.first for segment in self.segments])
+        since = np.array([segment.hold_since for segment in self.segments])
+        rows, clock = exposure.rows[first], exposure.camera.clock
+        speed = driven_speed(self.speed, values)
+        true = exposure.true_states(states, first, speed)
+        holds = exposure.moments[rows] - (self.time[first] - since) / clock
+        restarts = list(map(Restart, rows.tolist(), true, holds.tolist()))
+        return self._run(simulate, values, exposure.moments, restarts)
+
     def _simulated(self, simulate, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
+        restarts = [
+            Restart(segment.first, state, segment.hold_since)
+            for segment, state in zip(self.segments, states, strict=True)
+        ]
+        return self._run(simulate, values, self.time, restarts)
+
+    def _run(
+        self,
+        simulate,
+        values: Mapping[str, float],
+        times: np.ndarray,
+        restarts: Sequence[Restart],
+    ) -> np.ndarray:
+        """Rows of ``simulate`` at times (m,), s, with these parameters."""
         flat = {**self.known, **model_parameters(self.speed, values)}
         speed = driven_speed(self.speed, flat)
         flat.pop(SPEED_OFFSET, None)
         aside = flat.pop(TILT, 0.0) * flat["rig.mass"] * GRAVITY
         p = np.array(pack(flat))
         p[layout.P_LONGEST_STEP] *= _LONGER
-        restarts = [
-            Restart(segment.first, state, segment.hold_since)
-            for segment, state in zip(self.segments, states, strict=True)
-        ]
-        force = self.force(values)
-        return simulate(p, speed, self.temperature, self.time, restarts, force, aside)
+        return simulate(p, speed, self.temperature, times, restarts, self.force(values), aside)
 
     def residuals(self, places: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:
         """(rows,) model less measurement over noise, channel by channel, without missing ones."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from cosim.gap.camera.faults import fault_of
 from cosim.gap.result import Gap
 from cosim.report.page import Picture, render
 from cosim.studies.reproduction.summary import SummaryGap
@@ -52,7 +53,11 @@ def _best_laws(gap: Gap | SummaryGap) -> list[dict[str, Any]]:
     """The best law of each effect, best first, with its numbers."""
     rows: dict[str, dict[str, Any]] = {}
     for row in gap.ranking:
-        added = [key for key in row.parameters if key.startswith(f"{row.effect}.")]
+        added = [
+            key
+            for key in row.parameters
+            if key.startswith(f"{row.effect}.") or fault_of(key) == row.effect
+        ]
         numbers = quantities(row.parameters, row.intervals, added)
         rows.setdefault(row.effect, {"row": row, "numbers": numbers})
     return list(rows.values())

@@ -9,6 +9,7 @@ from typing import Any
 
 from stickslip.effects.candidate import SECOND
 
+from cosim.gap.camera import faults
 from cosim.scenario import Scenario
 
 #: Of the tracker and the drive, not of the model.
@@ -49,9 +50,11 @@ def unit_and_meaning(key: str) -> tuple[str, str]:
     """Of `block.parameter`; the unit is "" for a pure number."""
     if key in OFFSETS:
         return OFFSETS[key]
+    if faults.is_fault(key):
+        return faults.QUANTITIES[key]
     block, _, name = key.partition(".")
     table: Any = Scenario.model_fields[block].annotation  # a class of keys
-    field = table.model_fields[name]
+    field = table.model_fields[name.partition("[")[0]]  # one of several numbers is as all of them
     unit = (field.json_schema_extra or {}).get("unit", "1")
     return ("" if unit == "1" else unit), field.description
 

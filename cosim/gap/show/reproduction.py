@@ -9,12 +9,17 @@ from stickslip.arrays import STATE
 from stickslip.restarted import Restart, simulate_restarted
 
 from cosim.coupling import FmuParticipant
+from cosim.gap.camera.camera import Camera
+from cosim.gap.camera.exposure import Exposure
+from cosim.gap.diagnostics.model_track import ModelTrack
 from cosim.gap.estimation.segmented_run import COLUMN
 from cosim.gap.result import FittedRun, Gap
 from cosim.scenario import Scenario
 
 from .model_file import scenario_of
 from .reproduced import Reproduced
+
+PLACES, VELOCITIES = ("x", "y", "phi"), ("vx", "vy", "omega")
 
 
 def reproduced_runs(gap: Gap) -> tuple[FittedRun, ...]:
@@ -29,10 +34,15 @@ def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
     track, noise = run.track, run.track.run.noise
     rows = np.flatnonzero(track.segments == track.segments[0])
     time = track.time[rows]
-    simulated = _in_fmu(fmu, scenario, time)
-    own = _in_kernel(scenario, time)
-    zero = {name: gap.model.values.get(f"offset.{name}", 0.0) for name in track.channels}
-    motion = {name: simulated[name] + zero[name] for name in track.channels}
+    values = {**gap.model.settings, **gap.model.values, **run.own}
+    exposure = _exposure(track, time[-1], Camera.split(values)[1])
+    simulated = _in_fmu(fmu, scenario, exposure.moments)
+    own = _in_kernel(scenario, exposure.moments)
+    written = exposure.written(*(_columns(simulated, names) for names in (PLACES, VELOCITIES)))
+    motion = {
+        name: written[: time.size, PLACES.index(name)] + values.get(f"offset.{name}", 0.0)
+        for name in track.channels
+    }
     measured = {name: track.run.motion[name][rows] for name in track.channels}
     apart = max(
         np.max(np.abs(simulated[name] - own[name])) / noise[name] for name in track.channels
@@ -43,6 +53,16 @@ def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
         run.name, time, motion, measured, _rms(left.values()),
         _rms(plain.residual(name)[rows] for name in track.channels), float(apart),
     )  # fmt: skip
+
+
+def _exposure(track: ModelTrack, end: float, camera: Camera) -> Exposure:
+    """Of a run's samples up to a time, s, and of those beyond it that a filter looks ahead to."""
+    seen = slice(0, int(np.searchsorted(track.time, end + camera.reach, "right")))
+    return Exposure.of(camera, track.time[seen], track.run.motion.x[seen])
+
+
+def _columns(rows: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray:
+    return np.stack([rows[name] for name in names], axis=1)
 
 
 def _in_fmu(fmu: Path, scenario: Scenario, time: np.ndarray) -> dict[str, np.ndarray]:
@@ -57,7 +77,7 @@ def _in_fmu(fmu: Path, scenario: Scenario, time: np.ndarray) -> dict[str, np.nda
         for before, after in zip(time[:-1], time[1:], strict=True):
             block.step(float(before), float(after - before))
             rows.append(block.read())
-    return {name: np.array([row[name] for row in rows]) for name in COLUMN}
+    return {name: np.array([row[name] for row in rows]) for name in (*PLACES, *VELOCITIES)}
 
 
 def _in_kernel(scenario: Scenario, time: np.ndarray) -> dict[str, np.ndarray]:

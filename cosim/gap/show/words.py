@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from stickslip import EFFECTS
 
+from cosim.gap.camera import faults
 from cosim.gap.result import Gap
 from cosim.studies.reproduction.summary import SummaryGap
 
@@ -15,7 +16,7 @@ from .reproduced import Reproduced
 #: Of the tracker; said where everything is.
 ZEROS = ("offset.x", "offset.y")
 Answer = Gap | SummaryGap
-SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
+SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS} | faults.SENTENCES
 
 
 def verdict(gap: Answer) -> str:

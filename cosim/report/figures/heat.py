@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from stickslip.friction_law import feels_water
+from stickslip.friction.law import feels_water
 
 from cosim.report.contents import mechanics_of
 from cosim.report.heat_numbers import SINKS, Film, all_other_heat, film_of, held

@@ -148,6 +148,8 @@ def scenario_case(scenario: Scenario) -> Case:
     if rig.surface == "slab":
         raise StudyError('rig.surface = "slab": has no belt; allowed is "belt"')
     constant = run.duration - surface.run_up_time
+    if friction.has_table:
+        raise StudyError("friction.table_speed: allowed is one coefficient mu_k, without a table")
     if not friction.mu_k > 0.0:
         raise StudyError(f"friction.mu_k = {friction.mu_k:g}: must be above 0, or there is no heat")
     if surface.speed == 0.0:

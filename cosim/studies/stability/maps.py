@@ -76,6 +76,8 @@ def _fault(parameters: Parameters) -> str:
         return "surface.speed = 0: needed is a surface that moves"
     if parameters.natural_frequency == 0.0:
         return "springs.stiffness = 0: needed are springs"
+    if parameters.friction.has_table:
+        return "friction.table_speed: a map over mu_s/mu_k needs one mu_k; leave the table out"
     if parameters.friction.mu_k == 0.0:
         return "friction.mu_k = 0: needed is friction in slip, for a map over mu_s/mu_k"
     if law.direct != 0.0 or law.evolution != 0.0:
@@ -217,7 +219,9 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
         and parameters.rig.surface == "belt"
         and not parameters.springs.force_curve_extension
         and parameters.friction.stick_creep == 0.0
+        and not parameters.friction.has_table
         and parameters.structural_damping.coefficient < _critical_damping(parameters)
+        and parameters.structural_damping.quadratic == 0.0
     )
 
 

@@ -73,7 +73,8 @@ class Scales:
 
     speed : sliding speed, m/s; distance : slid in a run, m; heat : made in a run, J;
     duration : of a run, s; stiffness : of one spring, N/m; travel : stroke of the block, m;
-    mass, kg; force : normal force, N; extension : of a spring as installed, m
+    mass, kg; force : normal force, N; extension : of a spring as installed, m;
+    longest : travel of the surface in the run in which it travels most, m; 0: not known
     """
 
     speed: float
@@ -85,6 +86,7 @@ class Scales:
     mass: float
     force: float
     extension: float = 0.0
+    longest: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,21 @@ from typing import Any
 from ..quantity import Table, details
 from .candidate import Candidate, Scales
 
+#: What an effect's law is a curve over: sliding speed of the contact, time at rest, heat that is
+#: remembered, distance slid, place on the surface, normal force, extension of a spring, time, and
+#: velocity of the block against the frame.
+AXES = (
+    "sliding speed",
+    "hold time",
+    "heat memory",
+    "distance",
+    "place",
+    "load",
+    "position",
+    "time",
+    "velocity",
+)
+
 #: A function of numbers: floats in, a float out, `math` only. Its name says where it enters or what
 #: it is; its arguments are bound by their names, see `stickslip.generation.places`.
 Term = Callable[..., float]
@@ -77,6 +92,7 @@ class Effect:
     table : the parameters: names, units, defaults, bounds
     switch : the parameters any of which turns it on, most telling first
     enters : where in the model: friction, springs, surface, contact
+    axis : of AXES, over what its law is a curve; "" where it is none
     source : where the effect is named or its law comes from
     case : how it is shown
     terms : what it adds to the kernel; each is named by its place there
@@ -107,12 +123,17 @@ class Effect:
     candidates: Callable[[Scales], Iterable[Candidate]] = no_candidates
     offered: bool = True
     feels_melting: tuple[str, ...] = ()
+    axis: str = ""
 
     def __post_init__(self) -> None:
         """Refuses, by one line that names the effect, what would fail later and less clearly."""
         for name in ("switch", "terms", "derived", "states", "feels_melting"):
             if not isinstance(getattr(self, name), tuple):
                 raise ValueError(f"effect {self.id}: {name} is no tuple: (a,) is one of one member")
+        if self.axis and self.axis not in AXES:
+            raise ValueError(
+                f"effect {self.id}: axis {self.axis!r} is none; there are {', '.join(AXES)}"
+            )
         fields = self.table.model_fields
         if not self.switch:
             raise ValueError(f"effect {self.id}: no switch: which parameters turn it on?")

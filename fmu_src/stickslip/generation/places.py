@@ -69,6 +69,7 @@ PLACES = (
     Place("kinetic_temperature_factor", "mu_k in proportion", "multiply"),
     Place("kinetic_factor", "mu_k in proportion, by what has been", "multiply"),
     Place("static_temperature_factor", "mu_s in proportion", "multiply"),
+    Place("static_factor", "mu_s in proportion, by what has been", "multiply"),
     Place("static_growth", "mu_s after ``hold`` seconds of rest, on top", "add", words=("hold",)),
     # the local law: mu_k at a local sliding speed (m/s)
     Place("dry_factor", "mu_k of the dry contact in proportion", "multiply", words=("speed",)),

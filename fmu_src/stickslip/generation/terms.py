@@ -204,6 +204,11 @@ def _questions(effects: Sequence[Effect]) -> list[str]:
             _terms_at("static_growth", effects),
         ),
         _question(
+            "has_dry_law",
+            "Does an effect say how mu_k of the dry contact varies with the local sliding speed?",
+            _terms_at("dry_factor", effects),
+        ),
+        _question(
             "has_memory",
             "Does friction depend on place, distance slid or a state of an effect?",
             remembers,

@@ -35,6 +35,7 @@ MODULES = (
     "terms",
     "springs",
     "surface",
+    "friction.table",
     "friction.coefficient",
     "friction.disc",
     "friction.force",

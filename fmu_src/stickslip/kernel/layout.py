@@ -36,8 +36,9 @@ STICK = 0  # modes
 SLIP = 1
 UNKNOWN = -1.0  # shear of the contact, see BRISTLES
 HELD = -2.0  # not known either, but of a block that has stuck for a while
-CURVE_LIMIT = 16  # points of a force-length curve that ``p`` has room for
+CURVE_LIMIT = 16  # points of a force-length curve, or a table of friction, that ``p`` has room for
 CURVE_WIDTH = 4  # extension, force, stiffness, energy
+TABLE_WIDTH = 3  # sliding speed, coefficient, its slope
 STAGES = 12  # of a step
 ALL_STAGES = 16  # with the slope at its end and those that only the interpolant needs
 POWERS = 7  # coefficients of the interpolant for each state
@@ -123,7 +124,7 @@ PARAMETERS = (
     ("P_CURVE_POINTS", 1),  # points of the tabulated force-length curve; 0: none
     ("P_CURVE", CURVE_LIMIT * CURVE_WIDTH),
     ("P_MU_S", 1),
-    ("P_MU_K", 1),
+    ("P_MU_K", 1),  # at rest, where a table gives it
     ("P_LOCAL_LAW", 1),  # 1 where mu_k depends on the local sliding speed
     ("P_RUN_UP", 1),  # time of the surface's speed ramp, s
     ("P_TOLERANCE", 1),
@@ -142,6 +143,9 @@ PARAMETERS = (
     ("P_BRISTLE_STIFFNESS", 1),  # of the contact against shear, N/m; 0: it is rigid
     ("P_BRISTLE_DAMPING", 1),  # N s/m
     ("P_FAST_SLIP", 1),  # sliding speed from which the shear follows from the slip alone, m/s
+    ("P_MU_SCALE", 1),  # what the factors of mu_k multiply: mu_k, or 1 where a table gives it
+    ("P_TABLE_POINTS", 1),  # points of the table of mu_k over the sliding speed; 0: none
+    ("P_TABLE", CURVE_LIMIT * TABLE_WIDTH),
 )
 
 # --- e: log of events -------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from .layout import (
     P_CURVE,
     P_CURVE_POINTS,
     P_DAMPING,
+    P_DAMPING_QUADRATIC,
     P_DAMPING_ROTATION,
     P_NATURAL_LENGTH,
     P_RELATIVE_STIFFNESS,
@@ -120,10 +121,18 @@ def add_spring_forces(p: Floats, w: Floats, state: int):
     w[W_LOAD + 2] += moment
 
 
+def damping_per_speed(p: Floats, vx: float, vy: float) -> float:
+    """Damping force over the speed against the frame, N s/m: d + q |v|."""
+    if p[P_DAMPING_QUADRATIC] == 0.0:
+        return p[P_DAMPING]
+    return p[P_DAMPING] + p[P_DAMPING_QUADRATIC] * sqrt(vx * vx + vy * vy)
+
+
 def add_damping(p: Floats, w: Floats, state: int):
-    """Add viscous force and moment against the frame (structural_damping) to ``w[W_LOAD:]``."""
-    w[W_LOAD] -= p[P_DAMPING] * w[state + VX]
-    w[W_LOAD + 1] -= p[P_DAMPING] * w[state + VY]
+    """Add the damping against the frame (structural_damping) to ``w[W_LOAD:]``."""
+    d = damping_per_speed(p, w[state + VX], w[state + VY])
+    w[W_LOAD] -= d * w[state + VX]
+    w[W_LOAD + 1] -= d * w[state + VY]
     w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * w[state + OMEGA]
 
 
@@ -132,7 +141,8 @@ def damping_power(p: Floats, w: Floats, state: int) -> float:
     vx = w[state + VX]
     vy = w[state + VY]
     omega = w[state + OMEGA]
-    return p[P_DAMPING] * (vx * vx + vy * vy) + p[P_DAMPING_ROTATION] * omega * omega
+    d = damping_per_speed(p, vx, vy)
+    return d * (vx * vx + vy * vy) + p[P_DAMPING_ROTATION] * omega * omega
 
 
 def spring_length(p: Floats, z: Floats, instant: int, i: int) -> float:

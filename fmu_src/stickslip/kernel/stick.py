@@ -28,7 +28,7 @@ from .friction.disc import disc_friction
 from .layout import (
     OMEGA,
     P_CURVATURE,
-    P_DAMPING,
+    P_DAMPING_QUADRATIC,
     P_DAMPING_ROTATION,
     P_FREE_PHI,
     P_FREE_Y,
@@ -49,7 +49,12 @@ from .layout import (
     W_STATE,
     W_SURFACE,
 )
+from .springs import damping_per_speed
 from .surface import surface_motion
+
+# Each multiplies what the presliding velocity is off by by the presliding speed per load times the
+# damping per speed: hundredths where a contact sticks.
+QUADRATIC_SWEEPS = 8
 
 
 def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
@@ -79,26 +84,37 @@ def add_presliding(p: Floats, u: Floats, w: Floats, c: float):
     """
     set_contact(p, u, w, W_STATE)
     set_holding_load(p, w)
-    d = p[P_DAMPING]
-    ux = -c * w[W_FRICTION] / (1.0 + c * d)
+    vx = w[W_STATE + VX]
+    vy = w[W_STATE + VY]
+    there = damping_per_speed(p, vx, vy)
+    d = there
+    ux = 0.0
     uy = 0.0
     ur = 0.0
     kappa = p[P_LATERAL]
-    if kappa > 0.0:
-        cy = p[P_FREE_Y] * c / (kappa * kappa)
-        cr = 2.0 * p[P_FREE_PHI] * c / (kappa * kappa * p[P_RADIUS] * p[P_RADIUS])
-        turning = p[P_MASS] * w[W_SURFACE + 2]
-        ex = -c * w[W_FRICTION]
-        ey = -cy * w[W_FRICTION + 1]
-        size = (1.0 + c * d) * (1.0 + cy * d) + c * cy * turning * turning
-        ux = ((1.0 + cy * d) * ex + c * turning * ey) / size
-        uy = ((1.0 + c * d) * ey - cy * turning * ex) / size
-        ur = -cr * w[W_FRICTION + 2] / (1.0 + cr * p[P_DAMPING_ROTATION])
+    sweeps = 1
+    if p[P_DAMPING_QUADRATIC] != 0.0:
+        sweeps = QUADRATIC_SWEEPS
+    for _ in range(sweeps):
+        # damping per speed is another at the velocity that comes of it
+        fx = w[W_FRICTION] + (d - there) * vx
+        ux = -c * fx / (1.0 + c * d)
+        if kappa > 0.0:
+            cy = p[P_FREE_Y] * c / (kappa * kappa)
+            cr = 2.0 * p[P_FREE_PHI] * c / (kappa * kappa * p[P_RADIUS] * p[P_RADIUS])
+            turning = p[P_MASS] * w[W_SURFACE + 2]
+            ex = -c * fx
+            ey = -cy * (w[W_FRICTION + 1] + (d - there) * vy)
+            size = (1.0 + c * d) * (1.0 + cy * d) + c * cy * turning * turning
+            ux = ((1.0 + cy * d) * ex + c * turning * ey) / size
+            uy = ((1.0 + c * d) * ey - cy * turning * ex) / size
+            ur = -cr * w[W_FRICTION + 2] / (1.0 + cr * p[P_DAMPING_ROTATION])
+        d = damping_per_speed(p, vx + ux, vy + uy)
     w[W_STATE + VX] += ux
     w[W_STATE + VY] += uy
     w[W_STATE + OMEGA] += ur
-    w[W_LOAD] -= d * ux
-    w[W_LOAD + 1] -= d * uy
+    w[W_LOAD] -= d * ux + (d - there) * vx
+    w[W_LOAD + 1] -= d * uy + (d - there) * vy
     w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * ur
     if p[P_CURVATURE] != 0.0:
         surface_motion(p, u, w, W_STATE)

@@ -138,7 +138,7 @@ def test_scales_are_those_of_the_runs(campaign):
     assert (found.speed, found.mass, found.stiffness) == (0.06, KNOWN["mass"], KNOWN["stiffness"])
     assert found.duration == pytest.approx(4.0)
     assert found.distance == pytest.approx(0.24) and found.force == pytest.approx(8.5347)
-    assert found.extension == 0.03
+    assert found.extension == 0.03 and found.longest == pytest.approx(0.24)
     assert found.heat == pytest.approx(0.2 * 8.5347 * 0.24)
     assert {c.effect for c in candidates(found)} == {c.effect for c in OFFERED}
 
@@ -208,6 +208,14 @@ def test_a_periodic_candidate_starts_at_a_period():
             0.01
         ]
         assert any(k.per_run and k.key.endswith("phase_deg") for k in c.free_parameters)
+
+
+def test_a_pattern_is_no_longer_than_what_a_run_passes():
+    for longest, ends in ((2.0, 2.0), (0.0, SCALES.distance), (0.05, 0.05)):
+        for c in candidates(replace(SCALES, longest=longest)):
+            for k in c.free_parameters:
+                if k.key == "surface_pattern.wavelength":
+                    assert k.high == ends and 0.0 < k.low < k.start < k.high
 
 
 # A model with a candidate added to it.

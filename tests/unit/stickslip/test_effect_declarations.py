@@ -103,6 +103,11 @@ def test_a_sound_one_becomes_text(declared):
             '    core={"mush": "M"},\n    case=',
             "core 'mush' is no param",
         ),
+        "axis, unknown": (
+            "    case=",
+            '    axis="colour",\n    case=',
+            "axis 'colour' is none; there are",
+        ),
         "terms, a function": ("(dry_factor,)", "dry_factor", "terms is no tuple"),
         "no unit": ('quantity(0.0, "1"', 'quantity(0.0, ""', "much has no unit"),
         "no quantity": ('quantity(0.0, "1", "how much", typical=(0.1, 1.0))', "0.0", "no unit"),

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters, simulate
+from stickslip.effects.effect import AXES
 from stickslip.parameters import EffectTables
 
 from cosim.fmu import model_description
@@ -19,6 +20,7 @@ def test_an_entry_is_complete(effect):
     assert effect.sentence.endswith(".") and len(effect.sentence) < 120
     assert effect.enters in {"friction", "surface", "springs", "contact"}
     assert effect.source
+    assert effect.axis == "" or effect.axis in AXES
     assert effect.switch and set(effect.switch) <= set(effect.table.model_fields)
 
 

@@ -119,6 +119,45 @@ def test_structural_damping_is_the_damped_oscillator():
     np.testing.assert_allclose(run["damping_heat"], 0.5 * start**2 - stored, rtol=0, atol=1e-11)
 
 
+def test_quadratic_damping_takes_its_part_of_every_swing():
+    """m x'' + q |x'| x' + K x = 0, m = 1: (1 + 2 q a) exp(-2 q a) = (1 - 2 q b) exp(2 q b).
+
+    a and b: distances from the middle at which a swing begins and ends; the first integral of the
+    motion is linear in x'^2 over x.
+    """
+    q, start = 0.2, 1.0
+    run = simulate(
+        unit(structural_damping={"quadratic": q}, initial={"x": start}, **FREE), 30.0, 0.01
+    )
+    x, v = run["x"], run["vx"]
+    speed = CubicHermiteSpline(run.time, v, -x - q * np.abs(v) * v)
+    turns = np.abs(CubicHermiteSpline(run.time, x, v)(speed.roots(extrapolate=False)))
+    turns = np.append(start, turns[turns < start - 1e-6])
+    assert len(turns) > 8
+    begin, end = turns[:-1], turns[1:]
+    left, right = (1 + 2 * q * begin) * np.exp(-2 * q * begin), np.exp(2 * q * end)
+    np.testing.assert_allclose((1 - 2 * q * end) * right, left, rtol=0, atol=1e-9)
+    stored = 0.5 * (x**2 + v**2)
+    np.testing.assert_allclose(run["damping_heat"], 0.5 * start**2 - stored, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("surface", ["belt", "slab"])
+def test_quadratic_damping_of_a_stick_that_creeps_keeps_the_ledger(surface):
+    run = simulate(
+        Parameters(
+            rig={"surface": surface, "spring_natural_length": 0.17},
+            friction={"stick_creep": 5e-3},
+            structural_damping={"coefficient": 0.1, "quadratic": 5.0},
+            lateral_friction={"ratio": 1.0},
+            surface={"speed": 0.06},
+            initial={"vx": 0.06, "y": 0.004, "phi": 0.1},
+        ),
+        5.0,
+    )
+    assert run.complete and np.any(run["mode"] == 0)
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
+
+
 def test_film_drag_is_the_oscillator_damped_against_the_belt():
     """Rest position c v / K; heat c (v - x')^2, which the belt pays for."""
     c, speed = 0.3, 0.2
@@ -181,6 +220,31 @@ def test_load_dependence_in_break_away_and_slip(exponent, mass):
     np.testing.assert_allclose(
         np.abs(run["friction_force_x"][slip]), 0.07 * normal * factor, rtol=1e-12
     )
+
+
+@pytest.mark.parametrize("mass", [0.5, 2.0])
+@pytest.mark.parametrize(
+    ("law", "factor"),
+    [
+        ({"adhesion": 3.0}, lambda n: (n + 3.0) / n * 8.0 / (8.0 + 3.0)),
+        ({"logarithmic": 0.4}, lambda n: 1.0 - 0.4 * np.log10(n / 8.0)),
+        ({"logarithmic": -0.4}, lambda n: 1.0 + 0.4 * np.log10(n / 8.0)),
+    ],
+)
+def test_adhesion_and_so_much_a_decade_of_the_load(law, factor, mass):
+    run = simulate(
+        unit(
+            rig=UNIT["rig"] | {"mass": mass},
+            friction={"mu_s": 0.1, "mu_k": 0.07},
+            load_dependence=law | {"reference_force": 8.0},
+        ),
+        30.0,
+    )
+    normal = mass * GRAVITY
+    assert run.events[0, 2] == pytest.approx(0.1 * normal * factor(normal), rel=1e-11)
+    slip = run["mode"] == 1
+    force = np.abs(run["friction_force_x"][slip])
+    np.testing.assert_allclose(force, 0.07 * normal * factor(normal), rtol=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0])

@@ -69,6 +69,7 @@ STATED = {
 STICKING = {
     "static_strengthening.rate": (0.04, {}, 1),
     "static_strengthening.saturating": (0.1, {}, 1),
+    "static_strengthening.power": (0.1, {}, 1),
     "stick_stiffness.ratio": (-0.1, {}, 1),
     "temperature_dependence.static_sensitivity": (0.02, {}, 1),
     "rate_and_state.direct": (4e-3, {}, 1),

@@ -65,6 +65,16 @@ def second_pattern(s):
 
 
 SECOND = {"second_amplitude": 0.4, "second_phase_deg": 70.0}
+
+
+def warm(s):
+    return 1.0 - 0.8 * s[RECENT_HEAT]
+
+
+def worn(s):
+    return 1.0 - 0.4 * (1.0 - np.exp(-((s[DISTANCE] / 0.15) ** 0.8)))
+
+
 LIGHT = (MASS * GRAVITY / 10.0) ** -0.4
 
 # effect -> (block and its parameters, the laws that the independent model gets)
@@ -77,6 +87,18 @@ CASES = {
     "static_strengthening, saturating": (
         {"static_strengthening": {"saturating": 0.08, "saturation_time": 0.05}},
         {"static": lambda held, s: NORMAL * (MU_S + 0.08 * (1 - np.exp(-max(held, 0) / 0.05)))},
+    ),
+    "static_strengthening, power": (
+        {"static_strengthening": {"power": 0.08, "exponent": 0.4}},
+        {"static": lambda held, s: NORMAL * (MU_S + 0.08 * max(held, 0) ** 0.4)},
+    ),
+    "velocity_weakening, power": (
+        {"velocity_weakening": {"power": 0.2, "exponent": 1.6, "power_speed": 0.1}},
+        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 0.2 * (u / 0.1) ** 1.6))},
+    ),
+    "velocity_weakening, logarithmic": (
+        {"velocity_weakening": {"logarithmic": 0.15, "logarithm_speed": 0.02}},
+        {"kinetic": kinetic(lambda u, s: 1.0 - 0.15 * np.log10(1.0 + u / 0.02))},
     ),
     "velocity_weakening, linear": (
         {"velocity_weakening": {"linear": 0.8}},
@@ -102,6 +124,44 @@ CASES = {
         {"film_drag": {"root_coefficient": 0.1}},
         {"kinetic": lambda u, s: MU_K * NORMAL + 0.1 * np.sqrt(u)},
     ),
+    "film_drag, power": (
+        {"film_drag": {"power": 0.015, "exponent": 1.7, "power_speed": 0.2}},
+        {"kinetic": lambda u, s: MU_K * NORMAL + 0.015 * (u / 0.2) ** 1.7},
+    ),
+    "film_drag, saturating": (
+        {"film_drag": {"saturating": 0.03, "saturation_speed": 0.1}},
+        {"kinetic": lambda u, s: MU_K * NORMAL + 0.03 * u / (u + 0.1)},
+    ),
+    "thermal_weakening, mu_s in proportion": (
+        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "static_relative": 1.0}},
+        {
+            "kinetic": kinetic(lambda u, s: warm(s)),
+            "static": lambda held, s: MU_S * NORMAL * warm(s),
+            "relaxation": 0.6,
+        },
+    ),
+    "thermal_weakening, mu_s by as much": (
+        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "static_absolute": 1.0}},
+        {
+            "kinetic": kinetic(lambda u, s: warm(s)),
+            "static": lambda held, s: NORMAL * (MU_S - MU_K * (1.0 - warm(s))),
+            "relaxation": 0.6,
+        },
+    ),
+    "run_in, stretched, mu_s in proportion": (
+        {"run_in": {"change": -0.4, "distance": 0.15, "stretching": 0.8, "static_relative": 1.0}},
+        {
+            "kinetic": kinetic(lambda u, s: worn(s)),
+            "static": lambda held, s: MU_S * NORMAL * worn(s),
+        },
+    ),
+    "run_in, stretched, mu_s by as much": (
+        {"run_in": {"change": -0.4, "distance": 0.15, "stretching": 0.8, "static_absolute": 1.0}},
+        {
+            "kinetic": kinetic(lambda u, s: worn(s)),
+            "static": lambda held, s: NORMAL * (MU_S - MU_K * (1.0 - worn(s))),
+        },
+    ),
     "thermal_weakening": (
         {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6}},
         {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
@@ -125,6 +185,10 @@ CASES = {
     "spring_hardening, about another extension": (
         {"spring_hardening": {"cubic": 2e4, "neutral_extension": 0.01}},
         {"pull": lambda x: -STIFFNESS * x - 4e4 * ((x + 0.01) ** 3 + (x - 0.01) ** 3)},
+    ),
+    "spring_hardening, quintic": (
+        {"spring_hardening": {"quintic": 2e7}},
+        {"pull": lambda x: -STIFFNESS * x - 8e7 * x**5},
     ),
     "structural_damping": ({"structural_damping": {"coefficient": 0.08}}, {"damping": 0.08}),
     "speed_ripple": (

@@ -17,8 +17,9 @@ def check(effects, seed):
         parameters = draw_parameters(effects, draw, initial={})
         run = simulate(parameters, 3.0)
         if not run.complete:
-            # carried into an anchor; or the contact's age followed on a belt far too fast for it
-            assert "spring" in run.reason or "rate_and_state" in effects
+            # carried into an anchor; the contact's age followed on a belt far too fast for it; or
+            # creep on the flank of a bell that rises steeply from rest
+            assert "spring" in run.reason or {"rate_and_state", "viscoelastic_peak"} & set(effects)
         speed = parameters.surface.speed
         scale = run["heat"][-1] + 0.5 * parameters.rig.mass * speed**2
         assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale

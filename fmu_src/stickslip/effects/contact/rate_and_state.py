@@ -71,6 +71,7 @@ EFFECT = Effect(
     table=RateAndState,
     switch=("evolution", "direct"),
     enters="contact",
+    axis="sliding speed",
     source="Dieterich (1979); saline ice: Lishman et al. (2011)",
     terms=(state_law,),
     states=(State("age", age_rate, start="initial_age", scale=age_scale),),

@@ -1,7 +1,8 @@
 """Frictional ageing: mu_s grows with the time at rest.
 
-With its logarithm, mu_s + b log10(1 + t / t_0), as Dieterich found for rock and as ice does, or up
-to a limit, mu_s + c (1 - exp(-t / t_1)). In slip the age is lost over a distance (Dieterich's D_c).
+With its logarithm, mu_s + b log10(1 + t / t_0), as Dieterich found for rock and as ice does, up to
+a limit, mu_s + c (1 - exp(-t / t_1)), or with a power, mu_s + d t^n, t in s (Rabinowicz, Proc.
+Phys. Soc. 71, 1958). In slip the age is lost over a distance (Dieterich's D_c).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from ..effect import Case, Effect
 
 
 class StaticStrengthening(Table):
-    """Static friction grows with the time at rest: with its logarithm, or up to a limit."""
+    """Static friction grows with the time at rest: its logarithm, a power, or up to a limit."""
 
     rate: float = quantity(
         0.0, "1", "growth of mu_s per decade of hold time", ge=0, le=2, typical=(0.01, 0.3)
@@ -45,17 +46,31 @@ class StaticStrengthening(Table):
         gt=0,
         tried=(1e-5, 1e-3),
     )
+    power: float = quantity(
+        0.0, "1", "growth of mu_s in a hold of 1 s, by its power", ge=0, le=5, typical=(0.02, 0.3)
+    )
+    exponent: float = quantity(
+        0.3, "1", "power of the hold time with which it grows", ge=0.02, le=2, tried=(0.1, 0.8)
+    )
 
 
 def static_growth(
-    hold: float, rate: float, hold_time: float, saturating: float, saturation_time: float
+    hold: float,
+    rate: float,
+    hold_time: float,
+    saturating: float,
+    saturation_time: float,
+    power: float,
+    exponent: float,
 ) -> float:
-    """What ``hold`` seconds at rest add to mu_s: so much a decade, or so much in the end."""
+    """What ``hold`` seconds at rest add to mu_s: so much a decade, in the end, or by a power."""
     growth = 0.0
     if rate != 0.0:
         growth += rate * log10(1.0 + hold / hold_time)
     if saturating != 0.0:
         growth += saturating * (1.0 - exp(-hold / saturation_time))
+    if power != 0.0:
+        growth += power * hold**exponent
     return growth
 
 
@@ -64,7 +79,7 @@ _HOLD = 0.5
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Logarithmic at once or after an onset, and saturating."""
+    """Logarithmic at once or after an onset, saturating, and a power."""
     rate = FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
     yield Candidate(
         "static_strengthening",
@@ -100,13 +115,24 @@ def candidates(s: Scales) -> Iterator[Candidate]:
             ),
             grows=1.0,
         )
+    exponent = 0.3
+    yield Candidate(
+        "static_strengthening",
+        "power",
+        (
+            FreeParameter("static_strengthening.power", 0.05, 0.03, 0.0, 5.0),
+            FreeParameter("static_strengthening.exponent", exponent, 0.15, 0.05, 1.0),
+        ),
+        grows=_HOLD**exponent,
+    )
 
 
 EFFECT = Effect(
     id="static_strengthening",
     table=StaticStrengthening,
-    switch=("rate", "saturating"),
+    switch=("rate", "saturating", "power"),
     enters="contact",
+    axis="hold time",
     source="Dieterich, J. Geophys. Res. 77 (1972); Schulson & Fortt, 0.3 a decade on ice",
     terms=(static_growth,),
     core={"slip_distance": "AGE_DISTANCE"},

@@ -1,7 +1,10 @@
 """Friction grows with the sliding speed: a film of melt or water is sheared.
 
 A Couette film of the whole contact gives a force c U; a film that grows as it melts gives one that
-grows with the root of the local speed, b sqrt(v) / N beside mu_k.
+grows with the root of the local speed v. A film that shears thin or thick gives a power of it
+(Ostwald & de Waele), one that comes to a limiting shear stress a force that saturates:
+
+    b sqrt(v) + P (v / v_p)^n + S v / (v + v_s), over N, beside mu_k.
 """
 
 from __future__ import annotations
@@ -27,6 +30,29 @@ class FilmDrag(Table):
         ge=0,
         typical=(0.05, 2.0),
     )
+    power: float = quantity(
+        0.0,
+        "N",
+        "P, force of the whole contact at power_speed, growing with a power of the local speed",
+        ge=0,
+        typical=(0.02, 1.0),
+    )
+    exponent: float = quantity(
+        1.0, "1", "n, of the power: below 1 it shears thin", ge=0.2, le=4, tried=(0.5, 2.0)
+    )
+    power_speed: float = quantity(
+        0.1, "m/s", "v_p, speed at which the force is that", gt=0, tried=(0.05, 0.3)
+    )
+    saturating: float = quantity(
+        0.0,
+        "N",
+        "S, force of the whole contact that a fast sliding comes to",
+        ge=0,
+        typical=(0.05, 1.0),
+    )
+    saturation_speed: float = quantity(
+        0.1, "m/s", "v_s, speed at which it is half of that", gt=0, tried=(0.03, 0.3)
+    )
 
 
 def contact_drag(coefficient: float) -> float:
@@ -34,26 +60,63 @@ def contact_drag(coefficient: float) -> float:
     return coefficient
 
 
-def film_friction(speed: float, root_coefficient: float, normal_force: float) -> float:
-    """What a film whose shear grows with the root of the speed adds to the coefficient."""
-    return root_coefficient * sqrt(speed) / normal_force
+def film_friction(
+    speed: float,
+    root_coefficient: float,
+    power: float,
+    exponent: float,
+    power_speed: float,
+    saturating: float,
+    saturation_speed: float,
+    normal_force: float,
+) -> float:
+    """What films whose shear is no multiple of the speed add to the coefficient."""
+    force = root_coefficient * sqrt(speed)
+    if power != 0.0:
+        force += power * (speed / power_speed) ** exponent
+    if saturating != 0.0:
+        force += saturating * speed / (speed + saturation_speed)
+    return force / normal_force
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Either film."""
+    """Each film by itself."""
     drag = 0.02 * s.force / s.speed
     linear = FreeParameter("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag)
     yield Candidate("film_drag", "linear", (linear,))
     much = 0.02 * s.force / s.speed**0.5
     root = FreeParameter("film_drag.root_coefficient", much, much, 0.0, 1e3 * much)
     yield Candidate("film_drag", "root", (root,))
+    force = 0.02 * s.force
+    yield Candidate(
+        "film_drag",
+        "power",
+        (
+            FreeParameter("film_drag.power", force, force, 0.0, 1e3 * force),
+            FreeParameter("film_drag.exponent", 1.5, 0.3, 0.3, 3.0),
+        ),
+        {"film_drag.power_speed": s.speed},
+    )
+    # over a much smaller speed it would be another mu_k, not a law of the sliding speed
+    knee = FreeParameter(
+        "film_drag.saturation_speed",
+        0.5 * s.speed,
+        0.4,
+        0.1 * s.speed,
+        1e2 * s.speed,
+        log=True,
+        plain_below=True,
+    )
+    most = FreeParameter("film_drag.saturating", 2.0 * force, force, 0.0, 1e3 * force)
+    yield Candidate("film_drag", "saturating", (most, knee))
 
 
 EFFECT = Effect(
     id="film_drag",
     table=FilmDrag,
-    switch=("coefficient", "root_coefficient"),
+    switch=("coefficient", "root_coefficient", "power", "saturating"),
     enters="friction",
+    axis="sliding speed",
     source="Couette film; hydrodynamic friction of ice grows with the root of the speed",
     terms=(film_friction, contact_drag),
     candidates=candidates,

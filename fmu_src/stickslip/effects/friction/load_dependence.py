@@ -1,8 +1,16 @@
-"""Friction coefficients fall (or grow) with the normal force: mu (N / N_0)^-n."""
+"""Friction coefficients fall (or grow) with the normal force N.
+
+    mu (N / N_0)^-n (1 + A / N) / (1 + A / N_0) max(0, 1 - c log10(N / N_0))
+
+The power is that of deformed asperities (Archard, Proc. R. Soc. A 243, 1957); adhesion A presses
+beside the load, so that there is a force of friction without any (Derjaguin, 1934); so much a
+decade is how measured coefficients are often stated. mu_s and mu_k are those at N_0.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import log10
 
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
@@ -22,29 +30,55 @@ class LoadDependence(Table):
         gt=0,
         tried=(3.0, 12.0),
     )
+    adhesion: float = quantity(
+        0.0, "N", "A, force that presses beside the load", ge=0, typical=(0.1, 5.0)
+    )
+    logarithmic: float = quantity(
+        0.0,
+        "1",
+        "c, part of mu_s and mu_k lost per decade of the normal force, down to none left",
+        ge=-2,
+        le=2,
+        typical=(0.05, 0.5),
+    )
 
 
-def coefficient_factor(normal_force: float, reference_force: float, exponent: float) -> float:
+def coefficient_factor(
+    normal_force: float,
+    reference_force: float,
+    exponent: float,
+    adhesion: float,
+    logarithmic: float,
+) -> float:
     """mu_s and mu_k over their values at the reference force."""
-    return (normal_force / reference_force) ** -exponent
+    factor = (normal_force / reference_force) ** -exponent
+    factor *= (1.0 + adhesion / normal_force) / (1.0 + adhesion / reference_force)
+    return factor * max(0.0, 1.0 - logarithmic * log10(normal_force / reference_force))
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Falling or growing from the campaign's own mean."""
+    """Falling or growing from the campaign's own mean, adhesion, or so much a decade."""
+    at_mean = {"load_dependence.reference_force": s.force}
     for sign in (0.1, -0.1):
         yield Candidate(
             "load_dependence",
             "power law",
             (FreeParameter("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
-            {"load_dependence.reference_force": s.force},
+            at_mean,
         )
+    much = 0.2 * s.force
+    adhesion = FreeParameter("load_dependence.adhesion", much, much, 0.0, 1e2 * much)
+    yield Candidate("load_dependence", "adhesion", (adhesion,), at_mean)
+    decade = FreeParameter("load_dependence.logarithmic", 0.2, 0.2, -2.0, 2.0)
+    yield Candidate("load_dependence", "logarithmic", (decade,), at_mean)
 
 
 EFFECT = Effect(
     id="load_dependence",
     table=LoadDependence,
-    switch=("exponent",),
+    switch=("exponent", "adhesion", "logarithmic"),
     enters="friction",
+    axis="load",
     source="the source study's literature: friction of ice falls with the load",
     terms=(coefficient_factor,),
     candidates=candidates,

@@ -1,6 +1,10 @@
 """Kinetic friction drifts with the distance slid: wear, polishing, wetting.
 
-mu_k (1 + r (1 - exp(-s / D)))
+    mu_k (1 + r (1 - exp(-(s / D)^n)))
+
+n = 1 is a first-order change; below 1 it is fast at first and then long drawn out, as where quick
+smoothing goes before slow wear, above 1 it sets in after a while (stretched exponential). mu_s
+stays, or takes its share (`static_share`).
 """
 
 from __future__ import annotations
@@ -11,6 +15,7 @@ from math import exp
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
+from ..static_share import STATIC_FORMS, static_absolute, static_relative
 
 
 class RunIn(Table):
@@ -26,32 +31,66 @@ class RunIn(Table):
         gt=0,
         tried=(0.1, 3.0),
     )
+    stretching: float = quantity(
+        1.0,
+        "1",
+        "n of 1 - exp(-(s / distance)^n): 1 exponential, below 1 long drawn out, above 1 delayed",
+        ge=0.2,
+        le=4,
+        tried=(0.5, 2.0),
+    )
+    static_relative: float = static_relative()
+    static_absolute: float = static_absolute()
 
 
-def kinetic_factor(slid: float, change: float, distance: float) -> float:
+def kinetic_factor(slid: float, change: float, distance: float, stretching: float) -> float:
     """mu_k over its value at the start."""
-    return 1.0 + change * (1.0 - exp(-slid / distance))
+    if stretching == 1.0 or slid <= 0.0:
+        return 1.0 + change * (1.0 - exp(-slid / distance))
+    return 1.0 + change * (1.0 - exp(-((slid / distance) ** stretching)))
+
+
+def static_factor(
+    slid: float,
+    change: float,
+    distance: float,
+    stretching: float,
+    static_relative: float,
+    static_absolute: float,
+    mu_s: float,
+    mu_k: float,
+) -> float:
+    """mu_s over its value at the start."""
+    share = static_relative
+    if mu_s > 0.0:
+        share += static_absolute * mu_k / mu_s
+    return max(0.0, 1.0 + share * (kinetic_factor(slid, change, distance, stretching) - 1.0))
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """A growth or a fall, over a tenth or half of a run."""
+    """A growth or a fall, over a tenth or half of a run; mu_s with it; or stretched."""
     for share in (0.1, 0.5):
+        for change in (0.1, -0.1):
+            yield Candidate("run_in", "exponential", _drift(s, share, change))
+    for form, static in STATIC_FORMS.items():
         for change in (0.1, -0.1):
             yield Candidate(
                 "run_in",
-                "exponential",
-                (
-                    FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
-                    FreeParameter(
-                        "run_in.distance",
-                        share * s.distance,
-                        0.5,
-                        1e-3 * s.distance,
-                        1e2 * s.distance,
-                        log=True,
-                    ),
-                ),
+                f"exponential, {form}",
+                _drift(s, 0.3, change),
+                {f"run_in.{static}": 1.0},
             )
+    bend = FreeParameter("run_in.stretching", 0.7, 0.2, 0.3, 3.0)
+    yield Candidate("run_in", "stretched", (*_drift(s, 0.3, -0.1), bend))
+
+
+def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
+    """A change, over a share of the distance that a run slides."""
+    start, low, high = share * s.distance, 1e-3 * s.distance, 1e2 * s.distance
+    return (
+        FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
+        FreeParameter("run_in.distance", start, 0.5, low, high, log=True),
+    )
 
 
 EFFECT = Effect(
@@ -59,8 +98,9 @@ EFFECT = Effect(
     table=RunIn,
     switch=("change",),
     enters="friction",
-    source="wear, polishing and wetting, named by the source study",
-    terms=(kinetic_factor,),
+    axis="distance",
+    source="wear, polishing and wetting, named by the source study; Blau, Tribol. Int. 38 (2005)",
+    terms=(kinetic_factor, static_factor),
     candidates=candidates,
     case=Case({"change": -0.5}, window=(0.0, 8.0)),
 )

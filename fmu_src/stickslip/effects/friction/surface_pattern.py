@@ -63,7 +63,12 @@ def place_variation(
 
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A sine, and one with its second harmonic."""
-    length = FreeParameter("surface_pattern.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    # what no run passes once is no pattern: it would be a drift by another name
+    longest = s.longest or s.distance
+    start = min(0.1, 0.5 * longest)
+    length = FreeParameter(
+        "surface_pattern.wavelength", start, 0.02, min(1e-3, 0.1 * longest), longest, log=True
+    )
     yield from periodic("surface_pattern", length, "sine")
 
 
@@ -72,6 +77,7 @@ EFFECT = Effect(
     table=SurfacePattern,
     switch=("amplitude",),
     enters="friction",
+    axis="place",
     source="waves along the track, as in paper-on-paper records (Colas et al., 2019)",
     terms=(place_variation,),
     derived=(wavenumber, phase, second_harmonic_phase),

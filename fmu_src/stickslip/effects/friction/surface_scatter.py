@@ -63,6 +63,7 @@ EFFECT = Effect(
     table=SurfaceScatter,
     switch=("deviation",),
     enters="friction",
+    axis="place",
     source="the source study's statistical friction, as a field on the surface",
     terms=(place_variation,),
     derived=(wavenumber, phase),

@@ -4,7 +4,13 @@ The lumped thermal state q (J) gains the friction power P and forgets over the t
 
     q' = P - q / tau,        mu_k (1 + c k q)^(-1/c),
 
-with the loss k per joule; c = -1 is a linear decline, c -> 0 an exponential one.
+with the loss k per joule; c = -1 is a linear decline, c -> 0 an exponential one. mu_s stays, or
+takes its share (`static_share`).
+
+A body into which heat diffuses forgets like a half-space: a constant power warms its face with the
+root of the time (Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 2.9). Two more such
+states, of the times tau / 22 and 29 tau, give that to 3 % for heating times of tau / 20 to 20 tau:
+q + d (6.5 q_fast + 0.29 q_slow) in place of q, with d = 1.
 """
 
 from __future__ import annotations
@@ -15,6 +21,14 @@ from math import exp
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
 from ..effect import Case, Effect, State
+from ..static_share import STATIC_FORMS, static_absolute, static_relative
+
+#: Memories beside tau, shorter and longer by so much, and their weights: those with which the rise
+#: under a constant power is nearest to the root of the time, in the largest relative distance.
+FASTER = 22.0
+FAST_WEIGHT = 6.5
+SLOWER = 29.0
+SLOW_WEIGHT = 0.29
 
 
 class ThermalWeakening(Table):
@@ -34,15 +48,62 @@ class ThermalWeakening(Table):
         le=1,
         tried=(-1.0, 1.0),
     )
+    diffusion: float = quantity(
+        0.0,
+        "1",
+        "1: heat is forgotten as a half-space does, about relaxation_time; 0: exponentially",
+        ge=0,
+        le=1,
+        tried=(0.0, 1.0),
+    )
+    static_relative: float = static_relative()
+    static_absolute: float = static_absolute()
 
 
-def kinetic_factor(recent_heat: float, per_joule: float, curvature: float) -> float:
+def remembered(recent_heat: float, fast_heat: float, slow_heat: float, diffusion: float) -> float:
+    """Heat that is remembered, J."""
+    return recent_heat + diffusion * (FAST_WEIGHT * fast_heat + SLOW_WEIGHT * slow_heat)
+
+
+def decline(loss: float, curvature: float) -> float:
     """What is left of mu_k: (1 + c loss)^(-1/c)."""
-    loss = per_joule * recent_heat
     if curvature == 0.0:
         return exp(-loss)
     left = 1.0 + curvature * loss
     return left ** (-1.0 / curvature) if left > 0.0 else 0.0
+
+
+def kinetic_factor(
+    recent_heat: float,
+    fast_heat: float,
+    slow_heat: float,
+    per_joule: float,
+    curvature: float,
+    diffusion: float,
+) -> float:
+    """What is left of mu_k."""
+    heat = remembered(recent_heat, fast_heat, slow_heat, diffusion)
+    return decline(per_joule * heat, curvature)
+
+
+def static_factor(
+    recent_heat: float,
+    fast_heat: float,
+    slow_heat: float,
+    per_joule: float,
+    curvature: float,
+    diffusion: float,
+    static_relative: float,
+    static_absolute: float,
+    mu_s: float,
+    mu_k: float,
+) -> float:
+    """What is left of mu_s."""
+    share = static_relative
+    if mu_s > 0.0:
+        share += static_absolute * mu_k / mu_s
+    heat = remembered(recent_heat, fast_heat, slow_heat, diffusion)
+    return max(0.0, 1.0 + share * (decline(per_joule * heat, curvature) - 1.0))
 
 
 def recent_heat_rate(friction_power: float, recent_heat: float, relaxation_time: float) -> float:
@@ -50,16 +111,56 @@ def recent_heat_rate(friction_power: float, recent_heat: float, relaxation_time:
     return friction_power - recent_heat / relaxation_time
 
 
+def fast_heat_rate(
+    friction_power: float, fast_heat: float, relaxation_time: float, diffusion: float
+) -> float:
+    """Rate of what is forgotten sooner, W; nothing is gathered where it does not count."""
+    if diffusion == 0.0:
+        return 0.0
+    return friction_power - FASTER * fast_heat / relaxation_time
+
+
+def slow_heat_rate(
+    friction_power: float, slow_heat: float, relaxation_time: float, diffusion: float
+) -> float:
+    """Rate of what is forgotten later, W; nothing is gathered where it does not count."""
+    if diffusion == 0.0:
+        return 0.0
+    return friction_power - slow_heat / (SLOWER * relaxation_time)
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Linear in the heat of a short or a long memory, and bent."""
+    """Linear in the heat of a short or a long memory, and bent; mu_s with it; a half-space."""
     for time in (0.5, 5.0, 50.0):
-        # the heat that is remembered, of what a run makes
-        heat = s.heat * min(1.0, time / s.duration)
-        weak = FreeParameter("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
-        memory = FreeParameter("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True)
-        yield Candidate("thermal_weakening", "relaxing", (weak, memory))
+        yield Candidate("thermal_weakening", "relaxing", _memory(s, time))
     bend = FreeParameter("thermal_weakening.curvature", 0.0, 0.3, -1.0, 1.0)
-    yield Candidate("thermal_weakening", "relaxing, bent", (weak, memory, bend))
+    yield Candidate("thermal_weakening", "relaxing, bent", (*_memory(s, 50.0), bend))
+    for form, static in STATIC_FORMS.items():
+        settings = {f"thermal_weakening.{static}": 1.0}
+        yield Candidate("thermal_weakening", f"relaxing, {form}", _memory(s, 5.0), settings)
+    # the slowest of the three memories reaches over a run, the fastest over a part of a cycle
+    yield Candidate(
+        "thermal_weakening",
+        "half-space",
+        (_weak(0.3 * s.heat),),
+        {
+            "thermal_weakening.diffusion": 1.0,
+            "thermal_weakening.relaxation_time": 0.05 * s.duration,
+        },
+    )
+
+
+def _weak(heat: float) -> FreeParameter:
+    """A tenth is lost by so much heat, J."""
+    return FreeParameter("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
+
+
+def _memory(s: Scales, time: float) -> tuple[FreeParameter, ...]:
+    """A loss by the heat of the last ``time`` seconds, of what a run makes."""
+    return (
+        _weak(s.heat * min(1.0, time / s.duration)),
+        FreeParameter("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True),
+    )
 
 
 EFFECT = Effect(
@@ -67,9 +168,14 @@ EFFECT = Effect(
     table=ThermalWeakening,
     switch=("per_joule",),
     enters="friction",
+    axis="heat memory",
     source="frictional heating, lumped: Bowden & Hughes, Proc. R. Soc. A 172 (1939)",
-    terms=(kinetic_factor,),
-    states=(State("recent_heat", recent_heat_rate),),
+    terms=(kinetic_factor, static_factor),
+    states=(
+        State("recent_heat", recent_heat_rate),
+        State("fast_heat", fast_heat_rate),
+        State("slow_heat", slow_heat_rate),
+    ),
     candidates=candidates,
     case=Case({"per_joule": 0.4}, window=(0.0, 8.0)),
 )

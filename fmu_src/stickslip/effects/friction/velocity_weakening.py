@@ -1,15 +1,17 @@
 """Kinetic friction falls with the local sliding speed v, by one law or several at once.
 
-    mu_k (max(0, 1 - a v) / (1 + delta v) / sqrt(1 + c v) + b exp(-v / v_s))
+    mu_k (max(0, 1 - a v) / (1 + delta v) / sqrt(1 + c v) / (1 + p (v / v_p)^n)
+          * max(0, 1 - l log10(1 + v / v_l)) + b exp(-v / v_s))
 
 The hyperbolic law is that of Leine et al., Nonlinear Dynamics 16 (1998); the peak is Stribeck's;
-1 / sqrt(v) at high speed is the boundary friction of ice.
+1 / sqrt(v) at high speed is the boundary friction of ice; so much a decade is what rock, rubber and
+metals show (Dieterich, Pure Appl. Geophys. 116, 1978); the power is between all of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import exp, sqrt
+from math import exp, log10, sqrt
 
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
@@ -38,6 +40,34 @@ class VelocityWeakening(Table):
         gt=0,
         tried=(0.01, 0.3),
     )
+    power: float = quantity(
+        0.0,
+        "1",
+        "p of mu_k / (1 + p (v / power_speed)^exponent)",
+        ge=0,
+        typical=(0.03, 1.0),
+    )
+    exponent: float = quantity(
+        1.0, "1", "of the power: below 1 the fall is steepest at rest", ge=0.2, le=4, tried=(0.4, 2)
+    )
+    power_speed: float = quantity(
+        0.1, "m/s", "speed at which 1 + p divides mu_k", gt=0, tried=(0.03, 0.3)
+    )
+    logarithmic: float = quantity(
+        0.0,
+        "1",
+        "part of mu_k lost per decade of the speed, down to none left",
+        ge=0,
+        le=1,
+        typical=(0.02, 0.2),
+    )
+    logarithm_speed: float = quantity(
+        0.01,
+        "m/s",
+        "speed above which it is lost: log10(1 + v / logarithm_speed)",
+        gt=0,
+        tried=(1e-3, 0.1),
+    )
 
 
 def dry_factor(
@@ -47,11 +77,20 @@ def dry_factor(
     inverse_root: float,
     stribeck: float,
     stribeck_speed: float,
+    power: float,
+    exponent: float,
+    power_speed: float,
+    logarithmic: float,
+    logarithm_speed: float,
 ) -> float:
     """mu_k at a local sliding speed over its value at rest."""
     factor = max(0.0, 1.0 - linear * speed) / (1.0 + hyperbolic * speed)
     if inverse_root != 0.0:
         factor /= sqrt(1.0 + inverse_root * speed)
+    if power != 0.0:
+        factor /= 1.0 + power * (speed / power_speed) ** exponent
+    if logarithmic != 0.0:
+        factor *= max(0.0, 1.0 - logarithmic * log10(1.0 + speed / logarithm_speed))
     if stribeck != 0.0:
         factor += stribeck * exp(-speed / stribeck_speed)
     return factor
@@ -82,13 +121,30 @@ def candidates(s: Scales) -> Iterator[Candidate]:
             plain_below=True,
         )
         yield Candidate("velocity_weakening", "stribeck", (peak, speed))
+    yield Candidate(
+        "velocity_weakening",
+        "power",
+        (
+            FreeParameter("velocity_weakening.power", part, 0.1, 0.0, 1e3),
+            FreeParameter("velocity_weakening.exponent", 0.7, 0.2, 0.4, 2.0),
+        ),
+        {"velocity_weakening.power_speed": s.speed},
+    )
+    # set in so slowly that over the campaign's speeds it is a + b log v
+    yield Candidate(
+        "velocity_weakening",
+        "logarithmic",
+        (FreeParameter("velocity_weakening.logarithmic", 0.1, 0.05, 0.0, 1.0),),
+        {"velocity_weakening.logarithm_speed": 0.1 * s.speed},
+    )
 
 
 EFFECT = Effect(
     id="velocity_weakening",
     table=VelocityWeakening,
-    switch=("hyperbolic", "linear", "inverse_root", "stribeck"),
+    switch=("hyperbolic", "linear", "inverse_root", "stribeck", "power", "logarithmic"),
     enters="friction",
+    axis="sliding speed",
     source="Leine et al., Nonlinear Dynamics 16 (1998); Stribeck (1902); boundary friction of ice",
     terms=(dry_factor,),
     candidates=candidates,

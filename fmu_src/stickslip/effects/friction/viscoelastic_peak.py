@@ -65,6 +65,7 @@ EFFECT = Effect(
     table=ViscoelasticPeak,
     switch=("height",),
     enters="friction",
+    axis="sliding speed",
     source="Grosch, Proc. R. Soc. A 274 (1963), rubber; the bell: Savkoor, Wear 8 (1965)",
     terms=(dry_factor,),
     candidates=candidates,

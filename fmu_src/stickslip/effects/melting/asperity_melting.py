@@ -78,6 +78,7 @@ EFFECT = Effect(
     table=AsperityMelting,
     switch=("length",),
     enters="friction",
+    axis="sliding speed",
     source="Evans, Nye & Cheeseman, Proc. R. Soc. A (1976): 1/sqrt(v) well below melting",
     terms=(melting,),
     derived=(warming,),

@@ -74,6 +74,7 @@ EFFECT = Effect(
     table=MeltFilm,
     switch=("wetted_share",),
     enters="friction",
+    axis="sliding speed",
     source="Oksanen & Keinonen, Wear 78 (1982): sqrt(v) near melting",
     terms=(melting,),
     derived=(film_square,),

@@ -69,6 +69,7 @@ EFFECT = Effect(
     table=MixedLubrication,
     switch=("share",),
     enters="friction",
+    axis="sliding speed",
     source="melt water shares the load with the dry contact: Colbeck, J. Glaciol. 34 (1988)",
     terms=(flooded_share, mixed),
     derived=(couette,),

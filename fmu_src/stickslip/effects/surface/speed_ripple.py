@@ -97,6 +97,7 @@ EFFECT = Effect(
     table=SpeedRipple,
     switch=("amplitude",),
     enters="surface",
+    axis="time",
     source="the source study: the speed of the belt is not steady",
     terms=(surface_speed, surface_acceleration, fastest_rate),
     derived=(angular_rate, phase, second_harmonic_phase),

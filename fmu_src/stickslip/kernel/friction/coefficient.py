@@ -27,8 +27,9 @@ from ..layout import (
     HOLD_SINCE,
     MODE,
     P_AGE_DISTANCE,
-    P_MU_K,
     P_MU_S,
+    P_MU_SCALE,
+    P_TABLE_POINTS,
     P_TRANSITION_EXPONENT,
     P_TRANSITION_SPEED,
     STICK,
@@ -51,9 +52,11 @@ from ..terms import (
     with_mixed,
     with_place_variation,
     with_state_law,
+    with_static_factor,
     with_static_growth,
     with_static_temperature_factor,
 )
+from .table import table_coefficient
 
 
 def surface_factor(p: Floats, u: Floats, w: Floats) -> float:
@@ -79,19 +82,24 @@ def dry_share(p: Floats, u: Floats, w: Floats) -> float:
 
 
 def kinetic_coefficient(p: Floats, u: Floats, w: Floats) -> float:
-    """mu_k before any dependence on the sliding speed, at the instant in ``w[W_STATE:]``."""
-    mu = p[P_MU_K] * surface_factor(p, u, w)
+    """mu_k before any dependence on the sliding speed, at the instant in ``w[W_STATE:]``.
+
+    Where a table gives mu_k, what it is to be multiplied by.
+    """
+    mu = p[P_MU_SCALE] * surface_factor(p, u, w)
     mu = with_kinetic_temperature_factor(p, u, w, mu)
     mu = with_kinetic_factor(p, u, w, mu)
     return max(0.0, mu)
 
 
 def local_coefficient(p: Floats, u: Floats, w: Floats, mu: float, speed: float) -> float:
-    """mu_k at a local sliding speed (m/s), where ``mu`` is the value without that dependence.
+    """mu_k at a local sliding speed (m/s), where ``mu`` is that of `kinetic_coefficient`.
 
     The path dry -> boundary -> hydrodynamic friction as the speed grows; where a part of the load
     is not on the solid contact, all that holds for the rest.
     """
+    if p[P_TABLE_POINTS] > 0.0:
+        mu *= table_coefficient(p, speed)
     mu = with_dry_factor(p, u, w, mu, speed)
     mu = with_melting(p, u, w, mu, speed)
     mu = with_film_friction(p, u, w, mu, speed)
@@ -130,6 +138,7 @@ def static_coefficient(p: Floats, u: Floats, w: Floats) -> float:
     """mu_s at the instant in ``w[W_STATE:]``, of which water bears nothing."""
     mu = p[P_MU_S] * surface_factor(p, u, w)
     mu = with_static_temperature_factor(p, u, w, mu)
+    mu = with_static_factor(p, u, w, mu)
     return dry_share(p, u, w) * aged_coefficient(p, u, w, mu)
 
 

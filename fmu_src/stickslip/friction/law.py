@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arrays import inputs
-from .arrays import interface_temperature as temperature_of
-from .compiled import compiled_kernel
-from .kernel.layout import P_NORMAL_FORCE, W_FRICTION, W_SIZE
-from .kernel.terms import feels_film
-from .parameters import Parameters
+from ..arrays import inputs
+from ..arrays import interface_temperature as temperature_of
+from ..compiled import compiled_kernel
+from ..kernel.layout import P_NORMAL_FORCE, W_FRICTION, W_SIZE
+from ..kernel.terms import feels_film
+from ..parameters import Parameters
 
 
 def friction_coefficient(

@@ -1,0 +1,46 @@
+"""What two effects share by which mu_k drifts: how much of the drift mu_s takes.
+
+A drift that multiplies mu_k by f makes of mu_s
+
+    mu_s (1 + (f - 1) (r + a mu_k / mu_s)).
+
+r = 1: mu_s moves in proportion, as where the real area of contact changes; a = 1: by as much as
+mu_k, as where what a contact at rest holds beyond that is of its own kind; both 0: mu_s stays.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..quantity import quantity
+
+
+def static_relative() -> Any:
+    """r"""
+    return quantity(
+        0.0,
+        "1",
+        "what mu_s takes of mu_k's relative change: 1 all, in proportion; 0 none, it stays",
+        ge=0,
+        le=2,
+        tried=(0.0, 1.0),
+    )
+
+
+def static_absolute() -> Any:
+    """a"""
+    return quantity(
+        0.0,
+        "1",
+        "what mu_s takes of mu_k's change: 1 all, it moves by as much; 0 none",
+        ge=0,
+        le=2,
+        tried=(0.0, 1.0),
+    )
+
+
+#: Form of a candidate beside that in which mu_s stays -> the parameter that is set to 1.
+STATIC_FORMS = {
+    "mu_s in proportion": "static_relative",
+    "mu_s by as much": "static_absolute",
+}

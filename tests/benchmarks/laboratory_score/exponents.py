@@ -1,0 +1,42 @@
+"""Powers of mass and speed with which an effect's strength goes, stated against true.
+
+Both are beside the law as it is written: a share of mu, a force in N, heat in J. Where every run
+has the same gravity, a power of the load is one of the mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from .answers import Row
+
+SAME = {"load": "mass", "normal_force": "mass", "surface_speed": "speed"}
+NEAR = 0.2  # as near as the exponent has to be
+
+
+def exponents_stated(row: Row) -> dict[str, dict[str, float]]:
+    """effect -> quantity -> power, under the laboratory's names of quantities."""
+    stated = (row.found or {}).get("exponents") or {}
+    return {
+        effect: {SAME.get(name, name): number(value) for name, value in powers.items()}
+        for effect, powers in stated.items()
+    }
+
+
+def number(value: Any) -> float:
+    """A power written as a number, with its interval as a table, or as value, low, high."""
+    if isinstance(value, Mapping):
+        return float(value["value"])
+    return float(value[0] if isinstance(value, (list, tuple)) else value)
+
+
+def exponents_are_near(row: Row) -> bool:
+    """Whether every power that is not nought is stated as it is, and no other one."""
+    stated = exponents_stated(row)
+    for effect in row.truth.effects:
+        true, said = row.truth.exponents.get(effect, {}), stated.get(effect, {})
+        for quantity in {*true, *said}:
+            if abs(true.get(quantity, 0.0) - said.get(quantity, 0.0)) > NEAR:
+                return False
+    return True

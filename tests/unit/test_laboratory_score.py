@@ -1,0 +1,302 @@
+"""Scores of the laboratory's campaigns, by hand on answers made up here."""
+
+import json
+
+import laboratory
+import numpy as np
+import pytest
+from laboratory_score.answers import Row, read_lines, rows_of, truth_of
+from laboratory_score.calibration import (
+    interval_points,
+    none_points,
+    probability_points,
+    write_calibration,
+)
+from laboratory_score.exponents import exponents_are_near
+from laboratory_score.outcome import Outcome, is_right, names_physics, outcome
+from laboratory_score.parameters import compared, rounded
+from laboratory_score.shares import Share
+from laboratory_score.tables import markdown
+from laboratory_score.targets import scores
+from laboratory_score.wrong import listing
+
+CONTACT = {"form": "lugre", "mu_s": 0.4, "mu_k": 0.25}
+
+
+def found(verdict, effects=(), **more):
+    """A gap.json, as far as it is read."""
+    gap = {"before": {"fit": 9.0, "held_out": 8.0}, "after": {"fit": 1.0, "held_out": 1.05}}
+    return {"verdict": verdict, "effects": list(effects), "classes": [], "gap": gap} | more
+
+
+def told(*effects, kind=None, **more):
+    """An entry of the laboratory's answers."""
+    verdict = ["named"] if effects else ["unknown", "partial"] if kind else ["none"]
+    hidden = [
+        {
+            "name": name,
+            "shape": "a shape",
+            "law": "a law of its own",
+            "strength": 0.3,
+            "size": {"size": 7.5, "raw": 9.0, "samples": 10},
+        }
+        for name in effects
+    ]
+    answer = {"verdict": verdict, "effects": list(effects), "out_of_catalogue": kind}
+    return answer | {"hidden": hidden, "contact": CONTACT, "scatter": 0.0} | more
+
+
+def row(answer, said, suite="one_effect", name="c1"):
+    return Row(suite, name, truth_of(answer), said, seconds=10.0, cpu=9.0)
+
+
+@pytest.mark.parametrize(
+    "answer, said, kind",
+    [
+        (told("run_in"), found("named", ["run_in"]), Outcome.NAMED),
+        (told("run_in"), found("named", ["film_drag"]), Outcome.WRONG),
+        (told("run_in"), found("named", ["run_in", "film_drag"]), Outcome.WRONG),
+        (told("run_in"), found("class", ["run_in", "film_drag"]), Outcome.CLASS),
+        (told("run_in"), found("class", ["surface_pattern", "film_drag"]), Outcome.WRONG),
+        (told("run_in"), found("partial", ["run_in"], share=0.8), Outcome.PARTIAL),
+        (told("run_in"), found("partial", ["film_drag"], share=0.8), Outcome.WRONG),
+        (told("run_in"), found("none"), Outcome.NONE),
+        (told("run_in"), found("unknown"), Outcome.UNKNOWN),
+        (told("run_in"), None, Outcome.FAILED),
+        (told("run_in", "film_drag"), found("named", ["film_drag", "run_in"]), Outcome.NAMED),
+        (told("run_in", "film_drag"), found("named", ["run_in"]), Outcome.WRONG),
+        (told(), found("none"), Outcome.NONE),
+        (told(), found("partial", ["run_in"]), Outcome.WRONG),
+        (told(kind="guide_friction"), found("unknown"), Outcome.UNKNOWN),
+        (told(kind="guide_friction"), found("partial", ["run_in"]), Outcome.PARTIAL),
+        (told(kind="guide_friction"), found("named", ["run_in"]), Outcome.WRONG),
+    ],
+)
+def test_kinds_of_answers(answer, said, kind):
+    assert outcome(row(answer, said)) is kind
+
+
+def test_what_is_right():
+    right = [
+        row(told("run_in"), found("named", ["run_in"])),
+        row(told("run_in"), found("class", ["run_in", "film_drag"])),
+        row(told(), found("none")),
+        row(told(kind="play"), found("unknown")),
+        row(told(kind="play"), found("partial", ["run_in"])),
+    ]
+    wrong = [
+        row(told("run_in"), found("partial", ["run_in"])),
+        row(told("run_in"), found("none")),
+        row(told(), found("unknown")),
+        row(told(kind="play"), found("none")),
+        row(told(kind="play"), None),
+    ]
+    assert all(map(is_right, right)) and not any(map(is_right, wrong))
+
+
+def test_an_effect_that_comes_with_another_may_be_named_or_left_out():
+    answer = told("turning_surface", also_right=["lateral_friction"])
+    both = found("named", ["turning_surface", "lateral_friction"])
+    assert outcome(row(answer, both)) is Outcome.NAMED
+    assert outcome(row(answer, found("named", ["turning_surface"]))) is Outcome.NAMED
+    assert outcome(row(answer, found("named", ["lateral_friction"]))) is Outcome.WRONG
+
+
+def test_a_class_excuses_one_of_two_effects():
+    said = found("class", ["run_in", "film_drag"], classes=[["film_drag", "structural_damping"]])
+    assert outcome(row(told("run_in", "structural_damping"), said)) is Outcome.CLASS
+    assert outcome(row(told("speed_ripple", "structural_damping"), said)) is Outcome.WRONG
+
+
+def test_answers_of_other_campaigns():
+    one = truth_of({"verdict": ["named"], "effect": ["run_in"]})
+    assert one.effects == {"run_in"} and one.kind is None
+    apart = {"verdict": ["class"], "members": ["film_drag", "structural_damping"]}
+    said = found("class", ["structural_damping", "film_drag"])
+    assert outcome(row(apart, said)) is Outcome.CLASS
+    assert outcome(row(apart, found("named", ["film_drag"]))) is Outcome.WRONG
+    unknown = {"verdict": "unknown"}
+    assert is_right(row(unknown, found("unknown"))) and not is_right(row(unknown, found("none")))
+
+
+def test_a_fault_that_is_named_as_physics():
+    fault = told("measurement.scale")
+    assert names_physics(row(fault, found("named", ["run_in"])))
+    assert names_physics(row(fault, found("named", ["measurement.scale", "run_in"])))
+    assert names_physics(row(fault, found("partial", ["run_in"])))
+    assert not names_physics(row(fault, found("named", ["measurement.clock"])))
+    both = ["measurement.scale", "load_dependence"]
+    assert not names_physics(row(fault, found("class", both, classes=[both])))
+    assert not names_physics(row(fault, found("unknown")))
+
+
+def test_exponents_of_mass_and_load_are_one():
+    answer = told("run_in", exponents={"run_in": {"mass": -1.0}})
+
+    def near(stated):
+        return exponents_are_near(row(answer, found("named", ["run_in"], exponents=stated)))
+
+    assert near({"run_in": {"mass": -0.85}})
+    assert near({"run_in": {"load": {"value": -1.1, "low": -1.3, "high": -0.9}}})
+    assert not near({"run_in": {"mass": -0.7}})
+    assert not near({"run_in": {"speed": -1.0}})
+    assert not near({"run_in": {"mass": -1.0, "speed": 0.4}})
+    assert not near({})
+
+
+def test_shares_have_exact_intervals():
+    # Clopper and Pearson: none of n leaves up to 1 - 0.025^(1/n)
+    assert Share(0, 15).interval() == pytest.approx((0.0, 1 - 0.025 ** (1 / 15)))
+    assert Share(100, 100).interval()[0] == pytest.approx(0.025**0.01)
+    assert str(Share(0, 0)) == "–"
+
+
+def with_interval(key, value, half, answer, verdict="named", effects=("speed_ripple",)):
+    """An answer with one fitted parameter and its 95 % interval."""
+    fitted = {"parameters": {key: value}, "intervals": {key: [value - half, value + half]}}
+    return row(answer, found(verdict, effects, extended=fitted))
+
+
+def test_coverage_is_counted_at_90_per_cent():
+    # 1.96 standard deviations are stated, 1.645 are counted
+    for off, covered in ((1.6, True), (1.7, False)):
+        value = 0.25 + off * 0.01
+        one = with_interval("friction.mu_k", value, 1.96 * 0.01, told("speed_ripple"))
+        (each,) = compared(one)
+        assert each.covers() is covered
+        assert each.distance == pytest.approx(off, rel=1e-3)
+
+
+def test_parameters_without_a_counterpart_are_not_compared():
+    drifting = with_interval("friction.mu_k", 0.2, 0.1, told("run_in"), effects=["run_in"])
+    wrong = with_interval("friction.mu_k", 0.2, 0.1, told("speed_ripple"), effects=["run_in"])
+    smooth = told("speed_ripple", contact=CONTACT | {"form": "smooth"})
+    peak = with_interval("friction.mu_s", 0.4, 0.1, smooth)
+    assert not compared(drifting) and not compared(wrong) and not compared(peak)
+
+
+def test_a_period_is_known_as_far_as_it_is_written():
+    answer = told("speed_ripple")
+    answer["hidden"][0]["law"] = "speed (1 + strength * sawtooth), 0.874 Hz"
+    near = with_interval("speed_ripple.frequency", 0.8744, 1e-6, answer)
+    far = with_interval("speed_ripple.frequency", 0.8752, 1e-6, answer)
+    assert [each.covers() for each in (*compared(near), *compared(far))] == [True, False]
+    assert rounded("0.0874") == pytest.approx((0.0874, 0.00005))
+    answer["hidden"][0]["law"] += " at 0.2 m/s, in proportion"
+    assert not compared(with_interval("speed_ripple.frequency", 0.8744, 1e-6, answer))
+
+
+def test_amounts_of_faults_have_their_own_parameters():
+    turned = told("measurement.rotation")
+    turned["hidden"][0] |= {"shape": "rotation", "strength": 0.08}
+    said = ["measurement.rotation"]
+    (each,) = compared(with_interval("measurement.rotation", -0.07, 0.02, turned, effects=said))
+    assert (each.value, each.low, each.high) == pytest.approx((0.07, 0.05, 0.09))
+    past = told("measurement.smoothing")
+    past["hidden"][0] |= {"shape": "lagging", "strength": 0.01}
+    said = ["measurement.smoothing"]
+    (each,) = compared(
+        with_interval("measurement.smoothing_past", 0.012, 0.004, past, effects=said)
+    )
+    assert each.covers()
+
+
+def test_what_a_suite_has_to_show():
+    rows = [row(told("run_in"), found("named", ["run_in"]), "contact_and_shapes")] * 9
+    rows += [row(told("run_in"), found("unknown"), "contact_and_shapes")]
+    rows += [row(told(), found("none"), "contact_and_shapes")] * 4
+    rows += [row(told(), found("class", ["run_in"]), "contact_and_shapes")]
+    by_name = {each.what: each for each in scores("contact_and_shapes", rows)}
+    assert by_name["named by effect"].share == Share(9, 10)
+    assert by_name["named by effect"].met
+    assert by_name["nothing hidden: named"].share == Share(1, 5)
+    assert by_name["nothing hidden: named"].met is False
+    refused = by_name["nothing hidden: `none` refused (level 5%)"]
+    assert refused.share == Share(1, 5) and refused.met
+    assert by_name["right answers: held-out gap after <= 1.1"].share == Share(9, 9)
+
+
+@pytest.mark.filterwarnings("error")
+def test_calibration_is_on_the_diagonal_for_exact_tests(tmp_path):
+    random = np.random.default_rng(0)
+    empty = [
+        row(told(), found("none", chance={"p": float(p), "draws": 199}), "nothing")
+        for p in (np.arange(200) + 0.5) / 200
+    ]
+    for level, seen in none_points(empty):
+        assert seen.value == pytest.approx(level, abs=0.005)
+    estimates = 0.25 + 0.01 * random.standard_normal(600)
+    fitted = [with_interval("friction.mu_k", x, 0.0196, told("speed_ripple")) for x in estimates]
+    for level, seen in interval_points(fitted):
+        low, high = seen.interval(0.999)
+        assert low <= level <= high
+    sure = [row(told("run_in"), found("named", ["run_in"], probability=0.97))] * 97
+    sure += [row(told("run_in"), found("named", ["film_drag"], probability=0.97))] * 3
+    ((stated, seen),) = probability_points(sure)
+    assert stated == pytest.approx(0.03) and seen == Share(3, 100)
+    for rows in ([*empty, *fitted, *sure], empty, []):  # panels may have nothing to show yet
+        write_calibration(rows, tmp_path / "calibration.png")
+        assert (tmp_path / "calibration.png").stat().st_size > 10_000
+
+
+def test_tables_and_listing_name_every_case():
+    rows = [
+        row(told("run_in"), found("named", ["run_in"])),
+        row(told("film_drag"), found("named", ["run_in"], ranking=[]), name="c2"),
+        Row("one_effect", "c3", truth_of(told("run_in")), None, error="refused: no file"),
+    ]
+    text = markdown(rows, "three")
+    assert "| one_effect | 3 | 1 | 1 |  |  |  |  | 1 | 1 |" in text
+    cases = listing(rows)
+    assert cases.startswith("# 2 of 3 ")
+    assert "film_drag: not in the ranking" in cases
+    assert "c2: wrong" in cases and "size 7.5 noise units" in cases and "a law of its own" in cases
+    assert "refused: no file" in cases
+
+
+def fake_judge(task, keep=None):
+    """An answer without a campaign."""
+    said = found("none") if task.name != "b" else None
+    return {"suite": task.suite, "name": task.name, "answer": told(), "found": said, "seconds": 1.0}
+
+
+def test_a_run_that_was_cut_off_goes_on(tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        laboratory, "judge", lambda task, keep: asked.append(task.name) or fake_judge(task)
+    )
+    tasks = [laboratory.Task("nothing", name) for name in "abc"]
+    assert len(laboratory.run(tasks[:2], tmp_path, 1, False, None)) == 2
+    with open(tmp_path / laboratory.LINES, "a") as file:
+        file.write('{"suite": "nothing", "na')
+    with pytest.raises(SystemExit, match="resume"):
+        laboratory.run(tasks, tmp_path, 1, False, None)
+    rows = laboratory.run(tasks, tmp_path, 1, True, None)
+    assert asked == ["a", "b", "b", "c"]  # what failed is asked again, what is there is not
+    assert [each.name for each in rows] == ["a", "b", "c"]
+    assert len(rows_of(read_lines(tmp_path / laboratory.LINES))) == 3
+    assert "right, nothing" in laboratory.figures(rows)
+
+
+def test_tasks_of_a_suite_and_of_a_folder(tmp_path):
+    tasks = list(laboratory.of_suites(["nothing", "faults"], 3, 4, 2))
+    assert [(task.suite, task.name) for task in tasks] == [
+        ("nothing", "3-4-c001"),
+        ("nothing", "3-4-c002"),
+        ("faults", "3-4-c001"),
+        ("faults", "3-4-c002"),
+    ]
+    (tmp_path / "answers.json").write_text(json.dumps({"h01": {"verdict": ["none"]}}))
+    (task,) = laboratory.of_folder(tmp_path, tmp_path / "answers.json")
+    assert task.folder == str(tmp_path / "h01") and json.loads(task.answer) == {"verdict": ["none"]}
+
+
+def test_too_long_an_answer_is_none():
+    def endless():
+        try:
+            while True:
+                pass
+        except laboratory.TooLong:
+            return None, "too long"
+
+    assert laboratory.within(0.2, endless) == (None, "too long")

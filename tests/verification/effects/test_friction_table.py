@@ -1,0 +1,144 @@
+"""Kinetic friction by a table over the sliding speed, against scipy and laws as formulas."""
+
+import random
+import warnings
+
+import numpy as np
+import pytest
+from disc_integral import law_over_disc
+from hypothesis import given
+from hypothesis import strategies as st
+from kernel_steps import largest_step_difference, memory_of
+from scipy.interpolate import PchipInterpolator
+from stickslip import Parameters, friction_coefficient, simulate
+from stickslip.compiled import compiled_kernel
+from stickslip.friction.parameters import table_of
+from stickslip.kernel.friction.force import friction_in_slip
+from stickslip.kernel.friction.table import table_coefficient
+from stickslip.kernel.layout import P_MU_K, U_SIZE, W_FRICTION, W_SIZE
+from stickslip.packing import pack
+
+RADIUS, NORMAL = 0.04, 0.67 * 9.81
+#: Falls, is flat, has a peak, and falls to nothing.
+SPEED = (0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.6)
+MU = (0.25, 0.2, 0.2, 0.16, 0.22, 0.12, 0.0)
+PLANAR = {
+    "lateral_friction": {"ratio": 1.0},
+    "rig": {"spring_natural_length": 0.17},
+    "initial": {"x": 0.01, "y": 0.005, "phi": 0.2, "vx": 0.05},
+}
+
+
+def table(speed=SPEED, mu=MU, **more) -> dict:
+    return {"friction": {"table_speed": tuple(speed), "table_mu": tuple(mu), "mu_s": 0.5, **more}}
+
+
+spans = st.lists(st.floats(1e-3, 0.3), min_size=1, max_size=15)
+
+
+@given(spans, st.floats(0.0, 0.1), st.randoms(use_true_random=False))
+def test_between_its_points_it_is_scipys_pchip(spans, first, draw):
+    speed = np.cumsum([first, *spans])
+    mu = [draw.choice([0.0, 0.2, draw.uniform(0.0, 0.5)]) for _ in speed]
+    p, peer = Parameters(**table(speed, mu)).pack(), PchipInterpolator(speed, mu)
+    for at in [*speed, *(draw.uniform(speed[0], speed[-1]) for _ in range(20))]:
+        assert table_coefficient(p, at) == pytest.approx(float(peer(at)), abs=1e-14)
+
+
+def test_beyond_its_ends_it_is_constant():
+    parameters = Parameters(**table(SPEED[1:-1], MU[1:-1]))
+    below, above = friction_coefficient(parameters, [1e-9, SPEED[1], SPEED[-2], 50.0])[[0, 3]]
+    assert below == pytest.approx(MU[1], rel=1e-15) and above == pytest.approx(MU[-2], rel=1e-15)
+
+
+def test_at_rest_the_contact_holds_the_larger_of_mu_s_and_the_first_point():
+    for mu_s, held in ((0.4, 0.4), (0.1, 0.25)):
+        with warnings.catch_warnings(action="ignore"):  # of a mu_s below that
+            parameters = Parameters(
+                rig={
+                    "degrees_of_freedom": ("x",),
+                    "spring_length": 1.0,
+                    "spring_natural_length": 1.0,
+                },
+                initial={"vx": 0.15},
+                **table(mu_s=mu_s),
+            )
+        assert parameters.pack()[P_MU_K] == MU[0]
+        run = simulate(parameters, 3.0)
+        assert 4.0 * 20.17 * run.events[0, 2] == pytest.approx(held * NORMAL, rel=1e-9)
+
+
+# sliding and spinning (rim) speed, m/s
+MOTIONS = ((0.3, 0.0), (0.3, 0.1), (0.3, 0.3), (0.25, 0.3), (0.1, 0.3), (0.0, 0.3))
+
+
+def test_over_the_disc():
+    """Relative to mu at rest; the quadrature pays for a law that goes up and down."""
+    p = Parameters(lateral_friction={"ratio": 1.0}, **table()).pack()
+    law = PchipInterpolator(SPEED, MU)
+    for sliding, spinning in MOTIONS:
+        u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
+        friction_in_slip(p, u, w, sliding, 0.0, spinning)
+        found = -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * RADIUS)
+        there = law_over_disc(lambda v: float(law(v)), sliding, spinning, 1e-5)
+        assert np.max(np.abs(np.subtract(found, there))) < 1.6e-2 * MU[0]
+
+
+def test_a_linear_table_is_the_linear_law():
+    """mu_k (1 - a v) from two points, up to where it ends."""
+    slope, mu_k, fastest = 0.6, 0.2, 1.5
+    straight = Parameters(**table((0.0, fastest), (mu_k, mu_k * (1.0 - slope * fastest))), **PLANAR)
+    law = Parameters(
+        friction={"mu_s": 0.5, "mu_k": mu_k}, velocity_weakening={"linear": slope}, **PLANAR
+    )
+    first, second = (simulate(each, 3.0) for each in (straight, law))
+    assert len(first.events) >= 3
+    for name in ("x", "y", "phi", "heat"):
+        np.testing.assert_allclose(first[name], second[name], rtol=0, atol=1e-8)
+
+
+def test_what_else_acts_on_mu_k_multiplies_it():
+    """Load, place, distance slid: the force of a slip is all of them times the table's value."""
+    run = simulate(
+        Parameters(
+            rig={"degrees_of_freedom": ("x",), "spring_natural_length": 0.17},
+            load_dependence={"exponent": 0.3, "reference_force": 8.0},
+            surface_pattern={"amplitude": 0.1, "wavelength": 0.2},
+            run_in={"change": -0.3, "distance": 0.5},
+            **table(),
+        ),
+        4.0,
+        1e-2,
+    )
+    slip = (run["mode"] == 1) & (run["sliding_speed"] > 1e-3)
+    assert slip.sum() > 50
+    place = (run["x"] - run["surface_travel"])[slip]
+    factor = (NORMAL / 8.0) ** -0.3 * (1.0 + 0.1 * np.cos(2.0 * np.pi * place / 0.2))
+    factor *= 1.0 - 0.3 * (1.0 - np.exp(-run["sliding_distance"][slip] / 0.5))
+    mu = PchipInterpolator(SPEED, MU)(np.minimum(run["sliding_speed"][slip], SPEED[-1]))
+    force = np.abs(run["friction_force_x"][slip])
+    np.testing.assert_allclose(force, NORMAL * factor * mu, rtol=0, atol=1e-11)
+
+
+def test_it_is_found_again_under_the_fmu_s_names():
+    flat = Parameters(**table()).flat()
+    assert table_of(flat) == {"table_speed": SPEED, "table_mu": MU}
+    assert table_of(Parameters().flat()) == {"table_speed": (), "table_mu": ()}
+    few = {f"friction.table_{of}[{i}]": 0.1 * i for of in ("speed", "mu") for i in (1, 2, 3)}
+    given = Parameters().flat() | few  # the places that are left end it
+    mu = [table_coefficient(pack(given), v) for v in (0.05, 0.2, 0.25, 1.0)]
+    assert mu == pytest.approx([0.1, 0.2, 0.25, 0.3])
+
+
+def test_the_ledger_closes():
+    run = simulate(Parameters(**table(), **(PLANAR | {"initial": {"vx": 0.15, "y": 0.005}})), 10.0)
+    assert run.complete and len(run.events) > 4
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
+
+
+def test_interpreted_and_compiled_take_the_same_step():
+    draw = random.Random("table")
+    for _ in range(5):
+        mu = [draw.uniform(0.05, 0.3) for _ in SPEED]
+        memory = memory_of(Parameters(**table(SPEED, mu), **PLANAR), -8.0, 0.0)
+        assert largest_step_difference(compiled_kernel(), memory, 60) < 1e-12
