@@ -134,7 +134,7 @@ def _set_bristles(p: list[float], values: Mapping[str, float], limit: float) -> 
     times exp(-(u / v_s)^p).
     """
     distance = values["friction.presliding_distance"]
-    if distance > 0.0:
+    if distance > 0.0 and p[P_TRANSITION_SPEED] > 0.0:
         p[P_BRISTLE_STIFFNESS] = limit / distance
         critical = 2.0 * sqrt(p[P_BRISTLE_STIFFNESS] * p[P_MASS])
         p[P_BRISTLE_DAMPING] = values["friction.bristle_damping"] * critical

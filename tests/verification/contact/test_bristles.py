@@ -140,3 +140,26 @@ def test_a_contact_that_is_loaded_faster_holds_less():
         expected.append(-minimize_scalar(load, bounds=(1e-9, speed), method="bounded").fun)
     assert held[0] > held[1] > held[2]
     np.testing.assert_allclose(held, expected, rtol=0.02)
+
+
+@pytest.mark.parametrize("damping", [0.05, 0.4])
+def test_the_ringing_of_bristles_is_no_slip(damping):
+    """One slip for each rise and fall of the springs' load, however the block rings afterwards."""
+    run = simulate(parameters(presliding_distance=1e-4, bristle_damping=damping), 4.0, 1e-3)
+    x = run["x"]
+    falls = np.flatnonzero((x[1:-1] > x[:-2]) & (x[1:-1] >= x[2:]) & (x[1:-1] > 0.02))
+    cycles = 1 + np.count_nonzero(np.diff(run.time[falls]) > 0.2)
+    assert run["slip_count"][-1] == len(run.slip_starts) == cycles >= 5
+    rings = (run["vx"] > RIG["speed"]) & (run["mode"] == 0.0)
+    assert np.count_nonzero(rings) > 10
+
+
+def test_a_contact_that_ages_holds_more():
+    """Slowly loaded it breaks away at what mu_s has grown to, less what its loading takes."""
+    slow, growth = {"speed": 1e-3, "start": 1e-3, "transition_speed": 8e-3, "mass": 0.3}, 0.06
+    held = []
+    for saturating in (0.0, growth):
+        ageing = {"saturating": saturating, "saturation_time": 0.05}
+        run = simulate(parameters(**slow, static_strengthening=ageing), 25.0, 0.01)
+        held.append(RIG["stiffness"] * run["x"].max() / (slow["mass"] * GRAVITY))
+    assert held[1] - held[0] == pytest.approx(growth, rel=0.1)
