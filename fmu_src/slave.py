@@ -18,6 +18,7 @@ from math import isfinite, ulp
 
 from pythonfmu import Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.enums import Fmi2Status
+from stickslip.contradictions import contradiction
 from stickslip.kernel.advance import advance, initialise
 from stickslip.kernel.layout import (
     DONE,
@@ -196,12 +197,9 @@ class StickSlip3DOF(Fmi2Slave):
                     f"{entry['name']} = {value:g}: must lie in {bracket}"
                     f"{'-inf' if low is None else low}, {'inf' if high is None else high}]"
                 )
-        creep = values["friction.stick_creep"]
-        if creep and (values["rate_and_state.direct"] or values["rate_and_state.evolution"]):
-            raise Refused(
-                f"friction.stick_creep = {creep:g} m/s beside rate_and_state, whose contact creeps "
-                "by its own law; give one of the two"
-            )
+        refusal = contradiction(values)
+        if refusal:
+            raise Refused(refusal)
 
     # --- stepping ---
 

@@ -33,7 +33,7 @@ from cosim.fmu.pythonfmu_library import corrected
 
 #: Beside the kernel's text: files of the package `stickslip` as they are, but for where the names
 #: of the kernel come from.
-AS_THEY_ARE = ("packing.py", "status.py", "tableau.py")
+AS_THEY_ARE = ("contradictions.py", "packing.py", "status.py", "tableau.py")
 PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."""\n'
 _KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
 

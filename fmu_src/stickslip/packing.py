@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import cos, hypot, pi, radians, sin, sqrt
+from math import cos, hypot, log, pi, radians, sin, sqrt
 from random import Random
 from typing import NamedTuple
 
@@ -20,8 +20,11 @@ from .kernel.layout import (
     MOVING,
     P_ANCHOR,
     P_ATTACH,
+    P_BRISTLE_DAMPING,
+    P_BRISTLE_STIFFNESS,
     P_CURVE,
     P_CURVE_POINTS,
+    P_FAST_SLIP,
     P_FEEDING,
     P_FREE_PHI,
     P_FREE_Y,
@@ -49,14 +52,19 @@ from .kernel.layout import (
     P_TABLE_POINTS,
     P_TABLEAU,
     P_TOLERANCE,
+    P_TRANSITION_EXPONENT,
+    P_TRANSITION_SPEED,
     RAYS,
     REMEMBERED,
+    SHEARED,
     TABLE_WIDTH,
 )
-from .kernel.terms import has_local_law, has_memory
+from .kernel.terms import has_ageing, has_local_law, has_memory
 from .tableau import flat_tableau
 
 GRAVITY = 9.81  # m/s^2
+# Of its excess, what friction may err by where bristles are left out: worth some 1e-7 m of the way.
+LAG = 1e-4
 
 # where each parameter of the core stands, for those that enter the kernel as they are
 SLOTS = {
@@ -68,6 +76,8 @@ SLOTS = {
     "springs.stiffness": P_STIFFNESS,
     "friction.mu_s": P_MU_S,
     "friction.mu_k": P_MU_K,
+    "friction.transition_speed": P_TRANSITION_SPEED,
+    "friction.transition_exponent": P_TRANSITION_EXPONENT,
     "surface.run_up_time": P_RUN_UP,
     "solver.tolerance": P_TOLERANCE,
 }
@@ -92,9 +102,13 @@ def pack(values: Mapping[str, float]) -> list[float]:
     _set_table(p, values)
     limit = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
     p[P_PRESLIDING] = values["friction.stick_creep"] / limit if limit > 0.0 else 0.0
+    _set_bristles(p, values, limit)
     set_effect_numbers(p, values)
-    p[P_LOCAL_LAW] = float(p[P_TABLE_POINTS] > 0.0 or has_local_law(p))
-    p[P_FEEDING] = float(REMEMBERED if has_memory(p) else MOVING)
+    falls = p[P_TRANSITION_SPEED] > 0.0
+    p[P_LOCAL_LAW] = float(falls or p[P_TABLE_POINTS] > 0.0 or has_local_law(p))
+    p[P_FEEDING] = float(SHEARED if p[P_BRISTLE_STIFFNESS] > 0.0 else MOVING)
+    if has_memory(p) or (falls and has_ageing(p)):
+        p[P_FEEDING] = float(REMEMBERED)
     for i, name in enumerate(("x", "y", "phi", "vx", "vy", "omega")):
         p[P_INITIAL + i] = values[f"initial.{name}"]
     for i, departure in enumerate(departures.start):
@@ -110,6 +124,24 @@ def pack(values: Mapping[str, float]) -> list[float]:
     tableau = flat_tableau()
     p[P_TABLEAU : P_TABLEAU + len(tableau)] = tableau
     return p
+
+
+def _set_bristles(p: list[float], values: Mapping[str, float], limit: float) -> None:
+    """Stiffness and damping of a contact that is sheared by so much under the load ``limit``, N.
+
+    From the sliding speed P_FAST_SLIP on the bristles trail behind those of steady sliding by no
+    more than the part LAG of the excess of friction: in a slip that gains a = mu_s g, z_0 a / v_s^2
+    times exp(-(u / v_s)^p).
+    """
+    distance = values["friction.presliding_distance"]
+    if distance > 0.0 and p[P_TRANSITION_SPEED] > 0.0:
+        p[P_BRISTLE_STIFFNESS] = limit / distance
+        critical = 2.0 * sqrt(p[P_BRISTLE_STIFFNESS] * p[P_MASS])
+        p[P_BRISTLE_DAMPING] = values["friction.bristle_damping"] * critical
+        speed = p[P_TRANSITION_SPEED]
+        lag = distance * limit / p[P_MASS] / speed**2
+        fast = max(3.0, log(lag / LAG))
+        p[P_FAST_SLIP] = speed * fast ** (1.0 / p[P_TRANSITION_EXPONENT])
 
 
 class Departures(NamedTuple):

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, create_model, model_validator
 
+from .contradictions import contradiction
 from .effects import EFFECTS
 from .friction.parameters import Friction
 from .kernel.layout import CURVE_LIMIT
@@ -216,12 +217,9 @@ class Parameters(EffectTables):
                 'rig.surface = "slab" already sets turning_surface.curvature to 1/slab_radius; '
                 "give one of the two"
             )
-        law = self.rate_and_state
-        if self.friction.stick_creep != 0.0 and (law.direct != 0.0 or law.evolution != 0.0):
-            raise ValueError(
-                f"friction.stick_creep = {self.friction.stick_creep:g} m/s beside rate_and_state, "
-                "whose contact creeps by its own law; give one of the two"
-            )
+        refusal = contradiction(self.flat())
+        if refusal:
+            raise ValueError(refusal)
         speed = abs(self.surface.speed)
         if 0.0 < speed <= self.friction.stick_creep:
             raise ValueError(

@@ -13,6 +13,8 @@ import numpy as np
 
 from .arrays import STATE, RunArrays, inputs
 from .kernel.layout import (
+    BRISTLES,
+    HELD,
     HOLD_SINCE,
     INSTANT,
     MODE,
@@ -22,6 +24,7 @@ from .kernel.layout import (
     STICK,
     TRACKED,
     U_FORCE_X,
+    UNKNOWN,
     Z_STARTED,
     X,
 )
@@ -137,10 +140,13 @@ def _set(run: RunArrays, time: float, restart: Restart) -> None:
     z[SHOWN] = time
     given = np.isfinite(restart.state)
     z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
+    if given.any():  # the shear of the contact belongs to what it was set to
+        z[SHOWN + BRISTLES] = UNKNOWN
     if np.isfinite(
         restart.hold_since
     ):  # a stick's velocity is the surface's; it preslides from there
         z[SHOWN + MODE], z[SHOWN + HOLD_SINCE] = STICK, restart.hold_since
+        z[SHOWN + BRISTLES] = HELD
         run.follow_surface()
     elif past and given[STATE.index("vx")]:  # how the model moved before must not decide
         z[SHOWN + MODE] = SLIP

@@ -54,6 +54,26 @@ def with_stick_creep(parameters: Parameters, creep: float) -> Parameters:
     return parameters.model_copy(update={"friction": friction})
 
 
+def with_transition(parameters: Parameters, speed: float, exponent: float = 1.0) -> Parameters:
+    """The same, its friction falling from mu_s to mu_k over a speed, m/s."""
+    law = {"transition_speed": speed, "transition_exponent": exponent}
+    friction = parameters.friction.model_copy(update=law)
+    return parameters.model_copy(update={"friction": friction})
+
+
+def with_bristles(
+    parameters: Parameters,
+    distance: float,
+    speed: float = 3e-3,
+    exponent: float = 1.0,
+    damping: float = 0.4,
+) -> Parameters:
+    """The same, its contact sheared by a distance (m) before it slides."""
+    law = {"presliding_distance": distance, "bristle_damping": damping}
+    friction = with_transition(parameters, speed, exponent).friction.model_copy(update=law)
+    return parameters.model_copy(update={"friction": friction})
+
+
 def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) -> Parameters:
     """A random rig that moves in the plane, with the given effects on at random sizes."""
     mu_s = draw.uniform(0.1, 0.4)

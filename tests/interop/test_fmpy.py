@@ -26,6 +26,12 @@ from cosim.fmu.stickslip3dof import sources
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED}
 CREEPING = {"surface_speed": 0.03, "initial.vx": 0.03, "friction.stick_creep": 4e-3}
+SHEARED = {
+    "surface_speed": 0.03,
+    "initial.vx": 0.03,
+    "friction.transition_speed": 5e-3,
+    "friction.presliding_distance": 1e-4,
+}
 
 
 class Instance:
@@ -253,10 +259,11 @@ def test_a_state_continues_bit_for_bit(block):
     block.slave.freeFMUState(state)
 
 
-def test_a_state_of_a_stick_that_creeps_continues_bit_for_bit(block):
-    block.initialise(**CREEPING)
+@pytest.mark.parametrize(("contact", "sliding"), [(CREEPING, 1e-3), (SHEARED, 1e-4)])
+def test_a_state_of_a_stick_that_creeps_continues_bit_for_bit(block, contact, sliding):
+    block.initialise(**contact)
     block.march(0, 40, 0.01)
-    assert block.get("sliding_speed") > 1e-3  # half way to the break-away
+    assert block.get("sliding_speed") > sliding  # half way to the break-away
     state = block.slave.getFMUState()
     block.march(40, 100, 0.01)
     ahead = block.everything()
@@ -351,9 +358,10 @@ def test_the_communication_step_does_not_change_the_motion(block, size):
     )
 
 
-def test_the_communication_step_does_not_change_a_creep(block):
-    often = trajectory(block, 0.002, stop=5.0, **CREEPING)
-    (once,) = trajectory(block, 5.0, stop=5.0, **CREEPING)
+@pytest.mark.parametrize("contact", [CREEPING, SHEARED])
+def test_the_communication_step_does_not_change_a_creep(block, contact):
+    often = trajectory(block, 0.002, stop=5.0, **contact)
+    (once,) = trajectory(block, 5.0, stop=5.0, **contact)
     assert once == pytest.approx(often[-1], abs=1e-10)
     assert block.get("slip_count") > 2
 

@@ -24,6 +24,15 @@ CASES = {
         "surface": {"speed": 0.03},
         "initial": {"vx": 0.03, "y": 0.002},
     },
+    "falling over a speed": {
+        "friction": {"transition_speed": 3e-3, "transition_exponent": 1.5},
+        "static_strengthening": {"rate": 0.03},
+    },
+    "bristles": {
+        "friction": {"transition_speed": 5e-3, "presliding_distance": 5e-5},
+        "static_strengthening": {"rate": 0.03},
+        "surface": {"speed": 0.05, "run_up_time": 0.5},
+    },
     "friction by a table": {
         "friction": {"table_speed": [0.0, 0.02, 0.1, 0.4], "table_mu": [0.26, 0.2, 0.16, 0.24]},
         "lateral_friction": {"ratio": 1.0},

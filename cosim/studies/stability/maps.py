@@ -219,6 +219,7 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
         and parameters.rig.surface == "belt"
         and not parameters.springs.force_curve_extension
         and parameters.friction.stick_creep == 0.0
+        and parameters.friction.transition_speed == 0.0
         and not parameters.friction.has_table
         and parameters.structural_damping.coefficient < _critical_damping(parameters)
         and parameters.structural_damping.quadratic == 0.0

@@ -30,6 +30,31 @@ class Friction(Table):
         "is sheared before it slides; 0 is off",
         ge=0,
     )
+    transition_speed: float = quantity(
+        0.0,
+        "m/s",
+        "v_s, sliding speed over which friction falls from mu_s to mu_k: "
+        "mu_k + (mu_s - mu_k) exp(-(v / v_s)^transition_exponent); 0: at once",
+        ge=0,
+    )
+    transition_exponent: float = quantity(
+        1.0, "1", "of the transition: 1 exponential, 2 Gaussian", ge=0.5, le=3
+    )
+    presliding_distance: float = quantity(
+        0.0,
+        "m",
+        "z_0, shear of the contact under the load mu_s N: its bristles are deflected before they "
+        "slide (LuGre); needs transition_speed; 0: a rigid contact",
+        ge=0,
+        le=0.01,
+    )
+    bristle_damping: float = quantity(
+        0.4,
+        "1",
+        "of the bristles, as part of the critical damping 2 sqrt(sigma_0 m)",
+        ge=0,
+        le=2,
+    )
     table: str = Field(
         "",
         description="CSV file with the columns v (m/s) and mu, from which table_speed and table_mu "

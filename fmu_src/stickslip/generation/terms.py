@@ -199,6 +199,11 @@ def _questions(effects: Sequence[Effect]) -> list[str]:
             [(e, term) for e, term in local if "speed" in _taken(e, term)],
         ),
         _question(
+            "has_ageing",
+            "Does what a contact holds grow with its age?",
+            _terms_at("static_growth", effects),
+        ),
+        _question(
             "has_dry_law",
             "Does an effect say how mu_k of the dry contact varies with the local sliding speed?",
             _terms_at("dry_factor", effects),

@@ -10,6 +10,9 @@ from __future__ import annotations
 from math import isfinite
 
 from . import Floats
+from .bristles.events import settle_bristles
+from .bristles.law import has_bristles
+from .bristles.step import choose_bristles, fast_slip_bound, finish_bristle_step, stable_step
 from .contact import rest_speed, scaled_sliding_speed
 from .events import (
     break_away,
@@ -22,6 +25,7 @@ from .events import (
 from .friction.coefficient import holding_coefficient, is_felt
 from .interpolant import copy_instant, look_inside, set_interpolant
 from .layout import (
+    BRISTLES,
     DIRECTION,
     DONE,
     E_COUNT,
@@ -51,6 +55,7 @@ from .layout import (
     TIME,
     TOO_STIFF,
     U_SIZE,
+    UNKNOWN,
     W_SLIDING,
     Z_ENERGY,
     Z_HAS_NEXT,
@@ -80,6 +85,7 @@ def initialise(p: Floats, z: Floats, time: float):
         z[SHOWN + X + i] = p[P_INITIAL + i]
     z[SHOWN + MODE] = STICK
     z[SHOWN + DIRECTION] = 1.0
+    z[SHOWN + BRISTLES] = UNKNOWN
     z[Z_STEP] = 0.01 / p[P_RATE]
     z[Z_ENERGY] = block_energy(p, z, SHOWN)
     z[Z_TIME_BEFORE] = time
@@ -174,9 +180,38 @@ def land(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, rest: float):
     settle(p, u, z, w, e, NEXT)
 
 
+def spring_status(p: Floats, z: Floats) -> int:
+    """DONE, or why a run cannot go on from NEXT."""
+    if p[P_SHORTEST] > 0.0 and shortest_spring(p, z, NEXT) < p[P_SHORTEST]:
+        return SPRING_COLLAPSED
+    return DONE
+
+
+def bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: float) -> int:
+    """As `internal_step`, of a contact with bristles; the slopes at HERE are in ``w``."""
+    choose_bristles(p, u, z, w)
+    bound = longest_step(p, z, w, -1.0)
+    if cap > 0.0:
+        bound = min(bound, cap)
+    if z[HERE + BRISTLES] == 0.0:
+        slow = fast_slip_bound(p, w)
+        if slow > 0.0:
+            bound = min(bound, slow)
+    else:
+        bound = min(bound, stable_step(p, w))
+    if try_step(p, u, z, w, bound, 0.0) < 0.0:
+        return STEP_VANISHED
+    finish_bristle_step(p, u, z, w, e)
+    if z[NEXT + BRISTLES] != z[HERE + BRISTLES]:
+        z[Z_STEP] = 0.1 / p[P_RATE]
+    return spring_status(p, z)
+
+
 def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: float) -> int:
     """One step of the integrator's own grid: fills NEXT, events at its end included."""
     begin_step(p, u, z, w, HERE)
+    if has_bristles(p):
+        return bristle_step(p, u, z, w, e, cap)
     rest = -1.0
     grip = holding_coefficient(p, u, w)  # without it there is no coming to rest
     if z[HERE + MODE] == SLIP and grip > 0.0:
@@ -201,9 +236,15 @@ def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: fl
             finish_slip_step(p, u, z, w, e)
     if z[NEXT + MODE] != z[HERE + MODE]:
         z[Z_STEP] = 0.1 / p[P_RATE]
-    if p[P_SHORTEST] > 0.0 and shortest_spring(p, z, NEXT) < p[P_SHORTEST]:
-        return SPRING_COLLAPSED
-    return DONE
+    return spring_status(p, z)
+
+
+def settle_contact(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Decide what the contact does at SHOWN."""
+    if has_bristles(p):
+        settle_bristles(p, u, z, w, e, SHOWN)
+    else:
+        settle(p, u, z, w, e, SHOWN)
 
 
 def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:
@@ -218,13 +259,13 @@ def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:
         z[Z_INPUTS + i] = u[i]
     if z[Z_STARTED] == 0.0:
         z[Z_STARTED] = 1.0
-        settle(p, u, z, w, e, SHOWN)
+        settle_contact(p, u, z, w, e)
         z[SHOWN + SLIPS] = 0.0  # a run that starts in slip has not broken away
         e[E_COUNT] = 0.0
         copy_instant(z, SHOWN, HERE)
         return 0
     if changed == 1:
-        settle(p, u, z, w, e, SHOWN)
+        settle_contact(p, u, z, w, e)
         copy_instant(z, SHOWN, HERE)
         z[Z_HAS_NEXT] = 0.0
     return changed

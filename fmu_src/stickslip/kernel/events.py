@@ -11,9 +11,12 @@ from .contact import (
     set_holding_load,
     set_onset_direction,
 )
-from .friction.coefficient import holding_coefficient
+from .friction.coefficient import age_left, holding_coefficient
 from .layout import (
+    AGE_AWAY,
     DIRECTION,
+    DISTANCE,
+    DISTANCE_AWAY,
     E_CAPACITY,
     E_COUNT,
     E_FIRST,
@@ -74,6 +77,13 @@ def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float):
     z[instant + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
 
 
+def note_break_away(z: Floats, instant: int):
+    """Count a break-away at an instant, and note how old the contact is that gives way."""
+    z[instant + SLIPS] += 1.0
+    z[instant + AGE_AWAY] = z[instant + TIME] - z[instant + HOLD_SINCE]
+    z[instant + DISTANCE_AWAY] = z[instant + DISTANCE]
+
+
 def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
     """Let the contact slide, in the direction that the loads in ``w`` ask for.
 
@@ -114,9 +124,9 @@ def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
         release(p, u, z, w, instant)
     if z[instant + MODE] != before:
         if z[instant + MODE] == SLIP:
-            z[instant + SLIPS] += 1.0
+            note_break_away(z, instant)
         else:
-            z[instant + HOLD_SINCE] = z[instant + TIME]
+            z[instant + HOLD_SINCE] = z[instant + TIME] - age_left(p, w)
         log_event(z, e, instant)
 
 
@@ -163,7 +173,7 @@ def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
         take_step(p, u, z, w, HERE, NEXT, high)
     set_contact_in_phase(p, u, z, w, NEXT, z[HERE + TIME])
     release(p, u, z, w, NEXT)
-    z[NEXT + SLIPS] += 1.0
+    note_break_away(z, NEXT)
     log_event(z, e, NEXT)
 
 

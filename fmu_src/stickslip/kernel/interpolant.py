@@ -16,6 +16,7 @@ from __future__ import annotations
 from math import isfinite
 
 from . import Floats
+from .bristles.law import has_bristles
 from .layout import (
     ALL_STAGES,
     BETWEEN,
@@ -107,7 +108,7 @@ def interpolate(p: Floats, u: Floats, z: Floats, w: Floats, target: int, time: f
         y = ((y + z[at + 4 * STATES]) * t + z[at + 3 * STATES]) * r
         y = ((y + z[at + 2 * STATES]) * t + z[at + STATES]) * r
         z[target + 1 + i] += (y + z[at]) * t
-    if z[target + MODE] == STICK:
+    if z[target + MODE] == STICK and not has_bristles(p):
         finish_stick(p, u, z, w, HERE, target)
 
 
@@ -176,5 +177,6 @@ def look_inside(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
         interpolate(p, u, z, w, SHOWN, time)
     else:
         approach(p, u, z, w, time)
-    z[SHOWN + HEAT] = min(max(z[SHOWN + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
+    if not has_bristles(p):  # of which some heat may be booked at the step's end
+        z[SHOWN + HEAT] = min(max(z[SHOWN + HEAT], z[HERE + HEAT]), z[NEXT + HEAT])
     z[SHOWN + DISTANCE] = min(max(z[SHOWN + DISTANCE], z[HERE + DISTANCE]), z[NEXT + DISTANCE])

@@ -34,6 +34,8 @@ Slots = Sequence[tuple[str, int]]
 # --- numbers that are no places ---------------------------------------------------------------
 STICK = 0  # modes
 SLIP = 1
+UNKNOWN = -1.0  # shear of the contact, see BRISTLES
+HELD = -2.0  # not known either, but of a block that has stuck for a while
 CURVE_LIMIT = 16  # points of a force-length curve, or a table of friction, that ``p`` has room for
 CURVE_WIDTH = 4  # extension, force, stiffness, energy
 TABLE_WIDTH = 3  # sliding speed, coefficient, its slope
@@ -59,6 +61,7 @@ STEPS_PER_SECOND = 200000.0  # so many for each second of motion
 
 # --- an instant of the motion -----------------------------------------------------------------
 MOVING_STATES = ("X", "Y", "PHI", "VX", "VY", "OMEGA")  # what every motion depends on
+BRISTLE_STATES = ("SHEAR_X", "SHEAR_Y", "SHEAR_SPIN")  # of the contact, scaled, m; see bristles
 REMEMBERED_STATES = (  # what it can depend on by way of friction; the effects' states follow
     "TRAVEL",  # of the surface since the start, m
     "DISTANCE",  # mean sliding distance of the contact, m
@@ -73,9 +76,12 @@ DISCRETE_STATES = (
     ("MODE", 1),
     ("DIRECTION", 3),  # unit vector of the scaled sliding velocity
     ("SLIPS", 1),  # break-aways since the start
-    ("HOLD_SINCE", 1),  # when the present stick began, s
+    ("HOLD_SINCE", 1),  # since when the contact has aged, s: the present stick's beginning
+    ("AGE_AWAY", 1),  # age of the contact when it last broke away, s
+    ("DISTANCE_AWAY", 1),  # DISTANCE at that moment, m
     ("SLIP_TIME", 1),  # time spent in slip since the start, s
     ("QUASI_STEADY", 1),  # 1 where the direction of a slow slip follows from the load alone
+    ("BRISTLES", 1),  # 1 where the contact's shear is integrated; 0 in a fast slip; else not known
 )
 
 # --- u: inputs --------------------------------------------------------------------------------
@@ -127,11 +133,16 @@ PARAMETERS = (
     ("P_SPEED_SCALE", 1),  # speed that the motion reaches by itself, m/s; scales the error test
     ("P_SHORTEST", 1),  # length below which a spring counts as collapsed, m
     ("P_INITIAL", 6),  # x, y, phi, vx, vy, omega
-    ("P_FEEDING", 1),  # integrated numbers that the motion depends on: MOVING or REMEMBERED
+    ("P_FEEDING", 1),  # integrated numbers that the motion depends on: MOVING, SHEARED, REMEMBERED
     ("P_QUADRATURE", sum(size for _, size in QUADRATURE)),  # see friction.disc
     ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see tableau
     ("P_PRESLIDING", 1),  # sliding speed of a stick per load, m/(s N), see stick
     ("P_RELATIVE_STIFFNESS", 4),  # of each spring: what its force is multiplied by
+    ("P_TRANSITION_SPEED", 1),  # over which friction falls from mu_s to mu_k, m/s; 0: at once
+    ("P_TRANSITION_EXPONENT", 1),
+    ("P_BRISTLE_STIFFNESS", 1),  # of the contact against shear, N/m; 0: it is rigid
+    ("P_BRISTLE_DAMPING", 1),  # N s/m
+    ("P_FAST_SLIP", 1),  # sliding speed from which the shear follows from the slip alone, m/s
     ("P_MU_SCALE", 1),  # what the factors of mu_k multiply: mu_k, or 1 where a table gives it
     ("P_TABLE_POINTS", 1),  # points of the table of mu_k over the sliding speed; 0: none
     ("P_TABLE", CURVE_LIMIT * TABLE_WIDTH),
@@ -170,7 +181,7 @@ OUTPUTS = (
 
 def instant(effects: Iterable[Effect]) -> Slots:
     """What an instant of the motion is made of."""
-    remembered = (*MOVING_STATES, *REMEMBERED_STATES, *state_slots(effects))
+    remembered = (*MOVING_STATES, *BRISTLE_STATES, *REMEMBERED_STATES, *state_slots(effects))
     states = ("TIME", *remembered, *COUNTED_STATES)
     return [*((name, 1) for name in states), *DISCRETE_STATES]
 
@@ -211,6 +222,9 @@ def scratch(size: int, states: int) -> Slots:
         ("W_STEADY", 3),  # direction of sliding that the load asks for, see steady_sliding
         ("W_RUNNING_UP", 1),  # 1 while the internal step lies in the surface's speed ramp
         ("W_SPAN", 1),  # size of the step that the slopes belong to, s
+        ("W_EXCESS", 1),  # of friction at the first instant of a slip over mu_k, see coefficient
+        ("W_SHEARING", 3),  # rates of the contact's shear, m/s
+        ("W_YIELD_RATE", 1),  # at which it gives way, 1/s
     )
 
 
@@ -223,6 +237,7 @@ def constants(effects: Sequence[Effect] = EFFECTS) -> dict[str, int | float]:
     own |= {
         "STATES": states,  # integrated numbers: X ... DAMPED
         "MOVING": len(MOVING_STATES),
+        "SHEARED": len(MOVING_STATES) + len(BRISTLE_STATES),
         "REMEMBERED": states - len(COUNTED_STATES),
     }
     size = own["INSTANT"] = inside.pop("SIZE")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from . import Floats
+from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, storing_power
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_at_onset, friction_in_slip
 from .layout import (
+    BRISTLES,
     DAMPED,
     DISTANCE,
     HEAT,
@@ -19,6 +21,7 @@ from .layout import (
     P_RADIUS,
     PHI,
     QUASI_STEADY,
+    SHEAR_X,
     SLIP,
     STICK,
     TIME,
@@ -32,6 +35,7 @@ from .layout import (
     W_FRICTION,
     W_LOAD,
     W_MEAN_SPEED,
+    W_SHEARING,
     W_SLIDING,
     W_STATE,
     W_SURFACE,
@@ -70,6 +74,14 @@ def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
     Returns power of the surface beyond that of friction, W: 0 but in presliding and
     in quasi-steady sliding.
     """
+    if has_bristles(p):
+        set_contact(p, u, w, W_STATE)
+        if w[W_STATE + BRISTLES] == 1.0:
+            set_bristle_friction(p, u, w)
+        else:
+            set_slip_friction(p, u, w)
+        set_rates(p, w, out)
+        return 0.0
     if mode == STICK and p[P_PRESLIDING] != 0.0:
         power = set_presliding(p, u, w)
         set_rates(p, w, out)
@@ -116,7 +128,13 @@ def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int):
     """
     work = set_motion(p, u, w, mode, out)
     heat = 0.0
-    if mode == SLIP or p[P_PRESLIDING] != 0.0:
+    for i in range(3):
+        w[out + SHEAR_X - 1 + i] = 0.0
+    if has_bristles(p) and w[W_STATE + BRISTLES] == 1.0:
+        for i in range(3):
+            w[out + SHEAR_X - 1 + i] = w[W_SHEARING + i]
+        heat -= storing_power(p, w)
+    if mode == SLIP or p[P_PRESLIDING] != 0.0 or has_bristles(p):
         heat -= w[W_FRICTION] * w[W_SLIDING] + w[W_FRICTION + 1] * w[W_SLIDING + 1]
         heat -= w[W_FRICTION + 2] * w[W_SLIDING + 2]
     work += w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
@@ -141,5 +159,8 @@ def kinetic_energy(p: Floats, z: Floats, instant: int) -> float:
 
 
 def block_energy(p: Floats, z: Floats, instant: int) -> float:
-    """Kinetic energy of the block and elastic energy of the springs, J."""
-    return kinetic_energy(p, z, instant) + elastic_energy(p, z, instant)
+    """Kinetic energy of the block and elastic energy of springs and contact, J."""
+    energy = kinetic_energy(p, z, instant) + elastic_energy(p, z, instant)
+    if has_bristles(p):
+        energy += bristle_energy(p, z, instant)
+    return energy

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
+from .bristles.law import has_bristles
 from .contact import speed_scale
 from .layout import (
     ALL_STAGES,
@@ -14,6 +15,7 @@ from .layout import (
     INSTANT,
     LATE,
     MODE,
+    MOVING,
     NORM,
     OMEGA,
     P_FEEDING,
@@ -25,6 +27,7 @@ from .layout import (
     P_TABLEAU,
     P_TOLERANCE,
     PHI,
+    SHEARED,
     SLIP,
     SLIP_TIME,
     STAGES,
@@ -73,7 +76,7 @@ def state_scale(p: Floats, u: Floats, i: int, value: float) -> float:
     speed = speed_scale(p, u)
     length = speed / p[P_RATE]
     scale = p[P_MASS] * speed * speed  # works, heat, and states of effects that say nothing else
-    if i == X or i == Y or i == DISTANCE or i == TRAVEL:
+    if i == X or i == Y or i == DISTANCE or i == TRAVEL or MOVING < i <= SHEARED:
         scale = length
     elif i == PHI:
         scale = length / p[P_RADIUS]
@@ -123,7 +126,7 @@ def take_step(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int, 
     if mode == SLIP:
         z[end + SLIP_TIME] += h
     error = close_step(p, u, z, w, end, h)
-    if mode == STICK:
+    if mode == STICK and not has_bristles(p):
         finish_stick(p, u, z, w, start, end)
     return error
 

@@ -30,7 +30,7 @@ from .contact import (
     set_yielding_motion,
     speed_scale,
 )
-from .friction.coefficient import onset_coefficient, slow_coefficient
+from .friction.coefficient import feels_slow_speed, onset_coefficient, slow_coefficient
 from .friction.disc import disc_friction
 from .friction.force import friction_at_onset, friction_in_slip
 from .layout import (
@@ -61,7 +61,6 @@ from .layout import (
     X,
     Y,
 )
-from .terms import has_state_law
 
 # Of the motion's own speed; above it an explicit step is long enough to follow the turning.
 QUASI_STEADY_SPEED = 1e-4
@@ -151,7 +150,7 @@ def set_steady_direction(p: Floats, u: Floats, w: Floats, sigma: float) -> float
     if speed <= 0.0:
         return a
     mean = 0.0
-    if has_state_law(p):  # what the contact holds is known once its speed is
+    if feels_slow_speed(p):  # what the contact holds is known once its speed is
         mean = speed * mean_part(w)
         a = solve_direction(p, u, w, mean, 0.0, 0.0, 0.0)
     kappa = p[P_LATERAL]

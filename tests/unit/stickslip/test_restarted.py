@@ -119,3 +119,45 @@ def test_a_force_acts_on_a_stick_that_creeps_too(creeping, parameters):
     exact = [SPEED / rate * -np.expm1(-rate * times) for rate in rates]
     springs_are_linear = 1e-6
     assert np.abs(pulled[:, O_X] - free[:, O_X] - (exact[1] - exact[0])).max() < springs_are_linear
+
+
+@pytest.fixture(scope="module")
+def sheared(parameters):
+    friction = Friction(mu_s=0.3, mu_k=0.2, transition_speed=3e-3, presliding_distance=5e-5)
+    return parameters.model_copy(update={"friction": friction}).pack()
+
+
+def test_bristles_have_the_shear_that_a_window_asks_for(sheared):
+    """In stick that of a load that grows, in slip that of steady sliding: what is left is small.
+
+    The way into a break-away, some 0.1 s after the first window's begin, makes more of it.
+    """
+    times = np.linspace(0.0, 6.0, 601)
+    start = Restart(0, state(0, 0, 0, SPEED))
+    whole = simulate_restarted(sheared, SPEED, COLD, times, [start])
+    sticks = whole[:, O_MODE] == 0.0
+    begin = int(np.flatnonzero(sticks[1:] & ~sticks[:-1])[1]) + 1
+    only_x = np.full(6, np.nan)
+    only_x[0] = whole[begin + 15, O_X]
+    held = Restart(begin + 15, only_x, hold_since=times[begin])
+    slip = int(np.flatnonzero(whole[:, O_X + 3] < 0.2 * SPEED)[20])  # well inside one
+    moved = Restart(slip, whole[slip, O_X : O_X + 6])
+    for window in (held, moved):
+        # the model has not come there by itself: it was set to slip before
+        first = Restart(0, state(0.01, 0, 0, 0.5 * SPEED))
+        cut = simulate_restarted(sheared, SPEED, COLD, times, [first, window])
+        rows = slice(window.row, window.row + 15)
+        assert cut[window.row, O_MODE] == whole[window.row, O_MODE]
+        apart = np.abs(cut[rows, O_X] - whole[rows, O_X])
+        assert apart[:8].max() < 1e-6 and apart.max() < 3e-5
+
+
+def test_a_window_that_sets_nothing_leaves_the_shear(sheared):
+    times = np.linspace(0.0, 3.0, 301)
+    start = Restart(0, state(0, 0, 0, SPEED))
+    whole = simulate_restarted(sheared, SPEED, COLD, times, [start])
+    for row in (30, 80, 130, 180):
+        cut = simulate_restarted(
+            sheared, SPEED, COLD, times, [start, Restart(row, np.full(6, np.nan))]
+        )
+        assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7

@@ -12,7 +12,14 @@ import subprocess
 import sys
 
 import pytest
-from effect_cases import BESIDE_CREEP, IDS, draw_parameters, with_stick_creep
+from effect_cases import (
+    BESIDE_CREEP,
+    IDS,
+    draw_parameters,
+    with_bristles,
+    with_stick_creep,
+    with_transition,
+)
 from kernel_steps import largest_step_difference, memory_of
 from stickslip.generation.source import kernel_source
 
@@ -64,6 +71,24 @@ def test_a_stick_that_creeps(translated):
     for _ in range(2 * SETS):
         on = tuple(draw.sample(BESIDE_CREEP, 2))
         parameters = with_stick_creep(draw_parameters(on, draw), 5e-3)
+        memory = memory_of(parameters, draw.uniform(-20.0, 2.0), FILM)
+        assert largest_step_difference(translated, memory, STEPS) < 1e-12
+
+
+def test_friction_that_falls_over_a_speed(translated):
+    draw = random.Random("transition")
+    for _ in range(2 * SETS):
+        on = tuple(draw.sample(BESIDE_CREEP, 2))
+        parameters = with_transition(draw_parameters(on, draw), 5e-3, draw.choice([1.0, 1.7]))
+        memory = memory_of(parameters, draw.uniform(-20.0, 2.0), FILM)
+        assert largest_step_difference(translated, memory, STEPS) < 1e-12
+
+
+def test_a_contact_with_bristles(translated):
+    draw = random.Random("bristles")
+    for _ in range(2 * SETS):
+        on = tuple(draw.sample([e for e in BESIDE_CREEP if e != "stick_stiffness"], 2))
+        parameters = with_bristles(draw_parameters(on, draw), 5e-5, 5e-3)
         memory = memory_of(parameters, draw.uniform(-20.0, 2.0), FILM)
         assert largest_step_difference(translated, memory, STEPS) < 1e-12
 

@@ -2,7 +2,7 @@
 
 With its logarithm, mu_s + b log10(1 + t / t_0), as Dieterich found for rock and as ice does, up to
 a limit, mu_s + c (1 - exp(-t / t_1)), or with a power, mu_s + d t^n, t in s (Rabinowicz, Proc.
-Phys. Soc. 71, 1958).
+Phys. Soc. 71, 1958). In slip the age is lost over a distance (Dieterich's D_c).
 """
 
 from __future__ import annotations
@@ -37,6 +37,14 @@ class StaticStrengthening(Table):
         "hold time over which it does: 1 - exp(-t / saturation_time)",
         gt=0,
         tried=(0.05, 2.0),
+    )
+    slip_distance: float = quantity(
+        1e-4,
+        "m",
+        "slip over which a contact loses its age: exp(-s / slip_distance); matters only with "
+        "friction.transition_speed, without which it is lost at once",
+        gt=0,
+        tried=(1e-5, 1e-3),
     )
     power: float = quantity(
         0.0, "1", "growth of mu_s in a hold of 1 s, by its power", ge=0, le=5, typical=(0.02, 0.3)
@@ -127,6 +135,7 @@ EFFECT = Effect(
     axis="hold time",
     source="Dieterich, J. Geophys. Res. 77 (1972); Schulson & Fortt, 0.3 a decade on ice",
     terms=(static_growth,),
+    core={"slip_distance": "AGE_DISTANCE"},
     candidates=candidates,
     case=Case({"rate": 0.08}),
 )

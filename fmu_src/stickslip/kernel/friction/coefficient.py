@@ -3,21 +3,40 @@
 A coefficient meets the effects in this order: place on the surface, temperature, what has been
 (heat, distance slid), the local sliding speed of the dry contact, melting, a film, water that
 bears part of the load; last, what speed and state of the whole contact add.
+
+From static to kinetic it falls over a sliding speed v_s (Stribeck; Armstrong-Helouvry, Dupont &
+Canudas de Wit, Automatica 30, 1994),
+
+    mu(v) = mu_k(v) + (mu_s - mu_k(0)) exp(-(v / v_s)^p),
+
+with mu_s and mu_k as all that they meet has made them and v the local sliding speed: a slip begins
+with the very friction that held the block. With v_s = 0 it jumps. mu_s grows with the age theta of
+the contact: the time at rest, and in slip what sliding has left of it, theta_0 exp(-s / D) after
+the way s since the break-away (Dieterich's theta' = 1 - v theta / D without its 1).
 """
 
 from __future__ import annotations
 
+from math import exp
+
 from .. import Floats
 from ..layout import (
+    AGE_AWAY,
+    DISTANCE,
+    DISTANCE_AWAY,
     HOLD_SINCE,
     MODE,
+    P_AGE_DISTANCE,
     P_MU_S,
     P_MU_SCALE,
     P_TABLE_POINTS,
+    P_TRANSITION_EXPONENT,
+    P_TRANSITION_SPEED,
     STICK,
     TIME,
     U_FILM,
     U_TEMPERATURE,
+    W_EXCESS,
     W_STATE,
 )
 from ..terms import (
@@ -97,16 +116,78 @@ def state_coefficient(p: Floats, u: Floats, w: Floats, speed: float) -> float:
     return dry_share(p, u, w) * with_state_law(p, u, w, 0.0, speed)
 
 
+def age_left(p: Floats, w: Floats) -> float:
+    """Age of a contact that slides, s; none is left where friction jumps from mu_s to mu_k."""
+    if p[P_TRANSITION_SPEED] == 0.0:
+        return 0.0
+    slid = w[W_STATE + DISTANCE] - w[W_STATE + DISTANCE_AWAY]
+    return w[W_STATE + AGE_AWAY] * exp(-slid / p[P_AGE_DISTANCE])
+
+
+def aged_coefficient(p: Floats, u: Floats, w: Floats, mu: float) -> float:
+    """mu_s with the age of the contact."""
+    if w[W_STATE + MODE] == STICK:
+        hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
+        return with_static_growth(p, u, w, mu, hold)
+    if p[P_TRANSITION_SPEED] > 0.0:
+        return with_static_growth(p, u, w, mu, age_left(p, w))
+    return mu
+
+
+def static_coefficient(p: Floats, u: Floats, w: Floats) -> float:
+    """mu_s at the instant in ``w[W_STATE:]``, of which water bears nothing."""
+    mu = p[P_MU_S] * surface_factor(p, u, w)
+    mu = with_static_temperature_factor(p, u, w, mu)
+    mu = with_static_factor(p, u, w, mu)
+    return dry_share(p, u, w) * aged_coefficient(p, u, w, mu)
+
+
+def set_excess(p: Floats, u: Floats, w: Floats, mu: float):
+    """mu_s over mu_k at rest into ``w[W_EXCESS]``, where friction falls from one to the other.
+
+    ``mu`` is that of `kinetic_coefficient`. A law of speed and state has no mu_s to fall from.
+    """
+    w[W_EXCESS] = 0.0
+    if p[P_TRANSITION_SPEED] > 0.0 and not has_state_law(p):
+        at_rest = local_coefficient(p, u, w, mu, 0.0)
+        w[W_EXCESS] = max(0.0, static_coefficient(p, u, w) - at_rest)
+
+
+def transition(p: Floats, w: Floats, speed: float) -> float:
+    """What of the excess of `set_excess` is left at a local sliding speed, m/s."""
+    if w[W_EXCESS] == 0.0:
+        return 0.0
+    x = speed / p[P_TRANSITION_SPEED]
+    if p[P_TRANSITION_EXPONENT] != 1.0:
+        x = x ** p[P_TRANSITION_EXPONENT]
+    return w[W_EXCESS] * exp(-x)
+
+
+def sliding_coefficient(p: Floats, u: Floats, w: Floats, mu: float, speed: float) -> float:
+    """Friction at a local sliding speed, m/s: `local_coefficient`, and on top the `transition`."""
+    return local_coefficient(p, u, w, mu, speed) + transition(p, w, speed)
+
+
 def slow_coefficient(p: Floats, u: Floats, w: Floats, speed: float) -> float:
-    """mu_k of a slip whose speed (m/s) is small to every law but that of speed and state."""
-    mu = local_coefficient(p, u, w, kinetic_coefficient(p, u, w), 0.0)
+    """Friction of a slip whose speed (m/s) is small to every law but two.
+
+    These are the transition from mu_s, and the law of speed and state.
+    """
+    kinetic = kinetic_coefficient(p, u, w)
+    set_excess(p, u, w, kinetic)
+    mu = local_coefficient(p, u, w, kinetic, 0.0) + transition(p, w, speed)
     if has_state_law(p):
         mu = max(0.0, mu + state_coefficient(p, u, w, speed))
     return mu
 
 
+def feels_slow_speed(p: Floats) -> bool:
+    """Does `slow_coefficient` depend on its speed?"""
+    return p[P_TRANSITION_SPEED] > 0.0 or has_state_law(p)
+
+
 def onset_coefficient(p: Floats, u: Floats, w: Floats) -> float:
-    """mu_k at the first instant of a slip."""
+    """Friction at the first instant of a slip."""
     return slow_coefficient(p, u, w, 0.0)
 
 
@@ -120,10 +201,4 @@ def holding_coefficient(p: Floats, u: Floats, w: Floats) -> float:
     onset = onset_coefficient(p, u, w)
     if has_state_law(p):
         return onset
-    mu = p[P_MU_S] * surface_factor(p, u, w)
-    mu = with_static_temperature_factor(p, u, w, mu)
-    mu = with_static_factor(p, u, w, mu)
-    if w[W_STATE + MODE] == STICK:
-        hold = max(0.0, w[W_STATE + TIME] - w[W_STATE + HOLD_SINCE])
-        mu = with_static_growth(p, u, w, mu, hold)
-    return max(dry_share(p, u, w) * mu, onset)
+    return max(static_coefficient(p, u, w), onset)

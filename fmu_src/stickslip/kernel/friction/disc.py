@@ -19,7 +19,7 @@ from math import pi, sqrt
 
 from .. import Floats
 from ..layout import DEPTHS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
-from .coefficient import local_coefficient
+from .coefficient import sliding_coefficient
 
 
 def elliptic_pair(kc2: float, w: Floats):
@@ -141,7 +141,7 @@ def add_law_over_strips(
         for i in range(DEPTHS):
             tau = p[P_QUADRATURE + Q_DEPTH + i]
             q = along + k * tau * c
-            excess = max(0.0, local_coefficient(p, u, w, mu, sliding * q) + aged) - reference
+            excess = max(0.0, sliding_coefficient(p, u, w, mu, sliding * q) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * c * c * excess / RAYS
             force += share * q
             moment += share * c * tau * q / along
@@ -167,7 +167,7 @@ def add_law_over_rays(
         reach = k * c + sqrt(1.0 - k * k * p[P_QUADRATURE + Q_RAY + RAYS + j])
         for i in range(DEPTHS):
             s = 0.5 * reach * (1.0 + p[P_QUADRATURE + Q_DEPTH + i])
-            excess = max(0.0, local_coefficient(p, u, w, mu, spinning * s) + aged) - reference
+            excess = max(0.0, sliding_coefficient(p, u, w, mu, spinning * s) + aged) - reference
             share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * reach * s * excess / RAYS
             force += share * c
             moment += share * (s - k * c)

@@ -24,7 +24,8 @@ from ..layout import (
 from ..terms import with_contact_drag
 from .coefficient import (
     kinetic_coefficient,
-    local_coefficient,
+    set_excess,
+    sliding_coefficient,
     slow_coefficient,
     state_coefficient,
 )
@@ -66,13 +67,13 @@ def friction_at_onset(
     set_friction(p, w, sx, sy, sr, sliding)
 
 
-def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float):
-    """Friction against the scaled sliding velocity (sx, sy, sr), not zero; sr is a rim speed.
+def set_sliding_coefficients(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float):
+    """Force and moment per normal force (and radius) against a sliding, into ``w[W_PAIR:]``.
 
-    Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local
-    sliding speed to ``w[W_MEAN_SPEED]`` (m/s). Where mu_k depends on the local speed, the closed
-    form takes its value at the mean speed and a quadrature adds what differs from that. The age of
-    the contact (rate_and_state) belongs to the whole of it and goes with the mean speed.
+    (sx, sy, sr) is the scaled sliding velocity; sr is a rim speed. The mean local sliding speed
+    (m/s) goes to ``w[W_MEAN_SPEED]``. Where mu_k depends on the local speed, the closed form takes
+    its value at the mean speed and a quadrature adds what differs from that. The age of the contact
+    (rate_and_state) belongs to the whole of it and goes with the mean speed.
     """
     mu = kinetic_coefficient(p, u, w)
     sliding = sqrt(sx * sx + sy * sy)
@@ -81,14 +82,18 @@ def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: 
     w[W_MEAN_SPEED] = mean_speed
     reference = mu
     if p[P_LOCAL_LAW] == 1.0:
-        reference = local_coefficient(p, u, w, mu, mean_speed)
+        set_excess(p, u, w, mu)
+        reference = sliding_coefficient(p, u, w, mu, mean_speed)
     aged = state_coefficient(p, u, w, mean_speed)
     whole = max(0.0, reference + aged)
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
         add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
-    set_friction(p, w, sx, sy, sr, sliding)
+
+
+def add_contact_drag(p: Floats, w: Floats, sx: float, sy: float, sr: float):
+    """Add the drag of a film to ``w[W_FRICTION:]``."""
     drag = with_contact_drag(p, 0.0)
     if drag != 0.0:
         kappa = p[P_LATERAL]
@@ -96,3 +101,14 @@ def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: 
         w[W_FRICTION + 1] -= drag * kappa * sy
         # a uniform film: the mean of r^2 over the disc is a^2/2
         w[W_FRICTION + 2] -= drag * kappa * 0.5 * p[P_RADIUS] * sr
+
+
+def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float):
+    """Friction against the scaled sliding velocity (sx, sy, sr), not zero; sr is a rim speed.
+
+    Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local
+    sliding speed to ``w[W_MEAN_SPEED]`` (m/s).
+    """
+    set_sliding_coefficients(p, u, w, sx, sy, sr)
+    set_friction(p, w, sx, sy, sr, sqrt(sx * sx + sy * sy))
+    add_contact_drag(p, w, sx, sy, sr)

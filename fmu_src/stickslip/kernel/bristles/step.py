@@ -1,0 +1,163 @@
+"""One internal step of a contact with bristles.
+
+They are stiff only as their own vibration is, so that the explicit method follows them. At sliding
+speeds far above v_s they would be the stiffer the faster the slip, and have nothing left to say.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from .. import Floats
+from ..contact import scaled_sliding_speed, speed_scale
+from ..events import time_to_rest
+from ..layout import (
+    BRISTLES,
+    HERE,
+    MODE,
+    NEXT,
+    OMEGA,
+    P_BRISTLE_STIFFNESS,
+    P_FAST_SLIP,
+    P_LATERAL,
+    P_MASS,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+    P_RATE,
+    P_TOLERANCE,
+    STICK,
+    TIME,
+    VX,
+    VY,
+    W_SLIDING,
+    W_SLOPES,
+    W_SURFACE,
+    W_YIELD_RATE,
+)
+from ..rest import look_at
+from ..runge_kutta import begin_step, load_instant, take_step
+from .events import FAST_SLIP_BEGINS, FAST_SLIP_ENDS, change_mode, slide_steadily
+from .law import yielding_share
+
+# Rate times step up to which DOP853 is stable for bristles of any usual damping; it would find out
+# by itself, and reject every other step.
+STABLE = 6.0
+# Part of the sliding that the bristles may still follow, or spring back from, when they are left
+# out: what is then missing of friction is gone after some z_0 of slip.
+YIELDED = 1e-5
+# Angle by which friction may then lag behind the sliding: worth a ten-thousandth of it, across.
+TURNS = 1e-4
+
+
+def stable_step(p: Floats, w: Floats) -> float:
+    """Longest step with which the method follows the bristles, s; the slopes at its start in ``w``.
+
+    Their own vibration has the rate sqrt(sigma_0 / m), their yielding in slip that of `yield_rate`.
+    """
+    rate = sqrt(p[P_BRISTLE_STIFFNESS] / p[P_MASS])
+    return STABLE / max(rate, w[W_YIELD_RATE])
+
+
+def fast_slip_bound(p: Floats, w: Floats) -> float:
+    """Time in which a fast slip would come to its end at its present rate, s; -1 if it does not.
+
+    With the slopes of `begin_step` and the contact in ``w``.
+    """
+    rest = time_to_rest(p, w)
+    if rest < 0.0:
+        return -1.0
+    speed = scaled_sliding_speed(p, w)
+    aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
+    return rest * max(1e-3, 1.0 - aim / speed)
+
+
+def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Where a fast slip has become slow at NEXT, let it end there, after P_FAST_SLIP or before.
+
+    A step beyond that speed is taken again, shorter.
+    """
+    look_at(p, u, z, w, HERE)
+    fastest = scaled_sliding_speed(p, w)
+    look_at(p, u, z, w, NEXT)
+    speed = scaled_sliding_speed(p, w)
+    aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
+    low = 0.0
+    high = z[NEXT + TIME] - z[HERE + TIME]
+    slowest = speed
+    sweep = 0
+    beyond = speed < p[P_FAST_SLIP]
+    while beyond and sweep < 60:
+        h = 0.5 * (low + high)
+        if sweep % 3 != 2:
+            h = low + (high - low) * (fastest - aim) / (fastest - slowest)
+        load_instant(p, z, w, HERE)
+        take_step(p, u, z, w, HERE, NEXT, h)
+        look_at(p, u, z, w, NEXT)
+        speed = scaled_sliding_speed(p, w)
+        if speed < p[P_FAST_SLIP]:
+            high = h
+            slowest = speed
+        else:
+            low = h
+            fastest = speed
+            beyond = speed > FAST_SLIP_ENDS * p[P_FAST_SLIP]
+        sweep += 1
+    if speed <= FAST_SLIP_ENDS * p[P_FAST_SLIP]:
+        slide_steadily(p, u, z, w, NEXT, 1.0)
+
+
+def shear_at_most(p: Floats) -> float:
+    """z_0, m."""
+    return max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE] / p[P_BRISTLE_STIFFNESS]
+
+
+def turning_lag(p: Floats, w: Floats) -> float:
+    """Angle by which bristles trail behind a sliding that turns: z_0 over the way of a turn by 1.
+
+    With the slopes of `begin_step` and the contact in ``w``.
+    """
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    sx = w[W_SLIDING]
+    sy = kappa * w[W_SLIDING + 1]
+    sr = arm * w[W_SLIDING + 2]
+    ax = w[W_SLOPES + VX - 1] - w[W_SURFACE + 3]
+    ay = kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
+    ar = arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
+    size = sx * sx + sy * sy + sr * sr
+    along = (ax * sx + ay * sy + ar * sr) / size
+    ax -= along * sx
+    ay -= along * sy
+    ar -= along * sr
+    return shear_at_most(p) * sqrt(ax * ax + ay * ay + ar * ar) / size
+
+
+def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Decide whether the bristles count in a fast slip from HERE; slopes and contact are in ``w``.
+
+    They are left out where they hardly move any more, and come back where the sliding turns.
+    """
+    fast = FAST_SLIP_BEGINS * p[P_FAST_SLIP]
+    if z[HERE + MODE] == STICK or scaled_sliding_speed(p, w) < fast:
+        return
+    bristles = z[HERE + BRISTLES]
+    lag = turning_lag(p, w)
+    if bristles == 1.0 and lag < TURNS:
+        noise = p[P_TOLERANCE] * speed_scale(p, u) / p[P_RATE]  # of z, in the error test
+        if abs(yielding_share(p, w) - 1.0) < YIELDED + 10.0 * noise / shear_at_most(p):
+            bristles = 0.0
+    elif bristles == 0.0 and lag > 2.0 * TURNS:
+        bristles = 1.0
+    if bristles != z[HERE + BRISTLES]:
+        slide_steadily(p, u, z, w, HERE, bristles)
+        begin_step(p, u, z, w, HERE)
+
+
+def finish_bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Events of a contact with bristles in the step from HERE to NEXT."""
+    if z[HERE + BRISTLES] == 0.0:
+        end_fast_slip(p, u, z, w)
+        return
+    change_mode(p, u, z, w, e)

@@ -1,0 +1,205 @@
+"""Bristles of a disc in the plane: steady sliding, shear, any rig, and a stiff solver of scipy."""
+
+import random
+
+import numpy as np
+import pytest
+from effect_cases import IDS, draw_parameters, with_bristles
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from stickslip import Parameters, simulate
+from stickslip.arrays import RunArrays
+from stickslip.compiled import compiled_kernel
+from stickslip.kernel.bristles.law import (
+    bristle_energy,
+    set_bristle_friction,
+    set_sliding_shear,
+    storing_power,
+)
+from stickslip.kernel.friction.force import friction_in_slip
+from stickslip.kernel.layout import (
+    BRISTLES,
+    INSTANT,
+    MODE,
+    P_BRISTLE_STIFFNESS,
+    P_FAST_SLIP,
+    P_RADIUS,
+    SHEAR_X,
+    SHEARED,
+    SHOWN,
+    SLIP,
+    U_SIZE,
+    U_SPEED,
+    U_TEMPERATURE,
+    W_FRICTION,
+    W_SHEARING,
+    W_SIZE,
+    W_SLIDING,
+    W_SLOPES,
+    W_STATE,
+)
+
+GRAVITY = 9.81
+#: Effects that bristles cannot stand beside, or judge the stick of a rigid contact.
+NOT_BESIDE = ("rate_and_state", "stick_stiffness")
+BESIDE = tuple(effect for effect in IDS if effect not in NOT_BESIDE)
+
+
+def rig(kappa=1.0, **friction):
+    law = {"mu_s": 0.3, "mu_k": 0.2, "transition_speed": 3e-3, "presliding_distance": 5e-5}
+    return Parameters(friction=law | friction, lateral_friction={"ratio": kappa})
+
+
+def sliding(p, motion):
+    """Scratch space of a contact that slides with (U_x, U_y, Omega)."""
+    w = [0.0] * W_SIZE
+    w[W_SLIDING : W_SLIDING + 3] = motion
+    w[W_STATE + MODE] = SLIP
+    return w
+
+
+@pytest.mark.parametrize("kappa", [0.0, 0.6, 1.0])
+@pytest.mark.parametrize(
+    "motion",
+    [
+        (0.002, 0.0, 0.0), (-0.3, 0.2, 0.0), (0.0, 0.0, -0.1), (0.004, -0.003, 0.05),
+        (0.001, 0.0, 2.0), (1e-3, 0.0, 1e-13), (1e-18, 0.0, 0.2),
+    ],
+)  # fmt: skip
+def test_in_steady_sliding_friction_is_the_disc_s(kappa, motion):
+    if kappa == 0.0 and motion[0] == 0.0:
+        return  # nothing slides
+    p, u = rig(kappa).pack(), [0.0] * U_SIZE
+    u[U_TEMPERATURE] = -8.0
+    w, z = sliding(p, motion), [0.0] * INSTANT
+    set_sliding_shear(p, u, z, w, 0)
+    w[W_STATE + SHEAR_X : W_STATE + SHEAR_X + 3] = z[SHEAR_X : SHEAR_X + 3]
+    set_bristle_friction(p, u, w)
+    found = w[W_FRICTION : W_FRICTION + 3]
+    speed = max(abs(motion[0]), abs(motion[1]), 0.04 * abs(motion[2]))
+    assert np.abs(w[W_SHEARING : W_SHEARING + 3]).max() < 1e-11 * speed
+    scaled = motion[0], kappa * motion[1], kappa * p[P_RADIUS] * motion[2]
+    friction_in_slip(p, u, w, *scaled)
+    np.testing.assert_allclose(found, w[W_FRICTION : W_FRICTION + 3], rtol=1e-9, atol=1e-11)
+
+
+def test_a_small_shear_is_that_of_a_uniform_layer():
+    """sigma_0 along x, kappa^2 sigma_0 across, and kappa^2 sigma_0 a^2 / 2 against a turn."""
+    kappa, shear = 0.6, np.array([2e-7, -1e-7, 3e-6])  # m, m, rad
+    p, u = rig(kappa, bristle_damping=0.0).pack(), [0.0] * U_SIZE
+    a, stiffness = p[P_RADIUS], p[P_BRISTLE_STIFFNESS]
+    w = sliding(p, (0.0, 0.0, 0.0))
+    scale = np.array([1.0, kappa, kappa * a])
+    w[W_STATE + SHEAR_X : W_STATE + SHEAR_X + 3] = scale * shear
+    set_bristle_friction(p, u, w)
+    expected = -stiffness * shear * np.array([1.0, kappa**2, 0.5 * (kappa * a) ** 2])
+    np.testing.assert_allclose(w[W_FRICTION : W_FRICTION + 3], expected, rtol=1e-12)
+    z = w[W_STATE:]
+    energy = -0.5 * np.dot(expected, shear)
+    assert bristle_energy(p, z, 0) == pytest.approx(energy, rel=1e-12)
+    w[W_SHEARING : W_SHEARING + 3] = scale * np.array([1e-3, 2e-3, 0.05])
+    power = -np.dot(expected, [1e-3, 2e-3, 0.05])
+    assert storing_power(p, w) == pytest.approx(power, rel=1e-12)
+
+
+def test_it_takes_up_more_than_it_gives_back():
+    """Friction is dissipative for bristles of any shear inside their limit, sliding anyhow."""
+    p, u, draw = rig(0.7).pack(), [0.0] * U_SIZE, np.random.default_rng(3)
+    least = 0.2 * 0.67 * GRAVITY / p[P_BRISTLE_STIFFNESS]
+    for _ in range(300):
+        w = sliding(p, 10.0 ** draw.uniform(-5, -1) * draw.normal(size=3) * [1.0, 1.0, 25.0])
+        shear = draw.normal(size=3)
+        shear *= least * draw.uniform(0.0, 0.6) / np.linalg.norm(shear)
+        w[W_STATE + SHEAR_X : W_STATE + SHEAR_X + 3] = shear
+        set_bristle_friction(p, u, w)
+        power = np.dot(w[W_FRICTION : W_FRICTION + 3], w[W_SLIDING : W_SLIDING + 3])
+        assert -power - storing_power(p, w) > 0.0
+
+
+def without_elimination(p):
+    """The same contact, its bristles followed however fast it slides."""
+    p = np.array(p)
+    p[P_FAST_SLIP] = 1e3
+    return p
+
+
+def places(p, u, times):
+    """(n, 3) x, y, phi and the shear that the run begins with."""
+    run = RunArrays.begin(p, u)
+    run.advance(0.0)
+    start = run.z[SHOWN + 1 : SHOWN + 1 + SHEARED].copy()
+    shown = []
+    for time in times:
+        assert run.advance(time)
+        shown.append(run.z[SHOWN + 1 : SHOWN + 4].copy())
+    return np.array(shown), start
+
+
+def test_the_plane_s_motion_is_that_of_a_stiff_solver():
+    """Slopes of the kernel by LSODA; and what it costs to leave the bristles out of fast slips."""
+    tables = {
+        "rig": {"spring_natural_length": 0.17},
+        "springs": {"stiffness": 40.0},
+        "lateral_friction": {"ratio": 0.8},
+        "surface": {"speed": 0.05},
+        "initial": {"x": 0.004, "y": 0.003, "phi": 0.1, "vx": 0.05},
+    }
+    p, u = with_bristles(Parameters(**tables), 5e-5).pack(), np.zeros(U_SIZE)
+    u[U_SPEED], u[U_TEMPERATURE] = 0.05, -8.0
+    kernel, w = compiled_kernel(), np.zeros(W_SIZE)
+    w[W_STATE + BRISTLES] = 1.0
+
+    def slopes(t, y):
+        w[W_STATE + 1 : W_STATE + 1 + SHEARED] = y
+        kernel.set_slopes(stiff, u, w, float(SLIP), W_SLOPES)
+        return w[W_SLOPES : W_SLOPES + SHEARED].copy()
+
+    times, scale = np.arange(0.0, 0.4, 0.01), np.array([1.0, 1.0, 0.04])
+    stiff = without_elimination(p)
+    exact, start = places(stiff, u, times)
+    reference = solve_ivp(
+        slopes, (0.0, times[-1]), start, "LSODA", t_eval=times, rtol=1e-9, atol=1e-12
+    )
+    assert np.abs(scale * (exact - reference.y[:3].T)).max() < 1e-9
+    found, _ = places(np.array(p), u, times)
+    turned = np.abs(scale * (found - exact)).max()
+    assert 1e-9 < turned < 2e-6  # it did leave them out
+
+
+seeds = st.integers(0, 2**31)
+effects = st.lists(st.sampled_from(BESIDE), unique=True, max_size=2).map(tuple)
+distances = st.sampled_from([1e-5, 5e-5, 2e-4])
+
+
+def any_rig(seed, on, distance):
+    draw = random.Random(seed)
+    return with_bristles(
+        draw_parameters(on, draw),
+        distance,
+        10.0 ** draw.uniform(-3.0, -2.0),
+        draw.choice([1.0, draw.uniform(0.7, 3.0)]),
+        draw.uniform(0.1, 1.0),
+    )
+
+
+@settings(max_examples=30, deadline=None, derandomize=True)
+@given(seeds, effects, distances)
+def test_the_ledger_of_any_rig_is_closed(seed, on, distance):
+    parameters = any_rig(seed, on, distance)
+    run = simulate(parameters, 2.0)
+    assert run.complete, run.reason
+    limit = parameters.friction.mu_s * parameters.rig.mass * GRAVITY
+    scale = run["heat"][-1] + limit**2 / (8.0 * parameters.springs.stiffness)
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
+    assert np.all(np.diff(run["heat"]) >= -1e-6 * scale)
+
+
+@settings(max_examples=15, deadline=None, derandomize=True)
+@given(seeds, effects, distances)
+def test_when_anybody_looks_does_not_matter(seed, on, distance):
+    parameters = any_rig(seed, on, distance)
+    seldom, often = (simulate(parameters, 1.0, interval) for interval in (1.0, 0.003))
+    np.testing.assert_array_equal(seldom.events, often.events)
+    for name in ("x", "y", "phi", "heat", "sliding_distance"):
+        assert seldom[name][-1] == often[name][-1]

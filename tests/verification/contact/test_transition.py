@@ -1,0 +1,239 @@
+"""Friction that falls from mu_s to mu_k over a sliding speed: against scipy, and its limits.
+
+mu(v) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^p): a slip begins at rest with the friction that held
+the block, grows by e in tau = m v_s / (N (mu_s - mu_k)), and ends where it comes to rest again.
+"""
+
+import random
+
+import numpy as np
+import pytest
+from disc_integral import law_over_disc
+from effect_cases import BESIDE_CREEP, draw_parameters
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from stickslip import Parameters, friction_coefficient, simulate
+from stickslip.kernel.friction.force import friction_in_slip
+from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
+
+GRAVITY = 9.81
+MASS, STIFFNESS, MU_S, MU_K, SPEED = 0.67, 4.0 * 20.17, 0.3, 0.2, 0.05
+NORMAL = MASS * GRAVITY
+#: The springs along one line, so that they are linear, and the block on the surface at the start.
+LINE = {
+    "rig": {"mass": MASS, "degrees_of_freedom": ("x",),
+            "attachment_angles_deg": (180.0, 0.0, 180.0, 0.0)},
+    "friction": {"mu_s": MU_S, "mu_k": MU_K},
+    "surface": {"speed": SPEED},
+    "initial": {"vx": SPEED},
+}  # fmt: skip
+
+
+def on_a_line(duration, interval=0.01, transition_speed=0.0, **tables):
+    friction = LINE["friction"] | {"transition_speed": transition_speed}
+    tables["friction"] = friction | tables.get("friction", {})
+    blocks = {name: LINE.get(name, {}) | tables.get(name, {}) for name in {**LINE, **tables}}
+    return simulate(Parameters(**blocks), duration, interval)
+
+
+def by_scipy(times, transition_speed, exponent, creep=0.0):
+    """x of stick and slip, each to its event by DOP853, and the events' times.
+
+    A stick that creeps follows x = x_e (1 - exp(-r t)), r = v_c K / (mu_s N), x_e = V / r.
+    """
+    hold = MU_S * NORMAL
+    rate = creep * STIFFNESS / hold
+    x, start, places, events = 0.0, 0.0, np.empty_like(times), []
+
+    def stick(t):
+        if creep == 0.0:
+            return x + SPEED * (t - start)
+        return SPEED / rate + (x - SPEED / rate) * np.exp(-rate * (t - start))
+
+    def slope(t, y):
+        u = max(SPEED - y[1], 0.0)
+        mu = MU_K + (MU_S - MU_K) * np.exp(-((u / transition_speed) ** exponent))
+        return [y[1], (mu * NORMAL - STIFFNESS * y[0]) / MASS]
+
+    def at_rest(t, y):
+        return SPEED - y[1] if t > events[-1] + 2e-2 else 1.0
+
+    at_rest.terminal, at_rest.direction = True, -1
+    while start < times[-1]:
+        if creep == 0.0:
+            away = start + (hold / STIFFNESS - x) / SPEED
+        else:
+            end = SPEED / rate
+            away = start + np.log((end - x) / (end - hold / STIFFNESS)) / rate
+        inside = (times >= start) & (times <= away)
+        places[inside] = stick(times[inside])
+        if away >= times[-1]:
+            break
+        events.append(away)
+        run = solve_ivp(
+            slope, (away, times[-1]), [hold / STIFFNESS, SPEED - creep], "DOP853",
+            events=at_rest, dense_output=True, max_step=0.02, rtol=1e-11, atol=1e-13,
+        )  # fmt: skip
+        start, x = run.t[-1], run.y[0, -1]
+        inside = (times >= away) & (times <= start)
+        places[inside] = run.sol(times[inside])[0]
+        events.append(start)
+    return places, np.array(events)
+
+
+@pytest.mark.parametrize(
+    ("transition_speed", "exponent", "creep"),
+    [(1e-3, 1.0, 0.0), (1e-2, 1.0, 0.0), (3e-3, 2.0, 0.0), (3e-3, 3.0, 0.0), (3e-3, 1.0, 2e-3)],
+)
+def test_stick_and_slip_are_those_of_scipy(transition_speed, exponent, creep):
+    law = {"transition_exponent": exponent, "stick_creep": creep}
+    run = on_a_line(3.0, 0.01, transition_speed, friction=law)
+    places, events = by_scipy(run.time, transition_speed, exponent, creep)
+    assert np.abs(run["x"] - places).max() < 2e-9
+    assert len(run.events) >= 6
+    np.testing.assert_allclose(run.events[:6, 0], events[:6], rtol=0, atol=1e-7)
+    assert np.abs(run["energy_residual"]).max() < 1e-10
+
+
+def test_the_jump_is_the_limit():
+    """The delay of a break-away is tau (a ln(1 / tau) + b): of first order but for the logarithm.
+
+    The slip grows by e in tau from what the springs' load gains in tau, which is of order tau^2.
+    """
+    jump = on_a_line(1.5).slip_starts[1]
+    speeds = np.array([1e-3, 1e-4, 1e-5, 1e-6])
+    late = np.array([on_a_line(1.5, transition_speed=v).slip_starts[1] - jump for v in speeds])
+    order = np.log10(late[:-1] / late[1:])
+    assert np.all((order > 0.8) & (order < 1.0))
+    assert np.all(np.diff(order) > 0.0)
+    tau = MASS * speeds / (NORMAL * (MU_S - MU_K))
+    a_decade = np.diff(late / tau)
+    np.testing.assert_allclose(a_decade, a_decade.mean(), rtol=0.01)
+
+
+def test_a_slip_begins_with_the_friction_that_held_the_block():
+    run = on_a_line(0.6, 1e-4, 1e-3)
+    first = np.flatnonzero(run["mode"] == 1)[0]
+    slip = slice(first, first + 400)
+    friction, u = run["friction_force_x"][slip] / NORMAL, run["sliding_speed"][slip]
+    assert friction[0] == pytest.approx(MU_S, rel=1e-3)
+    np.testing.assert_allclose(friction, MU_K + (MU_S - MU_K) * np.exp(-u / 1e-3), rtol=1e-12)
+
+
+def test_the_excess_is_on_top_of_what_mu_k_meets():
+    """Other laws change mu_k; the excess is mu_s less what they make of mu_k at rest."""
+    speeds = np.array([1e-4, 1e-3, 1e-2, 0.1])
+    fall = np.exp(-((speeds / 4e-3) ** 2))
+    law = {"mu_s": MU_S, "mu_k": MU_K, "transition_speed": 4e-3, "transition_exponent": 2.0}
+    weakening = Parameters(friction=law, velocity_weakening={"hyperbolic": 3.0})
+    expected = MU_K / (1.0 + 3.0 * speeds) + (MU_S - MU_K) * fall
+    np.testing.assert_allclose(friction_coefficient(weakening, speeds), expected, rtol=1e-14)
+    peak = Parameters(friction=law, velocity_weakening={"stribeck": 0.2, "stribeck_speed": 0.05})
+    expected = MU_K * (1.0 + 0.2 * np.exp(-speeds / 0.05)) + (MU_S - 1.2 * MU_K) * fall
+    np.testing.assert_allclose(friction_coefficient(peak, speeds), expected, rtol=1e-14)
+    with pytest.warns(UserWarning, match="exceeds"):
+        stronger = Parameters(friction=law | {"mu_s": 0.1})  # nothing to fall from
+    np.testing.assert_allclose(friction_coefficient(stronger, speeds), MU_K, rtol=1e-15)
+
+
+def test_over_the_disc_it_is_the_local_speed_that_counts():
+    v, radius = 0.1, 0.04
+    law = {"mu_s": MU_S, "mu_k": MU_K, "transition_speed": v}
+    p = Parameters(friction=law, lateral_friction={"ratio": 1.0}).pack()
+    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
+    u[U_TEMPERATURE] = -8.0
+    for motion in ((0.3, 0.1), (0.25, 0.3), (0.0, 0.2)):
+        friction_in_slip(p, u, w, motion[0], 0.0, motion[1])
+        found = -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * radius)
+        exact = law_over_disc(lambda s: MU_K + (MU_S - MU_K) * np.exp(-s / v), *motion, 1e-7)
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-4 * MU_K)
+
+
+AGEING = {"saturating": 0.1, "saturation_time": 0.05}  # at 0.2 s of rest it has all of it
+
+
+def test_the_age_of_a_contact_is_lost_over_a_distance():
+    """In slip mu_s is what it would be at an age of theta_0 exp(-s / D), s the way in slip."""
+    distance, v = 1e-3, 0.02
+    run = on_a_line(0.8, 1e-4, v, static_strengthening=AGEING | {"slip_distance": distance})
+    away, slip = run.slip_starts[0], run["mode"] == 1
+    holds = (MU_S + 0.1 * -np.expm1(-away / 0.05)) * NORMAL
+    assert STIFFNESS * SPEED * away == pytest.approx(holds, rel=1e-12)
+    theta = away * np.exp(-run["sliding_distance"][slip] / distance)
+    excess = MU_S + 0.1 * -np.expm1(-theta / 0.05) - MU_K
+    expected = MU_K + excess * np.exp(-run["sliding_speed"][slip] / v)
+    friction = run["friction_force_x"][slip] / NORMAL
+    np.testing.assert_allclose(friction, expected, rtol=1e-9)
+    assert theta[-1] < 1e-3 * theta[0]
+
+
+def test_what_is_left_of_an_age_is_what_the_next_stick_begins_with():
+    """With D far longer than a slip nothing is lost: the next stick goes on at the last's age."""
+    kept, lost = (
+        on_a_line(2.0, 0.01, 5e-3, static_strengthening=AGEING | {"slip_distance": distance})
+        for distance in (1e3, 1e-5)
+    )
+    for run, begins in ((kept, kept.slip_starts[0]), (lost, 0.0)):
+        stuck, away = run.events[1, 0], run.slip_starts[1]
+        x = np.interp(stuck, run.time, run["x"])  # within 1e-4 m of the turn
+        holds = MU_S + 0.1 * -np.expm1(-(begins + away - stuck) / 0.05)
+        assert run.events[2, 2] == pytest.approx(holds * NORMAL / STIFFNESS, rel=1e-9)
+        assert run.events[2, 2] > x
+
+
+def test_without_a_transition_the_age_is_lost_at_once():
+    runs = [
+        on_a_line(3.0, static_strengthening=AGEING | {"slip_distance": distance})
+        for distance in (1e-5, 1.0)
+    ]
+    for name in runs[0].columns:
+        np.testing.assert_array_equal(runs[0][name], runs[1][name])
+
+
+def test_a_law_of_speed_and_state_has_no_mu_s_to_fall_from():
+    with pytest.raises(ValueError, match=r"friction.transition_speed = 0.001 m/s beside rate_and"):
+        Parameters(friction={"transition_speed": 1e-3}, rate_and_state={"direct": 0.01})
+    for exponent in (0.4, 3.1):
+        with pytest.raises(ValueError, match=r"friction.transition_exponent"):
+            Parameters(friction={"transition_exponent": exponent})
+
+
+# Any rig.
+
+seeds = st.integers(0, 2**31)
+effects = st.lists(st.sampled_from(BESIDE_CREEP), unique=True, max_size=3).map(tuple)
+speeds = st.sampled_from([1e-4, 2e-3, 2e-2])
+
+
+def any_rig(seed, on, transition_speed):
+    draw = random.Random(seed)
+    parameters = draw_parameters(on, draw)
+    law = {
+        "transition_speed": transition_speed,
+        "transition_exponent": draw.choice([1.0, draw.uniform(0.7, 3.0)]),
+        "stick_creep": draw.choice([0.0, 1e-3]),
+    }
+    return parameters.model_copy(update={"friction": parameters.friction.model_copy(update=law)})
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(seeds, effects, speeds)
+def test_the_ledger_of_any_rig_is_closed(seed, on, transition_speed):
+    parameters = any_rig(seed, on, transition_speed)
+    run = simulate(parameters, 3.0)
+    assert run.complete, run.reason
+    limit = parameters.friction.mu_s * parameters.rig.mass * GRAVITY
+    scale = run["heat"][-1] + limit**2 / (8.0 * parameters.springs.stiffness)
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
+    assert np.all(np.diff(run["heat"]) >= -1e-12 * scale)
+
+
+@settings(max_examples=20, deadline=None, derandomize=True)
+@given(seeds, effects, speeds)
+def test_when_anybody_looks_does_not_matter(seed, on, transition_speed):
+    parameters = any_rig(seed, on, transition_speed)
+    seldom, often = (simulate(parameters, 2.0, interval) for interval in (2.0, 0.003))
+    np.testing.assert_array_equal(seldom.events, often.events)
+    for name in ("x", "y", "phi", "heat", "sliding_distance"):
+        assert seldom[name][-1] == often[name][-1]
