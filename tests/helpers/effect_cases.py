@@ -1,4 +1,4 @@
-"""Random sizes of every effect, and rigs in which every effect shows: what several tests draw on.
+"""Random sizes of every effect, rigs in which every effect shows, and what holds of any rig.
 
 The range of a parameter is the "typical" one that its field states, or the "tried" one of those
 that say where or how an effect acts and have no size of their own.
@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import random
 
-from stickslip import EFFECTS, Parameters
+import numpy as np
+from stickslip import EFFECTS, Parameters, simulate
 from stickslip.effects.candidate import Scales
+from stickslip.packing import GRAVITY
 
 IDS = tuple(effect.id for effect in EFFECTS)
 #: Those beside which a stick may creep.
@@ -91,3 +93,25 @@ def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) ->
     }
     tables |= {effect: draw_table(effect, draw) for effect in effects}
     return Parameters(**(tables | changes))
+
+
+def assert_ledger_is_closed(parameters, duration, falling):
+    """A run of so many seconds, whose ledger closes; its heat falls by no more than a part.
+
+    falling : of the scale of the run's energies; bristles give some of theirs back
+    """
+    run = simulate(parameters, duration)
+    assert run.complete, run.reason
+    limit = parameters.friction.mu_s * parameters.rig.mass * GRAVITY
+    scale = run["heat"][-1] + limit**2 / (8.0 * parameters.springs.stiffness)
+    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
+    assert np.all(np.diff(run["heat"]) >= -falling * scale)
+    return run
+
+
+def assert_looking_changes_nothing(parameters, duration):
+    """Looked at in the end alone or all along, events and end are the same to the last bit."""
+    seldom, often = (simulate(parameters, duration, interval) for interval in (duration, 0.003))
+    np.testing.assert_array_equal(seldom.events, often.events)
+    for name in ("x", "y", "phi", "heat", "sliding_distance"):
+        assert seldom[name][-1] == often[name][-1]

@@ -4,11 +4,17 @@ import random
 
 import numpy as np
 import pytest
-from effect_cases import IDS, draw_parameters, with_bristles
+from effect_cases import (
+    IDS,
+    assert_ledger_is_closed,
+    assert_looking_changes_nothing,
+    draw_parameters,
+    with_bristles,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
-from stickslip import Parameters, simulate
+from stickslip import Parameters
 from stickslip.arrays import RunArrays
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel.bristles.law import (
@@ -186,20 +192,10 @@ def any_rig(seed, on, distance):
 @settings(max_examples=30, deadline=None, derandomize=True)
 @given(seeds, effects, distances)
 def test_the_ledger_of_any_rig_is_closed(seed, on, distance):
-    parameters = any_rig(seed, on, distance)
-    run = simulate(parameters, 2.0)
-    assert run.complete, run.reason
-    limit = parameters.friction.mu_s * parameters.rig.mass * GRAVITY
-    scale = run["heat"][-1] + limit**2 / (8.0 * parameters.springs.stiffness)
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
-    assert np.all(np.diff(run["heat"]) >= -1e-6 * scale)
+    assert_ledger_is_closed(any_rig(seed, on, distance), 2.0, 1e-6)
 
 
 @settings(max_examples=15, deadline=None, derandomize=True)
 @given(seeds, effects, distances)
 def test_when_anybody_looks_does_not_matter(seed, on, distance):
-    parameters = any_rig(seed, on, distance)
-    seldom, often = (simulate(parameters, 1.0, interval) for interval in (1.0, 0.003))
-    np.testing.assert_array_equal(seldom.events, often.events)
-    for name in ("x", "y", "phi", "heat", "sliding_distance"):
-        assert seldom[name][-1] == often[name][-1]
+    assert_looking_changes_nothing(any_rig(seed, on, distance), 1.0)

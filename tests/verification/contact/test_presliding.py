@@ -8,7 +8,13 @@ import random
 
 import numpy as np
 import pytest
-from effect_cases import BESIDE_CREEP, draw_parameters, with_stick_creep
+from effect_cases import (
+    BESIDE_CREEP,
+    assert_ledger_is_closed,
+    assert_looking_changes_nothing,
+    draw_parameters,
+    with_stick_creep,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -256,24 +262,14 @@ def any_rig(seed, on, creep):
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(seeds, effects, slides_quasi_steadily)
 def test_the_ledger_of_any_rig_is_closed(seed, on, creep):
-    parameters = any_rig(seed, on, creep)
-    run = simulate(parameters, 3.0)
-    assert run.complete
-    limit = parameters.friction.mu_s * parameters.rig.mass * GRAVITY
-    scale = run["heat"][-1] + limit**2 / (8.0 * parameters.springs.stiffness)
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
-    assert np.all(np.diff(run["heat"]) >= -1e-12 * scale)
+    run = assert_ledger_is_closed(any_rig(seed, on, creep), 3.0, 1e-12)
     assert np.all(np.diff(run["sliding_distance"]) >= -1e-15)
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(seeds, effects, slides_quasi_steadily)
 def test_when_anybody_looks_does_not_matter(seed, on, creep):
-    parameters = any_rig(seed, on, creep)
-    seldom, often = (simulate(parameters, 2.0, interval) for interval in (2.0, 0.003))
-    np.testing.assert_array_equal(seldom.events, often.events)
-    for name in ("x", "y", "phi", "heat", "sliding_distance"):
-        assert seldom[name][-1] == often[name][-1]
+    assert_looking_changes_nothing(any_rig(seed, on, creep), 2.0)
 
 
 def test_loads_that_change_at_every_step_do_not_tear_the_stick():

@@ -9,7 +9,12 @@ import random
 import numpy as np
 import pytest
 from disc_integral import law_over_disc
-from effect_cases import BESIDE_CREEP, draw_parameters
+from effect_cases import (
+    BESIDE_CREEP,
+    assert_ledger_is_closed,
+    assert_looking_changes_nothing,
+    draw_parameters,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -220,20 +225,10 @@ def any_rig(seed, on, transition_speed):
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(seeds, effects, speeds)
 def test_the_ledger_of_any_rig_is_closed(seed, on, transition_speed):
-    parameters = any_rig(seed, on, transition_speed)
-    run = simulate(parameters, 3.0)
-    assert run.complete, run.reason
-    limit = parameters.friction.mu_s * parameters.rig.mass * GRAVITY
-    scale = run["heat"][-1] + limit**2 / (8.0 * parameters.springs.stiffness)
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * scale
-    assert np.all(np.diff(run["heat"]) >= -1e-12 * scale)
+    assert_ledger_is_closed(any_rig(seed, on, transition_speed), 3.0, 1e-12)
 
 
 @settings(max_examples=20, deadline=None, derandomize=True)
 @given(seeds, effects, speeds)
 def test_when_anybody_looks_does_not_matter(seed, on, transition_speed):
-    parameters = any_rig(seed, on, transition_speed)
-    seldom, often = (simulate(parameters, 2.0, interval) for interval in (2.0, 0.003))
-    np.testing.assert_array_equal(seldom.events, often.events)
-    for name in ("x", "y", "phi", "heat", "sliding_distance"):
-        assert seldom[name][-1] == often[name][-1]
+    assert_looking_changes_nothing(any_rig(seed, on, transition_speed), 2.0)
