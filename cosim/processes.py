@@ -21,7 +21,7 @@ from joblib.externals.loky import BrokenProcessPool, ProcessPoolExecutor
 
 from cosim.interrupts import REQUESTS, held_interrupts, unheard_by_children
 
-__all__ = ["BrokenProcessPool", "Map", "as_finished", "is_stopped", "pool", "processes"]
+__all__ = ["BrokenProcessPool", "Map", "as_finished", "is_stopped", "map_here", "pool", "processes"]
 
 #: A process that has not stopped after this time (s) is killed; one that was just started imports.
 STOP_SECONDS = 10.0
@@ -44,11 +44,16 @@ Result = TypeVar("Result")
 Map = Callable[[Callable[..., Any], Iterable[tuple]], Iterator[Any]]
 
 
+def map_here(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterator[Any]:
+    """A map over this process alone."""
+    return (function(*each) for each in arguments)
+
+
 @contextmanager
 def processes(jobs: int) -> Iterator[Map]:
     """A map over ``jobs`` processes; over this one for 1, or where it must not have children."""
     if _alone(jobs):
-        yield lambda function, arguments: (function(*each) for each in arguments)
+        yield map_here
         return
     with pool(jobs) as submit:
 

@@ -57,7 +57,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="N",
         type=_whole,
         default=0,
-        help="of everything that is drawn; the same seed gives the same answer (default: 0)",
+        help="of what is drawn where only figures of runs are known (default: 0)",
     )
 
 
@@ -94,17 +94,20 @@ def execute(arguments: Namespace) -> int:
         text = files.write_data(gap, folder / RESULT, folder / MODEL)
         if copy is not None:
             write_text(text, copy)
+        corrected = files.write_corrected_data(gap, folder)
     if arguments.json == STDOUT:
         print(text, end="")
-    return _shown(files, gap, folder, arguments)
+    return _shown(files, gap, folder, corrected[:1], arguments)
 
 
-def _shown(files: ModuleType, gap: Any, folder: Path, arguments: Namespace) -> int:
+def _shown(
+    files: ModuleType, gap: Any, folder: Path, corrected: list[Path], arguments: Namespace
+) -> int:
     """Figures and page where they are wanted, then the closing lines."""
     drawn: list[Any] = []
     try:
         if not arguments.no_page:
-            drawn = _drawn(files, gap, folder)
+            drawn = _drawn(files, gap, folder, corrected)
     except KeyboardInterrupt:
         print(
             f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
@@ -112,6 +115,7 @@ def _shown(files: ModuleType, gap: Any, folder: Path, arguments: Namespace) -> i
         )
         return FAILED
     names = [str(folder / name) for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
+    names += map(str, corrected)
     lines = [*files.closing_lines(gap, drawn), f"  files      {', '.join(names)}"]
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
     return DONE
@@ -138,13 +142,14 @@ def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[..., None]) -
         return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
     from cosim.gap.find import find_gap
 
-    return find_gap(campaign, seed=seed, jobs=jobs, progress=step)
+    return find_gap(campaign, jobs=jobs, progress=step)
 
 
-def _drawn(files: ModuleType, gap: Any, folder: Path) -> list[Any]:
+def _drawn(files: ModuleType, gap: Any, folder: Path, corrected: list[Path]) -> list[Any]:
     """Figures and page; what the FMU did."""
+    beside = "".join(str(file.relative_to(folder)) for file in corrected)
     with tqdm(disable=None, unit="figure", leave=False) as bar:
-        drawn: list[Any] = files.write_page(gap, folder, folder / PAGE, bar.update)
+        drawn: list[Any] = files.write_page(gap, folder, folder / PAGE, bar.update, beside)
     return drawn
 
 

@@ -12,6 +12,7 @@ from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.diagnostics.model_track import tracks_of
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
+from cosim.gap.estimation.segments import FRICTION
 from cosim.gap.result import FittedModel, FittedRun
 
 _STATE = (layout.O_X, layout.O_Y, layout.O_PHI, layout.O_VX, layout.O_VY, layout.O_OMEGA)
@@ -27,11 +28,11 @@ def fitted_model(
     The runs of every problem carry the names of the campaign's runs.
     """
     by_name = {run.name: run for run in campaign.runs}
-    runs = {
-        run.name: run
+    by_part = [
+        _runs(problem, fitted, [by_name[each.name] for each in problem.segmented_runs])
         for problem, fitted in parts
-        for run in _runs(problem, fitted, [by_name[f.name] for f in problem.segmented_runs])
-    }
+    ]
+    runs = {run.name: run for part in by_part for run in part}
     problem, fitted = parts[0]
     free = problem.segmented_runs[0].known
     return FittedModel(
@@ -42,22 +43,32 @@ def fitted_model(
             name for name in ("x", "y", "phi") if free.get(f"rig.free_{name}", 1.0)
         ),
         runs=tuple(runs[name] for name in by_name if name in runs),
-        gap=(fitted.rms_residual(), _held_out(parts)),
+        gap=(_gap(by_part[0]), _gap(by_part[-1])),
     )
 
 
-def _held_out(parts: Sequence[tuple[Problem, Fitted]]) -> float:
-    """Root mean square residual over all held-out runs; that of the fit where none is held out."""
-    rows = [r for _, fitted in parts[1:] for r in fitted.residuals] or list(parts[0][1].residuals)
-    return float(np.sqrt(sum(r @ r for r in rows) / sum(r.size for r in rows)))
+def _gap(runs: Sequence[FittedRun]) -> float:
+    """Root mean square residual over some runs; one that the model lost counts as far off."""
+    rows = np.concatenate([run.track.misfit() for run in runs])
+    return float(np.sqrt(np.mean(rows**2)))
 
 
 def _runs(problem: Problem, fitted: Fitted, runs: Sequence[MeasuredRun]) -> list[FittedRun]:
-    tracks = tracks_of(problem, fitted, runs)
-    return [
-        FittedRun(track, _start(problem, fitted, i), fitted.rms_residual([i]), fitted.own_values(i))
-        for i, track in enumerate(tracks)
-    ]
+    found = []
+    for i, track in enumerate(tracks_of(problem, fitted, runs)):
+        misfit = track.misfit()
+        both, static = np.exp(fitted.point.states[i][0, list(FRICTION)])
+        found.append(
+            FittedRun(
+                track,
+                _start(problem, fitted, i),
+                float(np.sqrt(np.mean(misfit**2))),
+                fitted.own_values(i),
+                problem.segmented_runs[i].setup,
+                (float(both * static), float(both)),
+            )
+        )
+    return found
 
 
 def _start(

@@ -9,14 +9,20 @@ from typing import Any
 import numpy as np
 
 from cosim.gap.camera.faults import is_fault
+from cosim.gap.curves.curve import Curve
 from cosim.gap.data import Campaign
 from cosim.gap.diagnostics.model_track import ModelTrack
 from cosim.gap.diagnostics.regimes import RegimeAnalysis
 from cosim.gap.diagnostics.where import Where
-from cosim.gap.estimation.drive import model_parameters
+from cosim.gap.estimation.drive import (
+    model_parameters,
+    quantities_of,
+    rig_parameters,
+    with_strengths_scaled,
+)
 
 #: What can be said of a campaign.
-VERDICTS = ("named", "class", "none", "unknown")
+VERDICTS = ("named", "class", "none", "partial", "unknown")
 
 
 @dataclass(frozen=True)
@@ -26,19 +32,81 @@ class Ranked:
     Attributes
     ----------
     effect, form : id of the catalogue, and which of its laws, in a word
-    held_out_gap, fit_gap : root mean square residual in units of the noise
-    delta_bic : BIC of the plain model less that of this one; positive speaks for the effect
+    held_out_gap, fit_gap : root mean square residual in units of the noise; None where screening
+        ruled it out and nothing was fitted
+    delta_bic : BIC of the plain model less that of this one, or, of runs with tracks, -2 ln of the
+        evidence, which a BIC approximates; positive speaks for the effect. None where no period
+        of a wave stood out of noise
     parameters : `block.parameter` -> fitted value, SI
     intervals : `block.parameter` -> 95 % interval (low, high); of those that have one
+    probability : that the effect is what is missing, were nothing or one effect of those tried
+        missing, either as probable beforehand; None where it was not worked out
     """
 
     effect: str
     form: str
-    held_out_gap: float
-    fit_gap: float
-    delta_bic: float
+    held_out_gap: float | None
+    fit_gap: float | None
+    delta_bic: float | None
     parameters: Mapping[str, float]
     intervals: Mapping[str, tuple[float, float]]
+    probability: float | None = None
+
+
+@dataclass(frozen=True)
+class Step:
+    """A model of the ladder: plain, with one effect, with two, ...
+
+    Attributes
+    ----------
+    effects : in the order found
+    gain : in -2 ln evidence over the step before
+    fit_gap, held_out_gap : root mean square residual, units of the noise
+    share : part of the plain model's misfit, in -2 ln evidence, that is gone so far
+    members : what does as well in the last effect's place, itself included -> its probability
+    """
+
+    effects: tuple[str, ...]
+    gain: float
+    fit_gap: float
+    held_out_gap: float
+    share: float
+    members: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Power:
+    """By which power of a quantity an effect's strength goes, beyond what the catalogue's law says.
+
+    Attributes
+    ----------
+    effect, quantity : id, and mass, speed or stiffness
+    value, low, high : the exponent and its 90 % interval
+    p : probability of so large a one where strengths do not go with the quantity
+    stated : whether it is part of the model
+    instead : quantities that vary with this one: these runs cannot tell which it is
+    """
+
+    effect: str
+    quantity: str
+    value: float
+    low: float
+    high: float
+    p: float
+    stated: bool
+    instead: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Law:
+    """An effect's law as a free curve over its axis; effect "": of no effect that was named.
+
+    in_model : the curve is the table of friction of the extended model
+    """
+
+    effect: str
+    curve: Curve
+    in_model: bool = False
 
 
 @dataclass(frozen=True)
@@ -52,12 +120,16 @@ class FittedRun:
     start : x, y, phi, vx, vy, omega at the first sample, in the rig's frame (m, rad, m/s, rad/s)
     own : parameters of this run alone (phases), `block.parameter` -> value
     gap : root mean square residual of the run in units of the noise, over all channels
+    setup : number of the mass and springs that it was made with
+    stretch : mu_s and mu_k in the stretch up to where the model starts anew, parts of the run's
     """
 
     track: ModelTrack
     start: tuple[float, float, float, float, float, float]
     gap: float
     own: Mapping[str, float] = field(default_factory=dict)
+    setup: int = 0
+    stretch: tuple[float, float] = (1.0, 1.0)
 
     @property
     def name(self) -> str:
@@ -101,8 +173,12 @@ class FittedModel:
 
     def parameters(self, run: FittedRun) -> dict[str, float]:
         """`block.parameter` -> value for one run: fitted, set, its own; not the tracker's."""
+        measured = run.track.run
         every = {**self.settings, **self.values, **run.own}
-        every = model_parameters(run.track.run.surface_speed, every)
+        every = with_strengths_scaled(every, quantities_of(measured))
+        every = model_parameters(measured.surface_speed, every)
+        known = {"springs.stiffness": measured.stiffness, "rig.mass": measured.mass}
+        every = rig_parameters(run.setup, known, every, measured.surface_speed)
         return {
             key: value
             for key, value in every.items()
@@ -117,7 +193,7 @@ class Gap:
     Attributes
     ----------
     verdict : one of `VERDICTS`
-    effects : ids in the order found; for "class" its members
+    effects : ids in the order found; for "class" its members; of "partial" what surely helps
     classes : groups of effects that this campaign cannot tell apart
     where : channel, regime and runs of the plain model's misfit, and a sentence
     ranking : every effect tried on top of the plain model, best first
@@ -125,9 +201,15 @@ class Gap:
         was added
     plain : the plain model, refitted
     extended : with what was found (for "class": the member that fits best); None: nothing added
-    chance : "p" of the best of the catalogue under the plain model, "draws" that it rests on
+    ladder : plain, one effect, two, ..., each with what it gains and leaves
+    share : part of the plain model's misfit, in -2 ln evidence, that the last step takes away
+    reasons : what the last step needs and a rig as stated does not have, a line each
+    spreads : what differs from run to run, and within one, by itself -> standard deviation
+    powers : by what powers of mass, speed and stiffness the strengths of what was found go
+    laws : free curves, of what was found, or of what comes nearest to it
+    remains : where the extended model's misfit is; None where nothing was added
+    quantisation : step (m), share of the samples on it, p; None where no step is felt
     determined : plain parameter -> (value, low, high), as far as the data determine it
-    seed : of everything that was drawn
     analysis : of the plain model's misfit by regime, what ``where`` was read off
     next_experiment : the run that would tell most, or None
     empirical : the formula proposed where the catalogue has no name, or None
@@ -144,9 +226,15 @@ class Gap:
     gap_after: tuple[float, float]
     plain: FittedModel
     extended: FittedModel | None
-    chance: Mapping[str, float]
     determined: Mapping[str, tuple[float, float, float]]
-    seed: int = 0
+    ladder: tuple[Step, ...] = ()
+    share: float = 0.0
+    reasons: tuple[str, ...] = ()
+    spreads: Mapping[str, float] = field(default_factory=dict)
+    powers: tuple[Power, ...] = ()
+    laws: tuple[Law, ...] = ()
+    remains: Where | None = None
+    quantisation: Mapping[str, float] | None = None
     analysis: RegimeAnalysis | None = None
     next_experiment: Mapping[str, Any] | None = None
     empirical: Mapping[str, Any] | None = None

@@ -19,6 +19,9 @@ from .kernel.layout import (
     INSTANT,
     MODE,
     O_SIZE,
+    P_MU_K,
+    P_MU_S,
+    P_MU_SCALE,
     SHOWN,
     SLIP,
     STICK,
@@ -43,11 +46,13 @@ class Restart:
     state : (6,) x, y, phi (m, m, rad), vx, vy, omega (m/s, m/s, rad/s); NaN leaves the model's own
     hold_since : when the stick began that the block is in, s: its velocity is then that of a stick;
         NaN: not in stick
+    friction : mu_s and mu_k from there on, in parts of the model's own
     """
 
     row: int
     state: np.ndarray
     hold_since: float = np.nan
+    friction: tuple[float, float] = (1.0, 1.0)
 
 
 def simulate_restarted(
@@ -101,8 +106,9 @@ def _simulated(
     times = np.ascontiguousarray(times, dtype=float)
     o = np.full(width * len(times), np.nan)
     ends = [restart.row for restart in restarts[1:]] + [len(times)]
+    whole = run.p[P_MU_S], run.p[P_MU_K], run.p[P_MU_SCALE]
     for restart, end in zip(restarts, ends, strict=True):
-        _set(run, times[restart.row], restart)
+        _set(run, times[restart.row], restart, whole)
         if force is None:
             record(*run.all, times, o, restart.row, end - restart.row)
         else:
@@ -132,11 +138,17 @@ def _record_forced(
     run.u[U_FORCE_X] = 0.0
 
 
-def _set(run: RunArrays, time: float, restart: Restart) -> None:
-    """Reach the instant by the model's own motion, then set the state and settle the contact."""
+def _set(run: RunArrays, time: float, restart: Restart, whole: tuple[float, float, float]) -> None:
+    """Reach the instant by the model's own motion, then set the state and settle the contact.
+
+    whole : mu_s, mu_k and what multiplies mu_k in slip, as the model has them
+    """
     z, past = run.z, run.z[Z_STARTED]
     if past:
         run.advance(time)
+    static, kinetic = restart.friction
+    run.p[P_MU_S], run.p[P_MU_K] = static * whole[0], kinetic * whole[1]
+    run.p[P_MU_SCALE] = kinetic * whole[2]  # what slip takes, of mu_k or of a table of it
     z[SHOWN] = time
     given = np.isfinite(restart.state)
     z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]

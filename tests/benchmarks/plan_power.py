@@ -27,8 +27,8 @@ from cosim.processes import processes
 PARTS = (0.0, 0.5, 1.0, 1.5)
 
 
-def one_gain(plan, law, part, seed):
-    return gain(measured(plan, law, part, seed), plan.planar, law)
+def one_gain(plan, rehearsal, law, part, seed):
+    return gain(measured(plan, rehearsal, law, part, seed), rehearsal, plan.planar, law)
 
 
 def main():
@@ -62,7 +62,9 @@ def main():
                 part = times * seen.part
                 noncentrality = refitted(rehearsal, law, part)[0] if times else 0.0
                 seeds = range(given.seed, given.seed + given.campaigns)
-                gains = list(mapped(one_gain, [(plan, law, part, seed) for seed in seeds]))
+                gains = list(
+                    mapped(one_gain, [(plan, rehearsal, law, part, seed) for seed in seeds])
+                )
                 test = binomtest(sum(each > limit for each in gains), len(gains))
                 low, high = test.proportion_ci(0.9)
                 predicted = power(noncentrality, *rule)

@@ -8,13 +8,14 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
+from cosim.gap.curves.curve import Curve
 from cosim.gap.diagnostics import analyse_residuals, find_where
 from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import Point, start
 from cosim.gap.estimation.preparation import prepare
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.fitted_model import fitted_model
-from cosim.gap.result import Gap, Ranked
+from cosim.gap.result import Gap, Law, Ranked, Step
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
 PLAIN = (
@@ -47,6 +48,7 @@ def answer(folder):
         1234.56789,
         {key: extended.values[key]},
         {key: intervals[key]},
+        0.9995,
     )
     other = Ranked(
         "film_drag",
@@ -56,6 +58,7 @@ def answer(folder):
         -3.0,
         {"film_drag.coefficient": 0.0},
         {"film_drag.coefficient": (0.0, np.inf)},
+        4e-4,
     )
     analysis = analyse_residuals([run.track for run in plain.runs])
     determined = {k: (v, 0.9 * v, 1.1 * v) for k, v in plain.values.items() if "friction" in k}
@@ -65,16 +68,37 @@ def answer(folder):
         ("velocity_weakening",),
         (),
         find_where(analysis),
-        (found, other),
+        (found, other, RULED_OUT),
         plain.gap,
         extended.gap,
         plain,
         extended,
-        {"p": 0.005, "draws": 199},
         determined,
+        ladder=(
+            Step((), 0.0, *plain.gap, 0.0),
+            Step(("velocity_weakening",), 1234.5, *extended.gap, 0.998, CERTAIN),
+        ),
+        share=0.998,
+        spreads={"friction_from_run_to_run": 0.021},
+        laws=(Law("velocity_weakening", _curve()),),
+        remains=find_where(analyse_residuals([run.track for run in extended.runs])),
         analysis=analysis,
         remarks=("a remark",),
     )
+
+
+#: As the screening leaves an effect that it rules out.
+RULED_OUT = Ranked("run_in", "exponential", None, None, -9.0, {}, {}, 1e-4)
+CERTAIN = {"velocity_weakening": 1.0}
+
+
+def _curve():
+    """The law that is hidden, with a band of 2 %."""
+    speed = np.linspace(0.0, 0.4, 41)
+    mean = -TRUE["velocity_weakening"]["linear"] * speed
+    mean -= mean.mean()
+    band = mean - 0.02, mean + 0.02
+    return Curve("sliding speed", "mu_k", speed, mean, *band, 900.0, 200.0, np.ones(3), 0.2)
 
 
 def write(folder):

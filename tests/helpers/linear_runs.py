@@ -10,7 +10,7 @@ import numpy as np
 
 from cosim.gap.estimation.fit import with_columns
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segments import Segment
+from cosim.gap.estimation.segments import STATES, Segment
 from cosim.gap.estimation.trial import Model, Trial
 
 #: Free numbers of every segment's state: position and velocity.
@@ -35,7 +35,7 @@ class LinearRun:
 
     @property
     def starts(self):
-        return np.zeros((len(self.segments), 6))
+        return np.zeros((len(self.segments), STATES))
 
     def places(self, values, states):
         rows = sum(self.by_key[key] * value for key, value in values.items())
@@ -55,7 +55,7 @@ def linear_run(random, free_parameters, data, segments=3):
     data = random.standard_normal(data) if isinstance(data, int) else data
     ends = np.linspace(0, data.size, segments + 1).astype(int)
     cuts = tuple(
-        Segment(int(first), int(last), np.zeros(6), FREE, np.nan)
+        Segment(int(first), int(last), np.zeros(STATES), FREE, np.nan)
         for first, last in zip(ends[:-1], ends[1:], strict=True)
     )
     by_key = {

@@ -4,24 +4,27 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.gap.candidates.plain import plain_free_parameters
 from cosim.gap.data import Track, find_sticks
 from cosim.gap.estimation.fit import fit
-from cosim.gap.estimation.fitted import start
+from cosim.gap.estimation.fitted import Point, start
 from cosim.gap.estimation.preparation import prepare, thinned
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segmented_run import COLUMN
 from cosim.gap.plan.planned import motion
 
 
-def measured(plan, law, part, seed):
-    """The campaign as a tracker would have it, with a law at a part of its start."""
+def measured(plan, rehearsal, law, part, seed):
+    """The campaign as a tracker would have it, with a law at a part of its start.
+
+    rehearsal : of the plan, whose contact the rig has
+    """
     random = np.random.default_rng(seed)
     friction = {f"friction.{key}": value for key, value in plan.friction.items()}
     runs = []
     for number, run in enumerate(plan.runs):
         phases = {key: random.uniform(0.0, 360.0) for key in law.phase(number)}
-        outputs = motion(plan, run, (), {**friction, **law.settings(part), **phases})
+        settings = {**friction, **law.settings(part), **phases}
+        outputs = motion(plan, run, rehearsal.free_parameters, settings)
         noise = plan.campaign.noise
         seen = {
             name: outputs[:, COLUMN[name]] + sigma * random.standard_normal(run.time.size)
@@ -34,23 +37,26 @@ def measured(plan, law, part, seed):
     return replace(plan.campaign, runs=tuple(runs))
 
 
-def gain(campaign, planar, law):
+def gain(campaign, rehearsal, planar, law):
     """Sum of squares that a law takes away: the likelihood-ratio statistic, in noise units.
 
-    The law sets out as next to nothing.
+    The law sets out as next to nothing, the plain model from what is expected, and once more from
+    where the model with the law ended.
     """
     segmented = prepare(campaign, campaign.runs, planar)
-    plain = plain_free_parameters(campaign, planar)
+    plain = rehearsal.free_parameters
     problem = Problem(segmented, plain)
     first = fit(problem, start(segmented, plain))
     faint = replace(law.size, start=law.value(0.02))
     added = (faint, *law.candidate.free_parameters[1:])
     more = Problem(segmented, (*plain, *added), dict(law.candidate.settings))
     begun = start(segmented, more.free_parameters)
-    shared = begun.shared.copy()
-    shared[: first.point.shared.size] = first.point.shared
+    count = first.point.shared.size
+    shared = np.concatenate([first.point.shared, begun.shared[count:]])
     second = fit(more, replace(begun, shared=shared, states=first.point.states))
-    return _cost(problem, first) - _cost(more, second)
+    own = tuple(each[: len(problem.own)] for each in second.point.own)
+    again = fit(problem, Point(second.point.shared[:count], own, second.point.states))
+    return min(_cost(problem, first), _cost(problem, again)) - _cost(more, second)
 
 
 def _cost(problem, fitted):

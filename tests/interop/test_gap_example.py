@@ -31,5 +31,6 @@ def test_the_hidden_effect_is_named_with_its_number(found):
 
 def test_its_model_is_that_of_the_run_held_out(found):
     model = tomllib.loads((found / "model.toml").read_text(encoding="utf-8"))
-    assert model["surface"]["speed"] == SPEEDS[-1]
+    # a surface is off its set-point by what the data say within its stated error of 1 %; here by 0
+    assert model["surface"]["speed"] == pytest.approx(SPEEDS[-1], rel=2e-3)
     assert model["velocity_weakening"]["linear"] == pytest.approx(0.8, rel=0.1)

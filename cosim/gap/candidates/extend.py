@@ -1,8 +1,8 @@
-"""A model with a candidate added to it, or taken from it, starting where the model was fitted."""
+"""A model with a candidate added to it, starting where the model was fitted."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 from stickslip.effects.candidate import Candidate, FreeParameter
@@ -22,28 +22,8 @@ def extended(base: Model, candidate: Candidate, fitted: Mapping[str, float]) -> 
     candidate, fitted = _in_place_of_mu_s(base, candidate, _holding(fitted))
     taken = {free.key for free in candidate.free_parameters}
     kept = tuple(moved(free, fitted) for free in base.free_parameters if free.key not in taken)
-    return Model(
-        kept + candidate.free_parameters, {**base.settings, **candidate.settings}, base.added + 1
-    )
-
-
-def reduced(
-    model: Model, candidate: Candidate, fitted: Mapping[str, float], keep: Sequence[str]
-) -> Model:
-    """The model without a candidate, starting from where it was fitted.
-
-    keep : settings of it that others need
-    """
-    gone = {free.key for free in candidate.free_parameters}
-    free_parameters = tuple(
-        moved(free, fitted) for free in model.free_parameters if free.key not in gone
-    )
-    settings = {
-        key: value
-        for key, value in model.settings.items()
-        if key not in candidate.settings or key in keep
-    }
-    return Model(free_parameters, settings, model.added - 1)
+    settings = {**base.settings, **candidate.settings}
+    return replace(base, free_parameters=kept + candidate.free_parameters, settings=settings)
 
 
 def _in_place_of_mu_s(base: Model, candidate: Candidate, fitted: Mapping[str, float]):

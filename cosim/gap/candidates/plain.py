@@ -1,6 +1,9 @@
 """The plain model: what is free in it, and whether its block leaves its line.
 
-A wrong number is not a missing effect: the plain model's own numbers are fitted first.
+A wrong number is not a missing effect: the plain model's own numbers are fitted first. They are
+those of friction and of its contact, and what no two runs share: the tracker's zero, how far the
+surface's speed is from its set-point and the springs from what is stated, and friction itself,
+which scatters from run to run.
 """
 
 from __future__ import annotations
@@ -11,109 +14,97 @@ import numpy as np
 from stickslip.effects.candidate import FreeParameter
 from stickslip.packing import GRAVITY
 
-from cosim.gap.data import Campaign, MeasuredRun, cycle_features
-from cosim.gap.data.stick_remarks import SPEED_ERRORS, SPEED_PART, never_slips
-from cosim.gap.estimation.drive import SPEED_OFFSET
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.stick_remarks import never_slips
+from cosim.gap.estimation.drive import (
+    FRICTION_OFFSET,
+    LOADING,
+    SPEED_OFFSET,
+    stiffness_offset,
+)
 
-#: Speed at which the surface leaves a block behind that sticks and is about to break away, m/s.
+#: How a contact gives way before it slides: it creeps, and the faster it is loaded the sooner it
+#: breaks away; friction then falls from mu_s to mu_k over a speed.
 CREEP = "friction.stick_creep"
+TRANSITION = "friction.transition_speed"
+EXPONENT = "friction.transition_exponent"
+#: Speeds, m/s, over which dry friction falls: a tenth and ten times what contacts of this size are
+#: known for.
+_FALLS = (3e-4, 5e-2)
+#: Bristles of 20 to 100 um that give way over 1 to 8 mm/s lack up to this at a loading rate of
+#: 1/s.
+_LACKS = 0.2
 #: A friction coefficient that is stated is not this many of its standard deviations off.
 _KNOWN = 4.0
-#: The tracker's zero is known to this many standard deviations of its noise.
-_ZERO = 2.0
-#: It is not further off than so many: a mu_k that swings a block about another place is no zero,
-#: and a block that comes to rest beside the line between the anchors has crooked springs.
-_ZERO_MOST = {"x": 10.0, "y": 3.0}
-#: Sticks that tell a surface's speed; one that is off is so in most runs: a ripple is another
-#: matter, and may seem so in some.
-_STICKS = 5
-#: The surface's speed, where it is off at all, is off by about this part.
-_SPEED = 0.03
-#: A set-point is kept to this part; creeps are equal within this part.
-_SET_POINT, _EQUAL = 0.003, 0.5
+#: Spread of friction from run to run that a fit sets out with; see `evidence.settled`.
+SPREAD = 0.02
 
 
-def plain_free_parameters(campaign: Campaign, planar: bool) -> tuple[FreeParameter, ...]:
-    """mu_s, mu_k, the tracker's zero and, where sticks tell of it, how the surface runs.
+def plain_free_parameters(
+    campaign: Campaign, planar: bool, spread: float = SPREAD
+) -> tuple[FreeParameter, ...]:
+    """Friction, its contact, and what is a run's own; they start where the data put them.
 
-    They start where the data put them, or as they are known.
+    spread : standard deviation of friction from run to run, a part of it
     """
     runs = [run for run in campaign.fit_runs if run.track is not None]
     everywhere = [run for run in campaign.runs if run.track is not None]
+    return (
+        *_friction(campaign, runs, everywhere),
+        *contact_free_parameters(min(abs(run.surface_speed) for run in everywhere)),
+        *_springs(campaign, everywhere),
+        *own_free_parameters(campaign, planar, spread),
+    )
+
+
+def _friction(campaign: Campaign, runs, everywhere) -> list[FreeParameter]:
     free_parameters = []
     for name, guess in zip(("mu_s", "mu_k"), first_guess(runs, everywhere), strict=True):
         value, deviation = campaign.friction.get(name, (guess, None))
-        low, high = (0.3 * guess if name == "mu_s" else 0.0), 20.0
+        # without friction bristles have no length in slip, and the kernel would not get on
+        low, high = (0.3 if name == "mu_s" else 0.1) * guess, 20.0
         if deviation is not None:  # what is known stays known
             low, high = max(value - _KNOWN * deviation, 0.0), value + _KNOWN * deviation
         free_parameters.append(
             FreeParameter(f"friction.{name}", value, 0.05 * guess, low, high, prior=deviation)
         )
+    return free_parameters
+
+
+def contact_free_parameters(slowest: float) -> tuple[FreeParameter, ...]:
+    """Of the contact; slowest : speed of the surface in any run, m/s."""
+    return (
+        FreeParameter(TRANSITION, min(2e-3, 0.05 * slowest), 0.3, *_FALLS, log=True),
+        FreeParameter(EXPONENT, 1.3, 0.2, 0.5, 3.0, prior=0.5),
+        FreeParameter(CREEP, 0.01 * slowest, 0.02 * slowest, 0.0, 0.3 * slowest),
+        FreeParameter(LOADING, 0.02, 0.02, 0.0, 1.0, prior=_LACKS),
+    )
+
+
+def _springs(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[FreeParameter]:
+    """How much stiffer than stated the springs of each set-up are."""
+    error = campaign.errors.stiffness
+    return [
+        FreeParameter(stiffness_offset(setup), 0.0, 0.2 * error, -0.5, 0.5, prior=error)
+        for setup in sorted({campaign.setup_of(run) for run in runs})
+    ]
+
+
+def own_free_parameters(
+    campaign: Campaign, planar: bool, spread: float
+) -> tuple[FreeParameter, ...]:
+    """What every run has of its own: the tracker's zero, the surface's speed, friction."""
+    own = []
     for channel in ("x", "y") if planar else ("x",):
         if channel in campaign.noise:
-            zero = _ZERO * campaign.noise[channel]
-            most = _ZERO_MOST[channel] * campaign.noise[channel]
-            free_parameters.append(
-                FreeParameter(f"offset.{channel}", 0.0, zero, -most, most, prior=zero)
+            zero = campaign.errors.zero * campaign.noise[channel]
+            own.append(
+                FreeParameter(f"offset.{channel}", 0.0, 0.2 * zero, per_run=True, prior=zero)
             )
-    return (*free_parameters, *drive_free_parameters(runs))
-
-
-def drive_free_parameters(runs: Sequence[MeasuredRun]) -> tuple[FreeParameter, ...]:
-    """What sticks tell of the surface's speed: nothing, one creep for all, or each run its own."""
-    sticking = [run for run in runs if len(run.sticks) >= _STICKS]
-    off = sum(_speed_is_off(run) for run in sticking)
-    creep = common_creep(sticking) if off else None
-    if creep is not None:
-        value, error = creep  # as measured: what a model lacks would be put down to it
-        return (
-            FreeParameter(
-                CREEP, value, error, value - 3.0 * error, value + 3.0 * error, prior=error
-            ),
-        )
-    if 2 * off > len(sticking):
-        return (FreeParameter(SPEED_OFFSET, 0.0, 0.02, per_run=True, prior=_SPEED),)
-    return ()
-
-
-def common_creep(runs: Sequence[MeasuredRun]) -> tuple[float, float] | None:
-    """Creep at break-away, m/s, that lets all runs' sticks lag as they do, and its error.
-
-    A contact is sheared before it slides, in proportion to its load: the lag of a stick is that of
-    its mean load. None where the runs do not agree in it.
-    """
-    lag, error, load = np.array([_lag(run) for run in runs]).reshape(-1, 3).T
-    seen = np.isfinite(lag) & np.isfinite(error) & (load > 0.0)
-    lag, error, load = lag[seen], error[seen], load[seen]
-    if not lag.size:
-        return None
-    precision = float(np.sum((load / error) ** 2))
-    creep = float(np.sum(lag * load / error**2)) / precision
-    of_mean = precision**-0.5
-    indistinguishable = np.abs(lag - creep * load) <= np.maximum(
-        SPEED_ERRORS * error, _EQUAL * creep * load
-    )
-    return (creep, of_mean) if creep > SPEED_ERRORS * of_mean and indistinguishable.all() else None
-
-
-def _lag(run: MeasuredRun) -> tuple[float, float, float]:
-    """How much slower than the surface sticks are, m/s, its error, and their mean load.
-
-    The load is a part of that at break-away.
-    """
-    sign = 1.0 if run.surface_speed >= 0.0 else -1.0
-    speed = cycle_features(run).stick_speed
-    ends = np.array([[run.motion.x[s.first], run.motion.x[s.last]] for s in run.sticks])
-    load = float(np.nanmedian(ends.mean(axis=1)) / np.nanmedian(ends[:, 1]))
-    error = float(np.hypot(speed.error, _SET_POINT * run.surface_speed))
-    return sign * (run.surface_speed - speed.value), error, load
-
-
-def _speed_is_off(run: MeasuredRun) -> bool:
-    """Whether the block, in stick, moves at another speed than the surface's set-point."""
-    speed = cycle_features(run).stick_speed
-    off = abs(speed.value - run.surface_speed)
-    return off > max(SPEED_ERRORS * speed.error, SPEED_PART * abs(run.surface_speed))
+    error = campaign.errors.surface_speed
+    own.append(FreeParameter(SPEED_OFFSET, 0.0, 0.2 * error, -0.5, 0.5, True, error))
+    own.append(FreeParameter(FRICTION_OFFSET, 0.0, 0.005, -1.0, 1.0, True, spread))
+    return tuple(own)
 
 
 def first_guess(

@@ -38,7 +38,7 @@ def read_campaign(path: str | Path) -> Campaign:
     table, run_tables = read_tables(path)
     campaign = Campaign(
         table.name, path.parent, table.rig, table.model.scheme, table.noise.given, (), (),
-        friction=table.friction.given,
+        friction=table.friction.given, errors=table.errors,
     )  # fmt: skip
     runs, remarks = [], []
     for number, run_table in enumerate(run_tables, 1):

@@ -54,6 +54,18 @@ class Noise(Table):
         return {channel: getattr(self, channel) for channel in sorted(self.model_fields_set)}
 
 
+class Errors(Table):
+    """How well the rig is known: standard deviations of what the file states."""
+
+    stiffness: float = quantity(0.01, "1", "of the springs' stiffness, part of it", gt=0, le=0.2)
+    surface_speed: float = quantity(
+        0.01, "1", "of a run's surface speed, part of the set-point", gt=0, le=0.2
+    )
+    zero: float = quantity(
+        3.0, "1", "of the tracker's zero in a run, in standard deviations of its noise", gt=0
+    )
+
+
 class Measured(Table):
     """Numbers that are known with a standard deviation; others are not among ``given``."""
 
@@ -177,6 +189,7 @@ class CampaignTable(Table):
     rig: Rig = Rig()
     model: Model = Model()
     noise: Noise = Noise()
+    errors: Errors = Errors()
     friction: Friction = Friction()
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.data.campaign_file import Rig
+from cosim.gap.data.campaign_file import Errors, Rig
 
 #: Measured quantities, in the order in which they are looked at.
 CHANNELS = ("x", "y", "phi", "force")
@@ -149,6 +149,7 @@ class Campaign:
     noise_estimated : channels whose noise is not given, but taken from the data
     remarks : what the reader should know, a line each
     friction : coefficient -> (value, standard deviation), of those that are known beforehand
+    errors : how well the file's other numbers are known
     """
 
     name: str
@@ -160,6 +161,7 @@ class Campaign:
     runs: tuple[MeasuredRun, ...]
     remarks: tuple[str, ...] = ()
     friction: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    errors: Errors = field(default_factory=Errors)
 
     @property
     def fit_runs(self) -> tuple[MeasuredRun, ...]:
@@ -170,6 +172,16 @@ class Campaign:
     def held_out_runs(self) -> tuple[MeasuredRun, ...]:
         """Runs that are for judging alone."""
         return tuple(run for run in self.runs if run.hold_out)
+
+    @property
+    def setups(self) -> list[tuple[float, float]]:
+        """Mass and stiffness of the springs: every pair that a run was made with."""
+        return sorted({(run.mass, run.stiffness) for run in self.runs})
+
+    def setup_of(self, run: MeasuredRun) -> int:
+        """Number of a run's set-up; one that no run of the campaign has comes after all."""
+        pair, setups = (run.mass, run.stiffness), self.setups
+        return setups.index(pair) if pair in setups else len(setups)
 
     def parameters(self, run: MeasuredRun) -> dict[str, dict[str, Any]]:
         """What is known of a run, as tables of `stickslip.Parameters`; the rest is for the fit.

@@ -20,8 +20,8 @@ from .separation import separation
 
 #: Experiments times pairs that are screened, linearised; so many of the best are then refitted ...
 _SCREENED, _FINALISTS = 180, 3
-#: ... with so many Levenberg-Marquardt steps.
-_ROUNDS = 3
+#: ... with so many Levenberg-Marquardt steps: contact and springs take up more by and by.
+_ROUNDS = 8
 #: Of runs nearly as good as the best, within this part, the one that needs least new equipment.
 _NEARLY = 0.8
 #: More members than this are not compared: the ones that fit best stand for the class.

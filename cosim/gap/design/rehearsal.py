@@ -75,7 +75,7 @@ def _planned(setting: Setting, experiment: Experiment, track=None, sticks=()) ->
 
 def _simulated(setting: Setting, run: MeasuredRun, experiment: Experiment, values) -> np.ndarray:
     """Outputs (n, O_SIZE) from the experiment's start, places as the camera writes them."""
-    state, since = np.zeros(6), np.nan
+    state, since = np.zeros(8), np.nan
     if experiment.start == "carried":
         state[3], since = experiment.surface_speed, 0.0
     else:

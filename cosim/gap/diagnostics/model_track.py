@@ -15,7 +15,7 @@ from cosim.gap.data import MeasuredRun, Stick, find_sticks
 from cosim.gap.data.measured import Track
 from cosim.gap.estimation.fitted import Fitted
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import COLUMN
+from cosim.gap.estimation.segmented_run import COLUMN, LOST
 
 STICK, SLIP = 0.0, 1.0
 
@@ -58,6 +58,11 @@ class ModelTrack:
     def residual(self, channel: str) -> np.ndarray:
         """(n,) measured less modelled, in units of the noise; NaN where nothing was measured."""
         return (self.run.motion[channel] - getattr(self, channel)) / self.run.noise[channel]
+
+    def misfit(self) -> np.ndarray:
+        """(r,) residuals of all channels where something was measured; far off where lost."""
+        rows = [self.residual(name)[np.isfinite(self.run.motion[name])] for name in self.channels]
+        return np.clip(np.nan_to_num(np.concatenate(rows), nan=LOST), -LOST, LOST)
 
     @cached_property
     def segments(self) -> np.ndarray:

@@ -29,12 +29,14 @@ class Columns:
     shared : (r, g) by the campaign's free parameters
     own : (r, k) by the run's own free parameters
     states : of each segment: rows, derivatives (rows, free) by the free numbers of its state
+    longest : (k,) longest steps of the run's own
     """
 
     residuals: np.ndarray
     shared: np.ndarray
     own: np.ndarray
     states: tuple[tuple[np.ndarray, np.ndarray], ...]
+    longest: np.ndarray | None = None
 
     @cached_property
     def _bases(self) -> tuple[np.ndarray, ...]:
@@ -64,7 +66,8 @@ class Columns:
         own = np.zeros(0)
         if self.own.shape[1]:
             own = -np.linalg.pinv(self._own_left) @ self.without_states(rest)
-            own = np.clip(own, -_LONGEST_OWN, _LONGEST_OWN)
+            longest = _LONGEST_OWN if self.longest is None else self.longest
+            own = np.clip(own, -longest, longest)
             rest = rest + self.own @ own
         steps = [_damped(columns, rest[rows]) for rows, columns in self.states]
         return own, steps

@@ -1,24 +1,58 @@
-"""How fast the surface is for the block, where that is not the speed that it was set to."""
+"""What a run is set to, and what it truly is: surface speed, springs, friction of that day.
+
+Nature does not repeat itself, and no rig is what its file says. A run's surface is a little faster
+than its set-point, a set of springs a little stiffer than stated, and friction is another from run
+to run. Each is a free parameter ``offset.*``, a part of the number that it belongs to.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 
+from stickslip.effects import EFFECTS
 from stickslip.effects.candidate import SECOND
+from stickslip.packing import GRAVITY
+
+from cosim.gap.data import MeasuredRun
 
 #: Part by which a run's surface is faster than its set-point.
 SPEED_OFFSET = "offset.speed"
+#: Logarithm by which mu_s and mu_k of a run are larger than the campaign's.
+FRICTION_OFFSET = "offset.friction"
+#: Logarithm by which the springs of a set-up (a mass and its springs) are stiffer than stated; the
+#: number of the set-up follows.
+STIFFNESS_OFFSET = "offset.stiffness_"
+#: Logarithm by which the springs seem stiffer in one run.
+SPRINGS_OFFSET = "offset.springs"
+#: How much less static friction is where the load grows: c in mu_s (1 - c sqrt(r)), s^(1/2).
+LOADING = "offset.loading"
+#: The least that is left of static friction.
+_LEAST_STATIC = 0.3
+#: What friction of a run goes by.
+SCATTERED = ("friction.mu_s", "friction.mu_k")
+#: Coefficients of a table in place of mu_k, each with its number in brackets, and the same as parts
+#: of mu_k, which then says how large they are.
+TABLE, TABLE_PART = "friction.table_mu[", "friction.table_part["
 
 #: Travel of the surface in one period of a ripple that a roller makes, m: at another speed it has
 #: another frequency.
 RIPPLE_LENGTH = "speed_ripple.wavelength"
+#: Exponent by which an effect's strength goes with a quantity, ``scaling.<quantity>.<effect>``, and
+#: the value of the quantity, SI, at which the strength is what it says, ``reference.<quantity>``.
+SCALING, REFERENCE = "scaling.", "reference."
+
+
+def stiffness_offset(setup: int) -> str:
+    """Key of a set-up's free parameter."""
+    return f"{STIFFNESS_OFFSET}{setup}"
 
 
 def model_parameters(set_point: float, values: Mapping[str, float]) -> dict[str, float]:
     """Values as the model has them.
 
-    A ripple's wavelength is the frequency at that speed; a second harmonic has amplitude and phase.
+    A ripple's wavelength is the frequency at that speed; a second harmonic has amplitude and phase;
+    friction is that of the run.
     """
     flat = dict(values)
     for effect in ("speed_ripple", "surface_pattern"):
@@ -29,6 +63,78 @@ def model_parameters(set_point: float, values: Mapping[str, float]) -> dict[str,
             flat[f"{effect}.second_phase_deg"] = math.degrees(math.atan2(ahead, in_phase))
     if RIPPLE_LENGTH in flat:
         flat["speed_ripple.frequency"] = abs(set_point) / flat.pop(RIPPLE_LENGTH)
+    if FRICTION_OFFSET in flat:
+        factor = math.exp(flat.pop(FRICTION_OFFSET))
+        flat.update((key, factor * flat[key]) for key in SCATTERED if key in flat)
+    for key in [key for key in flat if key.startswith(TABLE_PART)]:
+        flat[TABLE + key.removeprefix(TABLE_PART)] = flat.pop(key) * flat["friction.mu_k"]
+    return flat
+
+
+def strength_keys(effect: str) -> tuple[str, ...]:
+    """What an effect's strength is: what turns it on, and the harmonic beside that."""
+    return tuple(
+        f"{effect}.{name}"
+        for each in EFFECTS
+        if each.id == effect
+        for name in (*each.switch, *SECOND)
+    )
+
+
+def quantities_of(run: MeasuredRun) -> dict[str, float]:
+    """What an effect's strength may go with, as it was set: kg, m/s, N/m."""
+    return {"mass": run.mass, "speed": abs(run.surface_speed), "stiffness": run.stiffness}
+
+
+def with_strengths_scaled(
+    values: Mapping[str, float], quantities: Mapping[str, float]
+) -> dict[str, float]:
+    """Values without exponents: strengths s (q / q_0)^n as they are where q is of ``quantities``.
+
+    quantities : mass, speed, stiffness -> value, SI; one without a reference counts from 1
+    """
+    flat = {k: v for k, v in values.items() if not k.startswith((SCALING, REFERENCE))}
+    for key, exponent in values.items():
+        if key.startswith(SCALING):
+            quantity, effect = key.removeprefix(SCALING).split(".")
+            part = abs(quantities[quantity]) / values.get(REFERENCE + quantity, 1.0)
+            for strength in strength_keys(effect):
+                if strength in flat:
+                    flat[strength] *= part**exponent
+    return flat
+
+
+def rig_parameters(
+    setup: int, known: Mapping[str, float], values: Mapping[str, float], set_point: float
+) -> dict[str, float]:
+    """Known numbers of a rig with the fitted ones; springs and static friction as they are."""
+    flat = {k: v for k, v in values.items() if not k.startswith(STIFFNESS_OFFSET)}
+    part = values.get(stiffness_offset(setup), 0.0) + flat.pop(SPRINGS_OFFSET, 0.0)
+    if part != 0.0:
+        flat["springs.stiffness"] = known["springs.stiffness"] * math.exp(part)
+    return under_load({**known, **flat}, known["springs.stiffness"], known["rig.mass"], set_point)
+
+
+def under_load(
+    values: Mapping[str, float], stiffness: float, mass: float, set_point: float
+) -> dict[str, float]:
+    """Values with static friction as it is where a surface at ``set_point`` loads a stick.
+
+    A contact whose friction falls with the sliding speed gives way before the load is mu_s N, as
+    bristles are sheared the faster the closer it comes; to first order it lacks
+
+        mu_s - mu = 2 sqrt(r Delta z_0 / (mu_s v_s)),     r = 4 k V / (m g),  1/s,
+
+    with Delta = mu_s - mu_k, which falls over v_s, and z_0 the shear at mu_s. So does one that
+    creeps by a law of its own. (From LuGre's law, Canudas de Wit et al. 1995, without inertia.)
+    """
+    flat = dict(values)
+    lacking = flat.pop(LOADING, 0.0)
+    if lacking:
+        rate = 4.0 * stiffness * abs(set_point) / (mass * GRAVITY)
+        part = max(1.0 - lacking * math.sqrt(rate), _LEAST_STATIC)
+        mu_s = flat["friction.mu_s"]
+        flat["friction.mu_s"] = max(part * mu_s, min(flat["friction.mu_k"], mu_s))
     return flat
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cosim.processes import is_stopped
+from cosim.processes import Map, is_stopped, map_here
 
 from .columns import Columns
 from .descent import Damping, Descent
@@ -24,6 +24,9 @@ MOST_ROUNDS = 25
 MOST_TRIES = 12
 #: Most further steps by the derivatives of a round.
 _CHORDS = 2
+#: Derivatives are those of where a fit stands, if steps by them gained less than this of the sum of
+#: squares, and than this part of it.
+_SETTLED, _SETTLED_PART = 1.0, 1e-3
 #: Longest step of a round, in steps of a free parameter: one that is thrown to where the motion
 #: does not feel it any more never comes back.
 _LONGEST = 4.0
@@ -39,11 +42,12 @@ def fit(
     fixed: bool = False,
     derivatives: Derivatives | None = None,
     tries: int = MOST_TRIES,
+    mapped: Map = map_here,
 ) -> Fitted:
     """The best point from a first one.
 
     fixed : only what belongs to the runs moves; derivatives : others than the model's own there;
-    tries : steps in a round until one leads on
+    tries : steps in a round until one leads on; mapped : over runs, for their derivatives
     """
     shared = [] if fixed else list(range(len(problem.shared)))
     descent = Descent(problem, _Campaign(problem, fixed), point, Damping())
@@ -51,7 +55,7 @@ def fit(
         if is_stopped():  # nobody waits for it any more
             break
         columns = (
-            descent.columns(shared)
+            _of_runs(descent, shared, mapped)
             if derivatives is None
             else [derivatives(i, descent.point, r) for i, r in enumerate(descent.residuals)]
         )
@@ -62,9 +66,63 @@ def fit(
             again = [
                 replace(c, residuals=r) for c, r in zip(columns, descent.residuals, strict=True)
             ]
-            if fixed or derivatives or not descent.goes_down(again, 1):
+            if derivatives or not descent.goes_down(again, 1):
                 break
     return Fitted(problem.free_parameters, descent.point, descent.residuals)
+
+
+def fit_runs(problem: Problem, point: Point, rounds: int, mapped: Map = map_here) -> Fitted:
+    """As `fit` with the shared numbers fixed, every run alone."""
+    runs = range(len(point.own))
+    alone = [(problem.of_run(run), point.of_run(run), rounds, True) for run in runs]
+    return Fitted.joined(list(mapped(fit, alone)))
+
+
+def follow(
+    problem: Problem,
+    point: Point,
+    columns: Sequence[Columns],
+    rounds: int,
+    mapped: Map = map_here,
+) -> Fitted:
+    """What belongs to the runs follows shared numbers that were moved; derivatives included.
+
+    columns : of a point nearby: they do for the first steps; rounds : most times that they are
+    taken anew
+    """
+    alone = [
+        (problem.of_run(run), point.of_run(run), near, rounds) for run, near in enumerate(columns)
+    ]
+    return Fitted.joined(list(mapped(_followed, alone)))
+
+
+def _followed(problem: Problem, point: Point, near: Columns, rounds: int) -> Fitted:
+    """One run."""
+    descent = Descent(problem, _Campaign(problem, fixed=True), point, Damping())
+    columns = [near]
+    _by_chords(descent, columns)
+    everything = range(len(problem.shared))
+    for _ in range(rounds):
+        columns, before = descent.columns(everything), descent.cost
+        _by_chords(descent, columns)
+        if before - descent.cost < max(_SETTLED, _SETTLED_PART * descent.cost):
+            break
+    there = tuple(replace(c, residuals=r) for c, r in zip(columns, descent.residuals, strict=True))
+    return Fitted(problem.free_parameters, descent.point, descent.residuals, there)
+
+
+def _of_runs(descent: Descent, shared: Sequence[int], mapped: Map) -> list[Columns]:
+    """Derivatives where a descent stands."""
+    at = Fitted((), descent.point, tuple(descent.residuals))
+    return list(with_columns(descent.problem, at, shared, mapped).derivatives)
+
+
+def _by_chords(descent: Descent, columns: Sequence[Columns]) -> None:
+    """Steps by the derivatives of one point, as long as they lead on."""
+    for _ in range(1 + _CHORDS):
+        here = [replace(c, residuals=r) for c, r in zip(columns, descent.residuals, strict=True)]
+        if not descent.goes_down(here, 1):
+            break
 
 
 @dataclass(frozen=True)
@@ -118,10 +176,21 @@ def _inside(
     return step
 
 
-def with_columns(problem: Problem, fitted: Fitted) -> Fitted:
-    """The same fit with derivatives taken at its end."""
-    columns = tuple(
-        problem.columns(i, fitted.point, r, range(len(problem.shared)))
-        for i, r in enumerate(fitted.residuals)
-    )
-    return replace(fitted, columns=columns)
+def with_columns(
+    problem: Problem,
+    fitted: Fitted,
+    by: Sequence[int] | None = None,
+    mapped: Map = map_here,
+) -> Fitted:
+    """The same fit with derivatives taken at its end; by: which shared numbers, all if not said."""
+    by = range(len(problem.shared)) if by is None else by
+    alone = [
+        (problem.of_run(run), fitted.point.of_run(run), r, by)
+        for run, r in enumerate(fitted.residuals)
+    ]
+    return replace(fitted, columns=tuple(mapped(_columns, alone)))
+
+
+def _columns(problem: Problem, point: Point, residuals: np.ndarray, by: Sequence[int]) -> Columns:
+    """Of a run alone."""
+    return problem.columns(0, point, residuals, by)

@@ -30,12 +30,16 @@ class Point:
     ----------
     shared : (g,) free parameters of the campaign, scaled
     own : per run (k,) free parameters of the run, scaled
-    states : per run (segments, 6)
+    states : per run (segments, 8)
     """
 
     shared: np.ndarray
     own: tuple[np.ndarray, ...]
     states: tuple[np.ndarray, ...]
+
+    def of_run(self, run: int) -> Point:
+        """The same of one run alone."""
+        return Point(self.shared, (self.own[run],), (self.states[run],))
 
 
 def start(
@@ -65,6 +69,25 @@ class Fitted:
     point: Point
     residuals: tuple[np.ndarray, ...]
     columns: tuple[Columns, ...] | None = None
+
+    @classmethod
+    def joined(cls, alone: Sequence[Fitted]) -> Fitted:
+        """Of several runs, from fits of each alone with the same shared numbers."""
+        own, states = (
+            tuple(getattr(a.point, name)[0] for a in alone) for name in ("own", "states")
+        )
+        columns = [a.columns[0] for a in alone if a.columns is not None]
+        return cls(
+            alone[0].free_parameters,
+            Point(alone[0].point.shared, own, states),
+            tuple(a.residuals[0] for a in alone),
+            tuple(columns) if len(columns) == len(alone) else None,
+        )
+
+    def of_run(self, run: int) -> Fitted:
+        """The same of one run alone."""
+        columns = None if self.columns is None else (self.columns[run],)
+        return Fitted(self.free_parameters, self.point.of_run(run), (self.residuals[run],), columns)
 
     @property
     def derivatives(self) -> tuple[Columns, ...]:

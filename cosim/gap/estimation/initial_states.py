@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .fit import fit
-from .fitted import Point
+from .fitted import Fitted, Point
 from .problem import Problem
 
 #: Velocities that a moving segment may set out with beside that read off, in parts of the
@@ -51,6 +53,20 @@ def with_velocities(problem: Problem, point: Point) -> Point:
     return Point(point.shared, point.own, tuple(states))
 
 
+def with_lost_velocities(problem: Problem, fitted: Fitted) -> Point:
+    """As `with_velocities`, of runs with lost segments alone; the very same point without."""
+    point, states = fitted.point, list(fitted.point.states)
+    for run, residuals in enumerate(fitted.residuals):
+        if not _lost(problem, run, problem.by_segment(run, residuals)).any():
+            continue
+        alone = problem.of_run(run)
+        first = Point(point.shared, (point.own[run],), (states[run],))
+        states[run] = with_velocities(alone, first).states[0]
+    if all(a is b for a, b in zip(states, point.states, strict=True)):
+        return point
+    return replace(point, states=tuple(states))
+
+
 def with_lost_segments_found(problem: Problem, point: Point) -> Point:
     """Each lost segment's state where it fits best of those that lead on from some other places."""
     states = [_found(problem, run, point) for run in range(len(problem.segmented_runs))]
@@ -60,13 +76,13 @@ def with_lost_segments_found(problem: Problem, point: Point) -> Point:
 
 
 def _found(problem: Problem, run: int, point: Point) -> np.ndarray:
-    """(segments, 6) of one run; the very same where nothing is better."""
+    """(segments, 8) of one run; the very same where nothing is better."""
     best = point.states[run]
     least = _squares(problem, run, point, best)
     lost = _lost(problem, run, least)
     if not lost.any():
         return best
-    alone = Problem([problem.segmented_runs[run]], problem.free_parameters, problem.settings)
+    alone = problem.of_run(run)
     for axis, value in _places(problem, run):
         tried = best.copy()
         here = lost & [axis in segment.free for segment in problem.segmented_runs[run].segments]

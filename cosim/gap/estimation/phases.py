@@ -94,7 +94,9 @@ def with_phases_followed(problem: Problem, point: Point) -> Point:
 
 def _followed(problem: Problem, run: int, point: Point, turned: list[int]) -> Fitted | None:
     """One run fitted from its most promising phases, or None if none leads anywhere."""
-    alone = Problem([problem.segmented_runs[run]], problem.free_parameters, problem.settings)
+    alone = Problem(
+        [problem.segmented_runs[run]], problem.free_parameters, problem.settings, problem.local
+    )
     now = point.own[run]
     residuals = alone.residuals(0, point.shared, now, point.states[run])
     best, least = None, _CLEARLY * float(residuals @ residuals)
@@ -117,7 +119,7 @@ def _promising(problem: Problem, run: int, point: Point, turned: list[int]) -> l
 def best_states(problem: Problem, run: int, shared, own: np.ndarray, states: np.ndarray):
     """Each segment's state, fitted elsewhere, or as read off the data where that is better.
 
-    states : (segments, 6) fitted. Read off, a velocity may be so near the surface's that the
+    states : (segments, 8) fitted. Read off, a velocity may be so near the surface's that the
     segment is lost.
     """
     first = problem.segmented_runs[run].starts

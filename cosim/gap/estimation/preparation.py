@@ -14,7 +14,7 @@ from stickslip import Parameters
 
 from cosim.gap.data import Campaign, MeasuredRun, Stick, Track
 
-from .segmented_run import TOLERANCE, TOLERANCE_ACROSS, SegmentedRun
+from .segmented_run import TOLERANCE, SegmentedRun
 from .segments import CYCLES, cut, joined
 
 #: Cycles in the short segments in which a fit sets out: hardly a phase to be lost.
@@ -39,7 +39,8 @@ def prepare(
 def _segmented(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float) -> SegmentedRun:
     track = run.motion
     known = known_parameters(campaign, run, planar)
-    channels = {name: track[name] for name in track.channels if name in ("x", "y", "phi")}
+    seen = ("x", "y", "phi") if planar else ("x",)
+    channels = {name: track[name] for name in track.channels if name in seen}
     across = planar and "y" in channels
     cycle = period(run)
     segments = cut(track, run.sticks, run.surface_speed, cycle, across, min(cycles, SHORT_CYCLES))
@@ -48,7 +49,15 @@ def _segmented(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float
     noise = {name: run.noise[name] for name in channels}
     temperature = known["temperature_dependence.reference_degC"]
     return SegmentedRun(
-        run.name, known, run.surface_speed, temperature, track.time, channels, noise, segments
+        run.name,
+        known,
+        run.surface_speed,
+        temperature,
+        track.time,
+        channels,
+        noise,
+        segments,
+        campaign.setup_of(run),
     )
 
 
@@ -56,10 +65,8 @@ def known_parameters(campaign: Campaign, run: MeasuredRun, planar: bool) -> dict
     """Every parameter of the model, what is to be fitted at its default; on a line or planar."""
     with warnings.catch_warnings(action="ignore"):  # friction is for the fit
         parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
-    known = dict(parameters.flat())
-    if planar:
-        return known | {"solver.tolerance": TOLERANCE_ACROSS}
-    return known | {"solver.tolerance": TOLERANCE, "rig.free_y": 0.0, "rig.free_phi": 0.0}
+    known = dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
+    return known if planar else known | {"rig.free_y": 0.0, "rig.free_phi": 0.0}
 
 
 def period(run: MeasuredRun) -> float:

@@ -8,29 +8,43 @@ import numpy as np
 from stickslip.effects.candidate import OFFSETS, FreeParameter
 
 from .columns import Columns
+from .drive import FRICTION_OFFSET, SCATTERED, STIFFNESS_OFFSET, stiffness_offset
 from .fitted import Point, own_of, shared_of
 from .segmented_run import SegmentedRun
+from .segments import FRICTION, STATES, Segment
 
+#: Longest step of a run's own numbers that are known beforehand, in their steps.
+_LONGEST_KNOWN = 10.0
 #: Differences are taken over this part of a free parameter's step.
 _PART = 1e-2
-#: Steps of the segments' states: positions m (and rad), velocities m/s (and rad/s).
-_STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2])
+#: Steps of the segments' states: positions m (and rad), velocities m/s (and rad/s), friction.
+STATE_STEP = np.array([1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-2, 5e-3, 5e-3])
 #: A segment whose sum of squares grows by more than this was thrown off course by its own step.
 _GROWTH, _GROWTH_SLACK = 1.5, 10.0
 
 
 class Problem:
-    """Some runs, the free parameters to be fitted and what else is set."""
+    """Some runs, the free parameters to be fitted and what else is set.
+
+    local : spread of friction, and of static friction beside it, from segment to segment, parts of
+    it; 0 where a run's friction is the same all along
+    """
 
     def __init__(
         self,
         segmented_runs: Sequence[SegmentedRun],
         free_parameters: Sequence[FreeParameter],
         settings: dict[str, float] | None = None,
+        local: tuple[float, float] = (0.0, 0.0),
     ):
         self.segmented_runs, self.free_parameters = tuple(segmented_runs), tuple(free_parameters)
-        self.settings = dict(settings or {})
+        self.settings, self.local = dict(settings or {}), local
         self.shared, self.own = shared_of(free_parameters), own_of(free_parameters)
+
+    def of_run(self, run: int) -> Problem:
+        """The same of one run alone."""
+        alone = [self.segmented_runs[run]]
+        return Problem(alone, self.free_parameters, self.settings, self.local)
 
     def inside(self, shared: np.ndarray) -> np.ndarray:
         """(g,) the campaign's free parameters, scaled, or the nearest that are allowed."""
@@ -41,7 +55,23 @@ class Problem:
         values, states, offsets = self._set_for(shared, own, states)
         segmented = self.segmented_runs[run]
         rows = segmented.residuals(segmented.places(values, states), offsets)
-        return np.concatenate([rows, self._known_of_own(own)])
+        return np.concatenate([rows, self._known_of_own(own), self._known_of_friction(states)])
+
+    @property
+    def longest_own(self) -> np.ndarray:
+        """(k,) longest steps of the run's own: where it is known beforehand, that holds it."""
+        return np.array([1.0 if free.prior is None else _LONGEST_KNOWN for free in self.own])
+
+    def free_axes(self, segment: Segment) -> tuple[int, ...]:
+        """Which numbers of a segment's state are free."""
+        local = (axis for axis, spread in zip(FRICTION, self.local, strict=True) if spread > 0.0)
+        return (*segment.free, *local)
+
+    def _known_of_friction(self, states: np.ndarray) -> np.ndarray:
+        """Rows for what is known beforehand of friction in the segments: axis by axis."""
+        local = zip(FRICTION, self.local, strict=True)
+        rows = [states[:, axis] / spread for axis, spread in local if spread > 0.0]
+        return np.concatenate([np.empty(0), *rows])
 
     def simulated(self, run: int, shared, own, states) -> tuple[np.ndarray, dict[str, float]]:
         """The model's outputs (n, O_SIZE) of one run, and the tracker's zeros."""
@@ -49,7 +79,7 @@ class Problem:
         return self.segmented_runs[run].simulate(values, states), offsets
 
     def _set_for(self, shared, own, states) -> tuple[dict[str, float], np.ndarray, dict]:
-        """Parameters, segments' states (segments, 6) as the model has them, and tracker's zeros."""
+        """Parameters, segments' states (segments, 8) as the model has them, and tracker's zeros."""
         values = dict(self.settings)
         values.update(
             (free.key, free.value(s)) for free, s in zip(self.shared, shared, strict=True)
@@ -84,9 +114,10 @@ class Problem:
     def _owner(self, run: int) -> np.ndarray:
         """(rows,) segment of each row; what is known beforehand is put to the first."""
         own = sum(free.prior is not None for free in self.own)
-        return np.concatenate(
-            [self.segmented_runs[run].segment_of_rows(), np.zeros(own, dtype=int)]
-        )
+        each = np.arange(len(self.segmented_runs[run].segments))
+        local = [each for spread in self.local if spread > 0.0]
+        parts = [self.segmented_runs[run].segment_of_rows(), np.zeros(own, dtype=int), *local]
+        return np.concatenate(parts)
 
     def all_residuals(self, point: Point) -> tuple[np.ndarray, ...]:
         """Of every run."""
@@ -98,12 +129,58 @@ class Problem:
     def columns(self, run: int, point: Point, residuals: np.ndarray, free_shared) -> Columns:
         """Derivatives of one run by differences, its own part factorised."""
         at = point.shared, point.own[run], point.states[run]
+        by_state = self._by_state(run, at, residuals)
         shared = np.zeros((residuals.size, len(self.shared)))
         for j in free_shared:
-            shared[:, j] = self.difference(run, at, 0, j, self.shared[j], residuals)
-        own = [self.difference(run, at, 1, j, free, residuals) for j, free in enumerate(self.own)]
-        stacked = np.array(own).reshape(len(own), residuals.size).T
-        return Columns(residuals, shared, stacked, self._by_state(run, at, residuals))
+            if self.is_felt(run, self.shared[j]):
+                shared[:, j] = self.difference(run, at, 0, j, self.shared[j], residuals)
+        own = np.zeros((residuals.size, len(self.own)))
+        for j, free in enumerate(self.own):
+            known = self._known_response(run, at, j, shared, by_state)
+            own[:, j] = self.difference(run, at, 1, j, free, residuals) if known is None else known
+        return Columns(residuals, shared, own, by_state, self.longest_own)
+
+    def _known_response(self, run: int, at, j: int, shared, by_state) -> np.ndarray | None:
+        """Derivative by one of the run's own that follows from others, or None.
+
+        A tracker's zero moves the measured states against the model's; friction of a run scales the
+        campaign's coefficients.
+        """
+        free = self.own[j]
+        if free.key in OFFSETS:
+            rows = self._by_zero(run, free, by_state, shared.shape[0])
+        elif free.key == FRICTION_OFFSET:
+            places = [i for i, each in enumerate(self.shared) if each.key in SCATTERED]
+            if len(places) < len(SCATTERED) or not all(shared[:, i].any() for i in places):
+                return None
+            rows = np.zeros(shared.shape[0])
+            for i in places:
+                each = self.shared[i]
+                rows += shared[:, i] * each.value(at[0][i]) * free.step / each.step
+        else:
+            return None
+        priors = [i for i, each in enumerate(self.own) if each.prior is not None]
+        if free.prior is not None:  # what is known beforehand stands in the last rows
+            local = len(at[2]) * sum(spread > 0.0 for spread in self.local)
+            rows[rows.size - local - len(priors) + priors.index(j)] = free.step / free.prior
+        return rows
+
+    def _by_zero(self, run: int, free: FreeParameter, by_state, size: int) -> np.ndarray:
+        axis, segmented = OFFSETS.index(free.key), self.segmented_runs[run]
+        channel, rows = free.key.removeprefix("offset."), np.zeros(size)
+        if channel in segmented.channels:
+            rows[segmented.rows_of(channel)] = free.step / segmented.noise[channel]
+        for (where, columns), segment in zip(by_state, segmented.segments, strict=True):
+            if axis in segment.free:
+                by_axis = columns[:, segment.free.index(axis)]
+                rows[where] -= by_axis * free.step / STATE_STEP[axis]
+        return rows
+
+    def is_felt(self, run: int, free: FreeParameter) -> bool:
+        """Whether a run's motion depends on a shared free parameter: other set-ups' do not."""
+        if not free.key.startswith(STIFFNESS_OFFSET):
+            return True
+        return free.key == stiffness_offset(self.segmented_runs[run].setup)
 
     def difference(self, run, at, which, j, free: FreeParameter, residuals) -> np.ndarray:
         """(rows,) derivative of one run by number j of its point's part ``which``."""
@@ -117,14 +194,15 @@ class Problem:
         segmented = self.segmented_runs[run]
         owner = self._owner(run)
         by_axis = {}
-        for axis in sorted({axis for w in segmented.segments for axis in w.free}):
+        free = [self.free_axes(segment) for segment in segmented.segments]
+        for axis in sorted({axis for axes in free for axis in axes}):
             states = at[2].copy()
-            states[[axis in w.free for w in segmented.segments], axis] += _PART * _STATE_STEP[axis]
+            states[[axis in axes for axes in free], axis] += _PART * STATE_STEP[axis]
             by_axis[axis] = (self.residuals(run, at[0], at[1], states) - residuals) / _PART
         rows = [np.flatnonzero(owner == number) for number in range(len(segmented.segments))]
         return tuple(
-            (r, np.column_stack([by_axis[axis][r] for axis in segment.free]))
-            for r, segment in zip(rows, segmented.segments, strict=True)
+            (r, np.column_stack([by_axis[axis][r] for axis in axes]))
+            for r, axes in zip(rows, free, strict=True)
         )
 
     def tried(
@@ -175,12 +253,12 @@ class Problem:
         return taken, residuals
 
     def _state_step(self, run: int, steps: Sequence[np.ndarray]) -> np.ndarray:
-        """(segments, 6) step of the states."""
+        """(segments, 8) step of the states."""
         segments = self.segmented_runs[run].segments
-        move = np.zeros((len(segments), 6))
+        move = np.zeros((len(segments), STATES))
         for number, (segment, step) in enumerate(zip(segments, steps, strict=True)):
-            axes = list(segment.free)
-            move[number, axes] = step * _STATE_STEP[axes]
+            axes = list(self.free_axes(segment))
+            move[number, axes] = step * STATE_STEP[axes]
         return move
 
     def prior(self, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

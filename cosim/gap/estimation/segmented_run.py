@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -13,8 +14,14 @@ from stickslip.restarted import Force, Restart, simulate_restarted, track_restar
 from cosim.gap.camera.camera import Camera
 from cosim.gap.camera.exposure import Exposure
 
-from .drive import SPEED_OFFSET, driven_speed, model_parameters
-from .segments import Segment
+from .drive import (
+    SPEED_OFFSET,
+    driven_speed,
+    model_parameters,
+    rig_parameters,
+    with_strengths_scaled,
+)
+from .segments import FRICTION, Segment
 
 #: Columns of the model's outputs, and of its places, that a tracker can see.
 COLUMN = {"x": layout.O_X, "y": layout.O_Y, "phi": layout.O_PHI}
@@ -24,12 +31,18 @@ _VELOCITIES = (layout.O_VX, layout.O_VY, layout.O_OMEGA)
 LOST = 1e3
 #: Part of the weight that pulls the block aside: the sine of a rig's tilt.
 TILT = "offset.tilt"
-#: Integrator's tolerance in a fit: far below the noise, and cheap along a line. A block that comes
-#: to rest in the plane turns ever faster: there a tolerance as large as the speed that counts as
-#: rest is dear, as the error of a step keeps the block moving.
-TOLERANCE, TOLERANCE_ACROSS = 1e-6, 3e-8
+#: Integrator's tolerance in a fit: a hundredth of the noise, and cheap.
+TOLERANCE = 1e-6
+#: Friction that is another by a larger factor than e to this is none of the run's.
+_ENOUGH = 3.0
 #: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
 _LONGER = 2.0
+
+
+def _friction(state: np.ndarray) -> tuple[float, float]:
+    """mu_s and mu_k of a segment, in parts of the run's."""
+    both, static = np.clip(state[list(FRICTION)], -_ENOUGH, _ENOUGH)
+    return math.exp(both + static), math.exp(both)
 
 
 @dataclass(frozen=True)
@@ -45,6 +58,7 @@ class SegmentedRun:
     channels : name -> (n,) measured values, NaN where missing
     noise : name -> standard deviation of the channel
     segments : the pieces
+    setup : number of the mass and springs that it was made with
     """
 
     name: str
@@ -55,6 +69,7 @@ class SegmentedRun:
     channels: Mapping[str, np.ndarray]
     noise: Mapping[str, float]
     segments: tuple[Segment, ...]
+    setup: int = 0
     seen: Mapping[str, np.ndarray] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -62,12 +77,18 @@ class SegmentedRun:
         object.__setattr__(self, "seen", seen)
 
     @property
+    def quantities(self) -> dict[str, float]:
+        """What an effect's strength may go with, as it was set: kg, m/s, N/m."""
+        mass, stiffness = self.known["rig.mass"], self.known["springs.stiffness"]
+        return {"mass": mass, "speed": abs(self.speed), "stiffness": stiffness}
+
+    @property
     def starts(self) -> np.ndarray:
-        """(segments, 6) first guesses of the segments' states."""
+        """(segments, 8) first guesses of the segments' states."""
         return np.array([segment.state for segment in self.segments])
 
     def simulate(self, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        """The block's own outputs (n, O_SIZE) with parameters and segments' states (segments, 6).
+        """The block's own outputs (n, O_SIZE) with parameters and segments' states (segments, 8).
 
         Of the moments at which the camera took its samples; states are as the camera writes them.
         """
@@ -103,14 +124,15 @@ class SegmentedRun:
         since = np.array([segment.hold_since for segment in self.segments])
         rows, clock = exposure.rows[first], exposure.camera.clock
         speed = driven_speed(self.speed, values)
-        true = exposure.true_states(states, first, speed)
+        true = exposure.true_states(states[:, :6], first, speed)
         holds = exposure.moments[rows] - (self.time[first] - since) / clock
-        restarts = list(map(Restart, rows.tolist(), true, holds.tolist()))
+        friction = [_friction(state) for state in states]
+        restarts = list(map(Restart, rows.tolist(), true[:, :6], holds.tolist(), friction))
         return self._run(simulate, values, exposure.moments, restarts)
 
     def _simulated(self, simulate, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
         restarts = [
-            Restart(segment.first, state, segment.hold_since)
+            Restart(segment.first, state[:6], segment.hold_since, _friction(state))
             for segment, state in zip(self.segments, states, strict=True)
         ]
         return self._run(simulate, values, self.time, restarts)
@@ -123,7 +145,9 @@ class SegmentedRun:
         restarts: Sequence[Restart],
     ) -> np.ndarray:
         """Rows of ``simulate`` at times (m,), s, with these parameters."""
-        flat = {**self.known, **model_parameters(self.speed, values)}
+        values = with_strengths_scaled(values, self.quantities)
+        fitted = model_parameters(self.speed, values)
+        flat = rig_parameters(self.setup, self.known, fitted, self.speed)
         speed = driven_speed(self.speed, flat)
         flat.pop(SPEED_OFFSET, None)
         aside = flat.pop(TILT, 0.0) * flat["rig.mass"] * GRAVITY
@@ -139,6 +163,16 @@ class SegmentedRun:
             parts.append(((model - values) / self.noise[name])[self.seen[name]])
         rows = np.concatenate(parts)
         return np.clip(np.nan_to_num(rows, nan=LOST), -LOST, LOST)
+
+    def rows_of(self, channel: str) -> slice:
+        """Where a channel's residuals stand."""
+        first = 0
+        for name, seen in self.seen.items():
+            count = int(seen.sum())
+            if name == channel:
+                return slice(first, first + count)
+            first += count
+        raise KeyError(channel)
 
     def segment_of_rows(self) -> np.ndarray:
         """(rows,) number of the segment that each residual belongs to."""

@@ -10,10 +10,13 @@ import numpy as np
 #: Stick-slip cycles in a segment: enough for the period to tell, few enough for a small error of
 #: the period to stay small.
 CYCLES = 3
+#: Numbers of a segment's state, and which of them are friction of that stretch.
+STATES, FRICTION = 8, (6, 7)
 #: Half width, in samples, of the stretch that tells position and velocity outside a stick.
 _REACH = 6
-#: A segment starts with a stick that lasts this part of a cycle; a shorter one may be none.
-_LASTS = 0.1
+#: A segment starts with a stick that lasts this part of a cycle; a shorter one may be none, and
+#: would hold the block where it creeps.
+_LASTS = 1.0 / 6.0
 #: A segment that would leave less than this share of its length at the end of a run takes it in.
 _REMNANT = 0.5
 
@@ -24,7 +27,8 @@ class Segment:
 
     Attributes
     ----------
-    state : (6,) first guess of x, y, phi, vx, vy, omega; NaN: the model's own goes on
+    state : (8,) first guess of x, y, phi, vx, vy, omega (NaN: the model's own goes on), and of the
+        logarithms by which friction, and static friction beside it, are larger than the run's
     free : which of them are fitted
     hold_since : when the stick began that it starts in, s; NaN in slip
     """
@@ -49,11 +53,18 @@ def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float 
     onsets = np.array([stick.first for stick in sticks if np.isfinite(stick.start_sd)], dtype=int)
     starts = _starts(track, onsets, speed, length, period)
     ends = [*starts[1:], len(track.time)]
-    by_first = {stick.first: stick for stick in sticks}
     return tuple(
-        _segment(track, first, last, by_first.get(first), speed, planar)
+        _segment(track, first, last, _held(sticks, first), speed, planar)
         for first, last in zip(starts, ends, strict=True)
     )
+
+
+def _held(sticks, row: int):
+    """The stick that a sample is in, well before its end; None in slip."""
+    for stick in sticks:
+        if stick.first <= row < stick.last - _REACH or row == stick.first:
+            return stick
+    return None
 
 
 def joined(segments: Sequence[Segment], time: np.ndarray, length: float) -> tuple[Segment, ...]:
@@ -103,7 +114,8 @@ def _fastest(track, due: float, speed: float, period: float) -> int:
 
 
 def _segment(track, first: int, last: int, stick, speed: float, planar: bool) -> Segment:
-    state = np.full(6, np.nan)
+    state = np.full(STATES, np.nan)
+    state[list(FRICTION)] = 0.0
     if first == 0:
         state[:] = 0.0  # what is measured is put in its place
     across: tuple[int, ...] = ()
@@ -113,8 +125,8 @@ def _segment(track, first: int, last: int, stick, speed: float, planar: bool) ->
     if stick is None:
         _fill_moving(track, first, state, track.x, 0)
         return Segment(first, last, state, (0, 3, *across), np.nan)
-    rows = slice(stick.first, stick.last + 1)
-    time = track.time[rows] - track.time[stick.first]
+    rows = slice(first, stick.last + 1)
+    time = track.time[rows] - track.time[first]
     state[0] = np.nanmean(track.x[rows] - speed * time)
     return Segment(first, last, state, (0, *across), stick.start)
 

@@ -26,11 +26,21 @@ _LEADS_ON = 0.98
 
 @dataclass(frozen=True)
 class Model:
-    """What is turned and what is set."""
+    """What is turned and what is set.
+
+    Attributes
+    ----------
+    free_parameters, settings : fitted, and set beside what is known of the rig
+    local : spread of friction, and of static friction beside it, from segment to segment
+    """
 
     free_parameters: tuple[FreeParameter, ...]
     settings: dict[str, float]
-    added: int = 0  # effects on top of the plain model
+    local: tuple[float, float] = (0.0, 0.0)
+
+    def problem(self, segmented_runs: Sequence[SegmentedRun]) -> Problem:
+        """Of some runs."""
+        return Problem(segmented_runs, self.free_parameters, self.settings, self.local)
 
 
 @dataclass(frozen=True)
@@ -40,7 +50,7 @@ class Trial:
     Attributes
     ----------
     fitted, held_out : the fit, and the held-out runs with its parameters
-    squares, rows : per run, fit runs first: sum of squares and number of residuals
+    squares, rows : per run, fit runs first: sum of squares and number of measured samples
     """
 
     model: Model
@@ -57,9 +67,14 @@ class Trial:
     @property
     def held_out_rms(self) -> float:
         """Of the runs that were kept back; of all where none was."""
-        return (
-            self.held_out.rms_residual() if self.held_out.residuals else self.fitted.rms_residual()
-        )
+        first = len(self.fitted.residuals) if self.held_out.residuals else 0
+        return float(np.sqrt(self.squares[first:].sum() / self.rows[first:].sum()))
+
+    @property
+    def fit_rms(self) -> float:
+        """Of the runs for fitting."""
+        fitted = slice(0, len(self.fitted.residuals))
+        return float(np.sqrt(self.squares[fitted].sum() / self.rows[fitted].sum()))
 
 
 def coarse_fit(data: Data, model: Model, rounds: int, before: Fitted | None = None) -> Fitted:
@@ -67,15 +82,15 @@ def coarse_fit(data: Data, model: Model, rounds: int, before: Fitted | None = No
 
     before : the same model's, to go on from
     """
-    problem = Problem(data.short, model.free_parameters, model.settings)
+    problem = model.problem(data.short)
     point = before.point if before else start(data.short, model.free_parameters)
     return fit(problem, with_phases(problem, point), rounds)
 
 
 def try_model(data: Data, model: Model, coarse: Fitted, rounds: int = MOST_ROUNDS) -> Trial:
     """Fit in long segments from a coarse fit, and judge; with no ``rounds`` that is judged."""
-    problem = Problem(data.fit, model.free_parameters, model.settings)
-    point = _carried_over(problem, data.short, coarse.point)
+    problem = model.problem(data.fit)
+    point = carried_over(problem, data.short, coarse.point)
     if rounds:  # states first: parameters would make up for those that are not of this model
         point = with_velocities(problem, point)
         point = fit(problem, point, _ROUNDS_UNFITTED, fixed=True).point
@@ -85,17 +100,13 @@ def try_model(data: Data, model: Model, coarse: Fitted, rounds: int = MOST_ROUND
     return _judged(data, model, fitted, closely=rounds > 0)
 
 
-def finished(data: Data, trial: Trial) -> Trial:
-    """A trial whose fit is carried on to its end."""
-    problem = Problem(data.fit, trial.model.free_parameters, trial.model.settings)
-    return _judged(data, trial.model, with_columns(problem, _fit(problem, trial.fitted.point)))
-
-
 def _judged(data: Data, model: Model, fitted: Fitted, closely: bool = True) -> Trial:
     held_out = _hold_out(data, model, fitted, closely)
-    residuals = (*fitted.residuals, *held_out.residuals)
-    squares = np.array([float(r @ r) for r in residuals])
-    return Trial(model, fitted, held_out, squares, np.array([r.size for r in residuals]))
+    runs = (*data.fit, *data.held_out)
+    rows = np.array([run.segment_of_rows().size for run in runs])
+    residuals = [*fitted.residuals, *held_out.residuals]
+    squares = [float(r[:n] @ r[:n]) for r, n in zip(residuals, rows, strict=True)]
+    return Trial(model, fitted, held_out, np.array(squares), rows)
 
 
 def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted:
@@ -103,22 +114,23 @@ def _hold_out(data: Data, model: Model, fitted: Fitted, closely: bool) -> Fitted
 
     closely : phases are followed, and lost segments searched for
     """
-    short = Problem(data.held_out_short, model.free_parameters, model.settings)
+    short = model.problem(data.held_out_short)
     point = start(short.segmented_runs, model.free_parameters)
     own = tuple(
         np.array([free.scaled(free.start) for free in short.own]) for _ in short.segmented_runs
     )
     point = with_phases(short, Point(fitted.point.shared, own, point.states))
     point = fit(short, with_velocities(short, point), _ROUNDS_SHORT, fixed=True).point
-    problem = Problem(data.held_out, model.free_parameters, model.settings)
-    point = with_velocities(problem, _carried_over(problem, short.segmented_runs, point))
+    problem = model.problem(data.held_out)
+    point = with_velocities(problem, carried_over(problem, short.segmented_runs, point))
     if not closely:
         return fit(problem, point, fixed=True)
     point = fit(problem, with_phases_followed(problem, point), fixed=True).point
-    return fit(problem, with_lost_segments_found(problem, point), fixed=True)
+    fitted = fit(problem, with_lost_segments_found(problem, point), fixed=True)
+    return with_columns(problem, fitted, by=())
 
 
-def _carried_over(problem: Problem, segmented_runs: Sequence[SegmentedRun], point: Point) -> Point:
+def carried_over(problem: Problem, segmented_runs: Sequence[SegmentedRun], point: Point) -> Point:
     """A point in short segments as one in long ones, which start where some of the short ones do.
 
     Each starts from the state that was fitted in its short segment, or from that read off the data

@@ -35,10 +35,16 @@ class Nuisance:
         u, s, _ = np.linalg.svd(stacked, full_matrices=False)
         return u[:, s > RANK * s.max(initial=1e-300)]
 
-    def left(self, responses: Sequence[np.ndarray]) -> np.ndarray:
-        """(rows + g, ...) of responses per run (rows, ...): what no plain model can take up."""
+    def left(self, responses: Sequence[np.ndarray], known: np.ndarray | None = None) -> np.ndarray:
+        """(rows + g, ...) of responses per run (rows, ...): what no plain model can take up.
+
+        known : (g,) how far free parameters are from what is known of them, where the first of
+        the responses was taken
+        """
         parts = [c.left(r) for c, r in zip(self.columns, responses, strict=True)]
         padding = np.zeros((self.weight.size, *parts[0].shape[1:]))
+        if known is not None:
+            padding[:, 0] = known
         stacked = np.concatenate([*parts, padding])
         return stacked - self._basis @ (self._basis.T @ stacked)
 

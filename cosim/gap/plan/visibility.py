@@ -28,7 +28,7 @@ from .planned import Rehearsal
 FAINT = 0.02
 #: Rounds of a refit of the plain model: with the derivatives kept, and with their own, which set
 #: out from where the former have ended.
-_ROUNDS = {True: 6, False: 3}
+_ROUNDS = {True: 10, False: 6}
 #: Sizes that are tried: enough of them where one, though too large, is seen; and at the very most.
 _ENOUGH, _MOST = 6, 16
 #: How near to the wanted noncentrality sizes have to come: 4 % of it move a chance of 90 % by one
@@ -180,7 +180,8 @@ def _tangent(
     here = residuals(rehearsal, law, part, at=point)
     columns = [*bent(rehearsal, law, part, point), *_apiece(turned(rehearsal, law, part, point))]
     stacked = [np.column_stack(parts) for parts in zip(here, *columns, strict=True)]
-    left = nuisance.left(stacked)
+    known = rehearsal.problem.prior(point.shared)[0]
+    left = nuisance.left(stacked, known)
     return left[:, 0], left[:, 1:]
 
 

@@ -7,7 +7,7 @@ and a run that is cut into many segments is known at many more rates than were s
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from stickslip.effects.candidate import Candidate
@@ -138,7 +138,7 @@ def frequency_response(
     fitted : with derivatives
     """
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
-    problem = Problem([segmented], model.free_parameters, model.settings)
+    problem = model.problem([segmented])
     residuals, columns = fitted.residuals[run], fitted.derivatives[run]
     segments = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
@@ -214,7 +214,7 @@ def _wave(
     parts = []
     for degrees in (0.0, 90.0):
         wave = {f"{effect}.amplitude": _SMALL, period: value, f"{effect}.phase_deg": degrees}
-        problem = Problem([segmented], model.free_parameters, {**model.settings, **wave})
+        problem = replace(model, settings={**model.settings, **wave}).problem([segmented])
         parts.append(problem.residuals(0, *at))
     # the sine of the time's angle and its cosine, or the cosine of the place's and its sine
     return parts[1] + 1j * parts[0] if _in_time(candidate) else parts[0] + 1j * parts[1]

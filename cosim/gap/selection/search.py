@@ -1,165 +1,268 @@
-"""The whole catalogue tried on a campaign, on top of what is already in the model."""
+"""The whole catalogue tried on top of a model: screened by algebra, the best settled."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from stickslip.effects.candidate import Candidate
+import numpy as np
+from stickslip.effects.candidate import ACROSS, Candidate, FreeParameter
 
-from cosim.gap.candidates.extend import extended, reduced
-from cosim.gap.estimation.fit import fit
-from cosim.gap.estimation.fitted import Fitted, Point, own_of, shared_of
-from cosim.gap.estimation.preparation import Data
-from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.trial import Model, coarse_fit, finished, try_model
+from cosim.gap.camera.faults import is_fault
+from cosim.gap.candidates.extend import extended
+from cosim.gap.data import MeasuredRun
+from cosim.gap.estimation.segmented_run import SegmentedRun
+from cosim.gap.estimation.trial import Model
+from cosim.gap.evidence.settled import TURNS, Settled, ended, settled
 from cosim.processes import Map
 
-from .alternatives import other_laws, other_starts
-from .score_test import score_test
-from .screening import ALONE, ANEW, BESIDE, COARSE, FORMS, STARTING, Progress, Screening
-from .tried import Tried, best_laws, penalised
+from .decision import implausible, is_noise
+from .scaling import better_rescaled
+from .screening import faint, screened
+from .tried import Tried, gain
+from .waves import waves
 
-#: So many laws are fitted in long segments.
-FINALISTS = 5
-#: Rounds in long segments before the best few, so many, are fitted to the end.
-FIRST, FINISHED = 6, 2
-#: Laws of one effect that set out again, by other values or other laws, and go to long segments.
-AGAIN = 3
+#: Laws of one effect that are settled, and of all, on top of the plain model and of an effect.
+FORMS, ALONE, BESIDE = 2, 10, 7
+#: Part of the best law's gain that another must promise.
+FAINTLY = 0.1
+#: Turns after which the best few, so many, are carried on: those that gain this part of the best.
+FIRST, FINISHED, NEARLY = 2, 4, 0.5
+#: Part of its gain that others must promise where one leaves nothing but noise.
+ALIKE = 0.8
+#: A law that takes more of the misfit is not looked for from the balance of forces again.
+MOST_OF_IT = 0.9
+#: So many laws set out anew where nothing repairs a model, and so many effects' strengths may then
+#: go with mass, speed or stiffness.
+ANEW = 2
 
 
 class Search:
-    """Tries candidates on top of base models, as ``mapped`` does it."""
+    """Tries candidates on models of some runs in short segments, as ``mapped`` does it."""
 
-    def __init__(self, data: Data, mapped: Map, progress: Progress | None = None):
-        self.data, self.screening = data, Screening(data, mapped, progress)
-        self._run = self.screening.run
+    def __init__(
+        self,
+        segmented: Sequence[SegmentedRun],
+        runs: Sequence[MeasuredRun],
+        mapped: Map,
+        progress: Callable[[int], object] | None = None,
+    ):
+        self.segmented, self.runs, self.mapped = tuple(segmented), tuple(runs), mapped
+        self.held_out = [run.hold_out for run in runs]
+        self.progress = progress or (lambda count: None)
 
-    def on(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
-        """The best law of each effect, best effect first; finalists have a trial.
+    def plain(self, model: Model) -> Settled:
+        """The plain model at its best."""
+        (best,) = self._settled([(model, None)])
+        return best
 
-        fitted : the base in short segments.
+    def on(
+        self, base: Settled, laws: Sequence[Candidate], most: int
+    ) -> tuple[Settled, list[Tried]]:
+        """Every law on top of a base, the best of them settled, best first; and the base.
+
+        The base without the best law may be better than it was: then it was not at its best.
         """
-        coarse_fits, seen = self.screening.coarse_fits(base, fitted, candidates, ALONE)
-        done = self._tried(best_laws(coarse_fits, FORMS)[:FINALISTS])
-        effects = {t.candidate.effect for t in done}
-        rest = [t for t in best_laws([*coarse_fits, *seen], 1) if t.candidate.effect not in effects]
-        return done + rest
-
-    def beside(self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]) -> list[Tried]:
-        """The best laws beside an effect that is in the base, in short segments, best first."""
-        coarse_fits, _ = self.screening.coarse_fits(base, fitted, candidates, BESIDE)
-        return best_laws(coarse_fits, FORMS)
-
-    def masking_pair(
-        self, base: Model, fitted: Fitted, candidates: Sequence[Candidate]
-    ) -> tuple[Candidate, Tried] | None:
-        """Two laws that do much together and little alone: one, and the other on top of it."""
-        laws = [c for c in candidates if c.free_parameters and not c.periodic]
-        with_derivatives = self.screening.linearised(base, fitted, ())[()]
-        two = score_test(
-            self.data.short, base, with_derivatives, laws, self.screening.mapped
-        ).masking_pair()
-        if two is None:
-            return None
-        model = extended(extended(base, two[0], fitted.values), two[1], {})
-        second = Tried(two[1], model, fitted)
-        return two[0], self._run(_coarse, [(self.data, second)])[0]
-
-    def together(self, pairs: Sequence[tuple[Tried, Tried]]) -> list[tuple[Tried, Tried]]:
-        """Second effects on top of first ones in long segments; the best few to the end."""
-        seconds = [second for _, second in pairs]
-        trials = self._run(try_model, [(self.data, t.model, t.coarse, FIRST) for t in seconds])
-        best = sorted(range(len(pairs)), key=lambda i: trials[i].rms_residual)[:FINISHED]
-        ended = self._run(finished, [(self.data, trials[i]) for i in best])
-        trials = [ended[best.index(i)] if i in best else trial for i, trial in enumerate(trials)]
-        return [
-            (first, replace(second, judged=trial))
-            for (first, second), trial in zip(pairs, trials, strict=True)
+        ranked, starts = self._screened(base, laws)
+        chosen = self._chosen(ranked, most)
+        tasks = [(extended(starts[id(t)].model, _start(t), {}), starts[id(t)]) for t in chosen]
+        started = self._settled(tasks, FIRST)
+        best = [
+            replace(t, settled=s, gain=gain(s, base)) for t, s in zip(chosen, started, strict=True)
         ]
+        best = self._finished(sorted(best, key=lambda t: t.model.promise), base)
+        rest = [t for t in ranked if t not in chosen]
+        ruled_out = [t for t in rest if t.settled is None]
+        found = [*best, *(t for t in rest if t.settled)]
+        base = self._without(base, found)
+        found = [replace(t, gain=gain(t.model, base)) for t in found]
+        return base, sorted(found, key=lambda t: -t.gain) + ruled_out
 
-    def instead(
-        self, second: Tried, law: Candidate, candidates: Sequence[Candidate], keep: Sequence[str]
-    ) -> list[Tried]:
-        """The best law of each effect in place of one of a pair, in long segments, best first.
+    def _screened(self, base: Settled, laws: Sequence[Candidate]):
+        """All laws with the gain that the screening promises, best first; where each sets out."""
+        ranked: list[Tried] = []
+        starts: dict[int, Settled] = {}
+        waving = [law for law in laws if law.periodic]
+        for kind, (start, more) in self._bases(base, laws).items():
+            own = [law for law in laws if not law.periodic and _brings(base, law) == kind]
+            if kind == ():
+                own += self._waves(base, waving)
+            bare = [law for law in own if not law.free_parameters]
+            found = [Tried(law, more, start) for law in bare]
+            own = [law for law in own if law.free_parameters]
+            for law, promised, point in self._promised(start, own):
+                each = Tried(law, more + promised)
+                found.append(each)
+                starts[id(each)] = point
+            ranked += found
+            starts.update((id(t), start) for t in found if id(t) not in starts)
+        return sorted(ranked, key=lambda t: -t.gain), starts
 
-        second : the pair's second effect on top of the first, with a trial; law : that of either;
-        keep : settings of that law that the other needs
+    def _promised(
+        self, start: Settled, laws: Sequence[Candidate]
+    ) -> list[tuple[Candidate, float, Settled]]:
+        """Of every law the gain that it promises on a start, and the point that promises it.
+
+        Where a model is wrong, a law may be felt where it lies loosely along the data and not where
+        it is likeliest, or the other way round.
         """
-        values = second.trial.fitted.values
-        rest = reduced(second.model, law, values, keep)
-        tried = [Tried(c, extended(rest, c, values), second.coarse) for c in candidates]
-        return self._tried(best_laws(self._run(_coarse, [(self.data, t) for t in tried]), 1))
-
-    def less(self, tried: Tried, dropped: Candidate, keep: Sequence[str]) -> Tried:
-        """A trial's model without an effect, fitted to the end from where the trial ended.
-
-        keep : settings of the dropped effect that others need
-        """
-        model = reduced(tried.model, dropped, tried.trial.fitted.values, keep)
-        (again,) = self._run(_coarse, [(self.data, replace(tried, model=model))])
-        (trial,) = self._run(try_model, [(self.data, model, again.coarse)])
-        return replace(again, judged=trial)
-
-    def anew(self, second: Tried, law: Candidate, candidates: Sequence[Candidate]) -> Tried | None:
-        """The best law of a periodic effect of a pair, its period looked for beside the other.
-
-        second : the pair's second effect on top of the first; law : that of either that is dropped
-        """
-        fitted = second.coarse
-        model = reduced(second.model, law, fitted.values, ())
-        (rest,) = self._run(_left, [(self.data, model, fitted)])
-        laws = [c for c in candidates if c.effect == law.effect]
-        coarse_fits, _ = self.screening.coarse_fits(model, rest, laws, ANEW)
-        return min(coarse_fits, key=lambda t: penalised(t.coarse), default=None)
-
-    def polished(self, tried: Sequence[Tried], candidates: Sequence[Candidate]) -> list[Tried]:
-        """Trials once more, from several values of mu_s and by the effect's other laws, best first.
-
-        Where nothing sticks in most segments, a fit may have left mu_s in a place that the motion
-        does not feel, and an effect unrecognised for it. A law with one number more finds its way
-        from where the simpler one ended.
-        """
-        again = [
-            replace(t, model=model)
-            for i, t in enumerate(tried)
-            if all(t.model is not other.model for other in tried[:i])
-            for model in other_starts(t.model, t.trial.fitted.values)
+        points = [start]
+        if start.loose and not is_noise(start):
+            points.append(start.loose)
+        found = []
+        gains = [
+            screened(point, laws, self.held_out, self.mapped) + start.promised - point.promised
+            for point in points
         ]
-        again += [law for t in tried for law in other_laws(t, candidates)]
-        again = best_laws(self._run(_coarse, [(self.data, t) for t in again]), AGAIN)
-        return best_laws([*tried, *self._tried(again)], 1, lambda t: t.trial.rms_residual)
+        for law, each in zip(laws, zip(*gains, strict=True), strict=True):
+            best = int(np.argmax(each))
+            found.append((law, float(each[best]), points[best]))
+        return found
 
-    def judged(self, tried: Sequence[Tried]) -> tuple[Tried, ...]:
-        """Those that were ruled out early judged as well, by what little fit they had."""
-        early = [t for t in tried if t.judged is None]
-        trials = self._run(try_model, [(self.data, t.model, t.coarse, 0) for t in early])
-        late = [replace(t, judged=trial) for t, trial in zip(early, trials, strict=True)]
-        late.sort(key=lambda t: t.trial.rms_residual)
-        return (*(t for t in tried if t.judged is not None), *late)
+    def without(self, plain: Settled, laws: Sequence[Candidate], found: Settled) -> Settled:
+        """The plain model with some laws of a model that was found, from where that stands."""
+        model = plain.model
+        for law in laws:
+            model = extended(model, law, {})
+        (alone,) = self._settled([(model, found)])
+        return alone
 
-    def _tried(self, coarse: Sequence[Tried]) -> list[Tried]:
-        """The best law of each effect in long segments, best first; the best few to the end."""
-        trials = self._run(try_model, [(self.data, t.model, t.coarse, FIRST) for t in coarse])
-        done = [replace(t, judged=trial) for t, trial in zip(coarse, trials, strict=True)]
-        done = best_laws(done, 1, lambda t: t.trial.rms_residual)
-        trials = self._run(finished, [(self.data, t.trial) for t in done[:FINISHED]])
-        ended = [replace(t, judged=trial) for t, trial in zip(done, trials, strict=False)]
-        return sorted([*ended, *done[FINISHED:]], key=lambda t: t.trial.rms_residual)
+    def _without(self, base: Settled, found: Sequence[Tried]) -> Settled:
+        """The base, or what it is when it sets out from the best law's model."""
+        best = max(found, key=lambda t: t.gain, default=None)
+        if best is None or best.gain <= 0.0 or best.model.model.settings != base.model.settings:
+            return base
+        (again,) = self._settled([(base.model, best.model)], FIRST)
+        if again.promise >= base.evidence:
+            return base
+        if again.promise < best.model.evidence + FAINTLY * best.gain:  # it may be all there is
+            (again,) = self._ended([again])
+        return min(base, again, key=lambda each: each.evidence)
+
+    def _finished(self, tried: Sequence[Tried], base: Settled) -> list[Tried]:
+        """The best few carried on to their end, or from the balance of forces if that is better."""
+        promised = [base.evidence - t.model.promise for t in tried]
+        least = NEARLY * max(promised, default=0.0)
+        few = [t for t, p in zip(tried, promised, strict=True) if p >= least][:FINISHED]
+        done = self._ended([t.model for t in few[:ANEW]])
+        if any(is_noise(each) for each in done):
+            least = ALIKE * max(gain(each, base) for each in done)
+            few = [t for i, t in enumerate(few) if i < ANEW or promised[i] >= least]
+        done += self._ended([t.model for t in few[len(done) :]])
+        if few and not any(is_noise(each) for each in (base, *done)):
+            done = self._repaired(base, few, done)
+        best = [replace(t, settled=s, gain=gain(s, base)) for t, s in zip(few, done, strict=True)]
+        return [*best, *(t for t in tried if all(t is not other for other in few))]
+
+    def _repaired(self, base: Settled, few: Sequence[Tried], done: list[Settled]) -> list[Settled]:
+        """The best of each effect with a strength that goes with mass or speed, or fitted anew."""
+        order = sorted(range(len(few)), key=lambda i: done[i].evidence)
+        firsts: dict[str, int] = {}
+        for number in order:
+            firsts.setdefault(few[number].candidate.effect, number)
+        best = [i for e, i in firsts.items() if not is_fault(e)][:ANEW]
+        calls = [(self.segmented, self.runs, done[i], few[i].candidate) for i in best]
+        scaled = list(self.mapped(better_rescaled, calls))
+        first = order[:ANEW] if _may_be_lost(done[order[0]], base) else []
+        fresh = self._settled([(self._anew(base, few[i].candidate, done[i]), None) for i in first])
+        fresh = self._ended(fresh)
+        for number, other in [*zip(best, scaled, strict=True), *zip(first, fresh, strict=True)]:
+            done[number] = min(done[number], other, key=lambda each: each.evidence)
+        return done
+
+    def _anew(self, base: Settled, candidate: Candidate, found: Settled) -> Model:
+        """A law on top of a base, its own numbers as found; plain ones from the balance of forces.
+
+        What the law was settled from, a simpler model's alignment, may have made up for what was
+        missing there.
+        """
+        values = found.values
+        own = tuple(
+            replace(free, start=_not_faint(values.get(free.key, free.start), free))
+            for free in candidate.free_parameters
+        )
+        plain = replace(base.model, settings=found.model.settings)
+        return extended(plain, replace(candidate, free_parameters=own), {})
+
+    def _bases(self, base: Settled, laws: Sequence[Candidate]):
+        """By what laws set that changes the motion even without them: a base, and its gain."""
+        kinds = dict.fromkeys([(), *(_brings(base, law) for law in laws if not law.periodic)])
+        models = [
+            replace(base.model, settings={**base.model.settings, **dict(kind)})
+            for kind in kinds
+            if kind
+        ]
+        near = base if is_noise(base) else None  # where nothing is left, nothing else is far away
+        others = iter(self._settled([(model, near) for model in models], FIRST))
+        found = {kind: base if kind == () else next(others) for kind in kinds}
+        return {kind: (each, gain(each, base)) for kind, each in found.items()}
+
+    def _waves(self, base: Settled, laws: Sequence[Candidate]) -> list[Candidate]:
+        if not laws:
+            return []
+        near = base if is_noise(base) else base.loose or base
+        problem = near.problem  # what is a run's own has given way to a wave, as far as it could
+        model = Model(problem.free_parameters, problem.settings, local=problem.local)
+        return waves(model, near.fitted, self.segmented, laws, self.mapped)
+
+    def _chosen(self, ranked: Sequence[Tried], most: int) -> list[Tried]:
+        counts: dict[str, int] = {}
+        chosen: list[Tried] = []
+        least = FAINTLY * max((t.gain for t in ranked), default=0.0)
+        for each in ranked:
+            if each.settled is not None or each.gain <= max(least, 0.0):  # evidence is against it
+                continue
+            effect = each.candidate.effect
+            counts[effect] = counts.get(effect, 0) + 1
+            # how a wave's phases lie is not known before it is settled: all periods are tried
+            if each.candidate.periodic or (counts[effect] <= FORMS and len(chosen) < most):
+                chosen.append(each)
+        return chosen
+
+    def _ended(self, models: Sequence[Settled]) -> list[Settled]:
+        """Some models carried on to their end."""
+        if len(models) == 1:  # over runs then
+            return [ended(models[0], self.mapped)]
+        return list(self.mapped(ended, [(each,) for each in models]))
+
+    def _settled(
+        self, tasks: Sequence[tuple[Model, Settled | None]], turns: int = TURNS
+    ) -> list[Settled]:
+        calls = [(self.segmented, self.runs, model, before, turns) for model, before in tasks]
+        if len(calls) == 1:  # over runs then
+            self.progress(1)
+            return [settled(*calls[0], self.mapped)]
+        results = []
+        for result in self.mapped(settled, calls):
+            results.append(result)
+            self.progress(1)
+        return results
 
 
-def _coarse(data: Data, tried: Tried) -> Tried:
-    return replace(tried, coarse=coarse_fit(data, tried.model, COARSE))
+def _start(tried: Tried) -> Candidate:
+    """The law as a fit sets out with it."""
+    return tried.candidate if tried.candidate.periodic else faint(tried.candidate)
 
 
-def _left(data: Data, model: Model, fitted: Fitted) -> Fitted:
-    """A model where one with more was fitted; the segments' states alone make up for it."""
-    kept = {free.key for free in model.free_parameters}
-    shared = [free.key in kept for free in shared_of(fitted.free_parameters)]
-    own = [free.key in kept for free in own_of(fitted.free_parameters)]
-    point = Point(
-        fitted.point.shared[shared], tuple(o[own] for o in fitted.point.own), fitted.point.states
-    )
-    return fit(
-        Problem(data.short, model.free_parameters, model.settings), point, STARTING, fixed=True
-    )
+def _may_be_lost(best: Settled, base: Settled) -> bool:
+    """Whether a law that was settled from a simpler model may have more to it than was found."""
+    misfit = base.evidence - base.rows
+    return bool(implausible(best)) or gain(best, base) < MOST_OF_IT * misfit
+
+
+def _not_faint(found: float, free: FreeParameter) -> float:
+    """Where a fit sets out anew: what is next to nothing of an effect would stay so."""
+    usual = 0.5 * abs(free.start)
+    if not free.is_strength or abs(found) > 0.4 * usual:
+        return found
+    return math.copysign(usual, found or free.start)
+
+
+def _brings(base: Settled, law: Candidate) -> tuple[tuple[str, float], ...]:
+    """What a law sets that changes the motion even where there is next to nothing else of it."""
+    new = law.settings.items() - base.model.settings.items()
+    return tuple((key, value) for key, value in new if key in ACROSS)
+
+
+__all__ = ["ALONE", "BESIDE", "Search"]

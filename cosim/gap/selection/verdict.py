@@ -1,50 +1,43 @@
-"""From trials of the catalogue to a verdict: named, class, none, unknown."""
+"""From a campaign's plain models and the catalogue to a finding: a ladder of models, and a verdict.
+
+Plain, one effect, two, three: each rung must be worth its place by evidence (see `decision`).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
 from stickslip.effects.candidate import Candidate
 
-from cosim.gap.estimation.fitted import Fitted
-from cosim.gap.estimation.trial import Trial
+from cosim.gap.estimation.trial import Model
+from cosim.gap.evidence.settled import Settled
 
-from .confounders import better_confounder
-from .criteria import (
-    DRAGS_ASIDE,
-    EXPLAINED_BY_ONE,
-    EXPLAINED_BY_TWO,
-    FITS,
-    PART_OF_OTHERS,
-    PLAIN_FITS,
-    WORTH_A_POLISH,
-    as_good,
-    excess_chi_square,
-    explained,
-    in_reach,
-    indistinguishable,
-    is_little,
-    is_plain,
-    repaired,
-    stands,
-    telling,
-)
-from .pairs import across_alone, best_pair, needed_alone
-from .search import Search
-from .tried import ACROSS, Tried
+from .decision import LAW, implausible, is_left, is_noise, members_of, needed, resolved
+from .search import ALONE, BESIDE, Search
+from .tried import Tried, by_run, gain
 
-#: What takes away this part of the excess chi-square leaves nothing for a second effect, only
-#: its own law's small misfit.
-ALL = 0.99
-#: Where no second effect helps, one that does the most alone is named all the same, if no other
-#: comes near: it takes away this part, and none more than that part of what it does.
-DOES_MOST, RIVAL = 0.9, 0.5
-#: A plain model that fits leaves what a contact has beside any model. That is no wave: one that
-#: takes away this part of an excess chi-square of so much, and no other effect near it, is one.
-WAVE, SEEN = 0.8, 0.1
-#: So many effects are tried once more when the best one leaves more than noise.
-POLISHED = 2
+#: The most effects of a model.
+MOST = 3
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A model of the ladder.
+
+    Attributes
+    ----------
+    effects : in the order found; those of a class are told by ``members``
+    settled : the model at its best
+    gain : in -2 ln evidence over the rung below
+    members : what does as well in the last one's place, itself included
+    """
+
+    effects: tuple[str, ...]
+    settled: Settled
+    gain: float
+    members: tuple[Tried, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -53,149 +46,128 @@ class Finding:
 
     Attributes
     ----------
-    verdict : named, class, none or unknown
+    verdict : named, class, none, partial or unknown
     effects : ids in the order found; for a class its members
-    chosen : the model that repairs it, None for none and unknown
+    ladder : plain, one effect, two, ...
+    chosen : number of the rung that the verdict stands on, 0 where nothing is named
     ranking : every effect on top of the plain model, best first
-    nearest : the best that there is, whatever the verdict
-    confounder : what would repair it and is not in the catalogue, in words, or ""
+    share : part of the plain model's misfit, in -2 ln evidence, that is gone
+    reasons : what the model that is left needs and a rig as stated does not have, a line each
     """
 
     verdict: str
     effects: tuple[str, ...]
-    chosen: Trial | None
-    ranking: Sequence[Tried]
-    nearest: Trial
-    confounder: str = ""
+    ladder: tuple[Rung, ...]
+    chosen: int
+    ranking: tuple[Tried, ...]
+    share: float
+    reasons: tuple[str, ...]
+
+    @property
+    def model(self) -> Settled:
+        """That the verdict stands on."""
+        return self.ladder[self.chosen].settled
 
 
-def judge(search: Search, plain: Trial, coarse: Fitted, candidates: Sequence[Candidate]):
-    """Look for one effect, then for two: `Finding`."""
-    ranking = search.on(plain.model, coarse, candidates)
-    done, early = _parted(ranking)
-    if plain.rms_residual <= PLAIN_FITS:
-        if done and _is_wave(plain, done):
-            return _named(done[0], ranking)
-        return Finding("none", (), None, ranking, plain)
-    best = done[0].trial
-    if best.rms_residual > PLAIN_FITS and explained(plain, best) >= WORTH_A_POLISH:
-        done = _merged(search.polished(in_reach(telling(done))[:POLISHED], candidates), done)
-    other = better_confounder(search, plain, coarse, done[0])
-    if other and repaired(plain, other.trial, EXPLAINED_BY_ONE):
-        nearest, words = done[0].trial, other.candidate.effect
-        return Finding("unknown", (), None, [*done, *early], nearest, words)
-    single = _of_one(plain, [*done, *early])
-    if single and (single.nearest.rms_residual <= FITS or explained(plain, single.nearest) >= ALL):
-        chosen = next(t for t in done if t.trial is single.chosen)
-        return _with_friction_across(search, single, chosen, candidates)
-    if is_little(plain, coarse):  # and nothing explains it
-        return Finding("none", (), None, [*done, *early], plain)
-    return _of_two(search, plain, coarse, [*done, *early], candidates, single)
+def judge(search: Search, model: Model, laws) -> Finding:
+    """Look for effects one by one. laws : of the plain model as it was settled -> candidates."""
+    plain = search.plain(model)
+    candidates: Sequence[Candidate] = laws(plain)
+    ladder = [Rung((), plain, 0.0)]
+    ranking: tuple[Tried, ...] = ()
+    while len(ladder) <= MOST:
+        now = ladder[-1]
+        if now.effects and is_noise(now.settled):
+            break
+        others = [law for law in candidates if law.effect not in now.effects or bends(law, now)]
+        below, tried = search.on(now.settled, others, BESIDE if now.effects else ALONE)
+        if below is not now.settled:
+            ladder[-1] = replace(now, settled=below, gain=now.gain + gain(below, now.settled))
+        ranking = ranking or tuple(tried)
+        members = members_of(tried)
+        effects = {law.effect for law in others}
+        if not members or not _is_worth(members[0], ladder, len(effects)):
+            break
+        bent = next((t for t in members if t.candidate.effect in now.effects), None)
+        if bent:
+            ladder[-1] = replace(ladder[-1], settled=bent.model, gain=ladder[-1].gain + bent.gain)
+            continue
+        best = members[0]
+        ladder.append(
+            Rung((*now.effects, best.candidate.effect), best.model, best.gain, tuple(members))
+        )
+        ladder = _without_superfluous(search, ladder, len(effects))
+    return concluded(ladder, ranking)
 
 
-def _parted(ranking: Sequence[Tried]) -> tuple[list[Tried], list[Tried]]:
-    """Those with a trial, best first, and those that were ruled out by their coarse fits."""
-    done = [t for t in ranking if t.judged is not None]
-    early = [t for t in ranking if t.judged is None]
-    return sorted(done, key=lambda t: t.trial.rms_residual), early
+def bends(law: Candidate, rung: Rung) -> bool:
+    """Whether a law is of the effect that was found last, and may stand beside the law it has.
 
-
-def _named(best: Tried, ranking: Sequence[Tried]) -> Finding:
-    """One effect alone."""
-    return Finding("named", (best.candidate.effect,), best.trial, ranking, best.trial)
-
-
-def _of_one(plain: Trial, ranking: Sequence[Tried]) -> Finding | None:
-    """One effect, or several that do as well as one another, if they repair the model."""
-    done, _ = _parted(ranking)
-    # one that is plain numbers by another name may do as well as an effect
-    done = [
-        t for t in done if t.trial.rms_residual**2 <= as_good(done[0].trial) and stands(t.trial)
-    ]
-    if not done or not repaired(plain, done[0].trial, EXPLAINED_BY_ONE):
-        return None
-    best, members = done[0].trial, indistinguishable(done)
-    return Finding("named" if len(members) == 1 else "class", members, best, ranking, best)
-
-
-def _with_friction_across(
-    search: Search, single: Finding, best: Tried, candidates: Sequence[Candidate]
-) -> Finding:
-    """Where the best one brings friction across along: that alone if it is as good, or both.
-
-    A turning surface drags a block aside by that friction: it is part of the effect.
+    Nature's law has its own shape: what a law of the catalogue is wrong by, another form of the
+    same effect may make up for, and then no other effect is called for.
     """
-    effect = best.candidate.effect
-    across = [c for c in candidates if c.effect == PART_OF_OTHERS and not c.free_parameters]
-    if effect == PART_OF_OTHERS or ACROSS not in best.candidate.settings or not across:
-        return single
-    simpler = across_alone(search, best, best.candidate)
-    if simpler:
-        simpler = replace(simpler, candidate=across[0])
-        rest = [t for t in single.ranking if t.candidate.effect != PART_OF_OTHERS]
-        return _named(simpler, [simpler, *rest])
-    if effect == DRAGS_ASIDE or len(single.effects) > 1:
-        return single
-    without = search.less(best, across[0], keep=())
-    if without.trial.rms_residual**2 <= as_good(best.trial):
-        return single
-    return replace(single, effects=(effect, PART_OF_OTHERS))
+    if not rung.effects or law.effect != rung.effects[-1] or law.periodic:
+        return False
+    keys, model = [free.key for free in law.free_parameters], rung.settled.model
+    fresh = not any(key in rung.settled.values for key in keys)
+    return bool(keys) and fresh and all(model.settings.get(k) == v for k, v in law.settings.items())
 
 
-def _of_two(
-    search: Search,
-    plain: Trial,
-    coarse: Fitted,
-    ranking: Sequence[Tried],
-    candidates: Sequence[Candidate],
-    single: Finding | None,
-) -> Finding:
-    """Two effects; or one that does the most, or that turns out to do without its second.
+def _without_superfluous(search: Search, ladder: list[Rung], count: int) -> list[Rung]:
+    """The ladder without an effect that the last one's makes superfluous."""
+    plain, last = ladder[0].settled, ladder[-1]
+    if len(ladder) != 3:
+        return ladder
+    alone = search.without(plain, [last.members[0].candidate], last.settled)
+    left = last.settled.evidence - last.settled.rows
+    if resolved(last.settled, alone) > max(needed(count), left):
+        return ladder
+    rung = Rung(last.effects[1:], alone, gain(alone, plain), last.members)
+    return [ladder[0], rung]
 
-    single : what is to be said if there is no second one, as far as it is known
+
+def _is_worth(best: Tried, ladder: Sequence[Rung], count: int) -> bool:
+    """Whether an effect's evidence is beyond chance and what the laws before it are wrong by.
+
+    Beside another, an effect must take more of what that leaves than it leaves itself: a law is
+    never quite nature's, and what it is wrong by looks like a little of many others.
     """
-    done, early = _parted(ranking)
-    pair = best_pair(search, plain, coarse, done, candidates)
-    if pair and repaired(plain, pair[1].trial, EXPLAINED_BY_TWO):
-        alone = needed_alone(search, plain, pair)
-        if alone is None:
-            effects = (pair[0].candidate.effect, pair[1].candidate.effect)
-            return Finding("named", effects, pair[1].trial, ranking, pair[1].trial)
-        done, ranking = _with(alone, done, early)
-        single = _of_one(plain, ranking)
-    elif pair and is_plain(pair[1].trial):  # what one effect leaves is real, and no other's
-        return Finding("unknown", (), None, ranking, pair[1].trial)
-    if single:
-        return single
-    best = done[0]
-    if _dominates(plain, done):
-        return _named(best, ranking)
-    nearest = min([best.trial, *([pair[1].trial] if pair else [])], key=lambda t: t.rms_residual)
-    return Finding("unknown", (), None, ranking, nearest)
+    least = needed(count)
+    if ladder[-1].effects:
+        before = sum(rung.gain for rung in ladder)
+        left = best.model.evidence - best.model.rows
+        least = max(least, LAW**2 * before, left)
+    return resolved(best.model, ladder[-1].settled) > least
 
 
-def _with(alone: Tried, done: Sequence[Tried], early: Sequence[Tried]):
-    """Those done, and all, with one effect as it was fitted last."""
-    done = _merged([alone], [t for t in done if t.candidate.effect != alone.candidate.effect])
-    rest = [t for t in early if t.candidate.effect != alone.candidate.effect]
-    return done, [*done, *rest]
+def concluded(ladder: Sequence[Rung], ranking: tuple[Tried, ...]) -> Finding:
+    """What a ladder says, its last rung judged as it stands."""
+    plain, last = ladder[0].settled, ladder[-1]
+    reasons = tuple(implausible(last.settled))
+    taken = share(last.settled, plain, last.settled) if last.effects else 0.0
+    fits = not reasons and not is_left(last.settled)
+
+    def finding(verdict: str, effects: tuple[str, ...], chosen: int) -> Finding:
+        return Finding(verdict, effects, tuple(ladder), chosen, ranking, taken, reasons)
+
+    if not last.effects:
+        return finding("none" if fits else "unknown", (), 0)
+    if not fits:
+        everywhere = bool(np.all(by_run(last.settled, plain) > 0.0))
+        if everywhere and taken > 0.5:
+            return finding("partial", last.effects, len(ladder) - 1)
+        return finding("unknown", (), 0)
+    if len(last.members) > 1:
+        if len(last.effects) > 1:  # the first stands, the second is one of several
+            return finding("class", last.effects, len(ladder) - 1)
+        return finding("class", tuple(t.candidate.effect for t in last.members), len(ladder) - 1)
+    return finding("named", last.effects, len(ladder) - 1)
 
 
-def _merged(better: Sequence[Tried], done: Sequence[Tried]) -> list[Tried]:
-    """The polished ones in place of what they were, best first."""
-    effects = {t.candidate.effect for t in better}
-    rest = [t for t in done if t.candidate.effect not in effects]
-    return sorted([*better, *rest], key=lambda t: t.trial.rms_residual)
+def share(settled: Settled, plain: Settled, last: Settled) -> float:
+    """Part of the plain model's misfit, in -2 ln evidence, that a model takes away.
 
-
-def _is_wave(plain: Trial, done: Sequence[Tried]) -> bool:
-    """Whether there is something to see, and the best effect, a periodic one, alone does it."""
-    periodic = bool(done[0].candidate.periodic)
-    return periodic and excess_chi_square(plain) >= SEEN and _dominates(plain, done, WAVE)
-
-
-def _dominates(plain: Trial, done: Sequence[Tried], most: float = DOES_MOST) -> bool:
-    """Whether one effect takes away so much, and no other comes near."""
-    parts = [explained(plain, t.trial) for t in done]
-    does_most = parts[0] >= most and stands(done[0].trial)
-    return does_most and all(part <= RIVAL * parts[0] for part in parts[1:])
+    Misfit is what is over that of noise alone, one for each sample, or over the best model's.
+    """
+    least = min(float(last.rows), last.evidence)
+    return gain(settled, plain) / max(plain.evidence - least, 1e-9)

@@ -8,10 +8,13 @@ from pathlib import Path
 
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import own_fmu
+from cosim.gap.camera.corrected import write_corrected
+from cosim.gap.curves.figure import CURVES, draw_curves
 from cosim.gap.diagnostics import analyse_residuals
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
 from cosim.report.page import Picture
+from cosim.report.style import png
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .model_file import model_text
@@ -23,9 +26,10 @@ from .reproduced import Reproduced
 from .reproduction import reproduce, reproduced_runs
 from .reproduction_figure import draw_reproduction
 from .run_figures import draw_residuals, overlays
-from .score_figures import draw_gaps, draw_parameters, draw_ranking
+from .score_figures import draw_gaps, draw_ladder, draw_parameters, draw_ranking
 from .summary_figures import draw_observations
 from .words import closing_lines as closing_lines
+from .words import faults_of
 
 
 def write_data(gap: Gap | SummaryGap, result: Path, model: Path) -> str:
@@ -36,12 +40,26 @@ def write_data(gap: Gap | SummaryGap, result: Path, model: Path) -> str:
     return text
 
 
+def write_corrected_data(gap: Gap | SummaryGap, folder: Path) -> list[Path]:
+    """The data freed of the camera's faults that were named; [] where none was."""
+    if isinstance(gap, SummaryGap) or not faults_of(gap) or gap.extended is None:
+        return []
+    model = gap.extended
+    own = {run.name: run.own for run in model.runs}
+    return write_corrected(gap.campaign, {**model.settings, **model.values}, own, folder)
+
+
 def write_page(
-    gap: Gap | SummaryGap, folder: Path, file: Path, drawn: Callable[[], object]
+    gap: Gap | SummaryGap,
+    folder: Path,
+    file: Path,
+    drawn: Callable[[], object],
+    corrected: str = "",
 ) -> list[Reproduced]:
     """Every figure into the folder, and the page with all of them inside; what the FMU did.
 
-    drawn: called after each figure. Between two figures a KeyboardInterrupt passes.
+    drawn : called after each figure. Between two figures a KeyboardInterrupt passes. corrected :
+    where data are that were freed of the camera's faults, beside the page; "": there are none
     """
     reproduced = [] if isinstance(gap, SummaryGap) else _reproduced(gap)
     pictures: list[Picture] = []
@@ -52,7 +70,7 @@ def write_page(
                 write_bytes(one.png, folder / f"{one.name}.png")
         pictures += batch
         drawn()
-    write_text(page(gap, pictures, reproduced), file)
+    write_text(page(gap, pictures, reproduced, corrected), file)
     return reproduced
 
 
@@ -68,9 +86,13 @@ def _drawers(
     """Functions that draw, in the page's order."""
     if isinstance(gap, SummaryGap):
         return [partial(_one, draw_observations, gap), partial(_one, draw_ranking, gap)]
+    ladder = [partial(_one, draw_ladder, gap)] if len(gap.ladder) > 1 else []
+    curves = [partial(_one, _curves, gap)] if gap.laws else []
     return [
         partial(overlays, gap),
         partial(_one, draw_gaps, gap),
+        *ladder,
+        *curves,
         partial(_one, draw_residuals, gap),
         partial(_one, draw_ranking, gap),
         partial(_one, draw_parameters, gap),
@@ -81,6 +103,12 @@ def _drawers(
 
 def _one(draw: Callable[..., Picture], *arguments) -> list[Picture]:
     return [draw(*arguments)]
+
+
+def _curves(gap: Gap) -> Picture:
+    named = [law.curve.axis for law in gap.laws if law.effect or law.in_model]
+    figure = draw_curves([law.curve for law in gap.laws], named)
+    return Picture("curves", CURVES, png(figure))
 
 
 def _regimes(gap: Gap) -> list[Picture]:

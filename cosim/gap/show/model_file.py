@@ -11,19 +11,20 @@ from typing import Any
 import tomli_w
 
 from cosim.gap.data import Campaign, MeasuredRun
-from cosim.gap.estimation.drive import driven_speed
+from cosim.gap.estimation.drive import SCATTERED, TABLE, driven_speed
 from cosim.gap.result import FittedRun, Gap
 from cosim.scenario import Scenario
 from cosim.studies.reproduction.summary import SummaryGap
 from thermal import Ambient
 
 from .quantities import unit_and_meaning
-from .words import formula, gap_line, verdict
+from .words import TABLE_SENTENCE, faults_of, formula, gap_line, powers_lines, sentence, verdict
 
 #: Enough that the motion is the fitted one for longer than any segment.
 DIGITS = 12
 #: Tables that stand before the effects.
 FIRST = ("rig", "springs", "friction", "surface")
+MU_S, MU_K = SCATTERED
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
 #: s; of a run whose time series is not known.
 DURATION = 30.0
@@ -40,14 +41,25 @@ def shown_run(gap: Gap) -> FittedRun:
     return (held or list(gap.model.runs))[0]
 
 
-def scenario_of(gap: Gap, run: FittedRun) -> Scenario:
-    """The best model at one run's mass, springs, speed and initial state."""
+def scenario_of(gap: Gap, run: FittedRun, begun: bool = False) -> Scenario:
+    """The best model at one run's mass, springs, speed and initial state.
+
+    begun : with friction of the run's first stretch, which scatters about that of the run
+    """
     measured = run.track.run
     tables = _known(gap.campaign, measured)
     tables["rig"]["degrees_of_freedom"] = gap.model.degrees_of_freedom
     fitted = {**gap.model.values, **run.own}
     tables["surface"]["speed"] = driven_speed(measured.surface_speed, fitted)
-    _put(tables, gap.model.parameters(run))
+    parameters = gap.model.parameters(run)
+    if begun:
+        static, kinetic = run.stretch
+        for key in parameters:
+            if key == MU_S:
+                parameters[key] *= static
+            elif key == MU_K or key.startswith(TABLE):
+                parameters[key] *= kinetic
+    _put(tables, parameters)
     tables["initial"] = dict(zip(STATE, run.start, strict=True))
     interval = _digits(measured.motion.interval, 6)
     tables["run"] = {"duration": measured.motion.duration, "output_interval": interval}
@@ -96,13 +108,18 @@ def _known(campaign: Campaign, run: MeasuredRun) -> dict[str, dict[str, Any]]:
 
 
 def _put(tables: dict[str, dict[str, Any]], values: Mapping[str, float]) -> None:
-    """`table.parameter` -> value into the tables; on a slab the curvature is the rig's."""
+    """`table.parameter` -> value into the tables; on a slab the curvature is the rig's.
+
+    Of several numbers of one name each has its number in brackets; they are in order.
+    """
     for key, value in values.items():
         table, _, name = key.partition(".")
         if key == "turning_surface.curvature" and tables["rig"]["surface"] == "slab":
             tables["rig"]["slab_radius"] = 1.0 / float(value)
         else:
-            tables.setdefault(table, {})[name] = float(value)
+            name, _, number = name.partition("[")
+            here = tables.setdefault(table, {})
+            here[name] = (*here.get(name, ()), float(value)) if number else float(value)
 
 
 def _scenario(campaign: Campaign, tables: dict[str, dict[str, Any]]) -> Scenario:
@@ -115,6 +132,8 @@ def _scenario(campaign: Campaign, tables: dict[str, dict[str, Any]]) -> Scenario
 
 
 def _rounded(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(map(_rounded, value))
     return _digits(value, DIGITS) if isinstance(value, float) else value
 
 
@@ -132,6 +151,12 @@ def _header(gap: Gap | SummaryGap, run: str) -> list[str]:
         said.append("The block below is the member of the class that fits best.")
     if gap.campaign.scheme == "study":
         said.append("Fitted in the source study's scheme: the exact model moves otherwise on them.")
+    if isinstance(gap, Gap):
+        said += powers_lines(gap)
+        if any(law.in_model for law in gap.laws):
+            said.append(sentence(TABLE_SENTENCE))
+    if faults_of(gap):
+        said.append(f"Not part of the model, as it is of the camera: {', '.join(faults_of(gap))}.")
     if gap.empirical:
         said.append(
             "Not part of the model, as no parameter stands for it: the empirical formula for what "

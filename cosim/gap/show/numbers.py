@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.result import FittedModel, Gap
+from cosim.gap.result import FittedModel, Gap, Law
 from cosim.report.files import json_text
 from cosim.studies.reproduction.summary import SummaryGap
 
@@ -35,13 +35,24 @@ def as_data(gap: Gap | SummaryGap, model: str) -> dict[str, Any]:
         "gap": {"before": _pair(gap.gap_before), "after": _pair(gap.gap_after)},
         "next_experiment": gap.next_experiment,
         "model": model,
-        "chance": gap.chance,
         "determined": {key: _interval(*value) for key, value in gap.determined.items()},
         "empirical": gap.empirical,
         "remarks": (*gap.campaign.remarks, *gap.remarks),
     }
-    more = _of_figures(gap) if isinstance(gap, SummaryGap) else _of_runs(gap)
-    return _plain(data | more)
+    if isinstance(gap, SummaryGap):
+        return _plain(data | _of_figures(gap))
+    data = _plain(data | _of_runs(gap))
+    if not any(run.track.run.hold_out for run in gap.plain.runs):
+        _forget_held_out(data)
+    return data
+
+
+def _forget_held_out(data: dict[str, Any]) -> None:
+    """Nothing was held out, and gaps of the fit are none of that."""
+    for pair in data["gap"].values():
+        pair["held_out"] = None
+    for row in (*data["ranking"], *data["ladder"]):
+        row["held_out_gap"] = None
 
 
 def _of_runs(gap: Gap) -> dict[str, Any]:
@@ -55,8 +66,23 @@ def _of_runs(gap: Gap) -> dict[str, Any]:
         "noise": noise,
         "plain": _fitted(gap.plain),
         "extended": None if gap.extended is None else _fitted(gap.extended),
-        "seed": gap.seed,
+        "ladder": gap.ladder,
+        "share": gap.share if gap.effects else None,
+        "reasons": gap.reasons,
+        "spreads": gap.spreads,
+        "exponents": gap.powers,
+        "curves": [_curve(law) for law in gap.laws],
+        "remains": gap.remains,
+        "quantisation": gap.quantisation,
     }
+
+
+def _curve(law: Law) -> dict[str, Any]:
+    curve = law.curve
+    names = ("axis", "unit", "on", "per", "memory", "level", "gain", "error")
+    values = {name: getattr(curve, name) for name in (*names, "values", "mean", "low", "high")}
+    of = "force, N" if curve.on == "force" else "logarithm of friction, less its mean"
+    return {"effect": law.effect or None, "in_model": law.in_model, "of": of, **values}
 
 
 def _fitted(fitted: FittedModel) -> dict[str, Any]:
@@ -74,6 +100,7 @@ def _fitted(fitted: FittedModel) -> dict[str, Any]:
 def _of_figures(gap: SummaryGap) -> dict[str, Any]:
     """What only runs have of which figures alone are known."""
     return {
+        "chance": gap.chance,
         "observations": [
             {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
             for one in gap.observations

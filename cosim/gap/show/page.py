@@ -13,13 +13,30 @@ from cosim.studies.reproduction.summary import SummaryGap
 from .model_file import model_text
 from .quantities import quantities
 from .reproduced import Reproduced
-from .words import SENTENCES, fitted_quantities, formula, gap_line, next_experiment, reason
+from .words import (
+    SENTENCES,
+    TABLE_SENTENCE,
+    faults_of,
+    fitted_quantities,
+    formula,
+    gap_line,
+    next_experiment,
+    percent,
+    powers_lines,
+    probability,
+    reason,
+    sentence,
+    spreads_line,
+)
 
 
 def page(
-    gap: Gap | SummaryGap, pictures: Sequence[Picture], reproduced: Sequence[Reproduced] = ()
+    gap: Gap | SummaryGap,
+    pictures: Sequence[Picture],
+    reproduced: Sequence[Reproduced] = (),
+    corrected: str = "",
 ) -> str:
-    """HTML with every picture inside."""
+    """HTML with every picture inside; corrected : where data are freed of the camera's faults."""
     figures_only = isinstance(gap, SummaryGap)
     return render(
         "gap.html.j2",
@@ -40,7 +57,21 @@ def page(
         model=model_text(gap),
         sentences=SENTENCES,
         remarks=[*gap.campaign.remarks, *gap.remarks],
+        percent=percent,
+        probability=probability,
+        corrected=corrected,
+        **({} if isinstance(gap, SummaryGap) else _of_runs(gap)),
     )
+
+
+def _of_runs(gap: Gap) -> dict[str, Any]:
+    """What only runs with a time series tell."""
+    return {
+        "powers": powers_lines(gap),
+        "spreads": spreads_line(gap),
+        "faults": faults_of(gap),
+        "table": sentence(TABLE_SENTENCE) if any(law.in_model for law in gap.laws) else "",
+    }
 
 
 def _determined(gap: Gap | SummaryGap) -> list:

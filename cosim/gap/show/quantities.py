@@ -10,6 +10,7 @@ from typing import Any
 from stickslip.effects.candidate import SECOND
 
 from cosim.gap.camera import faults
+from cosim.gap.estimation.drive import LOADING, REFERENCE, SCALING, STIFFNESS_OFFSET
 from cosim.scenario import Scenario
 
 #: Of the tracker and the drive, not of the model.
@@ -17,12 +18,15 @@ OFFSETS = {
     "offset.x": ("m", "zero of the tracker along x"),
     "offset.y": ("m", "zero of the tracker along y"),
     "offset.speed": ("", "part by which the surface is faster than its set-point"),
+    LOADING: ("s^0.5", "static friction lacking for a loading rate of 1/s, a part of it"),
     "speed_ripple.wavelength": ("m", "travel of the surface in one period of its speed"),
 } | {
     f"{effect}.{part}": ("", f"second harmonic {how}, as part of the first's amplitude")
     for effect in ("speed_ripple", "surface_pattern")
     for part, how in zip(SECOND, ("in phase", "a quarter of its period ahead"), strict=True)
 }
+#: Units of what a strength may go with.
+SCALES = {"mass": "kg", "speed": "m/s", "stiffness": "N/m"}
 PLAIN = ("friction.mu_s", "friction.mu_k")
 
 
@@ -52,6 +56,15 @@ def unit_and_meaning(key: str) -> tuple[str, str]:
         return OFFSETS[key]
     if faults.is_fault(key):
         return faults.QUANTITIES[key]
+    if key.startswith(STIFFNESS_OFFSET):
+        setup = int(key.removeprefix(STIFFNESS_OFFSET)) + 1
+        return "", f"logarithm by which the springs of set-up {setup} are stiffer than stated"
+    if key.startswith(SCALING):
+        quantity, effect = key.removeprefix(SCALING).split(".")
+        return "", f"power of the {quantity} by which the strength of {effect} goes"
+    if key.startswith(REFERENCE):
+        quantity = key.removeprefix(REFERENCE)
+        return SCALES[quantity], f"{quantity} at which a strength is what it says"
     block, _, name = key.partition(".")
     table: Any = Scenario.model_fields[block].annotation  # a class of keys
     field = table.model_fields[name.partition("[")[0]]  # one of several numbers is as all of them

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+from matplotlib.ticker import MaxNLocator
 
 from cosim.gap.diagnostics.dependence import Dependence
 from cosim.gap.diagnostics.regimes import RegimeAnalysis, Region
 from cosim.gap.diagnostics.variables import VARIABLES
 from cosim.gap.diagnostics.where import CHANCE
-from cosim.report.style import BLUE, GREY, RED, panels, picture
+from cosim.report.style import BLUE, GREY, RED, logarithmic_x, panels, picture
 
 #: Variables shown of each region, the most certain ones.
 SHOWN = 3
+#: Letters of a label that a panel has room for.
+_WIDEST = 30
 SCALES = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s"), "N": (1.0, "N"), "rad": (1e3, "mrad")}
 CAPTION = (
     "Where the misfit lives: what the model lacks, by run and over what it may depend on, "
@@ -54,12 +58,10 @@ def _draw(axis: Axes, region: Region, found: Dependence, tests: int) -> None:
         found.log10_p, tests, "o-",
     )  # fmt: skip
     variable = VARIABLES[found.variable]
-    axis.set_xlabel(f"{variable.label.removeprefix('the ')} ({variable.unit})")
+    label = f"{variable.label.removeprefix('the ')} ({variable.unit})"
+    axis.set_xlabel(fill(label, _WIDEST))
     if variable.logarithmic and found.centre.min() > 0.0:
-        axis.set_xscale("log")
-        axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axis.xaxis.set_minor_formatter(NullFormatter())
+        logarithmic_x(axis)
     else:
         axis.xaxis.set_major_locator(MaxNLocator(5))
 

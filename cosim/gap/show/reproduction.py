@@ -30,7 +30,7 @@ def reproduced_runs(gap: Gap) -> tuple[FittedRun, ...]:
 
 def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
     """Fly the first segment of a run in the FMU."""
-    scenario = scenario_of(gap, run)
+    scenario = scenario_of(gap, run, begun=True)
     track, noise = run.track, run.track.run.noise
     rows = np.flatnonzero(track.segments == track.segments[0])
     time = track.time[rows]

@@ -9,21 +9,24 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.gap.result import Gap
+from cosim.gap.result import Gap, Step
 from cosim.report.style import BLUE, DULL_GREY, GREY, INK, ORANGE, RED, panels, picture
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .quantities import unit_and_meaning
+from .words import TABLES, percent
 
 COLUMNS = 4
 #: Label, colour, filling.
 LEGEND = [("before", BLUE, BLUE), ("after", RED, RED), ("held out", GREY, "white")]
 #: Gaps are drawn up to this many times the largest that matters, the plain model's.
 BEYOND = 1.5
+#: Gaps that are all smaller have closer ticks.
+NARROW = 2.2
 
 
 @picture("ranking", (
-    "Every effect of the catalogue on top of the plain model, and those named together: the gap on "
+    "Every effect that was fitted on top of the plain model, and those named together: the gap on "
     "the runs that were held out. The dashed line is the plain model, the solid one measurement "
     "noise."
 ))  # fmt: skip
@@ -31,7 +34,8 @@ def draw_ranking(gap: Gap | SummaryGap) -> Figure:
     """A bar for each effect, its best law, and one for several that were named; best first."""
     best: dict[str, float] = {}
     for row in gap.ranking:
-        best.setdefault(row.effect, row.held_out_gap)
+        if row.held_out_gap is not None:  # else ruled out by the screening
+            best.setdefault(row.effect, row.held_out_gap)
     together = "\nand ".join(gap.effects)
     if gap.verdict == "named" and len(gap.effects) > 1:
         best[together] = gap.gap_after[1]
@@ -55,7 +59,7 @@ def draw_ranking(gap: Gap | SummaryGap) -> Figure:
     axis.axvline(1.0, color=INK, linewidth=1.0, label="measurement noise")
     axis.axvline(gap.gap_before[1], color=GREY, linestyle="--", label="plain model")
     axis.invert_yaxis()
-    axis.set_xlim(0.0, 1.12 * max([*values, gap.gap_before[1]], default=1.0))
+    axis.set_xlim(0.0, 1.12 * max([*values, gap.gap_before[1], 1.0]))
     axis.grid(visible=False, axis="y")
     unit = "standard deviations" if isinstance(gap, SummaryGap) else "noise units"
     axis.set_xlabel(f"held-out gap ({unit})")
@@ -97,14 +101,65 @@ def draw_gaps(gap: Gap) -> Figure:
     return figure
 
 
+@picture("ladder", (
+    "The ladder: the gap of the plain model and with one effect after the other, on the runs that "
+    "were fitted (filled) and on those held out (hollow). The line at 1 is measurement noise. "
+    "Above each step: the part of the misfit that is gone."
+))  # fmt: skip
+def draw_ladder(gap: Gap) -> Figure:
+    """A place for each step; red up to the one that the verdict stands on, grey beyond."""
+    figure, axes = panels(1, 1, height=3.0, width=max(5.0, 2.4 + 1.9 * len(gap.ladder)))
+    axis, places = axes[0, 0], range(len(gap.ladder))
+    fit = [step.fit_gap for step in gap.ladder]
+    held = [step.held_out_gap for step in gap.ladder]
+    axis.plot(places, fit, color=GREY, linewidth=0.8)
+    for place, step in enumerate(gap.ladder):
+        colour = _step_colour(gap, step)
+        axis.plot(place, fit[place], "o", color=colour, markersize=6.5)
+        axis.plot(place, held[place], "o", color=colour, markerfacecolor="white", markersize=6.5)
+        if step.effects:
+            top = max(fit[place], held[place])
+            axis.annotate(
+                percent(step.share), (place, top), (0.0, 8.0), textcoords="offset points",
+                ha="center", fontsize=8.0,
+            )  # fmt: skip
+    axis.axhline(1.0, color=INK, linewidth=1.0, label="measurement noise")
+    for label, fill in (("fitted", GREY), ("held out", "white")):
+        axis.plot([], [], "o", color=GREY, markerfacecolor=fill, label=label)
+    figure.legend(loc="outside upper center", ncols=3)
+    _log_ticks(axis, [*fit, *held])
+    axis.set_xticks(places, [_step_name(step) for step in gap.ladder])
+    axis.set_xlim(-0.5, len(gap.ladder) - 0.5)
+    axis.set_ylabel("gap (noise units)")
+    return figure
+
+
+def _step_colour(gap: Gap, step: Step) -> str:
+    if not step.effects:
+        return BLUE
+    if set(step.effects[:-1]) | set(step.members) <= set(gap.effects) or (
+        set(step.effects) <= set(gap.effects)
+    ):
+        return ORANGE if gap.verdict == "class" and len(step.members) > 1 else RED
+    return DULL_GREY
+
+
+def _step_name(step: Step) -> str:
+    if not step.effects:
+        return "plain"
+    last = " or\n".join(step.members) if len(step.members) > 1 else step.effects[-1]
+    return f"+ {last}"
+
+
 def _log_ticks(axis: Axes, values: Sequence[float]) -> None:
     """A logarithmic scale with numbers that can be read."""
     axis.set_yscale("log")
     top = max([*values, 1.0])
-    ticks = [t for t in (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if t <= 2.0 * top]
+    near = (0.8, 1, 1.2, 1.5, 2, 2.5, 3) if top < NARROW else (0.5, 1, 2, 5)
+    ticks = [t for t in (*near, 10, 20, 50, 100, 200, 500, 1000) if t <= 2.0 * top]
     axis.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     axis.minorticks_off()
-    axis.set_ylim(bottom=0.6)
+    axis.set_ylim(0.75 if top < NARROW else 0.6, 1.35 * top)
 
 
 @picture("parameters", (
@@ -126,7 +181,8 @@ def draw_parameters(gap: Gap) -> Figure:
                 intervals=gap.extended.intervals,
             )
         )
-    keys = list(dict.fromkeys(key for model in models for key in model.values))
+    found = dict.fromkeys(key for model in models for key in model.values)
+    keys = [key for key in found if not key.startswith(TABLES)]
     rows = -(-len(keys) // COLUMNS)
     figure, axes = panels(rows, COLUMNS, height=2.1, width=11.0)
     for axis in axes.flat[len(keys) :]:

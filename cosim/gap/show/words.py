@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from stickslip import EFFECTS
 
 from cosim.gap.camera import faults
-from cosim.gap.result import Gap
+from cosim.gap.result import Gap, Power
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .quantities import PLAIN, Quantity, quantities
@@ -15,6 +15,8 @@ from .reproduced import Reproduced
 
 #: Of the tracker; said where everything is.
 ZEROS = ("offset.x", "offset.y")
+#: Points of a curve; a figure shows them.
+TABLES = "friction.table_"
 Answer = Gap | SummaryGap
 SENTENCES = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS} | faults.SENTENCES
 
@@ -26,6 +28,8 @@ def verdict(gap: Answer) -> str:
 
 def reason(gap: Answer) -> str:
     """What the verdict's word stands for here, one sentence."""
+    if isinstance(gap, Gap) and gap.verdict == "partial":
+        return _partial(gap)
     if gap.verdict == "none":
         return "the plain model, its numbers fitted, leaves only noise."
     if gap.verdict == "named":
@@ -45,13 +49,54 @@ def _class(gap: Answer) -> str:
     return f"{'; '.join(groups)}{beside}; these data cannot tell which."
 
 
+def _partial(gap: Gap) -> str:
+    takes = "takes" if len(gap.effects) == 1 else "together take"
+    left = f"; what remains needs {'; '.join(gap.reasons)}" if gap.reasons else ""
+    return (
+        f"{' and '.join(gap.effects)} {takes} {percent(gap.share)} of the misfit and "
+        f"{'helps' if len(gap.effects) == 1 else 'help'} in every run{left}."
+    )
+
+
 def _unknown(gap: Answer) -> str:
+    if isinstance(gap, Gap):
+        return _unknown_of_runs(gap)
     if gap.effects:
         return (
             f"with {' and '.join(gap.effects)} the model comes nearer, but a disagreement "
             "is left that no catalogued effect repairs."
         )
     return "the plain model does not fit, and no catalogued effect repairs it."
+
+
+def _unknown_of_runs(gap: Gap) -> str:
+    nearest = gap.ladder[-1] if len(gap.ladder) else None
+    said = "the plain model does not fit, and no catalogued effect repairs it"
+    if nearest and nearest.effects:
+        names = " and ".join(nearest.effects)
+        said += f"; {names} would take {percent(nearest.share)} of the misfit"
+    elif gap.reasons:
+        said += "; it would fit better"
+    return f"{said}{', with ' + '; '.join(gap.reasons) if gap.reasons else ''}."
+
+
+def percent(part: float) -> str:
+    """A part in percent; never more than all of it, nor all of it where some is left."""
+    return "all" if part >= 0.9995 else f"{100.0 * part:.3g} %"
+
+
+def probability(part: float | None) -> str:
+    """A probability, no more certain than it is; a dash for none."""
+    if part is None:
+        return "–"
+    if part < 0.001:
+        return "< 0.001"
+    return "> 0.999" if part > 0.999 else f"{part:.3f}"
+
+
+def sentence(text: str) -> str:
+    """With a capital and a full stop."""
+    return f"{text[0].upper()}{text[1:]}."
 
 
 def gap_line(gap: Answer) -> str:
@@ -79,9 +124,47 @@ def fitted_quantities(gap: Answer) -> list[Quantity]:
     known = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
     intervals = dict(fitted.intervals) or (known if gap.extended is None else {})
     values = {**fitted.values, **fitted.settings}
-    shown = [key for key in values if key not in ZEROS]
+    shown = [key for key in values if key not in ZEROS and not key.startswith(TABLES)]
     shown.sort(key=lambda key: key not in PLAIN)
     return quantities({key: values[key] for key in shown}, intervals)
+
+
+def spreads_line(gap: Gap) -> str:
+    """What differs by itself, which no effect explains; "" where nothing was estimated."""
+    names = {
+        "friction_from_run_to_run": "friction from run to run",
+        "friction_within_a_run": "friction from stretch to stretch of a run",
+        "static_friction_beside_it": "static friction beside that",
+        "surface_speed": "surface speed from run to run",
+    }
+    parts = [f"{names[key]} {100.0 * value:.2g} %" for key, value in gap.spreads.items()]
+    return ", ".join(parts)
+
+
+def powers_lines(gap: Gap) -> list[str]:
+    """How strengths go with mass, speed and stiffness, of those that do."""
+    return [_power(one) for one in gap.powers if one.stated]
+
+
+#: Quantity -> what a strength is for each of.
+_EACH = {"mass": "kilogram", "speed": "metre per second", "stiffness": "newton per metre"}
+
+
+def _power(one: Power) -> str:
+    low, high = one.low, one.high
+    said = f"its strength goes with {one.quantity}^{one.value:.2g} ({low:.2g} to {high:.2g})"
+    if low <= -1.0 <= high:
+        said = f"per {_EACH[one.quantity]}: {said}"
+    elif low <= 1.0 <= high:
+        said = f"in proportion to {one.quantity}: {said}"
+    other = f"; these runs cannot tell {one.quantity} from {' or '.join(one.instead)}"
+    return f"{one.effect}, {said}{other if one.instead else ''}"
+
+
+def faults_of(gap: Answer) -> tuple[str, ...]:
+    """Faults of the measurement that were named, alone or beside effects."""
+    members = {effect for group in gap.classes for effect in group}
+    return tuple(e for e in gap.effects if faults.is_fault(e) and e not in members)
 
 
 def next_experiment(gap: Answer) -> str:
@@ -102,6 +185,8 @@ def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[st
     """What is said at the end, on a terminal; the FMU's own runs where there were any."""
     lines = [f"{gap.campaign.name}: {verdict(gap)}", f"  gap        {gap_line(gap)}"]
     lines.append(f"  where      {gap.where.text}")
+    if isinstance(gap, Gap):
+        lines += _of_runs(gap)
     numbers = fitted_quantities(gap)
     if numbers:
         lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}")
@@ -113,6 +198,37 @@ def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[st
     if gap.next_experiment:
         lines.append(f"  next       {next_experiment(gap)}")
     return lines
+
+
+def _of_runs(gap: Gap) -> list[str]:
+    """What only runs with a time series tell."""
+    lines = []
+    if gap.remains and gap.verdict == "partial":
+        lines.append(f"  remains    {gap.remains.text}")
+    lines += [f"  ladder     {line}" for line in ladder_lines(gap)]
+    lines += [f"  scaling    {line}" for line in powers_lines(gap)]
+    if any(law.in_model for law in gap.laws):
+        lines.append(f"  curve      {TABLE_SENTENCE}")
+    if gap.spreads:
+        lines.append(f"  spreads    {spreads_line(gap)}")
+    return lines
+
+
+#: Of a curve that is in the model.
+TABLE_SENTENCE = (
+    "friction over the sliding speed is in the model as a table: a shape that no law of the "
+    "catalogue has"
+)
+
+
+def ladder_lines(gap: Gap) -> list[str]:
+    """A line for each step over the plain model."""
+    return [
+        f"{' + '.join(step.effects)}: evidence {step.gain:.3g}, {percent(step.share)} of the "
+        f"misfit; held out {step.held_out_gap:.3g}, fit {step.fit_gap:.3g}"
+        for step in gap.ladder
+        if step.effects
+    ]
 
 
 def formula(gap: Answer) -> str:

@@ -6,73 +6,33 @@ import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, noisy, write_campaign
 from linear_runs import trial_of
+from scipy.stats import chi2
 from stickslip import Parameters
 from stickslip.effects.candidate import FreeParameter
 from stickslip.restarted import Restart, simulate_restarted
 
-from cosim.gap import MeasuredRun, Stick, Track, read_campaign
+from cosim.gap import read_campaign
 from cosim.gap.candidates.plain import (
     CREEP,
-    common_creep,
-    drive_free_parameters,
+    EXPONENT,
+    TRANSITION,
     first_guess,
     plain_free_parameters,
 )
-from cosim.gap.estimation.drive import RIPPLE_LENGTH, SPEED_OFFSET, driven_speed, model_parameters
+from cosim.gap.estimation.drive import (
+    FRICTION_OFFSET,
+    LOADING,
+    RIPPLE_LENGTH,
+    SPEED_OFFSET,
+    driven_speed,
+    model_parameters,
+    stiffness_offset,
+)
 from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import start
 from cosim.gap.estimation.intervals import intervals
 from cosim.gap.estimation.preparation import prepare
 from cosim.gap.estimation.problem import Problem
-
-SPEEDS = (0.02, 0.04, 0.08)
-#: Where blocks break away and stick again, m, and samples, s.
-HIGH, LOW, INTERVAL = 0.017, 0.007, 0.002
-SMALL = 1e-5
-
-
-def sawtooth(speed, lag, sticks=8, seed=0, noise=SMALL):
-    """A run whose block sticks from LOW to HIGH and snaps back.
-
-    lag : load, as a part of that at break-away -> m/s by which the surface leaves the block behind
-    """
-    sign = np.sign(speed)
-    x, held, times = LOW, [], []
-    values = []
-    while len(held) < sticks:
-        first = len(values)
-        while x < HIGH:
-            values.append(x)
-            x += INTERVAL * (abs(speed) - lag(x / HIGH))
-        held.append((first, len(values) - 1))
-        values += list(LOW + (HIGH - LOW) * np.linspace(1.0, 0.0, 40) ** 2)[1:-1]
-        x = LOW
-    times = INTERVAL * np.arange(len(values))
-    x = sign * noisy(np.array(values), seed, noise)
-    found = tuple(Stick(times[a], times[b], a, b, INTERVAL, INTERVAL) for a, b in held)
-    return MeasuredRun(
-        f"run {speed} {seed}",
-        None,
-        KNOWN["mass"],
-        KNOWN["stiffness"],
-        speed,
-        -8.0,
-        False,
-        Track(times, x),
-        noise={"x": noise},
-        sticks=found,
-    )
-
-
-def creeping(creep, speeds=SPEEDS):
-    return [sawtooth(speed, lambda load: creep * load, seed=i) for i, speed in enumerate(speeds)]
-
-
-def running_slow(part, speeds=SPEEDS):
-    return [
-        sawtooth(speed, lambda load, lag=part * speed: abs(lag) * np.sign(part), seed=i)
-        for i, speed in enumerate(speeds)
-    ]
 
 
 def test_driven_speed_is_the_set_point_and_a_part_of_it():
@@ -101,72 +61,6 @@ def test_parts_of_a_second_harmonic_are_its_amplitude_and_phase(effect):
         },
         rel=1e-14,
     )
-
-
-@pytest.mark.parametrize("creep", [1e-3, 2e-3, 4e-3])
-def test_lags_in_proportion_to_the_load_are_one_creep(creep):
-    found, error = common_creep(creeping(creep))
-    # a stick's line is told at its middle, the load from its ends: they differ in the second order
-    assert found == pytest.approx(creep, rel=0.1)
-    assert 0.0 < error < 0.1 * creep
-
-
-def test_a_surface_that_runs_the_other_way_creeps_alike():
-    found, _ = common_creep(creeping(2e-3, tuple(-v for v in SPEEDS)))
-    assert found == pytest.approx(common_creep(creeping(2e-3))[0], rel=1e-2)
-
-
-def test_nothing_lags_no_creep():
-    assert common_creep(creeping(0.0)) is None
-    assert drive_free_parameters(creeping(0.0)) == ()
-
-
-def test_runs_that_disagree_have_no_common_creep():
-    assert common_creep([*creeping(2e-3), sawtooth(0.06, lambda load: 0.0, seed=7)]) is None
-    # a set-point that is off by one part everywhere: other lags at other speeds
-    assert common_creep(running_slow(0.1, (0.01, 0.04, 0.16))) is None
-
-
-def test_blocks_ahead_of_their_surface_do_not_creep():
-    assert common_creep(running_slow(-0.1)) is None
-
-
-def test_creep_has_one_free_parameter_as_it_was_measured():
-    (free,) = drive_free_parameters(creeping(2e-3))
-    value, error = common_creep(creeping(2e-3))
-    assert (
-        free.key,
-        free.per_run,
-        free.start,
-        free.prior,
-    ) == (CREEP, False, value, error)
-    assert free.low < value < free.high
-
-
-def test_a_speed_that_is_off_has_a_free_parameter_in_every_run():
-    (free,) = drive_free_parameters(running_slow(0.1, (0.01, 0.04, 0.16)))
-    assert (free.key, free.per_run, free.start) == (
-        SPEED_OFFSET,
-        True,
-        0.0,
-    )
-    assert free.prior > 0.0
-
-
-def test_speeds_that_are_as_they_were_set_have_none():
-    assert drive_free_parameters(creeping(0.0)) == ()
-    assert drive_free_parameters(running_slow(0.01)) == ()  # as good as a set-point is
-    assert drive_free_parameters([]) == ()
-
-
-def test_one_run_of_many_that_is_off_is_another_matter():
-    ahead = [running_slow(0.0)[0], running_slow(0.0)[1], running_slow(-0.1)[2]]
-    assert drive_free_parameters(ahead) == ()
-
-
-def test_runs_with_few_sticks_are_not_asked():
-    few = [replace(run, sticks=run.sticks[:2]) for run in creeping(2e-3)]
-    assert drive_free_parameters(few) == ()
 
 
 # The same by the kernel, through files.
@@ -201,25 +95,20 @@ def kernel_campaign(folder, offsets=(0.0, 0.0, 0.0), creep=0.0):
     return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
 
 
-def by_key(campaign):
-    return {free.key: free for free in plain_free_parameters(campaign, False)}
-
-
-def test_plain_free_parameters_of_a_creeping_contact(tmp_path):
-    free_parameters = by_key(kernel_campaign(tmp_path, creep=CREEPING))
-    assert set(free_parameters) == {"friction.mu_s", "friction.mu_k", "offset.x", CREEP}
-    free = free_parameters[CREEP]
-    assert abs(free.start - CREEPING) < 4.0 * free.prior < 0.5 * CREEPING
-
-
-def test_plain_free_parameters_of_a_surface_as_it_was_set(tmp_path):
-    free_parameters = by_key(kernel_campaign(tmp_path))
-    assert set(free_parameters) == {"friction.mu_s", "friction.mu_k", "offset.x"}
-
-
-def test_plain_free_parameters_of_surfaces_each_at_a_speed_of_its_own(tmp_path):
-    free_parameters = by_key(kernel_campaign(tmp_path, offsets=(0.05, 0.0, -0.06)))
-    assert free_parameters[SPEED_OFFSET].per_run and CREEP not in free_parameters
+def test_plain_numbers_are_those_of_friction_contact_springs_and_of_every_run(tmp_path):
+    """Whatever the runs look like: that nothing creeps, or is off, is for the fit to find."""
+    for creep in (0.0, CREEPING):
+        folder = tmp_path / str(creep)
+        folder.mkdir()
+        campaign = kernel_campaign(folder, creep=creep)
+        free = {each.key: each for each in plain_free_parameters(campaign, False)}
+        shared = {key for key, each in free.items() if not each.per_run}
+        assert shared == {
+            *("friction.mu_s", "friction.mu_k", CREEP, TRANSITION, EXPONENT, LOADING),
+            stiffness_offset(campaign.setup_of(campaign.runs[0])),
+        }
+        assert set(free) - shared == {"offset.x", SPEED_OFFSET, FRICTION_OFFSET}
+        assert all(each.low <= each.start <= each.high for each in free.values())
 
 
 def test_speed_of_every_run_is_found(tmp_path):
@@ -252,11 +141,9 @@ def test_creep_is_found_again_by_the_fit(tmp_path):
     assert found.rms_residual() == pytest.approx(1.0, abs=0.1)
     assert found.values[CREEP] == pytest.approx(CREEPING, rel=0.15)
     rigid = [free for free in free_parameters if free.key != CREEP]
-    without = Problem(problem.segmented_runs, rigid)
-    assert (
-        fit(without, start(problem.segmented_runs, rigid)).rms_residual()
-        > 1.2 * found.rms_residual()
-    )
+    without = fit(Problem(problem.segmented_runs, rigid), start(problem.segmented_runs, rigid))
+    # speeds of the runs make up for most of it, at a price
+    assert without.cost > found.cost + chi2.isf(1e-3, 1)
 
 
 def test_a_run_with_an_offset_is_one_on_a_faster_surface(tmp_path):

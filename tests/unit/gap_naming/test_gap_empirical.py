@@ -19,6 +19,8 @@ from cosim.gap.diagnostics.slips import holding, rows_of, slips_of
 from cosim.gap.diagnostics.sparse_regression import formulas
 from cosim.gap.estimation.preparation import prepare, prepared
 from cosim.gap.estimation.trial import Model, coarse_fit, try_model
+from cosim.gap.evidence.products import LEAST
+from cosim.gap.evidence.tight import tightened
 
 SPEEDS = (0.05, 0.12, 0.08)
 BY_NAME = {feature.name: feature for feature in library(True, (-0.02, 0.04))}
@@ -60,9 +62,11 @@ def first_segment(campaign):
     )
 
 
-def fitted(campaign):
+def fitted(campaign, alike=False):
+    """alike : nothing differs from run to run, as a search would find."""
     data = prepared(campaign, campaign.fit_runs, campaign.held_out_runs, False)
     base = Model(plain_free_parameters(campaign, False), {})
+    base = tightened(base, LEAST) if alike else base
     return data, try_model(data, base, coarse_fit(data, base, 8))
 
 
@@ -125,7 +129,7 @@ def test_force_in_the_loop_is_second_order(plain, name, effect):
             segmented.name, segmented.known, segmented.speed, segmented.temperature,
             segmented.time[rows], {}, {}, (segment,), features=(BY_NAME[name],))  # fmt: skip
         values = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
-        state = np.array([[0.03, 0.0, 0.0, 0.0, 0.0, 0.0]])
+        state = np.array([[0.03, *[0.0] * 7]])
         reference = thin.simulate(values | effect, state)[:, 0]
         x = thin.simulate(values | {key(0): coefficient}, state)[:, 0]
         half = rows < 40  # before the first corner
@@ -172,8 +176,9 @@ def test_hidden_resonator_is_described_and_the_gap_shrinks(tmp_path):
     data, base = fitted(campaign)
     found = empirical_term(campaign, data, base, one_by_one)
     assert found["kind"] == "empirical"
-    assert found["held_out_gap_before"] == base.held_out_rms > 5.0
-    assert found["held_out_gap_after"] < 0.5 * base.held_out_rms
+    assert found["held_out_gap_before"] == base.held_out_rms > 3.0
+    # of what is over noise more than half is gone; the contact of the plain model has its part
+    assert found["held_out_gap_after"] ** 2 - 1.0 < 0.5 * (base.held_out_rms**2 - 1.0)
     assert {term["feature"] for term in found["terms"]} & {"x", "x³"}
     assert found["formula"].startswith("F_x =")
     assert "empirical" in found["text"]
@@ -190,7 +195,7 @@ def test_friction_that_differs_by_direction(tmp_path):
         entry = {"surface_speed": speed, "mass": mass, "hold_out": i > 2}
         runs.append(entry | {"columns": columns})
     campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": NOISE}))
-    data, base = fitted(campaign)
+    data, base = fitted(campaign, alike=True)
     found = empirical_term(campaign, data, base, one_by_one)
     size = {term["feature"]: term["coefficient"] for term in found["terms"]}
     assert set(size) == {"N", "N while held"}

@@ -9,7 +9,7 @@ from stickslip.effects.candidate import FreeParameter, Scales
 
 from cosim.gap.candidates.catalogue import candidates
 from cosim.gap.data import read_campaign
-from cosim.gap.estimation.linearisation import linearised
+from cosim.gap.estimation.fit import with_columns
 from cosim.gap.estimation.preparation import SHORT_CYCLES, Data, prepare
 from cosim.gap.estimation.trial import Model, coarse_fit
 from cosim.gap.selection.frequency_response import frequency_response, sums
@@ -48,7 +48,7 @@ def scanned(request, tmp_path_factory):
     campaign = read_campaign(write_campaign(folder, runs, noise={"x": 2e-4}))
     segmented_runs = prepare(campaign, campaign.runs, False, SHORT_CYCLES)
     data = Data(segmented_runs, segmented_runs, (), ())
-    fitted = linearised(data, PLAIN, coarse_fit(data, PLAIN, 8))
+    fitted = with_columns(PLAIN.problem(segmented_runs), coarse_fit(data, PLAIN, 8))
     law = LAWS[request.param]
     responses = [
         frequency_response(law, PLAIN, fitted, segmented, i)

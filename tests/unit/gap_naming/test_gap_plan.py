@@ -145,11 +145,14 @@ def test_beyond_is_what_a_fit_of_the_other_leaves():
 
 
 def test_the_smallest_size_leaves_as_much_as_is_needed(rehearsal, laws, seen):
+    """Also where it costs what is known of the springs more than it leaves of the motion."""
     for effect in ("film_drag", "spring_hardening", "structural_damping"):
         found = seen[effect]
-        again = plain_refitted(rehearsal, laws[effect], found.part)[0]
-        assert again == pytest.approx(needed(), rel=0.05)
-        assert found.response @ found.response == pytest.approx(again, rel=0.1)
+        assert found.noncentrality == pytest.approx(needed(), rel=0.05)
+        assert found.response @ found.response == pytest.approx(found.noncentrality, rel=0.1)
+    for effect in ("film_drag", "structural_damping"):  # refits that set out from the plain model
+        again = plain_refitted(rehearsal, laws[effect], seen[effect].part)[0]
+        assert again == pytest.approx(seen[effect].noncentrality, rel=1e-3)
 
 
 def test_a_load_that_is_always_the_same_tells_nothing_of_its_law(seen):
@@ -163,11 +166,12 @@ def test_half_the_noise_halves_the_sizes(plan, rehearsal, laws, seen):
     quiet = replace(plan, campaign=replace(plan.campaign, noise=noise), runs=runs)
     again = rehearse_plan(quiet)
     drag = smallest(again, laws["film_drag"], needed(), friction_length(again))
-    assert drag.part == pytest.approx(0.5 * seen["film_drag"].part, rel=0.1)
+    # friction that scatters, which is no less, limits it as well
+    assert drag.part == pytest.approx(0.5 * seen["film_drag"].part, rel=0.15)
 
 
-@pytest.mark.parametrize("effect", ["film_drag", "spring_hardening"])
-def test_predicted_power_is_achieved(plan, laws, seen, effect):
+@pytest.mark.parametrize("effect", ["film_drag", "structural_damping"])
+def test_predicted_power_is_achieved(plan, rehearsal, laws, seen, effect):
     """In simulated campaigns with noise, at the size that 90 % of them should name.
 
     A share that a true chance of 90 % falls short of once in a thousand times, or less, is refused.
@@ -175,7 +179,12 @@ def test_predicted_power_is_achieved(plan, laws, seen, effect):
     found = seen[effect]
     campaigns = 12
     gains = [
-        gain(measured(plan, laws[effect], found.part, seed), False, laws[effect])
+        gain(
+            measured(plan, rehearsal, laws[effect], found.part, seed),
+            rehearsal,
+            False,
+            laws[effect],
+        )
         for seed in range(campaigns)
     ]
     named = sum(each > threshold() for each in gains)
@@ -185,9 +194,14 @@ def test_predicted_power_is_achieved(plan, laws, seen, effect):
     assert abs(np.mean(gains) - found.noncentrality - 1.0) < 4.0 * error
 
 
-def test_nothing_hidden_is_seldom_named(plan, laws):
+def test_nothing_hidden_is_seldom_named(plan, rehearsal, laws):
     gains = [
-        gain(measured(plan, laws["film_drag"], 0.0, seed), False, laws["film_drag"])
+        gain(
+            measured(plan, rehearsal, laws["film_drag"], 0.0, seed),
+            rehearsal,
+            False,
+            laws["film_drag"],
+        )
         for seed in range(8)
     ]
     assert sum(each > threshold(0.05, 20) for each in gains) == 0

@@ -13,12 +13,22 @@ from stickslip import simulate
 
 from cosim import read_scenario
 from cosim.cli import main
-from cosim.gap.show.files import write_page
+from cosim.gap import read_campaign
+from cosim.gap.result import Power
+from cosim.gap.show.files import write_corrected_data, write_page
 from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_run
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
 from cosim.gap.show.quantities import quantities
 from cosim.gap.show.score_figures import draw_ranking
-from cosim.gap.show.words import closing_lines, fitted_quantities, reason
+from cosim.gap.show.words import (
+    closing_lines,
+    fitted_quantities,
+    percent,
+    powers_lines,
+    probability,
+    reason,
+    spreads_line,
+)
 
 PROMISED = (
     "verdict", "effects", "classes", "where", "ranking", "gap", "next_experiment", "model",
@@ -51,6 +61,25 @@ def test_json_holds_what_is_promised(gap):
     assert data["model"] == "model.toml" and data["next_experiment"] is None
     assert data["noise"] == {"x": {"value": NOISE, "estimated": False}}
     assert "a remark" in data["remarks"]
+    assert data["ranking"][0]["probability"] == 0.9995
+    assert data["ranking"][2]["held_out_gap"] is None and not data["ranking"][2]["parameters"]
+    assert [step["effects"] for step in data["ladder"]] == [[], ["velocity_weakening"]]
+    assert data["share"] == 0.998 and data["spreads"] == {"friction_from_run_to_run": 0.021}
+    (curve,) = data["curves"]
+    assert (curve["effect"], curve["axis"], curve["unit"]) == (
+        "velocity_weakening", "sliding speed", "m/s",
+    )  # fmt: skip
+    assert len(curve["values"]) == len(curve["mean"]) == len(curve["low"]) == 41
+
+
+def test_where_nothing_was_held_out_json_says_so(gap):
+    def fitted(run):
+        return replace(run, track=replace(run.track, run=replace(run.track.run, hold_out=False)))
+
+    plain = replace(gap.plain, runs=tuple(map(fitted, gap.plain.runs)))
+    data = as_data(replace(gap, plain=plain), "")
+    assert data["gap"]["after"]["held_out"] is None and data["gap"]["after"]["fit"] is not None
+    assert {row["held_out_gap"] for row in (*data["ladder"], *data["ranking"])} == {None}
 
 
 def test_json_has_so_many_digits_no_nan_and_no_place(gap):
@@ -158,9 +187,100 @@ def test_reasons(gap):
     assert reason(members) == (
         "film_drag or structural_damping, beside run_in; these data cannot tell which."
     )
-    assert "no catalogued effect" in reason(replace(gap, verdict="unknown", effects=()))
-    assert "run_in" in reason(replace(gap, verdict="unknown", effects=("run_in",)))
-    assert "only noise" in reason(replace(gap, verdict="none", effects=()))
+    assert reason(replace(gap, verdict="unknown", effects=(), reasons=("springs 9 % off",))) == (
+        "the plain model does not fit, and no catalogued effect repairs it; velocity_weakening "
+        "would take 99.8 % of the misfit, with springs 9 % off."
+    )
+    nothing = replace(gap, verdict="none", effects=(), ladder=gap.ladder[:1])
+    assert "only noise" in reason(nothing)
+    assert reason(replace(nothing, verdict="unknown")) == (
+        "the plain model does not fit, and no catalogued effect repairs it."
+    )
+
+
+def test_what_is_partial_says_how_much_and_what_remains(gap):
+    one = replace(gap, verdict="partial", effects=("run_in",), share=0.83)
+    assert reason(one) == "run_in takes 83 % of the misfit and helps in every run."
+    two = replace(
+        one, effects=("run_in", "film_drag"), reasons=("friction that scatters by 9 % in a run",)
+    )
+    assert reason(two) == (
+        "run_in and film_drag together take 83 % of the misfit and help in every run; what "
+        "remains needs friction that scatters by 9 % in a run."
+    )
+    assert f"  remains    {gap.remains.text}" in closing_lines(one)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "value", "low", "high", "instead", "said"),
+    [
+        ("mass", -1.02, -1.15, -0.89, (), "per kilogram: its strength goes with mass^-1"),
+        ("speed", 1.1, 0.9, 1.3, (), "in proportion to speed: "),
+        ("mass", 0.5, 0.4, 0.6, ("speed",), "(0.4 to 0.6); these runs cannot tell mass from speed"),
+    ],
+)
+def test_scaling_in_words(gap, quantity, value, low, high, instead, said):
+    power = Power("run_in", quantity, value, low, high, 1e-3, True, instead)
+    (line,) = powers_lines(replace(gap, powers=(power, replace(power, stated=False))))
+    assert line.startswith("run_in, ") and said in line
+
+
+def test_spreads_and_odds_in_words(gap):
+    assert spreads_line(gap) == "friction from run to run 2.1 %"
+    assert [probability(p) for p in (0.0001, 0.5, 0.9999)] == ["< 0.001", "0.500", "> 0.999"]
+    assert [percent(part) for part in (0.831, 0.9994, 1.0)] == ["83.1 %", "99.9 %", "all"]
+
+
+# --- faults of the measurement ---
+
+
+@pytest.fixture(scope="module")
+def faulty(gap):
+    """A camera that is 3 % off, named beside an effect."""
+    values = {**gap.extended.values, "measurement.scale": 0.03}
+    effects = ("measurement.scale", "velocity_weakening")
+    return replace(gap, effects=effects, extended=replace(gap.extended, values=values))
+
+
+def test_a_fault_is_named_and_not_part_of_the_model(faulty):
+    text = model_text(faulty)
+    assert "measurement" not in tomllib.loads(text)
+    assert "of the camera: measurement.scale" in text
+    assert "Named: measurement.scale (the camera's scale is off)" in closing_lines(faulty)[0]
+
+
+def test_data_freed_of_a_fault_are_left_beside_the_report(faulty, gap, tmp_path):
+    assert write_corrected_data(gap, tmp_path) == []
+    first, *files = write_corrected_data(faulty, tmp_path)
+    assert first == tmp_path / "corrected" / "campaign.toml" and len(files) == len(SPEEDS)
+    again, before = read_campaign(first).runs[0].motion.x, gap.campaign.runs[0].motion.x
+    assert again == pytest.approx(before / 1.03, abs=1e-9)
+    alike = replace(faulty, verdict="class", classes=(("measurement.scale", "run_in"),))
+    assert write_corrected_data(alike, tmp_path) == []
+
+
+# --- a table in the model ---
+
+
+def test_a_curve_in_the_model_is_a_table_of_the_file(gap):
+    speeds, parts = (0.0, 0.1, 0.4), (1.2, 1.0, 0.9)
+    settings = {}
+    for number, (speed, part) in enumerate(zip(speeds, parts, strict=True), 1):
+        settings |= {f"friction.table_speed[{number}]": speed}
+        settings |= {f"friction.table_part[{number}]": part}
+    values = {key: value for key, value in gap.extended.values.items() if key != ADDED.key}
+    extended = replace(gap.extended, values=values, settings=settings)
+    laws = (replace(gap.laws[0], effect="", in_model=True),)
+    unknown = replace(gap, verdict="unknown", effects=(), extended=extended, laws=laws)
+    scenario = scenario_of(unknown, shown_run(unknown))
+    mu_k = values["friction.mu_k"]
+    assert scenario.friction.table_speed == speeds
+    assert scenario.friction.table_mu == pytest.approx([mu_k * part for part in parts])
+    assert "in the model as a table" in "\n".join(closing_lines(unknown))
+    assert not any("table" in one.key for one in fitted_quantities(unknown))
+    begun = scenario_of(unknown, replace(shown_run(unknown), stretch=(0.9, 1.1)), begun=True)
+    assert begun.friction.table_mu == pytest.approx([1.1 * mu_k * part for part in parts])
+    assert begun.friction.mu_s == pytest.approx(0.9 * values["friction.mu_s"])
 
 
 def test_an_interval_that_says_nothing_is_not_shown():
@@ -201,7 +321,10 @@ def test_page_is_whole_by_itself(gap, tmp_path, extended):
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
     pictures = sorted(file.stem for file in tmp_path.glob("*.png"))
     assert pictures == sorted(
-        ["atlas", "fmu", "gaps", "overlay_x", "parameters", "ranking", "residuals"]
+        [
+            *("atlas", "curves", "fmu", "gaps", "ladder", "overlay_x", "parameters", "ranking"),
+            "residuals",
+        ]
     )
     assert html.count("data:image/png;base64,") == len(pictures) == len(drawn)
     assert "http" not in html and "None" not in html.split("<h2>")[1]

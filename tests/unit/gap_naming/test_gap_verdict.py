@@ -1,144 +1,147 @@
-"""From trials to a verdict: none, one effect, a class, or unknown."""
+"""From evidence to a verdict: what an effect must show, alone and beside others; what is left.
 
-from dataclasses import replace
+The models are stand-ins that say how probable they make the runs: what a verdict goes by.
+"""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from gap_trials import FAR, LESS, MORE, ROWS, after, finding, trial, tried
+from settled_campaigns import strength
+from stickslip.effects.candidate import Candidate
 
-from cosim.gap.selection.criteria import explained
+from cosim.gap.evidence.products import Spreads
+from cosim.gap.selection.decision import LEVEL, implausible, members_of, needed, resolved
+from cosim.gap.selection.tried import Tried
+from cosim.gap.selection.verdict import Rung, bends, concluded
 
-#: Where the decisions lie.
-PLAIN_FITS = 1.3  # a plain model fits up to this root mean square residual
-FITS = 1.5  # a repaired one up to this
-EXPLAINED_BY_ONE = 0.93  # part of the excess chi-square that one effect takes
-EXPLAINED_AT_LEAST = 0.9  # that is the least for a name
-HOLDS = 2.5  # held-out residual over that of the fit
-DRIFT = 2.0  # residual of long segments that may be drift
-INDISTINGUISHABLE = 0.08  # difference of chi-squares per sample
-DOES_MOST = 0.9  # part with which one effect stands alone
-RIVAL = 0.5  # part of that which no other reaches
-WAVE = 0.8  # part that is a wave
-SEEN = 0.1  # of an excess of so much
-
-
-@pytest.mark.parametrize("times, verdict", [(LESS * HOLDS, "named"), (MORE * HOLDS, "unknown")])
-def test_what_is_true_of_the_fitted_runs_alone_is_no_name(times, verdict):
-    far = 100.0
-    fit, kept_back = 1.1, 1.1 * times
-    squares = ROWS * np.array([fit**2, kept_back**2])
-    half = replace(trial(fit), held_out=trial(kept_back).fitted, squares=squares)
-    assert explained(trial(far), half) > max(EXPLAINED_BY_ONE, DOES_MOST)
-    found, _ = finding([tried("film_drag", half), tried("run_in", after(0.0, far))], plain=far)
-    assert found.verdict == verdict
+ROWS = 10_000
+LINEAR = Candidate("velocity_weakening", "linear", (strength("velocity_weakening.linear", 1, 1),))
+BENT = Candidate(
+    "velocity_weakening", "hyperbolic", (strength("velocity_weakening.hyperbolic", 1, 1),)
+)
+DRAG = Candidate("film_drag", "linear", (strength("film_drag.coefficient", 1, 1),))
+STIFF = "offset.stiffness_0"
 
 
-def test_a_plain_model_that_fits_lacks_nothing_whatever_fits_better():
-    found, _ = finding([tried("film_drag", 1.0)], plain=LESS * PLAIN_FITS)
-    assert (found.verdict, found.effects, found.chosen) == ("none", (), None)
-    assert found.nearest.rms_residual == pytest.approx(LESS * PLAIN_FITS)
-    assert [t.candidate.effect for t in found.ranking] == ["film_drag"]
+@dataclass
+class StandIn:
+    """As much of a settled model as a verdict looks at; values in steps of 1, errors of 0.1."""
+
+    evidence: float
+    values: dict = field(default_factory=dict)
+    spreads: Spreads = field(default_factory=lambda: Spreads(0.01, 0.0, 0.0, 0.1, 0.0))
+    squares: float = ROWS
+    rows: int = ROWS
+    free: tuple = ()
+    settings: dict = field(default_factory=dict)
+    runs: int = 4
+
+    @property
+    def errors(self):
+        return dict.fromkeys(self.values, 0.1)
+
+    @property
+    def left_out(self):
+        return np.full(self.runs, self.evidence / self.runs)
+
+    @property
+    def model(self):
+        return SimpleNamespace(free_parameters=self.free, settings=self.settings)
+
+    @property
+    def problem(self):
+        return SimpleNamespace(shared=self.free)
+
+
+def tried(law, evidence, base, value=1.0):
+    model = StandIn(evidence, {free.key: value for free in law.free_parameters})
+    return Tried(law, base.evidence - evidence, model)
+
+
+def ladder_of(*evidences, members=()):
+    names = ("velocity_weakening", "film_drag", "run_in")
+    rungs = [Rung((), StandIn(evidences[0]), 0.0)]
+    for count, evidence in enumerate(evidences[1:], start=1):
+        gain = evidences[count - 1] - evidence
+        rungs.append(Rung(names[:count], StandIn(evidence), gain, tuple(members)))
+    return rungs
+
+
+def test_the_best_of_more_effects_needs_more():
+    """A factor of n / alpha in favour comes up by chance, of n, with a probability of alpha."""
+    assert needed(1) == pytest.approx(2.0 * np.log(1.0 / LEVEL))
+    assert needed(20) - needed(1) == pytest.approx(2.0 * np.log(20.0))
+
+
+def test_as_good_as_the_best_is_one_of_its_class():
+    base = StandIn(2.0 * ROWS)
+    best, close = tried(LINEAR, ROWS, base), tried(DRAG, ROWS + 0.9 * needed(1), base)
+    assert members_of([close, best]) == [best, close]
+    far = tried(DRAG, ROWS + 1.1 * needed(1), base)
+    assert members_of([best, far]) == [best]
+
+
+def test_a_strength_within_its_error_of_nothing_is_none():
+    base = StandIn(2.0 * ROWS)
+    assert not members_of([tried(LINEAR, ROWS, base, value=0.2)])  # two standard deviations
+
+
+def test_what_may_be_the_shape_of_a_contact_does_not_count():
+    """A tenth of the noise in the residuals; what makes runs alike counts whole."""
+    base, shape = StandIn(1.02 * ROWS, squares=1.02 * ROWS), 0.008 * ROWS
+    better = StandIn(base.evidence - shape, squares=base.squares - shape)
+    assert resolved(better, base) == pytest.approx(0.0)
+    alike = StandIn(base.evidence - shape, squares=base.squares)
+    assert resolved(alike, base) == pytest.approx(shape)
 
 
 @pytest.mark.parametrize(
-    "period, part, rival, verdict",
+    "ladder, verdict",
     [
-        ("speed_ripple.frequency", MORE * WAVE, LESS * RIVAL, "named"),
-        ("speed_ripple.frequency", LESS * WAVE, LESS * RIVAL, "none"),
-        ("speed_ripple.frequency", MORE * WAVE, MORE * RIVAL * MORE, "none"),
-        ("", MORE * WAVE, LESS * RIVAL, "none"),
+        (ladder_of(ROWS), "none"),
+        (ladder_of(3.0 * ROWS), "unknown"),
+        (ladder_of(9.0 * ROWS, ROWS), "named"),
+        (ladder_of(9.0 * ROWS, 3.0 * ROWS), "partial"),
     ],
 )
-def test_a_wave_is_named_though_the_plain_model_fits(period, part, rival, verdict):
-    plain = np.sqrt(1.0 + MORE * SEEN)
-    assert plain < PLAIN_FITS
-    first = [tried("speed_ripple", after(part, plain)), tried("run_in", after(rival * part, plain))]
-    first[0] = replace(first[0], candidate=replace(first[0].candidate, periodic=period))
-    assert finding(first, plain=plain)[0].verdict == verdict
-    # of an excess that is hardly there nothing is said
-    hardly = np.sqrt(1.0 + LESS * SEEN)
-    first[0] = replace(first[0], judged=after(part, hardly))
-    assert finding(first[:1], plain=hardly)[0].verdict == "none"
+def test_the_last_rung_is_judged_as_it_stands(ladder, verdict):
+    found = concluded(ladder, ())
+    assert found.verdict == verdict
+    named = ladder[-1].effects if verdict in ("named", "partial") else ()
+    assert found.effects == named and found.model is ladder[found.chosen].settled
 
 
-def test_one_effect_is_named():
-    found, _ = finding([tried("run_in", 5.0), tried("film_drag", 1.02), tried("speed_ripple", 7.0)])
-    assert (found.verdict, found.effects) == ("named", ("film_drag",))
-    assert found.chosen.rms_residual == found.nearest.rms_residual == pytest.approx(1.02)
-    order = [t.candidate.effect for t in found.ranking]
-    assert order == ["film_drag", "run_in", "speed_ripple"]
-
-
-def test_effects_that_do_as_well_are_a_class():
-    most = np.sqrt(1.02**2 + LESS * INDISTINGUISHABLE)
-    first = [tried("structural_damping", most), tried("film_drag", 1.02), tried("run_in", 5.0)]
-    found, _ = finding(first)
-    assert (found.verdict, found.effects) == ("class", ("film_drag", "structural_damping"))
-    assert found.chosen.rms_residual == pytest.approx(1.02)  # the member that fits best
-
-
-def test_an_effect_tried_once_more_counts_as_it_then_fits():
-    first = [tried("film_drag", 3.0), tried("run_in", 5.0)]
-    found, _ = finding(first, polish=[tried("run_in", 1.02)])
-    assert (found.verdict, found.effects) == ("named", ("run_in",))
-    assert [t.candidate.effect for t in found.ranking] == ["run_in", "film_drag"]
-    assert len(found.ranking) == 2
-
-
-def test_effects_that_were_ruled_out_early_are_ranked_last():
-    found, _ = finding([tried("film_drag", 5.0), tried("run_in", None), tried("speed_ripple", 2.0)])
-    assert [t.candidate.effect for t in found.ranking] == ["speed_ripple", "film_drag", "run_in"]
-
-
-def test_one_effect_that_dominates_is_named_though_something_is_left():
-    strong = 0.5 * (DOES_MOST + EXPLAINED_BY_ONE)
-    plain = 30.0
-    first = [
-        tried("film_drag", after(strong, plain)),
-        tried("run_in", after(LESS * RIVAL * strong, plain)),
-    ]
-    found, _ = finding(first, plain=plain)
-    assert (found.verdict, found.effects) == ("named", ("film_drag",))
-    assert found.chosen.rms_residual == pytest.approx(after(strong, plain).rms_residual)
-
-
-@pytest.mark.parametrize(
-    "strong, rival", [(LESS * DOES_MOST, 0.0), (0.5 * (DOES_MOST + EXPLAINED_BY_ONE), MORE * RIVAL)]
-)
-def test_no_name_without_a_repair_or_with_a_rival(strong, rival):
-    plain = 30.0
-    first = [
-        tried("film_drag", after(strong, plain)),
-        tried("run_in", after(rival * strong, plain)),
-    ]
-    found, _ = finding(first, plain=plain)
-    assert (found.verdict, found.effects, found.chosen) == ("unknown", (), None)
-    assert found.nearest.rms_residual == pytest.approx(after(strong, plain).rms_residual)
-
-
-def test_nothing_helps():
-    found, _ = finding([tried("film_drag", FAR), tried("run_in", 1.1 * FAR)])
-    assert (found.verdict, found.effects, found.chosen) == ("unknown", (), None)
-
-
-def test_a_little_that_nothing_explains_is_nothing():
-    """Between what fits and what is repaired, an effect has a name for nearly all of it."""
-    between = 0.5 * (PLAIN_FITS + FITS)
-    weak = after(LESS * EXPLAINED_AT_LEAST, between)
-    assert weak.rms_residual < FITS
-    found, _ = finding([tried("film_drag", weak)], plain=between)
-    assert (found.verdict, found.effects) == ("none", ())
-    found, _ = finding(
-        [tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, between))], plain=between
+def test_what_is_left_out_is_worth_a_name_only_where_every_run_gains():
+    ladder = ladder_of(9.0 * ROWS, 3.0 * ROWS)
+    rows = 3.0 * ROWS / 4
+    ladder[1].settled.__class__ = type(
+        "Uneven", (StandIn,), {"left_out": property(lambda _: np.array([-1, 1, 1, 11]) * rows)}
     )
-    assert (found.verdict, found.effects) == ("named", ("film_drag",))
+    assert concluded(ladder, ()).verdict == "unknown"
 
 
-def test_what_only_long_runs_show_may_be_drift():
-    short, plain = trial(LESS * PLAIN_FITS).fitted, LESS * DRIFT
-    weak = [tried("film_drag", after(LESS * EXPLAINED_AT_LEAST, plain))]
-    assert finding(weak, plain=plain, coarse=short)[0].verdict == "none"
-    assert finding(weak, plain=plain)[0].verdict == "unknown"  # short ones show it as well
-    assert finding(weak, plain=MORE * DRIFT, coarse=short)[0].verdict == "unknown"
-    strong = [tried("film_drag", after(MORE * EXPLAINED_AT_LEAST, plain))]
-    assert finding(strong, plain=plain, coarse=short)[0].effects == ("film_drag",)
+def test_several_that_do_as_well_are_a_class():
+    base = StandIn(9.0 * ROWS)
+    members = (tried(LINEAR, ROWS, base), tried(DRAG, ROWS + 1.0, base))
+    found = concluded(ladder_of(9.0 * ROWS, ROWS, members=members), ())
+    assert (found.verdict, found.effects) == ("class", ("velocity_weakening", "film_drag"))
+
+
+def test_a_rig_is_not_far_from_what_is_said_of_it():
+    stated = strength(STIFF, 0.0, 0.01, -1.0, 1.0)
+    stated = type(stated)(STIFF, 0.0, 0.01, -1.0, 1.0, prior=0.01)
+    near, far = (StandIn(ROWS, {STIFF: value}, free=(stated,)) for value in (0.01, 0.1))
+    assert not implausible(near)
+    assert implausible(far) == ["springs of a set-up +11 % off what is stated"]
+    scattered = StandIn(ROWS, spreads=Spreads(0.3, 0.0, 0.0, 0.1, 0.0))
+    assert implausible(scattered) == ["friction that scatters by 30 % from run to run"]
+
+
+def test_another_form_of_the_same_effect_may_stand_beside_the_first():
+    """Nature's law may lie between two of the catalogue's: then no second effect is called for."""
+    rung = Rung((LINEAR.effect,), StandIn(ROWS, {"velocity_weakening.linear": 1.0}), 100.0)
+    assert bends(BENT, rung)
+    assert not bends(LINEAR, rung) and not bends(DRAG, rung)
+    assert not bends(BENT, Rung((), StandIn(ROWS), 0.0))

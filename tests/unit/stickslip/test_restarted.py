@@ -161,3 +161,19 @@ def test_a_window_that_sets_nothing_leaves_the_shear(sheared):
             sheared, SPEED, COLD, times, [start, Restart(row, np.full(6, np.nan))]
         )
         assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
+
+
+@pytest.mark.parametrize("table", [{}, {"table_speed": (0.0, 1.0), "table_mu": (0.2, 0.2)}])
+def test_friction_of_a_window_is_a_part_of_all_that_the_model_has(table):
+    """mu_s and mu_k 0.9 times as large, in stick and in slip, by mu_k and by a table of it."""
+    times = np.linspace(0.0, 3.0, 301)
+    whole = Parameters(friction=Friction(mu_s=0.3, mu_k=0.2, **table)).pack()
+    less = {
+        name: tuple(0.9 * mu for mu in v) if name == "table_mu" else v for name, v in table.items()
+    }
+    part = Parameters(friction=Friction(mu_s=0.27, mu_k=0.18, **less)).pack()
+    windows = [Restart(0, state(), friction=(0.9, 0.9))]
+    scaled = simulate_restarted(whole, SPEED, COLD, times, windows)
+    meant = simulate_restarted(part, SPEED, COLD, times, [Restart(0, state())])
+    assert (meant[:, O_MODE] == layout.SLIP).any()
+    assert scaled[:, O_X] == pytest.approx(meant[:, O_X], abs=1e-7)

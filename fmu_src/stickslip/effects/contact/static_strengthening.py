@@ -79,12 +79,14 @@ _HOLD = 0.5
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Logarithmic at once or after an onset, saturating, and a power."""
+    """Logarithmic at once or after an onset, saturating, a power; each loses its age in slip."""
+    # nobody knows beforehand over how much slip, and break-aways hang on it
+    lost = FreeParameter("static_strengthening.slip_distance", 1e-3, 0.5, 1e-5, 3e-2, log=True)
     rate = FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
     yield Candidate(
         "static_strengthening",
         "logarithmic",
-        (rate,),
+        (rate, lost),
         {"static_strengthening.hold_time": 0.01},
         grows=2.0,
     )
@@ -93,7 +95,7 @@ def candidates(s: Scales) -> Iterator[Candidate]:
         yield Candidate(
             "static_strengthening",
             "logarithmic after an onset",
-            (rate, onset),
+            (rate, onset, lost),
             grows=log10(1.0 + _HOLD / time),
         )
     for time in (0.1, 0.5):
@@ -112,6 +114,7 @@ def candidates(s: Scales) -> Iterator[Candidate]:
                     log=True,
                     plain_below=True,
                 ),
+                lost,
             ),
             grows=1.0,
         )
@@ -122,6 +125,7 @@ def candidates(s: Scales) -> Iterator[Candidate]:
         (
             FreeParameter("static_strengthening.power", 0.05, 0.03, 0.0, 5.0),
             FreeParameter("static_strengthening.exponent", exponent, 0.15, 0.05, 1.0),
+            lost,
         ),
         grows=_HOLD**exponent,
     )
