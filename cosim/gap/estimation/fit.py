@@ -55,19 +55,15 @@ def fit(
         if is_stopped():  # nobody waits for it any more
             break
         columns = (
-            _of_runs(descent, shared, mapped)
+            _derivatives(problem, descent.point, descent.residuals, shared, mapped)
             if derivatives is None
             else [derivatives(i, descent.point, r) for i, r in enumerate(descent.residuals)]
         )
         if not descent.goes_down(columns, 1 if fixed else tries):
             break
         # derivatives are most of the work, and do for another step or two (Shamanskii 1967)
-        for _ in range(_CHORDS):
-            again = [
-                replace(c, residuals=r) for c, r in zip(columns, descent.residuals, strict=True)
-            ]
-            if derivatives or not descent.goes_down(again, 1):
-                break
+        if derivatives is None:
+            _by_chords(descent, columns, _CHORDS)
     return Fitted(problem.free_parameters, descent.point, descent.residuals)
 
 
@@ -111,15 +107,9 @@ def _followed(problem: Problem, point: Point, near: Columns, rounds: int) -> Fit
     return Fitted(problem.free_parameters, descent.point, descent.residuals, there)
 
 
-def _of_runs(descent: Descent, shared: Sequence[int], mapped: Map) -> list[Columns]:
-    """Derivatives where a descent stands."""
-    at = Fitted((), descent.point, tuple(descent.residuals))
-    return list(with_columns(descent.problem, at, shared, mapped).derivatives)
-
-
-def _by_chords(descent: Descent, columns: Sequence[Columns]) -> None:
-    """Steps by the derivatives of one point, as long as they lead on."""
-    for _ in range(1 + _CHORDS):
+def _by_chords(descent: Descent, columns: Sequence[Columns], most: int = 1 + _CHORDS) -> None:
+    """So many steps by the derivatives of one point, as long as they lead on."""
+    for _ in range(most):
         here = [replace(c, residuals=r) for c, r in zip(columns, descent.residuals, strict=True)]
         if not descent.goes_down(here, 1):
             break
@@ -184,11 +174,20 @@ def with_columns(
 ) -> Fitted:
     """The same fit with derivatives taken at its end; by: which shared numbers, all if not said."""
     by = range(len(problem.shared)) if by is None else by
-    alone = [
-        (problem.of_run(run), fitted.point.of_run(run), r, by)
-        for run, r in enumerate(fitted.residuals)
-    ]
-    return replace(fitted, columns=tuple(mapped(_columns, alone)))
+    columns = _derivatives(problem, fitted.point, fitted.residuals, by, mapped)
+    return replace(fitted, columns=tuple(columns))
+
+
+def _derivatives(
+    problem: Problem,
+    point: Point,
+    residuals: Sequence[np.ndarray],
+    by: Sequence[int],
+    mapped: Map,
+) -> list[Columns]:
+    """Of every run."""
+    alone = [(problem.of_run(i), point.of_run(i), r, by) for i, r in enumerate(residuals)]
+    return list(mapped(_columns, alone))
 
 
 def _columns(problem: Problem, point: Point, residuals: np.ndarray, by: Sequence[int]) -> Columns:

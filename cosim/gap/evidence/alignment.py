@@ -93,7 +93,7 @@ def _aligned(
 
 def _with_shared_fitted(problem: Problem, fitted: Fitted, mapped: Map) -> Point:
     """The shared numbers (the contact's) fitted to the runs that are laid along the data."""
-    good = [i for i, residuals in enumerate(fitted.residuals) if _rms(residuals) < _BETTER]
+    good = [i for i in range(len(fitted.residuals)) if fitted.rms_residual([i]) < _BETTER]
     if not good:
         return fitted.point
     some = Problem(
@@ -121,18 +121,14 @@ def _found(problem: Problem, before: Point, fitted: Fitted) -> Fitted:
     """One run."""
     places = {free.key: (j, free) for j, free in enumerate(problem.own)}
     for key, value in _OTHERWISE:
-        if _rms(fitted.residuals[0]) < _LOST:
+        if fitted.rms_residual() < _LOST:
             break
         j, free = places[key]
         start = before.own[0].copy()
         start[j] = free.scaled(value)
         again = fit(problem, replace(before, own=(start,)), _FOLLOW, fixed=True)
-        fitted = min(fitted, again, key=lambda found: _rms(found.residuals[0]))
+        fitted = min(fitted, again, key=Fitted.rms_residual)
     return fitted
-
-
-def _rms(residuals: np.ndarray) -> float:
-    return float(np.sqrt(residuals @ residuals / max(residuals.size, 1)))
 
 
 def _balanced(segmented: SegmentedRun, run: MeasuredRun, problem: Problem) -> np.ndarray:

@@ -246,8 +246,10 @@ def _turned(best: Settled, spreads: Spreads, part: float, loosely: bool, mapped:
     """A part of a step of a model, with what is a run's own held loosely or as spreads say."""
     problem = best.problem
     if not loosely:
-        own = as_meant(best.model.free_parameters, spreads)
-        local = (max(spreads.stretch, HELD.stretch), max(spreads.static, HELD.static))
+        held = Spreads(*map(max, spreads, HELD))
+        own = as_meant(best.model.free_parameters, held)
+        own = (*own, replace(SPRINGS, prior=HELD_SPRINGS))
+        local = (held.stretch, held.static)
         problem = Problem(problem.segmented_runs, own, problem.settings, local)
     if spreads != best.spreads:
         wide = deviations(best.problem, best.fitted, best.model.free_parameters, spreads)
@@ -263,18 +265,13 @@ def as_meant(
     free_parameters: Sequence[FreeParameter], spreads: Spreads
 ) -> tuple[FreeParameter, ...]:
     """Free parameters with what is a run's own as far apart as these spreads say."""
-    widths = {
-        FRICTION_OFFSET: max(spreads.friction, HELD.friction),
-        SPEED_OFFSET: max(spreads.speed, HELD.speed),
-    }
-    zero = max(spreads.zero, HELD.zero)
-    free_parameters = [
-        replace(f, prior=widths.get(f.key, (f.prior or 1.0) * zero))
+    widths = {FRICTION_OFFSET: spreads.friction, SPEED_OFFSET: spreads.speed}
+    return tuple(
+        replace(f, prior=widths.get(f.key, (f.prior or 1.0) * spreads.zero))
         if f.key in widths or f.key in OFFSETS
         else f
         for f in free_parameters
-    ]
-    return (*free_parameters, replace(SPRINGS, prior=HELD_SPRINGS))
+    )
 
 
 def _carried(problem: Problem, before: Settled) -> Point:
@@ -309,32 +306,33 @@ def _moved(problem: Problem, now: Settled, part: float, rounds: int, mapped: Map
 
 
 def _with_lost_runs_found(problem: Problem, fitted: Fitted, rounds: int) -> Fitted:
-    """Runs that were carried astray, from the states read off the data."""
-    own, states = list(fitted.point.own), list(fitted.point.states)
-    residuals = list(fitted.residuals)
-    begun = start(problem.segmented_runs, problem.free_parameters)
-    found = False
-    astray = [
+    """Runs that were carried astray, from the states read off the data; the very same if none."""
+    astray = {
         run
         for run, segmented in enumerate(problem.segmented_runs)
-        if problem.misfit(run, residuals[run]) > _ASTRAY * segmented.segment_of_rows().size
+        if problem.misfit(run, fitted.residuals[run]) > _ASTRAY * segmented.segment_of_rows().size
+    }
+    if 2 * len(astray) > len(fitted.residuals):  # it is the model that is wrong
+        return fitted
+    alone = [fitted.of_run(run) for run in range(len(fitted.residuals))]
+    found = [
+        _found_again(problem.of_run(run), each, rounds) if run in astray else each
+        for run, each in enumerate(alone)
     ]
-    if 2 * len(astray) > len(residuals):  # it is the model that is wrong
+    if all(new is old for new, old in zip(found, alone, strict=True)):
         return fitted
-    for run in astray:
-        alone = problem.of_run(run)
-        waves = [j for j, free in enumerate(problem.own) if free.key.endswith("phase_deg")]
-        first = begun.own[run].copy()
-        first[waves] = own[run][waves]
-        point = Point(fitted.point.shared, (first,), (begun.states[run],))
-        again = fit(alone, point, 2 * rounds, fixed=True)
-        if again.residuals[0] @ again.residuals[0] < residuals[run] @ residuals[run]:
-            own[run], states[run] = again.point.own[0], again.point.states[0]
-            residuals[run], found = again.residuals[0], True
-    if not found:
-        return fitted
-    point = Point(fitted.point.shared, tuple(own), tuple(states))
-    return replace(fitted, point=point, residuals=tuple(residuals))
+    return Fitted.joined(found)
+
+
+def _found_again(problem: Problem, fitted: Fitted, rounds: int) -> Fitted:
+    """One run, from the states read off the data and with the phases that it has, if better."""
+    begun = start(problem.segmented_runs, problem.free_parameters)
+    waves = [j for j, free in enumerate(problem.own) if free.key.endswith("phase_deg")]
+    first = begun.own[0].copy()
+    first[waves] = fitted.point.own[0][waves]
+    point = Point(fitted.point.shared, (first,), begun.states)
+    again = fit(problem, point, 2 * rounds, fixed=True)
+    return again if again.cost < fitted.cost else fitted
 
 
 def _solved(model, problem, fitted, held_out, spreads: Spreads, steps: int) -> Settled:

@@ -11,55 +11,33 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from stickslip.effects.candidate import OFFSETS
 
-from cosim.gap.estimation.drive import FRICTION_OFFSET, SPEED_OFFSET
-from cosim.gap.estimation.fit import fit, with_columns
+from cosim.gap.estimation.drive import FRICTION_OFFSET
+from cosim.gap.estimation.fit import fit
 from cosim.gap.estimation.fitted import Fitted, Point
 from cosim.gap.estimation.initial_states import with_velocities
 from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.segments import FRICTION
 from cosim.gap.estimation.trial import Model
 
 from .products import LEAST, Spreads
-from .settled import Settled
+from .settled import Settled, as_meant
 
-#: Rounds of the runs' own numbers and of the states alone, then of all.
-_FOLLOW, _ROUNDS = 6, 6
+#: Rounds of the runs' own numbers and of the states alone.
+_FOLLOW = 6
 
 
 def tightened(model: Model, spreads: Spreads) -> Model:
     """The model with its runs' own numbers as far apart as these spreads say."""
-    widths = {
-        FRICTION_OFFSET: max(spreads.friction, LEAST.friction),
-        SPEED_OFFSET: spreads.speed,
-    }
-    zero = max(spreads.zero, LEAST.zero)
-    free_parameters = tuple(
-        replace(free, prior=widths.get(free.key, (free.prior or 1.0) * zero))
-        if free.key in widths or free.key in OFFSETS
-        else free
-        for free in model.free_parameters
+    felt = spreads._replace(
+        friction=max(spreads.friction, LEAST.friction), zero=max(spreads.zero, LEAST.zero)
     )
-    return replace(model, free_parameters=free_parameters)
+    return replace(model, free_parameters=as_meant(model.free_parameters, felt))
 
 
 def scattering(model: Model, spreads: Spreads) -> Model:
     """Tightened, with friction that differs from stretch to stretch of a run by these spreads."""
     return replace(tightened(model, spreads), local=(spreads.stretch, spreads.static))
-
-
-def tight_fit(
-    settled: Settled, segmented: Sequence[SegmentedRun], which: Sequence[int], rounds: int = _ROUNDS
-) -> tuple[Model, Fitted]:
-    """The model in short segments of some of its runs, from where it was settled."""
-    model = tightened(settled.model, settled.spreads)
-    problem = model.problem([segmented[i] for i in which])
-    fitted = followed(problem, tight_point(settled, problem, which))
-    if rounds:
-        fitted = fit(problem, fitted.point, rounds)
-    return model, with_columns(problem, fitted)
 
 
 def followed(problem: Problem, point: Point) -> Fitted:

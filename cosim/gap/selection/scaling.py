@@ -25,7 +25,13 @@ from scipy.stats import t as student
 from stickslip.effects.candidate import Candidate, FreeParameter
 
 from cosim.gap.data import MeasuredRun
-from cosim.gap.estimation.drive import FRICTION_OFFSET, REFERENCE, SCALING, strength_keys
+from cosim.gap.estimation.drive import (
+    FRICTION_OFFSET,
+    REFERENCE,
+    SCALING,
+    quantities_of,
+    strength_keys,
+)
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
 from cosim.gap.evidence.mixed import Deviations, MixedModel, RunProducts, eliminated
@@ -372,20 +378,14 @@ def _with_own(offsets: np.ndarray) -> np.ndarray:
 def _logarithms(runs: Sequence[MeasuredRun]) -> dict[str, np.ndarray]:
     """By quantity (runs,) ln (q / q_0), q_0 the geometric mean of the runs for fitting."""
     return {
-        name: np.log([_quantity(run, name) / _reference(runs, name) for run in runs])
+        name: np.log([quantities_of(run)[name] / _reference(runs, name) for run in runs])
         for name in QUANTITIES
     }
 
 
 def _reference(runs: Sequence[MeasuredRun], quantity: str) -> float:
-    values = [_quantity(run, quantity) for run in runs if not run.hold_out]
+    values = [quantities_of(run)[quantity] for run in runs if not run.hold_out]
     return float(np.exp(np.mean(np.log(values))))
-
-
-def _quantity(run: MeasuredRun, name: str) -> float:
-    """SI."""
-    values = {"mass": run.mass, "speed": abs(run.surface_speed), "stiffness": run.stiffness}
-    return values[name]
 
 
 def _same(a: np.ndarray, b: np.ndarray, fitted: Sequence[int]) -> bool:
