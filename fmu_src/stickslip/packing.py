@@ -26,12 +26,14 @@ from .kernel.layout import (
     P_CURVE_POINTS,
     P_FAST_SLIP,
     P_FEEDING,
+    P_FEW_POINTS,
     P_FREE_PHI,
     P_FREE_Y,
     P_INERTIA,
     P_INITIAL,
     P_LOCAL_LAW,
     P_LONGEST_STEP,
+    P_LONGEST_STICK,
     P_MASS,
     P_MU_K,
     P_MU_S,
@@ -65,6 +67,10 @@ from .tableau import flat_tableau
 GRAVITY = 9.81  # m/s^2
 # Of its excess, what friction may err by where bristles are left out: worth some 1e-7 m of the way.
 LAG = 1e-4
+
+# Rim speed over sliding speed up to which a few points of the disc tell how a law averages over it,
+# to 1e-9 of what it varies by; the error grows with the eighth power.
+FEW_POINTS = 0.07
 
 # where each parameter of the core stands, for those that enter the kernel as they are
 SLOTS = {
@@ -120,6 +126,7 @@ def pack(values: Mapping[str, float]) -> list[float]:
         p[P_ANCHOR + i] += departures.anchors[i]
     _set_curve(p, values)
     _set_scales(p, values)
+    p[P_FEW_POINTS] = FEW_POINTS
     p[P_QUADRATURE:P_TABLEAU] = quadrature_tables()
     tableau = flat_tableau()
     p[P_TABLEAU : P_TABLEAU + len(tableau)] = tableau
@@ -298,6 +305,7 @@ def _set_scales(p: list[float], values: Mapping[str, float]) -> None:
     fastest = with_fastest_rate(p, values, 0.0)
     if fastest > 0.0:
         p[P_LONGEST_STEP] = min(p[P_LONGEST_STEP], 0.5 / fastest)
+    p[P_LONGEST_STICK] = p[P_LONGEST_STEP]
 
 
 def quadrature_tables() -> list[float]:

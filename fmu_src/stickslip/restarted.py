@@ -7,52 +7,65 @@ contact, the distance slid, the place on the surface - goes on from the model's 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple, Self
 
 import numpy as np
 
-from .arrays import STATE, RunArrays, inputs
+from .arrays import RunArrays, inputs
 from .kernel.layout import (
-    BRISTLES,
-    HELD,
-    HOLD_SINCE,
     INSTANT,
     MODE,
     O_SIZE,
     P_MU_K,
     P_MU_S,
     P_MU_SCALE,
+    R_SIZE,
     SHOWN,
-    SLIP,
-    STICK,
     TRACKED,
     U_FORCE_X,
-    UNKNOWN,
-    Z_STARTED,
-    X,
 )
 
 #: An instant of the model's motion (see `kernel.layout`) -> external force along x, N.
 Force = Callable[[Sequence[float]], float]
 
 
-@dataclass(frozen=True)
-class Restart:
-    """One instant at which a run is set to a state.
+class Restarts(NamedTuple):
+    """Instants at which a run is set to states.
 
     Attributes
     ----------
-    row : number of the time at which it happens
-    state : (6,) x, y, phi (m, m, rad), vx, vy, omega (m/s, m/s, rad/s); NaN leaves the model's own
-    hold_since : when the stick began that the block is in, s: its velocity is then that of a stick;
-        NaN: not in stick
-    friction : mu_s and mu_k from there on, in parts of the model's own
+    rows : (k,) numbers of the times at which they happen, increasing; the first is 0
+    states : (k, 6) x, y, phi (m, m, rad), vx, vy, omega (m/s, m/s, rad/s); NaN leaves the model's
+        own
+    hold_since : (k,) when the stick began that the block is in, s: its velocity is then that of a
+        stick; NaN: not in stick
+    friction : (k, 2) mu_s and mu_k from there on, in parts of the model's own
     """
 
-    row: int
-    state: np.ndarray
-    hold_since: float = np.nan
-    friction: tuple[float, float] = (1.0, 1.0)
+    rows: np.ndarray
+    states: np.ndarray
+    hold_since: np.ndarray
+    friction: np.ndarray
+
+    @classmethod
+    def at(
+        cls,
+        rows: Sequence[int],
+        states: Sequence[np.ndarray],
+        hold_since: Sequence[float] | None = None,
+        friction: Sequence[Sequence[float]] | None = None,
+    ) -> Self:
+        """Not in stick, and with the model's own friction, if not said."""
+        count = len(rows)
+        since = np.full(count, np.nan) if hold_since is None else np.asarray(hold_since)
+        parts = np.ones((count, 2)) if friction is None else np.asarray(friction)
+        return cls(np.asarray(rows), np.asarray(states), since, parts)
+
+    def flat(self, p: np.ndarray) -> np.ndarray:
+        """(k R_SIZE,) as the kernel takes them, with the friction of ``p``."""
+        static, kinetic = self.friction.T
+        own = [static * p[P_MU_S], kinetic * p[P_MU_K], kinetic * p[P_MU_SCALE]]
+        return np.column_stack([self.rows, self.states, self.hold_since, *own]).ravel()
 
 
 def simulate_restarted(
@@ -60,20 +73,20 @@ def simulate_restarted(
     speed: float,
     temperature: float,
     times: np.ndarray,
-    restarts: Sequence[Restart],
+    restarts: Restarts,
     force: Force | None = None,
     aside: float = 0.0,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
     p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
-    The first restart is at row 0. Rows are NaN from where the model gave up to the next restart.
-    force : from the model's own state, constant from one time to the next: extrapolated to the
-    middle of the interval, so that the error is of second order in it. aside : constant external
-    force along y, N.
+    Rows are NaN from where the model gave up to the next restart. force : from the model's own
+    state, constant from one time to the next: extrapolated to the middle of the interval, so that
+    the error is of second order in it. aside : constant external force along y, N.
     """
     run = _begin(p, inputs(speed, temperature, aside=aside), times)
-    return _simulated(run, times, restarts, force, run.kernel.record, O_SIZE)
+    kernel = run.kernel
+    return _simulated(run, times, restarts, force, kernel.record_restarted, kernel.record, O_SIZE)
 
 
 def track_restarted(
@@ -81,13 +94,14 @@ def track_restarted(
     speed: float,
     temperature: float,
     times: np.ndarray,
-    restarts: Sequence[Restart],
+    restarts: Restarts,
     force: Force | None = None,
     aside: float = 0.0,
 ) -> np.ndarray:
     """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
     run = _begin(p, inputs(speed, temperature, aside=aside), times)
-    return _simulated(run, times, restarts, force, run.kernel.track, TRACKED)
+    kernel = run.kernel
+    return _simulated(run, times, restarts, force, kernel.track_restarted, kernel.track, TRACKED)
 
 
 def _begin(p: Sequence[float], u: np.ndarray, times: np.ndarray) -> RunArrays:
@@ -97,22 +111,22 @@ def _begin(p: Sequence[float], u: np.ndarray, times: np.ndarray) -> RunArrays:
 def _simulated(
     run: RunArrays,
     times: np.ndarray,
-    restarts: Sequence[Restart],
+    restarts: Restarts,
     force: Force | None,
+    restarted: Callable[..., None],
     record: Callable[..., int],
     width: int,
 ) -> np.ndarray:
-    """Rows (n, width) as ``record`` of the kernel writes them."""
+    """Rows (n, width) as ``restarted`` of the kernel writes them, or ``record`` under a force."""
     times = np.ascontiguousarray(times, dtype=float)
-    o = np.full(width * len(times), np.nan)
-    ends = [restart.row for restart in restarts[1:]] + [len(times)]
-    whole = run.p[P_MU_S], run.p[P_MU_K], run.p[P_MU_SCALE]
-    for restart, end in zip(restarts, ends, strict=True):
-        _set(run, times[restart.row], restart, whole)
-        if force is None:
-            record(*run.all, times, o, restart.row, end - restart.row)
-        else:
-            _record_forced(run, record, times, o, (restart.row, end), force)
+    o, r = np.full(width * len(times), np.nan), restarts.flat(run.p)
+    if force is None:
+        restarted(*run.all, times, o, len(times), r, len(restarts.rows))
+        return o.reshape(-1, width)
+    ends = [*restarts.rows[1:].tolist(), len(times)]
+    for number, rows in enumerate(zip(restarts.rows.tolist(), ends, strict=True)):
+        run.kernel.restart(*run.all, times, r, number * R_SIZE)
+        _record_forced(run, record, times, o, rows, force)
     return o.reshape(-1, width)
 
 
@@ -136,30 +150,3 @@ def _record_forced(
             run.u[U_FORCE_X] += 0.5 * growth * (times[row + 1] - times[row])
         before, mode = now, instant[MODE]
     run.u[U_FORCE_X] = 0.0
-
-
-def _set(run: RunArrays, time: float, restart: Restart, whole: tuple[float, float, float]) -> None:
-    """Reach the instant by the model's own motion, then set the state and settle the contact.
-
-    whole : mu_s, mu_k and what multiplies mu_k in slip, as the model has them
-    """
-    z, past = run.z, run.z[Z_STARTED]
-    if past:
-        run.advance(time)
-    static, kinetic = restart.friction
-    run.p[P_MU_S], run.p[P_MU_K] = static * whole[0], kinetic * whole[1]
-    run.p[P_MU_SCALE] = kinetic * whole[2]  # what slip takes, of mu_k or of a table of it
-    z[SHOWN] = time
-    given = np.isfinite(restart.state)
-    z[SHOWN + X : SHOWN + X + 6][given] = restart.state[given]
-    if given.any():  # the shear of the contact belongs to what it was set to
-        z[SHOWN + BRISTLES] = UNKNOWN
-    if np.isfinite(
-        restart.hold_since
-    ):  # a stick's velocity is the surface's; it preslides from there
-        z[SHOWN + MODE], z[SHOWN + HOLD_SINCE] = STICK, restart.hold_since
-        z[SHOWN + BRISTLES] = HELD
-        run.follow_surface()
-    elif past and given[STATE.index("vx")]:  # how the model moved before must not decide
-        z[SHOWN + MODE] = SLIP
-    run.settle(time)

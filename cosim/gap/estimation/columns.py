@@ -14,6 +14,8 @@ import numpy as np
 
 #: Steps of a segment's state that are as unlikely as a residual of one.
 _FAR = 50.0
+#: Numbers that the motion answers to alike but for this share their step.
+_ALIKE = 1e-12
 #: Longest step of what belongs to one run, in steps of a free parameter: the motion may hardly
 #: feel it.
 _LONGEST_OWN = 1.0
@@ -76,4 +78,6 @@ class Columns:
 def _damped(columns: np.ndarray, rest: np.ndarray) -> np.ndarray:
     """Step of a segment's state; in what the motion hardly feels it stays short."""
     square = columns.T @ columns + np.eye(columns.shape[1]) / _FAR**2
-    return -np.linalg.solve(square, columns.T @ rest)
+    scale = np.sqrt(np.diag(square))
+    even = square / np.outer(scale, scale) + _ALIKE * np.eye(scale.size)
+    return -np.linalg.solve(even, columns.T @ rest / scale) / scale

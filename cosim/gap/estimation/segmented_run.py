@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
+from stickslip.effects import EFFECTS
 from stickslip.kernel import layout
 from stickslip.packing import GRAVITY, pack
-from stickslip.restarted import Force, Restart, simulate_restarted, track_restarted
+from stickslip.restarted import Force, Restarts, simulate_restarted, track_restarted
 
 from cosim.gap.camera.camera import Camera
 from cosim.gap.camera.exposure import Exposure
@@ -35,14 +36,31 @@ TILT = "offset.tilt"
 TOLERANCE = 1e-6
 #: Friction that is another by a larger factor than e to this is none of the run's.
 _ENOUGH = 3.0
+#: Rim speed over sliding speed up to which a few points of a disc do for a fit: to 1e-2 of a
+#: tracker's noise.
+_FEW_POINTS = 1.0
 #: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
 _LONGER = 2.0
+#: In stick, of a surface that is even and steady: the load only grows, and no break-away is missed.
+_LONGER_STICK = 20.0
+#: What makes a surface uneven or unsteady, where it is not 0.
+_UNEVEN = tuple(
+    f"{effect.id}.{name}"
+    for effect in EFFECTS
+    if effect.enters == "surface" or effect.axis == "place"
+    for name in effect.switch
+)
 
 
-def _friction(state: np.ndarray) -> tuple[float, float]:
-    """mu_s and mu_k of a segment, in parts of the run's."""
-    both, static = np.clip(state[list(FRICTION)], -_ENOUGH, _ENOUGH)
-    return math.exp(both + static), math.exp(both)
+def _is_uneven(values: Mapping[str, float]) -> bool:
+    """Whether the load of a stick may fall again."""
+    return any(values.get(key, 0.0) != 0.0 for key in _UNEVEN)
+
+
+def _friction(states: np.ndarray) -> np.ndarray:
+    """(segments, 2) mu_s and mu_k of segments, in parts of the run's."""
+    both, static = np.clip(states[:, FRICTION], -_ENOUGH, _ENOUGH).T
+    return np.exp([both + static, both]).T
 
 
 @dataclass(frozen=True)
@@ -82,6 +100,16 @@ class SegmentedRun:
         mass, stiffness = self.known["rig.mass"], self.known["springs.stiffness"]
         return {"mass": mass, "speed": abs(self.speed), "stiffness": stiffness}
 
+    @cached_property
+    def firsts(self) -> np.ndarray:
+        """(segments,) rows at which they begin."""
+        return np.array([segment.first for segment in self.segments])
+
+    @cached_property
+    def holds_since(self) -> np.ndarray:
+        """(segments,) when the stick began that each begins in, s; NaN where it begins in slip."""
+        return np.array([segment.hold_since for segment in self.segments])
+
     @property
     def starts(self) -> np.ndarray:
         """(segments, 8) first guesses of the segments' states."""
@@ -120,21 +148,16 @@ class SegmentedRun:
         self, simulate, values: Mapping[str, float], states: np.ndarray, exposure: Exposure
     ) -> np.ndarray:
         """The block's own motion at the moments of an exposure; states are as written."""
-        first = np.array([segment.first for segment in self.segments])
-        since = np.array([segment.hold_since for segment in self.segments])
+        first, since = self.firsts, self.holds_since
         rows, clock = exposure.rows[first], exposure.camera.clock
         speed = driven_speed(self.speed, values)
         true = exposure.true_states(states[:, :6], first, speed)
         holds = exposure.moments[rows] - (self.time[first] - since) / clock
-        friction = [_friction(state) for state in states]
-        restarts = list(map(Restart, rows.tolist(), true[:, :6], holds.tolist(), friction))
+        restarts = Restarts(rows, true[:, :6], holds, _friction(states))
         return self._run(simulate, values, exposure.moments, restarts)
 
     def _simulated(self, simulate, values: Mapping[str, float], states: np.ndarray) -> np.ndarray:
-        restarts = [
-            Restart(segment.first, state[:6], segment.hold_since, _friction(state))
-            for segment, state in zip(self.segments, states, strict=True)
-        ]
+        restarts = Restarts(self.firsts, states[:, :6], self.holds_since, _friction(states))
         return self._run(simulate, values, self.time, restarts)
 
     def _run(
@@ -142,7 +165,7 @@ class SegmentedRun:
         simulate,
         values: Mapping[str, float],
         times: np.ndarray,
-        restarts: Sequence[Restart],
+        restarts: Restarts,
     ) -> np.ndarray:
         """Rows of ``simulate`` at times (m,), s, with these parameters."""
         values = with_strengths_scaled(values, self.quantities)
@@ -152,7 +175,9 @@ class SegmentedRun:
         flat.pop(SPEED_OFFSET, None)
         aside = flat.pop(TILT, 0.0) * flat["rig.mass"] * GRAVITY
         p = np.array(pack(flat))
+        p[layout.P_FEW_POINTS] = _FEW_POINTS
         p[layout.P_LONGEST_STEP] *= _LONGER
+        p[layout.P_LONGEST_STICK] *= _LONGER if _is_uneven(flat) else _LONGER_STICK
         return simulate(p, speed, self.temperature, times, restarts, self.force(values), aside)
 
     def residuals(self, places: np.ndarray, offsets: Mapping[str, float]) -> np.ndarray:

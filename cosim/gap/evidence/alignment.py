@@ -65,8 +65,14 @@ def aligned(
     runs: Sequence[MeasuredRun],
     model: Model,
     mapped: Map = map_here,
+    springs: float | None = None,
 ) -> tuple[Problem, Fitted]:
-    """The problem with loose numbers and its fit, derivatives included."""
+    """The problem with loose numbers and its fit, derivatives included.
+
+    springs : NEAR or FAR; where neither is said, whichever fits
+    """
+    if springs is not None:
+        return _aligned(segmented, runs, model, springs, springs == FAR, mapped)
     near = _aligned(segmented, runs, model, NEAR, False, mapped)
     if near[1].rms_residual() < _NEAR_ENOUGH:
         return near

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import lsq_linear
@@ -92,6 +93,7 @@ class MixedModel:
 
     def __init__(self, runs: Sequence[RunProducts], shared: np.ndarray, laws: Sequence[str]):
         self.runs, self.shared, self.laws = tuple(runs), shared, tuple(laws)
+        self._of_random: dict[bytes, _Random] = {}
 
     def only(self, number: int) -> MixedModel:
         """The same with one law alone."""
@@ -101,8 +103,19 @@ class MixedModel:
         return MixedModel(runs, self.shared, [self.laws[number]])
 
     def forms(self, deviations: Deviations) -> list[RunForm]:
-        """Of every run, in all shared numbers and all laws at once."""
-        return [run_form(run, deviations) for run in self.runs]
+        """Of every run, in all shared numbers and all laws at once.
+
+        Segment states and what is the run's own are integrated over.
+        """
+        random = np.isfinite(deviations.states)
+        if random.tobytes() not in self._of_random:  # the same for all spreads that are tried
+            self._of_random[random.tobytes()] = _random(self.runs, random)
+        left, widths = self._of_random[random.tobytes()], deviations.states[random]
+        rest, cost = eliminated(left.forms, widths, left.at, widths.size, left.inner)
+        rest, cost = (np.add.reduceat(each, left.first, axis=0) for each in (rest, cost))
+        own = np.array([run.own for run in self.runs])
+        forms, more = eliminated(rest, deviations.own, own, own.shape[1])
+        return [RunForm(*each) for each in zip(forms, (cost + more).tolist(), strict=True)]
 
     def solved(
         self,
@@ -186,21 +199,50 @@ def _evidence(form: np.ndarray, at: np.ndarray) -> float:
     return float(z @ form @ z + size)
 
 
-def run_form(run: RunProducts, deviations: Deviations) -> RunForm:
-    """Segment states and what is the run's own, integrated over."""
-    count = run.states.shape[1]
-    rest, cost = eliminated(run.grams, deviations.states, run.states, count)
-    form, more = eliminated(rest.sum(axis=0)[None], deviations.own, run.own[None], run.own.size)
-    return RunForm(form[0], float(cost.sum() + more[0]))
+class _Random(NamedTuple):
+    """All segments, those numbers of their states eliminated that may be anything.
+
+    Attributes
+    ----------
+    forms : (s, n, n) of what is left, the states' other numbers (r of them) first
+    at : (s, r) where those stand
+    inner : (s, r, r) their products as they were before
+    first : (runs,) number of the first segment of each
+    """
+
+    forms: np.ndarray
+    at: np.ndarray
+    inner: np.ndarray
+    first: np.ndarray
+
+
+def _random(runs: Sequence[RunProducts], random: np.ndarray) -> _Random:
+    """random : (m,) which numbers of a state have a stated standard deviation"""
+    grams = np.concatenate([run.grams for run in runs])
+    at = np.concatenate([run.states for run in runs])
+    (flat,), (stays,) = np.nonzero(~random), np.nonzero(random)
+    order = [*flat, *stays, *range(random.size, grams.shape[1])]
+    inner = grams[:, stays][:, :, stays]
+    grams = grams[:, order][:, :, order]
+    anything = np.full(flat.size, np.inf)
+    forms, _ = eliminated(grams, anything, np.zeros((len(grams), flat.size)), flat.size)
+    first = np.cumsum([0, *(len(run.grams) for run in runs[:-1])])
+    return _Random(forms, at[:, stays], inner, first)
 
 
 def eliminated(
-    forms: np.ndarray, widths: np.ndarray, at: np.ndarray, count: int
+    forms: np.ndarray,
+    widths: np.ndarray,
+    at: np.ndarray,
+    count: int,
+    inner: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Forms (b, n, n) without their first numbers, and (b,) what integrating over them costs.
 
     widths : (count,) standard deviations about centres from which the numbers stand ``at``
-    (b, count); inf: flat, and then without a cost. The cost is the logarithm of a determinant.
+    (b, count); inf: flat, and then without a cost. The cost is the logarithm of a determinant:
+    of ``inner`` (b, count, count), which may be other than the forms say, where flat numbers were
+    eliminated before.
     """
     random = np.isfinite(widths)
     first = forms[:, :count, :count].copy()
@@ -209,8 +251,9 @@ def eliminated(
     cost = np.zeros(len(forms))
     if random.any():
         scaled = widths[random]
-        inner = first[:, random][:, :, random] * scaled[:, None] * scaled
-        cost = np.linalg.slogdet(np.eye(scaled.size) + inner)[1]
+        products = (first if inner is None else inner)[:, random][:, :, random]
+        products = products * scaled[:, None] * scaled
+        cost = np.linalg.slogdet(np.eye(scaled.size) + products)[1]
     weights = np.where(random, 1.0 / widths**2, 0.0)
     first[:, range(count), range(count)] += weights
     cross[:, :, -1] += weights * at

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from stickslip.effects import EFFECTS
 from stickslip.effects.candidate import OFFSETS, Candidate, FreeParameter
 
 from cosim.gap.estimation.drive import FRICTION_OFFSET, SPEED_OFFSET, SPRINGS_OFFSET
@@ -24,6 +25,8 @@ SHAPE, STRENGTH = 4.0, 20.0
 #: A wave's phase may be anything, degrees: as wide as a normal one of the same density at its
 #: middle.
 _CIRCLE = 360.0 / np.sqrt(2.0 * np.pi)
+#: Effects that are the friction of a run, which has one load.
+_OF_THE_LOAD = {effect.id for effect in EFFECTS if effect.axis == "load"}
 #: Longest step of a shape: what answers to it changes with it.
 LONGEST = 2.5
 
@@ -73,6 +76,10 @@ def run_products(
     at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
     residuals = fitted.residuals[run][:rows]
     responses = [law_response(problem, run, law, at)[:rows] - residuals for law in laws]
+    friction = [free.key for free in problem.own].index(FRICTION_OFFSET)
+    for number, law in enumerate(laws):
+        if law.effect in _OF_THE_LOAD:
+            responses[number] = _along(columns.own[:rows, friction], responses[number])
     own, states = columns.own[:rows], at[2] / STATE_STEP
     stacked = np.column_stack([own, columns.shared[:rows], *responses, residuals])
     grams = []
@@ -86,6 +93,15 @@ def run_products(
     centred = states.copy()
     centred[:, [i for i in range(STATES) if i not in FRICTION]] = 0.0
     return RunProducts(np.array(grams), centred, at[1], held_out)
+
+
+def _along(column: np.ndarray, response: np.ndarray) -> np.ndarray:
+    """The part of a response that goes with a column.
+
+    What the load does to friction is the same all along a run: two differences of the same thing,
+    each with errors of its own, would not cancel.
+    """
+    return column * float(response @ column) / max(float(column @ column), 1e-300)
 
 
 def law_response(problem: Problem, run: int, law: Candidate, at) -> np.ndarray:

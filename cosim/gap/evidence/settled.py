@@ -49,6 +49,8 @@ _WAVES = 6
 _POOR, _LEADS_ON = 2.0, 0.1
 #: A run is astray that leaves so much a sample.
 _ASTRAY = 1.1
+#: A model gains by further turns at most so many times what a linear one would.
+REACH = 3.0
 #: A turn that gains less leads nowhere.
 _ENOUGH = 0.3
 
@@ -64,6 +66,8 @@ class Settled:
     mixed, solution, spreads : that model, its solution, spreads of friction
     promised : -2 ln likelihood of the runs for fitting, with what is usual of spreads, at the
         solution, as far as all is linear
+    deviance : the same where the model stands, with the spreads that are likeliest there: what is
+        promised far away need not be kept
     loose : the same model laid loosely along the data, if it began there
     """
 
@@ -74,12 +78,8 @@ class Settled:
     solution: Solution
     spreads: Spreads
     promised: float
+    deviance: float
     loose: Settled | None = None
-
-    @property
-    def deviance(self) -> float:
-        """The same where the model stands: what is promised far away need not be kept."""
-        return self.promised + self.solution.here - self.solution.deviance
 
     @property
     def left_out(self) -> np.ndarray:
@@ -101,6 +101,17 @@ class Settled:
     def promise(self) -> float:
         """The evidence, were all linear: of a model that is on its way."""
         return self.evidence + self.promised - self.deviance
+
+    @property
+    def springs(self) -> float:
+        """How far a run's springs may be off: NEAR or FAR, unless they are held."""
+        said = next(free.prior for free in self.problem.own if free.key == SPRINGS_OFFSET)
+        return said or NEAR
+
+    @property
+    def reach(self) -> float:
+        """The least -2 ln evidence that it may be expected to come to: all is but nearly linear."""
+        return self.evidence - REACH * (self.evidence - self.promise)
 
     @property
     def values(self) -> dict[str, float]:
@@ -135,18 +146,18 @@ def settled(
     before: Settled | None = None,
     turns: int = TURNS,
     mapped: Map = map_here,
+    springs: float | None = None,
 ) -> Settled:
     """The model at its best, from where a simpler one was left or from the balance of forces.
 
-    mapped : over runs
+    mapped : over runs; springs : from the balance of forces, see `aligned`
     """
     held_out = [run.hold_out for run in runs]
     if before is None:
-        problem, fitted = aligned(segmented, runs, model, mapped)
+        problem, fitted = aligned(segmented, runs, model, mapped, springs)
         spreads = Spreads()
     else:
-        springs = next(free.prior for free in before.problem.own if free.key == SPRINGS_OFFSET)
-        free_parameters = loosened(model.free_parameters, springs or NEAR)
+        free_parameters = loosened(model.free_parameters, before.springs)
         problem = Problem(segmented, free_parameters, model.settings, LOOSELY)
         point = _carried(problem, before)
         new = {free.key for free in problem.own} - {free.key for free in before.problem.own}
@@ -176,15 +187,17 @@ def _loosely(best: Settled, turns: int, mapped: Map) -> Settled:
     return best
 
 
-def carried_on(best: Settled, turns: int = TURNS, mapped: Map = map_here) -> Settled:
-    """A model on its way, so many turns further.
+def carried_on(
+    best: Settled, turns: int = TURNS, mapped: Map = map_here, beyond: float = np.inf
+) -> Settled:
+    """A model on its way, so many turns further, unless it stays ``beyond`` (see `ended`).
 
     A turn that holds what is a run's own as its spreads say ends where the mixed model is taken
     about its own mode; where the model is wrong that leads nowhere, and one by loose numbers does.
     """
     ways = list(_WAYS)
     for _ in range(turns):
-        if best.deviance - best.promised < _ENOUGH:  # no step leads on
+        if best.deviance - best.promised < _ENOUGH or best.reach > beyond:  # no step leads on
             break
         now = _turned(best, best.spreads, *ways[0], mapped)
         gained = best.evidence - now.evidence
@@ -196,9 +209,14 @@ def carried_on(best: Settled, turns: int = TURNS, mapped: Map = map_here) -> Set
     return best
 
 
-def ended(best: Settled, mapped: Map = map_here) -> Settled:
-    """A model on its way, carried on to its end."""
-    return carried_on(repeatable(best, mapped), _MOST_TURNS, mapped)
+def ended(best: Settled, mapped: Map = map_here, beyond: float = np.inf) -> Settled:
+    """A model on its way, carried on to its end.
+
+    beyond : -2 ln evidence; a model that cannot be expected to come so low is left as it is
+    """
+    if best.reach > beyond:
+        return best
+    return carried_on(repeatable(best, mapped), _MOST_TURNS, mapped, beyond)
 
 
 def repeatable(best: Settled, mapped: Map = map_here) -> Settled:
@@ -338,10 +356,14 @@ def _found_again(problem: Problem, fitted: Fitted, rounds: int) -> Fitted:
 def _solved(model, problem, fitted, held_out, spreads: Spreads, steps: int) -> Settled:
     mixed = mixed_model(problem, fitted, (), held_out, map_here)
     tight = model.free_parameters
-    found, deviance = best_spreads(mixed, problem, fitted, tight, spreads, steps=steps)
+    found, promised = best_spreads(mixed, problem, fitted, tight, spreads, steps=steps)
     wide = deviations(problem, fitted, tight, found)
     solution = mixed.solved(mixed.forms(wide), wide)
-    return Settled(model, problem, fitted, mixed, solution, found, deviance)
+    deviance = promised + solution.here - solution.deviance
+    if deviance - promised > _ENOUGH:  # other spreads may be likelier here
+        there = best_spreads(mixed, problem, fitted, tight, found, steps=steps, here=True)[1]
+        deviance = min(deviance, there)
+    return Settled(model, problem, fitted, mixed, solution, found, promised, deviance)
 
 
 def best_spreads(
@@ -352,15 +374,19 @@ def best_spreads(
     start: Spreads,
     laws: Sequence[Law] = (),
     steps: int = STEPS,
+    here: bool = False,
 ) -> tuple[Spreads, float]:
-    """Spreads of largest likelihood, half normal about none, and -2 ln of it."""
+    """Spreads of largest likelihood, half normal about none, and -2 ln of it.
+
+    here : of the model where it stands, and not at the solution
+    """
     usual = np.array(USUAL)
 
     def deviance(logarithms: np.ndarray) -> float:
         spreads = np.exp(logarithms)
         wide = deviations(problem, fitted, tight, Spreads(*spreads))
-        found = mixed.solved(mixed.forms(wide), wide, laws, predict=False).deviance
-        return found + float(np.sum((spreads / usual) ** 2))
+        found = mixed.solved(mixed.forms(wide), wide, laws, predict=False)
+        return (found.here if here else found.deviance) + float(np.sum((spreads / usual) ** 2))
 
     low, high = np.log(np.array(LEAST)), np.log(np.array(MOST))
     first = np.clip(np.log(np.array(start)), low + 0.3, high)

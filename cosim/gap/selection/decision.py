@@ -12,12 +12,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
 from scipy import stats
 
 from cosim.gap.estimation.drive import STIFFNESS_OFFSET
 from cosim.gap.evidence.settled import Settled
 
-from .tried import Tried, best_of_effects, gain
+from .tried import Tried, best_of_effects, by_run, gain
 
 #: Stated error rate of every decision.
 LEVEL = 0.05
@@ -52,6 +53,13 @@ def resolved(settled: Settled, base: Settled) -> float:
     """
     shape = max(base.squares - settled.squares, 0.0)
     return gain(settled, base) - min(shape, unresolved(base))
+
+
+def is_at_large(settled: Settled, base: Settled) -> bool:
+    """Whether runs are predicted better by more than the error of that, run by run."""
+    gains = by_run(settled, base)
+    error = float(np.std(gains, ddof=1)) * math.sqrt(gains.size) if gains.size > 1 else 0.0
+    return bool(gains.sum() > error)
 
 
 def is_there(tried: Tried) -> bool:

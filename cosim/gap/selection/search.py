@@ -14,10 +14,10 @@ from cosim.gap.candidates.extend import extended
 from cosim.gap.data import MeasuredRun
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
-from cosim.gap.evidence.settled import TURNS, Settled, ended, settled
-from cosim.processes import Map
+from cosim.gap.evidence.settled import REACH, TURNS, Settled, ended, settled
+from cosim.processes import Map, map_here
 
-from .decision import implausible, is_noise
+from .decision import implausible, is_noise, needed
 from .scaling import better_rescaled
 from .screening import faint, screened
 from .tried import Tried, gain
@@ -33,9 +33,16 @@ FIRST, FINISHED, NEARLY = 2, 4, 0.5
 ALIKE = 0.8
 #: A law that takes more of the misfit is not looked for from the balance of forces again.
 MOST_OF_IT = 0.9
+#: Root mean square residual, in units of the noise, of a model that lies along the data, and of
+#: one that leaves hardly anything.
+ALONG, ALMOST = 1.5, 1.05
 #: So many laws set out anew where nothing repairs a model, and so many effects' strengths may then
 #: go with mass, speed or stiffness.
 ANEW = 2
+
+
+#: Of a law, as pairs.
+Settings = tuple[tuple[str, float], ...]
 
 
 class Search:
@@ -51,6 +58,7 @@ class Search:
         self.segmented, self.runs, self.mapped = tuple(segmented), tuple(runs), mapped
         self.held_out = [run.hold_out for run in runs]
         self.progress = progress or (lambda count: None)
+        self.ruled_out: set[Settings] = set()  # what laws set that no motion was found to go with
 
     def plain(self, model: Model) -> Settled:
         """The plain model at its best."""
@@ -58,20 +66,22 @@ class Search:
         return best
 
     def on(
-        self, base: Settled, laws: Sequence[Candidate], most: int
+        self, base: Settled, laws: Sequence[Candidate], most: int, beyond: float
     ) -> tuple[Settled, list[Tried]]:
         """Every law on top of a base, the best of them settled, best first; and the base.
 
         The base without the best law may be better than it was: then it was not at its best.
+        beyond : -2 ln evidence; what cannot be expected to come below is not carried to its end
         """
         ranked, starts = self._screened(base, laws)
-        chosen = self._chosen(ranked, most)
+        linear = base.rms_residual < ALMOST  # what algebra promises is then nearly what comes
+        chosen = self._chosen(ranked, most, (base.evidence - beyond) / REACH if linear else 0.0)
         tasks = [(extended(starts[id(t)].model, _start(t), {}), starts[id(t)]) for t in chosen]
         started = self._settled(tasks, FIRST)
         best = [
             replace(t, settled=s, gain=gain(s, base)) for t, s in zip(chosen, started, strict=True)
         ]
-        best = self._finished(sorted(best, key=lambda t: t.model.promise), base)
+        best = self._finished(sorted(best, key=lambda t: t.model.promise), base, beyond)
         rest = [t for t in ranked if t not in chosen]
         ruled_out = [t for t in rest if t.settled is None]
         found = [*best, *(t for t in rest if t.settled)]
@@ -131,7 +141,7 @@ class Search:
     def _without(self, base: Settled, found: Sequence[Tried]) -> Settled:
         """The base, or what it is when it sets out from the best law's model."""
         best = max(found, key=lambda t: t.gain, default=None)
-        if best is None or best.gain <= 0.0 or best.model.model.settings != base.model.settings:
+        if best is None or best.gain <= 0.0:
             return base
         (again,) = self._settled([(base.model, best.model)], FIRST)
         if again.promise >= base.evidence:
@@ -140,16 +150,19 @@ class Search:
             (again,) = self._ended([again])
         return min(base, again, key=lambda each: each.evidence)
 
-    def _finished(self, tried: Sequence[Tried], base: Settled) -> list[Tried]:
+    def _finished(self, tried: Sequence[Tried], base: Settled, beyond: float) -> list[Tried]:
         """The best few carried on to their end, or from the balance of forces if that is better."""
         promised = [base.evidence - t.model.promise for t in tried]
         least = NEARLY * max(promised, default=0.0)
-        few = [t for t, p in zip(tried, promised, strict=True) if p >= least][:FINISHED]
-        done = self._ended([t.model for t in few[:ANEW]])
+        few = [
+            t for t, p in zip(tried, promised, strict=True) if p >= least and t.model.reach < beyond
+        ][:FINISHED]
+        done = self._ended([t.model for t in few[:1]])
         if any(is_noise(each) for each in done):
-            least = ALIKE * max(gain(each, base) for each in done)
+            least = ALIKE * gain(done[0], base)
             few = [t for i, t in enumerate(few) if i < ANEW or promised[i] >= least]
-        done += self._ended([t.model for t in few[len(done) :]])
+        beyond = min([beyond, *(each.evidence + needed(1) for each in done)])
+        done += self._ended([t.model for t in few[1:]], beyond)
         if few and not any(is_noise(each) for each in (base, *done)):
             done = self._repaired(base, few, done)
         best = [replace(t, settled=s, gain=gain(s, base)) for t, s in zip(few, done, strict=True)]
@@ -166,7 +179,6 @@ class Search:
         scaled = list(self.mapped(better_rescaled, calls))
         first = order[:ANEW] if _may_be_lost(done[order[0]], base) else []
         fresh = self._settled([(self._anew(base, few[i].candidate, done[i]), None) for i in first])
-        fresh = self._ended(fresh)
         for number, other in [*zip(best, scaled, strict=True), *zip(first, fresh, strict=True)]:
             done[number] = min(done[number], other, key=lambda each: each.evidence)
         return done
@@ -186,16 +198,26 @@ class Search:
         return extended(plain, replace(candidate, free_parameters=own), {})
 
     def _bases(self, base: Settled, laws: Sequence[Candidate]):
-        """By what laws set that changes the motion even without them: a base, and its gain."""
-        kinds = dict.fromkeys([(), *(_brings(base, law) for law in laws if not law.periodic)])
+        """By what laws set that changes the motion even without them: a base, and its gain.
+
+        What is not near a base that is poor may still be found from the balance of forces; where
+        the base lies along the data, it is ruled out.
+        """
+        brought = dict.fromkeys(_brings(base, law) for law in laws if not law.periodic)
+        kinds = [kind for kind in brought if kind and kind not in self.ruled_out]
         models = [
-            replace(base.model, settings={**base.model.settings, **dict(kind)})
-            for kind in kinds
-            if kind
+            replace(base.model, settings={**base.model.settings, **dict(kind)}) for kind in kinds
         ]
-        near = base if is_noise(base) else None  # where nothing is left, nothing else is far away
-        others = iter(self._settled([(model, near) for model in models], FIRST))
-        found = {kind: base if kind == () else next(others) for kind in kinds}
+        near = self._settled([(model, base) for model in models], FIRST)
+        lost = [i for i, each in enumerate(near) if each.rms_residual > ALONG]
+        if base.rms_residual > ALONG:
+            springs = (base.loose or base).springs
+            fresh = self._settled([(models[i], None) for i in lost], springs=springs)
+            for i, each in zip(lost, fresh, strict=True):
+                near[i] = min(near[i], each, key=lambda one: one.promise)
+        else:
+            self.ruled_out.update(kinds[i] for i in lost)
+        found = {(): base, **dict(zip(kinds, near, strict=True))}
         return {kind: (each, gain(each, base)) for kind, each in found.items()}
 
     def _waves(self, base: Settled, laws: Sequence[Candidate]) -> list[Candidate]:
@@ -206,10 +228,11 @@ class Search:
         model = Model(problem.free_parameters, problem.settings, local=problem.local)
         return waves(model, near.fitted, self.segmented, laws, self.mapped)
 
-    def _chosen(self, ranked: Sequence[Tried], most: int) -> list[Tried]:
+    def _chosen(self, ranked: Sequence[Tried], most: int, least: float) -> list[Tried]:
+        """Those that promise the most, and at least so much."""
         counts: dict[str, int] = {}
         chosen: list[Tried] = []
-        least = FAINTLY * max((t.gain for t in ranked), default=0.0)
+        least = max(least, FAINTLY * max((t.gain for t in ranked), default=0.0))
         for each in ranked:
             if each.settled is not None or each.gain <= max(least, 0.0):  # evidence is against it
                 continue
@@ -220,21 +243,22 @@ class Search:
                 chosen.append(each)
         return chosen
 
-    def _ended(self, models: Sequence[Settled]) -> list[Settled]:
-        """Some models carried on to their end."""
+    def _ended(self, models: Sequence[Settled], beyond: float = math.inf) -> list[Settled]:
+        """Some models carried on to their end, unless they stay ``beyond``."""
         if len(models) == 1:  # over runs then
-            return [ended(models[0], self.mapped)]
-        return list(self.mapped(ended, [(each,) for each in models]))
+            return [ended(models[0], self.mapped, beyond)]
+        return list(self.mapped(ended, [(each, map_here, beyond) for each in models]))
 
     def _settled(
-        self, tasks: Sequence[tuple[Model, Settled | None]], turns: int = TURNS
+        self,
+        tasks: Sequence[tuple[Model, Settled | None]],
+        turns: int = TURNS,
+        springs: float | None = None,
     ) -> list[Settled]:
-        calls = [(self.segmented, self.runs, model, before, turns) for model, before in tasks]
-        if len(calls) == 1:  # over runs then
-            self.progress(1)
-            return [settled(*calls[0], self.mapped)]
+        mapped = self.mapped if len(tasks) == 1 else map_here  # one alone: over its runs
+        calls = [(self.segmented, self.runs, *task, turns, mapped, springs) for task in tasks]
         results = []
-        for result in self.mapped(settled, calls):
+        for result in map_here(settled, calls) if len(tasks) == 1 else self.mapped(settled, calls):
             results.append(result)
             self.progress(1)
         return results
@@ -246,9 +270,13 @@ def _start(tried: Tried) -> Candidate:
 
 
 def _may_be_lost(best: Settled, base: Settled) -> bool:
-    """Whether a law that was settled from a simpler model may have more to it than was found."""
+    """Whether a law that was settled from a simpler model may have more to it than was found.
+
+    About a model that lies along the data everything answers linearly, and nothing is lost.
+    """
     misfit = base.evidence - base.rows
-    return bool(implausible(best)) or gain(best, base) < MOST_OF_IT * misfit
+    some = base.rms_residual > ALONG and gain(best, base) < MOST_OF_IT * misfit
+    return bool(implausible(best)) or some
 
 
 def _not_faint(found: float, free: FreeParameter) -> float:
@@ -259,7 +287,7 @@ def _not_faint(found: float, free: FreeParameter) -> float:
     return math.copysign(usual, found or free.start)
 
 
-def _brings(base: Settled, law: Candidate) -> tuple[tuple[str, float], ...]:
+def _brings(base: Settled, law: Candidate) -> Settings:
     """What a law sets that changes the motion even where there is next to nothing else of it."""
     new = law.settings.items() - base.model.settings.items()
     return tuple((key, value) for key, value in new if key in ACROSS)

@@ -9,17 +9,28 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from stickslip.effects.candidate import Candidate
+from stickslip.effects.candidate import Candidate, FreeParameter
 
 from cosim.gap.estimation.trial import Model
 from cosim.gap.evidence.settled import Settled
 
-from .decision import LAW, implausible, is_left, is_noise, members_of, needed, resolved
+from .decision import (
+    LAW,
+    implausible,
+    is_at_large,
+    is_left,
+    is_noise,
+    members_of,
+    needed,
+    resolved,
+)
 from .search import ALONE, BESIDE, Search
 from .tried import Tried, by_run, gain
 
 #: The most effects of a model.
 MOST = 3
+#: Where the second harmonic of a wave that was found sets out, a part of the first.
+_USUAL_SECOND = 0.3
 
 
 @dataclass(frozen=True)
@@ -79,13 +90,15 @@ def judge(search: Search, model: Model, laws) -> Finding:
         now = ladder[-1]
         if now.effects and is_noise(now.settled):
             break
-        others = [law for law in candidates if law.effect not in now.effects or bends(law, now)]
-        below, tried = search.on(now.settled, others, BESIDE if now.effects else ALONE)
+        others = [law for law in candidates if law.effect not in now.effects]
+        others += [bent for law in candidates for bent in bends(law, now)]
+        effects = {law.effect for law in others}
+        most, beyond = BESIDE if now.effects else ALONE, _least_worth(ladder, len(effects))
+        below, tried = search.on(now.settled, others, most, beyond)
         if below is not now.settled:
             ladder[-1] = replace(now, settled=below, gain=now.gain + gain(below, now.settled))
         ranking = ranking or tuple(tried)
         members = members_of(tried)
-        effects = {law.effect for law in others}
         if not members or not _is_worth(members[0], ladder, len(effects)):
             break
         bent = next((t for t in members if t.candidate.effect in now.effects), None)
@@ -100,17 +113,29 @@ def judge(search: Search, model: Model, laws) -> Finding:
     return concluded(ladder, ranking)
 
 
-def bends(law: Candidate, rung: Rung) -> bool:
-    """Whether a law is of the effect that was found last, and may stand beside the law it has.
+def bends(law: Candidate, rung: Rung) -> tuple[Candidate, ...]:
+    """What of a law may stand beside the one that the effect has which was found last, if anything.
 
     Nature's law has its own shape: what a law of the catalogue is wrong by, another form of the
-    same effect may make up for, and then no other effect is called for.
+    same effect may make up for, a wave's second harmonic for instance, and then no other effect is
+    called for.
     """
-    if not rung.effects or law.effect != rung.effects[-1] or law.periodic:
-        return False
-    keys, model = [free.key for free in law.free_parameters], rung.settled.model
-    fresh = not any(key in rung.settled.values for key in keys)
-    return bool(keys) and fresh and all(model.settings.get(k) == v for k, v in law.settings.items())
+    if not rung.effects or law.effect != rung.effects[-1]:
+        return ()
+    found, settings = rung.settled.values, rung.settled.model.settings
+    known = all(settings.get(key) == value for key, value in law.settings.items())
+    fresh = tuple(f for f in law.free_parameters if f.key not in found and not f.per_run)
+    if not known or not fresh:
+        return ()
+    if law.periodic:  # in phase with the first, and a quarter of a period ahead
+        return tuple(replace(law, periodic="", free_parameters=_first(one, fresh)) for one in fresh)
+    return (law,) if len(fresh) == len(law.free_parameters) else ()
+
+
+def _first(one: FreeParameter, free_parameters: Sequence[FreeParameter]):
+    """Some strengths that are nothing, one of them first and as much as is usual."""
+    rest = tuple(free for free in free_parameters if free is not one)
+    return (replace(one, start=_USUAL_SECOND), *rest)
 
 
 def _without_superfluous(search: Search, ladder: list[Rung], count: int) -> list[Rung]:
@@ -126,18 +151,31 @@ def _without_superfluous(search: Search, ladder: list[Rung], count: int) -> list
     return [ladder[0], rung]
 
 
+def _least_worth(ladder: Sequence[Rung], count: int) -> float:
+    """Evidence above which an effect beside those of a ladder is not worth its place."""
+    now = ladder[-1].settled
+    least = now.evidence - needed(count)
+    if ladder[-1].effects:
+        before = sum(rung.gain for rung in ladder)
+        least = min(least, now.evidence - LAW**2 * before, 0.5 * (now.evidence + now.rows))
+    return least
+
+
 def _is_worth(best: Tried, ladder: Sequence[Rung], count: int) -> bool:
     """Whether an effect's evidence is beyond chance and what the laws before it are wrong by.
 
-    Beside another, an effect must take more of what that leaves than it leaves itself: a law is
-    never quite nature's, and what it is wrong by looks like a little of many others.
+    And in the runs at large: as each of them is predicted by the others, better by more than the
+    error of that. Beside another, an effect must take more of what that leaves than it leaves
+    itself: a law is never quite nature's, and what it is wrong by looks like a little of many
+    others.
     """
+    now = ladder[-1]
     least = needed(count)
-    if ladder[-1].effects:
+    if now.effects:
         before = sum(rung.gain for rung in ladder)
         left = best.model.evidence - best.model.rows
         least = max(least, LAW**2 * before, left)
-    return resolved(best.model, ladder[-1].settled) > least
+    return resolved(best.model, now.settled) > least and is_at_large(best.model, now.settled)
 
 
 def concluded(ladder: Sequence[Rung], ranking: tuple[Tried, ...]) -> Finding:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from stickslip.arrays import STATE
-from stickslip.restarted import Restart, simulate_restarted
+from stickslip.restarted import Restarts, simulate_restarted
 
 from cosim.coupling import FmuParticipant
 from cosim.gap.camera.camera import Camera
@@ -86,7 +86,7 @@ def _in_kernel(scenario: Scenario, time: np.ndarray) -> dict[str, np.ndarray]:
     start = np.array([getattr(scenario.initial, name) for name in STATE])
     outputs = simulate_restarted(
         mechanics.pack(), scenario.surface.speed, mechanics.temperature_dependence.reference_degC,
-        time, [Restart(0, start)],
+        time, Restarts.at([0], [start]),
     )  # fmt: skip
     return {name: outputs[:, COLUMN[name]] for name in COLUMN}
 

@@ -33,8 +33,8 @@ else:
 MODULES = (
     "layout",
     "terms",
-    "springs",
-    "surface",
+    "rig.springs",
+    "rig.surface",
     "friction.table",
     "friction.coefficient",
     "friction.disc",
@@ -52,4 +52,5 @@ MODULES = (
     "bristles.step",
     "advance",
     "outputs",
+    "restarts",
 )

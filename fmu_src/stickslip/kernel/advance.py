@@ -20,7 +20,6 @@ from .events import (
     keep_direction_steady,
     set_direction,
     settle,
-    time_to_rest,
 )
 from .friction.coefficient import holding_coefficient, is_felt
 from .interpolant import copy_instant, look_inside, set_interpolant
@@ -39,10 +38,16 @@ from .layout import (
     P_INITIAL,
     P_LATERAL,
     P_LONGEST_STEP,
+    P_LONGEST_STICK,
+    P_MASS,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
     P_RADIUS,
     P_RATE,
     P_RUN_UP,
     P_SHORTEST,
+    P_TRANSITION_SPEED,
     QUASI_STEADY,
     SHOWN,
     SLIP,
@@ -69,9 +74,9 @@ from .layout import (
     X,
 )
 from .motion import block_energy
-from .rest import look_at
+from .rest import look_at, time_to_rest
+from .rig.springs import shortest_spring
 from .runge_kutta import begin_step, load_instant, take_step
-from .springs import shortest_spring
 from .steady_sliding import direction_is_free
 from .terms import set_starting_states
 
@@ -102,10 +107,21 @@ def longest_step(p: Floats, z: Floats, w: Floats, rest: float) -> float:
     estimate's own error falls with the time that is left.
     """
     h = p[P_LONGEST_STEP]
+    if z[HERE + MODE] == STICK:
+        h = p[P_LONGEST_STICK]
     if z[HERE + TIME] < p[P_RUN_UP]:
         h = min(h, p[P_RUN_UP] - z[HERE + TIME])
     if rest > 0.0:
         h = min(h, rest * (1.0 - min(0.1, max(1e-4, 4.0 * rest * p[P_RATE]))))
+    return h
+
+
+def first_step(p: Floats, mode: float) -> float:
+    """Step to try first in a mode, s: a slip gains speed as friction falls from mu_s to mu_k."""
+    h = 0.1 / p[P_RATE]
+    falls = (p[P_MU_S] - p[P_MU_K]) * p[P_NORMAL_FORCE]
+    if mode == SLIP and falls > 0.0 and p[P_TRANSITION_SPEED] > 0.0:
+        h = min(h, 3.0 * p[P_MASS] * p[P_TRANSITION_SPEED] / falls)
     return h
 
 
@@ -217,7 +233,7 @@ def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: fl
     if z[HERE + MODE] == SLIP and grip > 0.0:
         if direction_is_free(p):
             choose_sliding(p, u, z, w)
-        rest = time_to_rest(p, w)
+        rest = time_to_rest(p, u, w)
     to_run_up = p[P_RUN_UP] - z[HERE + TIME]
     slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)
     # a landing that takes longer is no landing, and none crosses the end of the speed ramp
@@ -235,7 +251,7 @@ def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: fl
         else:
             finish_slip_step(p, u, z, w, e)
     if z[NEXT + MODE] != z[HERE + MODE]:
-        z[Z_STEP] = 0.1 / p[P_RATE]
+        z[Z_STEP] = first_step(p, z[NEXT + MODE])
     return spring_status(p, z)
 
 

@@ -17,6 +17,7 @@ from .layout import (
     P_NORMAL_FORCE,
     P_RADIUS,
     P_SPEED_SCALE,
+    P_TOLERANCE,
     U_FORCE_X,
     U_FORCE_Y,
     U_MOMENT,
@@ -30,8 +31,8 @@ from .layout import (
     W_SLIDING,
     W_SURFACE,
 )
-from .springs import add_damping, add_spring_forces
-from .surface import surface_motion
+from .rig.springs import add_damping, add_spring_forces
+from .rig.surface import surface_motion
 
 
 def set_sliding_velocity(w: Floats, state: int):
@@ -257,7 +258,7 @@ def rest_speed(p: Floats, u: Floats) -> float:
     It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
     and passes rest at a distance never reaches it exactly, however small the distance.
     """
-    return 1e-6 * speed_scale(p, u)
+    return max(1e-6, 0.1 * sqrt(p[P_TOLERANCE])) * speed_scale(p, u)
 
 
 def set_loads(p: Floats, u: Floats, w: Floats, state: int):

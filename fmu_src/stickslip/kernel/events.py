@@ -31,6 +31,7 @@ from .layout import (
     P_LATERAL,
     P_NORMAL_FORCE,
     P_RADIUS,
+    P_TOLERANCE,
     QUASI_STEADY,
     SLIP,
     SLIPS,
@@ -40,10 +41,8 @@ from .layout import (
     VY,
     W_DIRECTION,
     W_SLIDING,
-    W_SLOPES,
     W_STATE,
     W_STEADY,
-    W_SURFACE,
     WORK_SURFACE,
     X,
 )
@@ -133,9 +132,10 @@ def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
 def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     """Move NEXT back to the break-away, if the contact gives way in the step from HERE.
 
-    Illinois iteration on the size of the step until time itself has no finer resolution: every
-    trial is a step of full order from HERE, so the event is as exact as the motion. NEXT ends at
-    the side where the load has reached the limit.
+    Illinois iteration on the size of the step until time itself has no finer resolution, or the
+    load is at the limit by far better than a step's error: every trial is a step of full order
+    from HERE, so the event is as exact as the motion. NEXT ends at the side where the load has
+    reached the limit.
     """
     excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
     if excess < 0.0:
@@ -148,7 +148,8 @@ def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     finest = 4e-16 * max(abs(z[NEXT + TIME]), high)
     side = 0
     sweep = 0
-    while high - low > finest and excess != 0.0 and sweep < 200:
+    enough = p[P_TOLERANCE] * sqrt(p[P_TOLERANCE])
+    while high - low > finest and not 0.0 <= excess <= enough and sweep < 200:
         h = 0.5 * (low + high)
         if excess_low < 0.0 and sweep % 4 != 3:
             h = high - excess_high * (high - low) / (excess_high - excess_low)
@@ -175,24 +176,6 @@ def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     release(p, u, z, w, NEXT)
     note_break_away(z, NEXT)
     log_event(z, e, NEXT)
-
-
-def time_to_rest(p: Floats, w: Floats) -> float:
-    """Time in which the scaled sliding speed would vanish at its present rate, s; -1 if it grows.
-
-    From d(s^2/2)/dt = s . ds/dt, with the slopes of `begin_step` and the contact in ``w``.
-    """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    sx = w[W_SLIDING]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = arm * w[W_SLIDING + 2]
-    rate = sx * (w[W_SLOPES + VX - 1] - w[W_SURFACE + 3])
-    rate += sy * kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
-    rate += sr * arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
-    if rate >= 0.0:
-        return -1.0
-    return (sx * sx + sy * sy + sr * sr) / -rate
 
 
 def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):

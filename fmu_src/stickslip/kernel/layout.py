@@ -129,7 +129,9 @@ PARAMETERS = (
     ("P_RUN_UP", 1),  # time of the surface's speed ramp, s
     ("P_TOLERANCE", 1),
     ("P_RATE", 1),  # characteristic rate of the motion, rad/s
+    ("P_FEW_POINTS", 1),  # rim speed over sliding speed up to which a few points of the disc do
     ("P_LONGEST_STEP", 1),  # s
+    ("P_LONGEST_STICK", 1),  # the same in stick, s
     ("P_SPEED_SCALE", 1),  # speed that the motion reaches by itself, m/s; scales the error test
     ("P_SHORTEST", 1),  # length below which a spring counts as collapsed, m
     ("P_INITIAL", 6),  # x, y, phi, vx, vy, omega
@@ -151,6 +153,16 @@ PARAMETERS = (
 # --- e: log of events -------------------------------------------------------------------------
 EVENTS = (("E_COUNT", 1), ("E_CAPACITY", 1))
 E_WIDTH = 3  # time, mode after the event, x; from E_FIRST on
+
+# --- r: restarts, one after the other (see `restarts`) -----------------------------------------
+RESTART = (
+    ("R_ROW", 1),  # number of the time at which it happens
+    ("R_STATE", 6),  # x, y, phi, vx, vy, omega; what is not finite stays the model's own
+    ("R_HOLD_SINCE", 1),  # when the stick began that the block is in, s; not finite: not in stick
+    ("R_MU_S", 1),  # friction from there on
+    ("R_MU_K", 1),
+    ("R_MU_SCALE", 1),
+)
 
 # --- o: what a run shows at an instant --------------------------------------------------------
 OUTPUTS = (
@@ -253,6 +265,7 @@ def constants(effects: Sequence[Effect] = EFFECTS) -> dict[str, int | float]:
         **_sized(_placed(scratch(size, states)), "W_SIZE"),
         **_sized(_placed(EVENTS), "E_FIRST"),
         **_sized(outputs, "O_SIZE"),
+        **_sized(_placed(RESTART), "R_SIZE"),
     }
 
 

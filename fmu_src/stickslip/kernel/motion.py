@@ -44,10 +44,10 @@ from .layout import (
     X,
     Y,
 )
-from .springs import damping_power, elastic_energy
+from .rig.springs import damping_power, elastic_energy
+from .rig.surface import surface_speed
 from .steady_sliding import set_quasi_steady_motion
 from .stick import set_presliding
-from .surface import surface_speed
 from .terms import set_state_rates
 
 

@@ -42,8 +42,8 @@ from .layout import (
     X,
 )
 from .motion import block_energy
+from .rig.surface import surface_speed
 from .runge_kutta import begin_step
-from .surface import surface_speed
 
 
 def energy_residual(p: Floats, z: Floats) -> float:

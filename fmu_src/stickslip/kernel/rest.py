@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 from . import Floats
-from .contact import holding_ratio, set_contact, set_holding_load
+from .contact import (
+    holding_ratio,
+    rest_speed,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+)
+from .friction.force import friction_in_slip
 from .layout import (
     HEAT,
     MODE,
@@ -12,21 +21,27 @@ from .layout import (
     P_FREE_Y,
     P_INERTIA,
     P_LATERAL,
+    P_LOCAL_LAW,
+    P_LONGEST_STEP,
     P_MASS,
     P_PRESLIDING,
+    P_RADIUS,
     P_STICK_RATIO,
     SLIP,
     TIME,
     VX,
     VY,
     W_FRICTION,
+    W_LOAD,
     W_SLIDING,
+    W_SLOPES,
     W_STATE,
+    W_SURFACE,
     WORK_SURFACE,
 )
+from .rig.surface import set_surface_phase
 from .runge_kutta import follow_surface, load_instant
 from .stick import set_stick_velocity
-from .surface import set_surface_phase
 
 
 def look_at(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
@@ -108,3 +123,58 @@ def come_to_rest(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> fl
     if presliding == p[P_PRESLIDING] or z[instant + MODE] == SLIP:
         stop_sliding(p, u, z, w, instant, presliding)
     return excess_load(p, u, z, w, instant, z[instant + TIME])
+
+
+def stopping_time(p: Floats, w: Floats) -> float:
+    """Time in which the scaled sliding speed would vanish at its present rate, s; -1 if it grows.
+
+    With the slopes of `begin_step` and the contact in ``w``.
+    """
+    rate = sliding_rate(p, w, w[W_SLOPES + VX - 1], w[W_SLOPES + VY - 1], w[W_SLOPES + OMEGA - 1])
+    if rate >= 0.0:
+        return -1.0
+    speed = scaled_sliding_speed(p, w)
+    return speed * speed / -rate
+
+
+def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
+    """As `stopping_time`, with the friction of the speeds on the way, where it depends on speed.
+
+    When the end is near, ds / (-ds/dt) is integrated by Gauss-Legendre's three points: the nearer
+    to the end a step may go, the fewer are needed.
+    """
+    rest = stopping_time(p, w)
+    speed = scaled_sliding_speed(p, w)
+    if p[P_LOCAL_LAW] == 0.0 or rest > p[P_LONGEST_STEP] or speed <= rest_speed(p, u):
+        return rest
+    time = 0.0
+    for i in range(3):
+        part = 0.5 + 0.5 * (i - 1) * sqrt(0.6)
+        weight = (5.0 + 3.0 * (i % 2)) / 18.0
+        rate = slower_sliding_rate(p, u, w, part)
+        if rest < 0.0 or rate >= 0.0:
+            return rest
+        time += weight * speed * speed / -rate
+    return time
+
+
+def sliding_rate(p: Floats, w: Floats, ax: float, ay: float, ar: float) -> float:
+    """Scaled sliding velocity in ``w`` times its rate, m^2/s^3, where the block accelerates so."""
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    rate = w[W_SLIDING] * (ax - w[W_SURFACE + 3])
+    rate += kappa * kappa * w[W_SLIDING + 1] * (ay - w[W_SURFACE + 4])
+    rate += arm * arm * w[W_SLIDING + 2] * (ar - w[W_SURFACE + 5])
+    return rate
+
+
+def slower_sliding_rate(p: Floats, u: Floats, w: Floats, part: float) -> float:
+    """As `sliding_rate`, with the friction of a part of the sliding velocity in ``w``."""
+    kappa = p[P_LATERAL]
+    sy = kappa * w[W_SLIDING + 1]
+    sr = kappa * p[P_RADIUS] * w[W_SLIDING + 2]
+    friction_in_slip(p, u, w, part * w[W_SLIDING], part * sy, part * sr)
+    ax = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
+    ay = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
+    ar = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
+    return sliding_rate(p, w, ax, ay, ar)

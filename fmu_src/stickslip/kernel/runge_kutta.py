@@ -51,8 +51,8 @@ from .layout import (
     Y,
 )
 from .motion import set_slopes
+from .rig.surface import set_surface_phase
 from .stick import held_energy, set_stick_velocity
-from .surface import set_surface_phase
 from .terms import with_state_scale
 
 

@@ -49,8 +49,8 @@ from .layout import (
     W_STATE,
     W_SURFACE,
 )
-from .springs import damping_per_speed
-from .surface import surface_motion
+from .rig.springs import damping_per_speed
+from .rig.surface import surface_motion
 
 # Each multiplies what the presliding velocity is off by by the presliding speed per load times the
 # damping per speed: hundredths where a contact sticks.

@@ -9,7 +9,7 @@ from linear_runs import trial_of
 from scipy.stats import chi2
 from stickslip import Parameters
 from stickslip.effects.candidate import FreeParameter
-from stickslip.restarted import Restart, simulate_restarted
+from stickslip.restarted import Restarts, simulate_restarted
 
 from cosim.gap import read_campaign
 from cosim.gap.candidates.plain import (
@@ -76,7 +76,7 @@ def kernel_run(speed, offset=0.0, creep=0.0, duration=8.0):
         friction={"mu_s": 0.3, "mu_k": 0.2, "stick_creep": creep},
     )
     time = np.arange(0.0, duration, 0.01)
-    first = [Restart(0, np.array([0.0, 0.0, 0.0, speed, 0.0, 0.0]))]
+    first = Restarts.at([0], [np.array([0.0, 0.0, 0.0, speed, 0.0, 0.0])])
     outputs = simulate_restarted(parameters.pack(), speed * (1.0 + offset), -8.0, time, first)
     return time, outputs[:, 0]
 

@@ -12,7 +12,14 @@ from settled_campaigns import strength
 from stickslip.effects.candidate import Candidate
 
 from cosim.gap.evidence.products import Spreads
-from cosim.gap.selection.decision import LEVEL, implausible, members_of, needed, resolved
+from cosim.gap.selection.decision import (
+    LEVEL,
+    implausible,
+    is_at_large,
+    members_of,
+    needed,
+    resolved,
+)
 from cosim.gap.selection.tried import Tried
 from cosim.gap.selection.verdict import Rung, bends, concluded
 
@@ -139,6 +146,32 @@ def test_a_rig_is_not_far_from_what_is_said_of_it():
 def test_another_form_of_the_same_effect_may_stand_beside_the_first():
     """Nature's law may lie between two of the catalogue's: then no second effect is called for."""
     rung = Rung((LINEAR.effect,), StandIn(ROWS, {"velocity_weakening.linear": 1.0}), 100.0)
-    assert bends(BENT, rung)
+    assert bends(BENT, rung) == (BENT,)
     assert not bends(LINEAR, rung) and not bends(DRAG, rung)
     assert not bends(BENT, Rung((), StandIn(ROWS), 0.0))
+
+
+def test_the_second_harmonic_of_a_wave_may_stand_beside_the_first():
+    """In phase with it, and a quarter of a period ahead: either may be all there is."""
+    keys = ("surface_pattern.amplitude", "surface_pattern.wavelength")
+    second = tuple(
+        strength(f"surface_pattern.{part}", 0.0, 0.1, -0.7, 0.7)
+        for part in ("second_in_phase", "second_ahead")
+    )
+    first = tuple(strength(key, 0.1, 0.05) for key in keys)
+    wave = Candidate("surface_pattern", "sine", first + second, periodic=keys[1])
+    rung = Rung((wave.effect,), StandIn(ROWS, dict.fromkeys(keys, 0.1)), 100.0)
+    bent = bends(wave, rung)
+    assert [law.free_parameters[0].key for law in bent] == [free.key for free in second]
+    assert all(not law.periodic and law.free_parameters[0].start > 0.0 for law in bent)
+    assert not bends(Candidate("surface_pattern", "sine", first, periodic=keys[1]), rung)
+
+
+def test_what_one_run_gains_and_others_lose_is_no_effect_of_all():
+    """The sum of the runs' gains must be beyond the error of a sum."""
+    base, gains = StandIn(2.0 * ROWS), np.array([17.0, 27.0, -19.0, 9.0, -4.0, -4.0])
+    base.by_run = np.full(6, 1.0 / 6.0)
+    better = StandIn(2.0 * ROWS, by_run=base.by_run - gains / (2.0 * ROWS))
+    assert gains.sum() > needed(1) and not is_at_large(better, base)
+    better.by_run = base.by_run - np.abs(gains) / (2.0 * ROWS)
+    assert is_at_large(better, base)

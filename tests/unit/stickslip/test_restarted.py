@@ -5,7 +5,7 @@ import pytest
 from stickslip import Friction, Parameters, simulate
 from stickslip.kernel import layout
 from stickslip.kernel.layout import O_MODE, O_VX, O_X
-from stickslip.restarted import Restart, simulate_restarted, track_restarted
+from stickslip.restarted import Restarts, simulate_restarted, track_restarted
 
 SPEED, COLD = 0.05, -8.0
 
@@ -24,9 +24,13 @@ def state(*values):
     return np.array([*values, *[0.0] * (6 - len(values))])
 
 
+FROM_REST = Restarts.at([0], [state()])
+CARRIED = Restarts.at([0], [state(0, 0, 0, SPEED)])
+
+
 def test_one_restart_is_the_plain_simulation(parameters, p):
     times = np.linspace(0.0, 5.0, 501)
-    outputs = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state())])
+    outputs = simulate_restarted(p, SPEED, COLD, times, FROM_REST)
     surface = parameters.surface.model_copy(update={"speed": SPEED})
     moving = parameters.model_copy(update={"surface": surface})
     plain = simulate(moving, 5.0, 0.01, interface_temperature=COLD)
@@ -34,7 +38,8 @@ def test_one_restart_is_the_plain_simulation(parameters, p):
 
 
 def test_places_alone_are_those_of_the_outputs(p):
-    times, start = np.linspace(0.0, 3.0, 301), [Restart(0, state(0.01)), Restart(150, state(0.02))]
+    times = np.linspace(0.0, 3.0, 301)
+    start = Restarts.at([0, 150], [state(0.01), state(0.02)])
 
     def pull(block):
         return -0.5 * block[layout.VX]
@@ -48,27 +53,27 @@ def test_places_alone_are_those_of_the_outputs(p):
 def test_a_force_aside_accelerates_the_block_across(p):
     """Free of the contact across, over so short a time that the springs hardly answer."""
     times, force = np.linspace(0.0, 0.02, 21), 0.3
-    outputs = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state())], aside=force)
+    outputs = simulate_restarted(p, SPEED, COLD, times, FROM_REST, aside=force)
     y = outputs[:, O_X + 1]
     assert y[-1] == pytest.approx(0.5 * force / p[layout.P_MASS] * times[-1] ** 2, rel=0.01)
 
 
 def test_restarts_with_the_model_s_own_states_change_nothing(p):
     times = np.linspace(0.0, 4.0, 401)
-    whole = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state())])
+    whole = simulate_restarted(p, SPEED, COLD, times, FROM_REST)
     slips = np.flatnonzero(whole[:, O_MODE] == 1.0)
     rows = slips[(slips > 50) & (slips < 350)][::7]
-    again = [Restart(int(row), whole[row, O_X : O_X + 6]) for row in rows]
-    cut = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state()), *again])
+    again = Restarts.at([0, *rows], [state(), *whole[rows, O_X : O_X + 6]])
+    cut = simulate_restarted(p, SPEED, COLD, times, again)
     assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
 
 
 def test_nan_leaves_the_model_s_own_state(p):
     times = np.linspace(0.0, 4.0, 401)
-    whole = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state())])
+    whole = simulate_restarted(p, SPEED, COLD, times, FROM_REST)
     row = int(np.flatnonzero(whole[:, O_MODE] == 1.0)[60])
-    own = Restart(row, np.full(6, np.nan))
-    cut = simulate_restarted(p, SPEED, COLD, times, [Restart(0, state()), own])
+    own = Restarts.at([0, row], [state(), np.full(6, np.nan)])
+    cut = simulate_restarted(p, SPEED, COLD, times, own)
     assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
 
 
@@ -79,7 +84,7 @@ def creeping(parameters):
 
 def test_a_window_in_a_stick_has_the_velocity_of_the_stick(creeping):
     times = np.linspace(0.0, 8.0, 801)
-    whole = simulate_restarted(creeping, SPEED, COLD, times, [Restart(0, state(0, 0, 0, SPEED))])
+    whole = simulate_restarted(creeping, SPEED, COLD, times, CARRIED)
     sticks = whole[:, O_MODE] == 0.0
     begin = int(np.flatnonzero(sticks[1:] & ~sticks[:-1])[1]) + 1
     row = begin + 20
@@ -87,18 +92,17 @@ def test_a_window_in_a_stick_has_the_velocity_of_the_stick(creeping):
     only_x = np.full(6, np.nan)
     only_x[0] = whole[row, O_X]
     # the model has not come there by itself: it was set to slip before
-    first = Restart(0, state(0.01, 0, 0, 0.5 * SPEED))
-    again = Restart(row, only_x, hold_since=times[begin])
-    cut = simulate_restarted(creeping, SPEED, COLD, times, [first, again])
+    set_to = [state(0.01, 0, 0, 0.5 * SPEED), only_x]
+    again = Restarts.at([0, row], set_to, [np.nan, times[begin]])
+    cut = simulate_restarted(creeping, SPEED, COLD, times, again)
     assert np.abs(cut[row:, [O_X, O_VX]] - whole[row:, [O_X, O_VX]]).max() < 1e-9
 
 
 def test_a_window_in_slip_slips_however_slow(creeping):
     """Also where the block before it stuck, and could have crept as fast."""
     times = np.linspace(0.0, 1.0, 1001)
-    start = Restart(0, state(0, 0, 0, SPEED))
-    slow = Restart(100, state(0.005, 0, 0, SPEED - 5e-4))
-    outputs = simulate_restarted(creeping, SPEED, COLD, times, [start, slow])
+    slow = Restarts.at([0, 100], [state(0, 0, 0, SPEED), state(0.005, 0, 0, SPEED - 5e-4)])
+    outputs = simulate_restarted(creeping, SPEED, COLD, times, slow)
     assert outputs[99, O_MODE] == 0.0 and outputs[100, O_MODE] == 1.0
     assert outputs[100, O_VX] == SPEED - 5e-4
 
@@ -106,11 +110,10 @@ def test_a_window_in_slip_slips_however_slow(creeping):
 def test_a_force_acts_on_a_stick_that_creeps_too(creeping, parameters):
     """Any force that pulls with the springs makes it lag further; none tears the stick."""
     times = np.linspace(0.0, 0.4, 401)
-    start = [Restart(0, state(0, 0, 0, SPEED))]
-    free = simulate_restarted(creeping, SPEED, COLD, times, start)
+    free = simulate_restarted(creeping, SPEED, COLD, times, CARRIED)
     stiffer = 12.0  # N/m
     pulled = simulate_restarted(
-        creeping, SPEED, COLD, times, start, lambda block: -stiffer * block[layout.X]
+        creeping, SPEED, COLD, times, CARRIED, lambda block: -stiffer * block[layout.X]
     )
     assert not pulled[:, O_MODE].any() and not free[:, O_MODE].any()
     k = 4.0 * parameters.springs.stiffness
@@ -133,33 +136,31 @@ def test_bristles_have_the_shear_that_a_window_asks_for(sheared):
     The way into a break-away, some 0.1 s after the first window's begin, makes more of it.
     """
     times = np.linspace(0.0, 6.0, 601)
-    start = Restart(0, state(0, 0, 0, SPEED))
-    whole = simulate_restarted(sheared, SPEED, COLD, times, [start])
+    whole = simulate_restarted(sheared, SPEED, COLD, times, CARRIED)
     sticks = whole[:, O_MODE] == 0.0
     begin = int(np.flatnonzero(sticks[1:] & ~sticks[:-1])[1]) + 1
     only_x = np.full(6, np.nan)
     only_x[0] = whole[begin + 15, O_X]
-    held = Restart(begin + 15, only_x, hold_since=times[begin])
+    held = begin + 15, only_x, times[begin]
     slip = int(np.flatnonzero(whole[:, O_X + 3] < 0.2 * SPEED)[20])  # well inside one
-    moved = Restart(slip, whole[slip, O_X : O_X + 6])
-    for window in (held, moved):
+    moved = slip, whole[slip, O_X : O_X + 6], np.nan
+    for row, reached, since in (held, moved):
         # the model has not come there by itself: it was set to slip before
-        first = Restart(0, state(0.01, 0, 0, 0.5 * SPEED))
-        cut = simulate_restarted(sheared, SPEED, COLD, times, [first, window])
-        rows = slice(window.row, window.row + 15)
-        assert cut[window.row, O_MODE] == whole[window.row, O_MODE]
+        first = state(0.01, 0, 0, 0.5 * SPEED)
+        window = Restarts.at([0, row], [first, reached], [np.nan, since])
+        cut = simulate_restarted(sheared, SPEED, COLD, times, window)
+        rows = slice(row, row + 15)
+        assert cut[row, O_MODE] == whole[row, O_MODE]
         apart = np.abs(cut[rows, O_X] - whole[rows, O_X])
         assert apart[:8].max() < 1e-6 and apart.max() < 3e-5
 
 
 def test_a_window_that_sets_nothing_leaves_the_shear(sheared):
     times = np.linspace(0.0, 3.0, 301)
-    start = Restart(0, state(0, 0, 0, SPEED))
-    whole = simulate_restarted(sheared, SPEED, COLD, times, [start])
+    whole = simulate_restarted(sheared, SPEED, COLD, times, CARRIED)
     for row in (30, 80, 130, 180):
-        cut = simulate_restarted(
-            sheared, SPEED, COLD, times, [start, Restart(row, np.full(6, np.nan))]
-        )
+        window = Restarts.at([0, row], [state(0, 0, 0, SPEED), np.full(6, np.nan)])
+        cut = simulate_restarted(sheared, SPEED, COLD, times, window)
         assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
 
 
@@ -172,8 +173,8 @@ def test_friction_of_a_window_is_a_part_of_all_that_the_model_has(table):
         name: tuple(0.9 * mu for mu in v) if name == "table_mu" else v for name, v in table.items()
     }
     part = Parameters(friction=Friction(mu_s=0.27, mu_k=0.18, **less)).pack()
-    windows = [Restart(0, state(), friction=(0.9, 0.9))]
+    windows = FROM_REST._replace(friction=np.array([[0.9, 0.9]]))
     scaled = simulate_restarted(whole, SPEED, COLD, times, windows)
-    meant = simulate_restarted(part, SPEED, COLD, times, [Restart(0, state())])
+    meant = simulate_restarted(part, SPEED, COLD, times, FROM_REST)
     assert (meant[:, O_MODE] == layout.SLIP).any()
     assert scaled[:, O_X] == pytest.approx(meant[:, O_X], abs=1e-7)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import fixed_quad
 from scipy.interpolate import PchipInterpolator
 from stickslip import Parameters, simulate
-from stickslip.kernel.springs import curve_energy, curve_force
+from stickslip.kernel.rig.springs import curve_energy, curve_force
 
 CURVED = (
     (-0.06, -0.03, -0.01, 0.0, 0.02, 0.03, 0.07, 0.10),

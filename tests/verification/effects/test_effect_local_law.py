@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from disc_integral import law_over_disc
 from stickslip import Parameters
-from stickslip.kernel.friction.disc import FEW_POINTS
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import (
     U_SIZE,
@@ -18,6 +17,7 @@ from stickslip.kernel.layout import (
     W_FRICTION,
     W_SIZE,
 )
+from stickslip.packing import FEW_POINTS
 
 MU, RADIUS, NORMAL = 0.2, 0.04, 0.67 * 9.81
 FAST = 0.3  # m/s

@@ -4,7 +4,7 @@ from kernel_steps import memory_of
 from stickslip import Parameters
 from stickslip.kernel import advance
 from stickslip.kernel.interpolant import copy_instant
-from stickslip.kernel.layout import DONE, E_FIRST, HERE, MODE, NEXT, SLIP, TIME, W_SIZE
+from stickslip.kernel.layout import DONE, E_FIRST, HERE, MODE, NEXT, SLIP, STICK, TIME, W_SIZE
 
 # steps of a slip over a pattern are as long as the tolerance allows, not as the period does
 SHORT_WAVES = Parameters.model_validate(
@@ -37,3 +37,27 @@ def test_a_refused_step_is_not_tried_again(monkeypatch):
         copy_instant(memory.z, NEXT, HERE)
     assert taken > 200
     assert tried < 1.5 * taken
+
+
+# friction falls within 4 mm/s: the last tenth of a slip's speed takes a thousandth of its time
+FALLING = Parameters.model_validate(
+    {
+        "surface": {"speed": 0.05},
+        "friction": {"mu_s": 0.3, "mu_k": 0.2, "transition_speed": 0.004},
+        "solver": {"tolerance": 1e-6},
+    }
+)
+
+
+def test_a_slip_comes_to_rest_in_few_steps():
+    """The time that is left follows from the friction on the way, and is not halved and halved."""
+    memory, w, e = memory_of(FALLING), [0.0] * W_SIZE, [0.0] * E_FIRST
+    steps = slips = 0
+    while memory.z[HERE + TIME] < 8.0:
+        slides = memory.z[HERE + MODE] == SLIP
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
+        steps += slides
+        slips += slides and memory.z[NEXT + MODE] == STICK
+        copy_instant(memory.z, NEXT, HERE)
+    assert slips > 5
+    assert steps / slips < 17

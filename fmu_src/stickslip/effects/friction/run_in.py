@@ -86,7 +86,9 @@ def candidates(s: Scales) -> Iterator[Candidate]:
 
 def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
     """A change, over a share of the distance that a run slides."""
-    start, low, high = share * s.distance, 1e-3 * s.distance, 1e2 * s.distance
+    # what is over within one stroke is the contact's own
+    low = min(max(1e-3 * s.distance, s.travel), share * s.distance)
+    start, high = share * s.distance, 1e2 * s.distance
     return (
         FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
         FreeParameter("run_in.distance", start, 0.5, low, high, log=True),

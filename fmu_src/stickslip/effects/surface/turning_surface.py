@@ -1,7 +1,7 @@
 """The surface is a turning slab: its speed varies over the disc and has a lateral part.
 
-With the curvature c = 1/R the surface turns at v c about (0, R), see `kernel.surface`; stick and
-quasi-steady sliding need its accelerations, so the core of the kernel knows c by name.
+With the curvature c = 1/R the surface turns at v c about (0, R), see `kernel.rig.surface`; stick
+and quasi-steady sliding need its accelerations, so the core of the kernel knows c by name.
 """
 
 from __future__ import annotations

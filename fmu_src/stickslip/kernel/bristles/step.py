@@ -10,7 +10,6 @@ from math import sqrt
 
 from .. import Floats
 from ..contact import scaled_sliding_speed, speed_scale
-from ..events import time_to_rest
 from ..layout import (
     BRISTLES,
     HERE,
@@ -36,7 +35,7 @@ from ..layout import (
     W_SURFACE,
     W_YIELD_RATE,
 )
-from ..rest import look_at
+from ..rest import look_at, stopping_time
 from ..runge_kutta import begin_step, load_instant, take_step
 from .events import FAST_SLIP_BEGINS, FAST_SLIP_ENDS, change_mode, slide_steadily
 from .law import yielding_share
@@ -65,7 +64,7 @@ def fast_slip_bound(p: Floats, w: Floats) -> float:
 
     With the slopes of `begin_step` and the contact in ``w``.
     """
-    rest = time_to_rest(p, w)
+    rest = stopping_time(p, w)
     if rest < 0.0:
         return -1.0
     speed = scaled_sliding_speed(p, w)

@@ -18,12 +18,8 @@ from __future__ import annotations
 from math import pi, sqrt
 
 from .. import Floats
-from ..layout import DEPTHS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
+from ..layout import DEPTHS, P_FEW_POINTS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
 from .coefficient import sliding_coefficient
-
-#: Rim speed over sliding speed up to which a few points of the disc tell how a law averages over
-#: it: to 1e-9 of what it varies by.
-FEW_POINTS = 0.07
 
 
 def elliptic_pair(kc2: float, w: Floats):
@@ -120,7 +116,7 @@ def add_local_law(
     of strips along the sliding (midpoint rule in psi, y = a sin psi: Gauss-Chebyshev), inside those
     of rays; along them Gauss-Legendre. Where the spin hardly tells, a few points do.
     """
-    if spinning <= FEW_POINTS * sliding:
+    if spinning <= p[P_FEW_POINTS] * sliding:
         add_law_at_points(p, u, mu, aged, reference, sliding, spinning / sliding, w)
     elif sliding >= spinning:
         add_law_over_strips(p, u, mu, aged, reference, sliding, spinning / sliding, w)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from . import Floats
-from .layout import (
+from .. import Floats
+from ..layout import (
     P_CURVATURE,
     P_RUN_UP,
     TIME,
@@ -15,7 +15,7 @@ from .layout import (
     X,
     Y,
 )
-from .terms import with_surface_acceleration, with_surface_speed
+from ..terms import with_surface_acceleration, with_surface_speed
 
 
 def set_surface_phase(p: Floats, w: Floats, t: float):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from . import Floats
-from .layout import (
+from .. import Floats
+from ..layout import (
     CURVE_WIDTH,
     OMEGA,
     P_ANCHOR,
@@ -25,7 +25,7 @@ from .layout import (
     X,
     Y,
 )
-from .terms import with_spring_energy, with_spring_force
+from ..terms import with_spring_energy, with_spring_force
 
 
 def curve_piece(p: Floats, extension: float) -> int:

@@ -1,0 +1,1 @@
+"""The rig about the block: the springs that hold it, the surface that carries it."""
