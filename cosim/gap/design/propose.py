@@ -18,8 +18,9 @@ from .range import Experiment, experiments
 from .rehearsal import Setting, rehearse, setting_of
 from .separation import separation
 
-#: Experiments times pairs that are screened, linearised; so many of the best are then refitted ...
-_SCREENED, _FINALISTS = 180, 3
+#: Experiments times pairs that are screened, linearised, which says too much of many; so many of
+#: the best are then refitted ...
+_SCREENED, _FINALISTS = 180, 10
 #: ... with so many Levenberg-Marquardt steps: contact and springs take up more by and by.
 _ROUNDS = 8
 #: Of runs nearly as good as the best, within this part, the one that needs least new equipment.

@@ -42,6 +42,8 @@ from cosim.gap.evidence.settled import Settled, settled
 QUANTITIES = ("mass", "speed", "stiffness")
 #: An exponent is stated where none at all were this unlikely, over all quantities that vary.
 LEVEL = 0.05
+#: One that is less unlikely than this is not looked for any further.
+_PERHAPS = 0.1
 #: Part of the probability that an interval holds.
 BAND = 0.90
 #: No law of friction goes with a higher power.
@@ -263,6 +265,8 @@ def better_rescaled(
         return base
     if not any(one.needed for one in tested.values()):
         name = min(tested, key=lambda each: tested[each].p)
+        if tested[name].p > _PERHAPS:
+            return base
         tested = {name: replace(tested[name], needed=True)}
     after = rescaled(segmented, runs, base, candidate, tested)
     return after.settled if after.repairs and after.settled.evidence < base.evidence else base

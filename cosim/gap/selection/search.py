@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -74,8 +75,7 @@ class Search:
         beyond : -2 ln evidence; what cannot be expected to come below is not carried to its end
         """
         ranked, starts = self._screened(base, laws)
-        linear = base.rms_residual < ALMOST  # what algebra promises is then nearly what comes
-        chosen = self._chosen(ranked, most, (base.evidence - beyond) / REACH if linear else 0.0)
+        chosen = self._chosen(base, ranked, most, beyond)
         tasks = [(extended(starts[id(t)].model, _start(t), {}), starts[id(t)]) for t in chosen]
         started = self._settled(tasks, FIRST)
         best = [
@@ -228,18 +228,25 @@ class Search:
         model = Model(problem.free_parameters, problem.settings, local=problem.local)
         return waves(model, near.fitted, self.segmented, laws, self.mapped)
 
-    def _chosen(self, ranked: Sequence[Tried], most: int, least: float) -> list[Tried]:
-        """Those that promise the most, and at least so much."""
-        counts: dict[str, int] = {}
+    def _chosen(
+        self, base: Settled, ranked: Sequence[Tried], most: int, beyond: float
+    ) -> list[Tried]:
+        """Those that promise the most, and enough; of waves all periods.
+
+        How a wave's phases lie is not known before it is settled: on top of a poor base its
+        evidence is not, either.
+        """
+        least = max(0.0, FAINTLY * max((t.gain for t in ranked), default=0.0))
+        if base.rms_residual < ALMOST:  # what algebra promises is then nearly what comes
+            least = max(least, (base.evidence - beyond) / REACH)
+        poor, counts = base.rms_residual > ALONG, Counter[str]()
         chosen: list[Tried] = []
-        least = max(least, FAINTLY * max((t.gain for t in ranked), default=0.0))
         for each in ranked:
-            if each.settled is not None or each.gain <= max(least, 0.0):  # evidence is against it
+            wave, effect = bool(each.candidate.periodic), each.candidate.effect
+            if each.settled is not None or (each.gain <= least and not (wave and poor)):
                 continue
-            effect = each.candidate.effect
-            counts[effect] = counts.get(effect, 0) + 1
-            # how a wave's phases lie is not known before it is settled: all periods are tried
-            if each.candidate.periodic or (counts[effect] <= FORMS and len(chosen) < most):
+            counts[effect] += 1
+            if wave or (counts[effect] <= FORMS and len(chosen) < most):
                 chosen.append(each)
         return chosen
 
