@@ -252,9 +252,8 @@ class Search:
 
     def _ended(self, models: Sequence[Settled], beyond: float = math.inf) -> list[Settled]:
         """Some models carried on to their end, unless they stay ``beyond``."""
-        if len(models) == 1:  # over runs then
-            return [ended(models[0], self.mapped, beyond)]
-        return list(self.mapped(ended, [(each, map_here, beyond) for each in models]))
+        over_models, over_runs = self._maps(len(models))
+        return list(over_models(ended, [(each, over_runs, beyond) for each in models]))
 
     def _settled(
         self,
@@ -262,13 +261,17 @@ class Search:
         turns: int = TURNS,
         springs: float | None = None,
     ) -> list[Settled]:
-        mapped = self.mapped if len(tasks) == 1 else map_here  # one alone: over its runs
-        calls = [(self.segmented, self.runs, *task, turns, mapped, springs) for task in tasks]
+        over_tasks, over_runs = self._maps(len(tasks))
+        calls = [(self.segmented, self.runs, *task, turns, over_runs, springs) for task in tasks]
         results = []
-        for result in map_here(settled, calls) if len(tasks) == 1 else self.mapped(settled, calls):
+        for result in over_tasks(settled, calls):
             results.append(result)
             self.progress(1)
         return results
+
+    def _maps(self, count: int) -> tuple[Map, Map]:
+        """Over so many tasks, and over the runs of each: one alone has its runs divided."""
+        return (map_here, self.mapped) if count == 1 else (self.mapped, map_here)
 
 
 def _start(tried: Tried) -> Candidate:

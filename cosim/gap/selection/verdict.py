@@ -154,11 +154,17 @@ def _without_superfluous(search: Search, ladder: list[Rung], count: int) -> list
 def _least_worth(ladder: Sequence[Rung], count: int) -> float:
     """Evidence above which an effect beside those of a ladder is not worth its place."""
     now = ladder[-1].settled
-    least = now.evidence - needed(count)
-    if ladder[-1].effects:
-        before = sum(rung.gain for rung in ladder)
-        least = min(least, now.evidence - LAW**2 * before, 0.5 * (now.evidence + now.rows))
+    least = now.evidence - _least_gain(ladder, count)
+    if ladder[-1].effects:  # it must take more than it leaves
+        least = min(least, 0.5 * (now.evidence + now.rows))
     return least
+
+
+def _least_gain(ladder: Sequence[Rung], count: int) -> float:
+    """Gain beyond chance, and beyond what the laws of a ladder are wrong by."""
+    if not ladder[-1].effects:
+        return needed(count)
+    return max(needed(count), LAW**2 * sum(rung.gain for rung in ladder))
 
 
 def _is_worth(best: Tried, ladder: Sequence[Rung], count: int) -> bool:
@@ -170,11 +176,9 @@ def _is_worth(best: Tried, ladder: Sequence[Rung], count: int) -> bool:
     others.
     """
     now = ladder[-1]
-    least = needed(count)
+    least = _least_gain(ladder, count)
     if now.effects:
-        before = sum(rung.gain for rung in ladder)
-        left = best.model.evidence - best.model.rows
-        least = max(least, LAW**2 * before, left)
+        least = max(least, best.model.evidence - best.model.rows)
     return resolved(best.model, now.settled) > least and is_at_large(best.model, now.settled)
 
 
