@@ -50,14 +50,21 @@ def map_here(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterat
 
 
 @contextmanager
-def processes(jobs: int) -> Iterator[Map]:
-    """A map over ``jobs`` processes; over this one for 1, or where it must not have children."""
+def processes(jobs: int, first: Callable[[], object] | None = None) -> Iterator[Map]:
+    """A map over ``jobs`` processes; over this one for 1, or where it must not have children.
+
+    first : what each of them does as it starts; until they have, this process does the work itself
+    """
     if _alone(jobs):
         yield map_here
         return
     with pool(jobs) as submit:
+        with held_interrupts(), unheard_by_children():
+            starting = [submit(first) for _ in range(jobs)] if first else []
 
         def mapped(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterator[Any]:
+            if not all(future.done() for future in starting):
+                return map_here(function, arguments)
             with held_interrupts(), unheard_by_children():
                 futures = [submit(function, *each) for each in arguments]
             return (future.result() for future in futures)

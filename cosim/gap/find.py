@@ -39,14 +39,13 @@ def find_gap(
     rounded = with_steps(campaign, steps.step) if steps else campaign
     bench = Bench.of(rounded, moves_across(campaign))
     model = Model(plain_free_parameters(rounded, bench.planar), {})
-    with processes(jobs) as mapped:
-        mapped(_woken, [(bench.short[0],)] * jobs)  # they start while the plain model is fitted
+    with processes(jobs, partial(_load, bench.short[0])) as mapped:
         search = Search(bench.short, bench.runs, mapped, progress)
         finding = judge(search, model, partial(offered, bench))
         finding, powers = with_powers(finding, bench.short, bench.runs)
         return answer(campaign, bench, finding, powers, steps, mapped)
 
 
-def _woken(segmented: SegmentedRun) -> None:
+def _load(segmented: SegmentedRun) -> None:
     """Have a process load what it needs."""
     segmented.places({}, segmented.starts)

@@ -70,7 +70,16 @@ def of_their_weight(base: Settled) -> Settled:
     spreads, promised = best_spreads(mixed, *about, base.spreads)
     wide = deviations(*about, spreads)
     solution = mixed.solved(mixed.forms(wide), wide)
-    return replace(base, mixed=mixed, solution=solution, spreads=spreads, promised=promised)
+    return replace(
+        base,
+        mixed=mixed,
+        solution=solution,
+        ahead=spreads,
+        promised=promised,
+        deviance=promised,
+        spreads=spreads,
+        left_out=solution.left_out,
+    )
 
 
 def weighted(base: Settled, mixed: MixedModel) -> MixedModel:

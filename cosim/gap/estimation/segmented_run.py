@@ -36,9 +36,9 @@ TILT = "offset.tilt"
 TOLERANCE = 1e-6
 #: Friction that is another by a larger factor than e to this is none of the run's.
 _ENOUGH = 3.0
-#: Rim speed over sliding speed up to which a few points of a disc do for a fit: to 1e-2 of a
-#: tracker's noise.
-_FEW_POINTS = 1.0
+#: Rim speed over sliding speed up to which a few points of a disc do for a fit: to some 1e-3 of
+#: what friction falls by.
+_FEW_POINTS = 0.6
 #: So many times the longest step of a co-simulation: a sixth of a period, still good to 1e-7 m.
 _LONGER = 2.0
 #: In stick, of a surface that is even and steady: the load only grows, and no break-away is missed.

@@ -95,12 +95,16 @@ class MixedModel:
         self.runs, self.shared, self.laws = tuple(runs), shared, tuple(laws)
         self._of_random: dict[bytes, _Random] = {}
 
-    def only(self, number: int) -> MixedModel:
-        """The same with one law alone."""
+    def __getstate__(self) -> dict:
+        """What was eliminated is not sent to other processes: it is soon found again."""
+        return {**self.__dict__, "_of_random": {}}
+
+    def only(self, numbers: Sequence[int]) -> MixedModel:
+        """The same with some of the laws alone."""
         first = self.runs[0].states.shape[1] + self.runs[0].own.size + self.shared.size
-        keep = [*range(first), first + number, first + len(self.laws)]
+        keep = [*range(first), *(first + i for i in numbers), first + len(self.laws)]
         runs = [replace(run, grams=run.grams[:, keep][:, :, keep]) for run in self.runs]
-        return MixedModel(runs, self.shared, [self.laws[number]])
+        return MixedModel(runs, self.shared, [self.laws[i] for i in numbers])
 
     def forms(self, deviations: Deviations) -> list[RunForm]:
         """Of every run, in all shared numbers and all laws at once.

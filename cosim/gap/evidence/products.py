@@ -59,26 +59,28 @@ def mixed_model(
     mapped: Map,
 ) -> MixedModel:
     """About an aligned fit with derivatives; a law's column is its response as it sets out."""
-    tasks = [(problem, fitted, run, tuple(laws), out) for run, out in enumerate(held_out)]
+    tasks = [
+        (problem.of_run(run), fitted.of_run(run), tuple(laws), out)
+        for run, out in enumerate(held_out)
+    ]
     names = [f"{law.effect} {law.form}" for law in laws]
     centre = np.array([f.scaled(f.start) for f in problem.shared])
     return MixedModel(list(mapped(run_products, tasks)), fitted.point.shared - centre, names)
 
 
 def run_products(
-    problem: Problem, fitted: Fitted, run: int, laws: Sequence[Candidate], held_out: bool
+    problem: Problem, fitted: Fitted, laws: Sequence[Candidate], held_out: bool
 ) -> RunProducts:
-    """Of one run."""
-    columns = fitted.derivatives[run]
-    segmented = problem.segmented_runs[run]
+    """Of one run, which is the problem's only one."""
+    (columns,), (segmented,) = fitted.derivatives, problem.segmented_runs
     owner = segmented.segment_of_rows()
     rows = owner.size
-    at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
-    residuals = fitted.residuals[run][:rows]
-    responses = [law_response(problem, run, law, at)[:rows] - residuals for law in laws]
-    friction = [free.key for free in problem.own].index(FRICTION_OFFSET)
+    at = fitted.point.shared, fitted.point.own[0], fitted.point.states[0]
+    residuals = fitted.residuals[0][:rows]
+    responses = [law_response(problem, law, at)[:rows] - residuals for law in laws]
     for number, law in enumerate(laws):
         if law.effect in _OF_THE_LOAD:
+            friction = [free.key for free in problem.own].index(FRICTION_OFFSET)
             responses[number] = _along(columns.own[:rows, friction], responses[number])
     own, states = columns.own[:rows], at[2] / STATE_STEP
     stacked = np.column_stack([own, columns.shared[:rows], *responses, residuals])
@@ -104,12 +106,12 @@ def _along(column: np.ndarray, response: np.ndarray) -> np.ndarray:
     return column * float(response @ column) / max(float(column @ column), 1e-300)
 
 
-def law_response(problem: Problem, run: int, law: Candidate, at) -> np.ndarray:
-    """Residuals with the law in the model as it sets out."""
+def law_response(problem: Problem, law: Candidate, at) -> np.ndarray:
+    """Residuals of a problem of one run, with the law in the model as it sets out."""
     values = {free.key: free.start for free in law.free_parameters}
     settings = {**problem.settings, **law.settings, **values}
-    alone = Problem([problem.segmented_runs[run]], problem.free_parameters, settings, problem.local)
-    return alone.residuals(0, *at)
+    with_law = Problem(problem.segmented_runs, problem.free_parameters, settings, problem.local)
+    return with_law.residuals(0, *at)
 
 
 def deviations(

@@ -63,11 +63,12 @@ class Settled:
     ----------
     model : what is free and set
     problem, fitted : the aligned fit about which the mixed model is taken
-    mixed, solution, spreads : that model, its solution, spreads of friction
+    mixed, solution, ahead : that model, its solution, and the spreads that are likeliest there
     promised : -2 ln likelihood of the runs for fitting, with what is usual of spreads, at the
         solution, as far as all is linear
-    deviance : the same where the model stands, with the spreads that are likeliest there: what is
-        promised far away need not be kept
+    deviance, spreads, left_out : the same where the model stands, with the spreads that are
+        likeliest there, and (runs,) -2 ln likelihood of every run with them, predicted from the
+        others: what is promised far away need not be kept
     loose : the same model laid loosely along the data, if it began there
     """
 
@@ -76,15 +77,12 @@ class Settled:
     fitted: Fitted
     mixed: MixedModel
     solution: Solution
-    spreads: Spreads
+    ahead: Spreads
     promised: float
     deviance: float
+    spreads: Spreads
+    left_out: np.ndarray
     loose: Settled | None = None
-
-    @property
-    def left_out(self) -> np.ndarray:
-        """(runs,) -2 ln likelihood of every run, predicted from the others."""
-        return self.solution.left_out
 
     @property
     def rows(self) -> int:
@@ -104,7 +102,7 @@ class Settled:
 
     @property
     def springs(self) -> float:
-        """How far a run's springs may be off: NEAR or FAR, unless they are held."""
+        """How far a run's springs may be off: NEAR or FAR, or less, where they are held."""
         said = next(free.prior for free in self.problem.own if free.key == SPRINGS_OFFSET)
         return said or NEAR
 
@@ -165,7 +163,7 @@ def settled(
         point = with_phases(problem, point, new)
         fitted = fit_runs(problem, point, _WAVES if waves else 1, mapped)
         fitted = with_columns(problem, fitted, mapped=mapped)
-        spreads = before.spreads
+        spreads = before.ahead
     begun = _solved(model, problem, fitted, held_out, spreads, STEPS)
     loose = _loosely(begun, turns, mapped)
     if loose.rms_residual > _POOR or (before is not None and turns < TURNS):
@@ -177,7 +175,7 @@ def _loosely(best: Settled, turns: int, mapped: Map) -> Settled:
     """A model with its shared numbers fitted and all that is a run's own loose."""
     part = 1.0
     for _ in range(turns):
-        now = _turned(best, best.spreads, part, True, mapped)
+        now = _turned(best, best.ahead, part, True, mapped)
         gained = best.promised - now.promised
         best = now if gained > 0.0 else best
         poor = best.rms_residual > _POOR and gained < _LEADS_ON * best.promised
@@ -199,7 +197,7 @@ def carried_on(
     for _ in range(turns):
         if best.deviance - best.promised < _ENOUGH or best.reach > beyond:  # no step leads on
             break
-        now = _turned(best, best.spreads, *ways[0], mapped)
+        now = _turned(best, best.ahead, *ways[0], mapped)
         gained = best.evidence - now.evidence
         best = now if gained > 0.0 else best
         if gained < _ENOUGH:
@@ -225,8 +223,8 @@ def repeatable(best: Settled, mapped: Map = map_here) -> Settled:
     Laid loosely along the data, friction of a run and the tracker's zero may have made up for one
     another; a model that has all there is finds back from there.
     """
-    same = Spreads(*np.minimum(np.array(best.spreads), np.array(HELD)))
-    if best.spreads.friction < 2.0 * HELD.friction and best.spreads.zero < 2.0 * HELD.zero:
+    same = Spreads(*np.minimum(np.array(best.ahead), np.array(HELD)))
+    if best.ahead.friction < 2.0 * HELD.friction and best.ahead.zero < 2.0 * HELD.zero:
         return best
     found = [best]
     for turn in range(_SAME):
@@ -257,7 +255,7 @@ def _with_contact_anew(best: Settled, spreads: Spreads) -> Settled:
         wide, low=np.where(held, back - 1e-6, wide.low), high=np.where(held, back + 1e-6, wide.high)
     )
     solution = best.mixed.solved(best.mixed.forms(wide), wide, predict=False)
-    return replace(best, solution=solution, spreads=spreads)
+    return replace(best, solution=solution, ahead=spreads)
 
 
 def _turned(best: Settled, spreads: Spreads, part: float, loosely: bool, mapped: Map) -> Settled:
@@ -269,7 +267,7 @@ def _turned(best: Settled, spreads: Spreads, part: float, loosely: bool, mapped:
         own = (*own, replace(SPRINGS, prior=HELD_SPRINGS))
         local = (held.stretch, held.static)
         problem = Problem(problem.segmented_runs, own, problem.settings, local)
-    if spreads != best.spreads:
+    if spreads != best.ahead:
         wide = deviations(best.problem, best.fitted, best.model.free_parameters, spreads)
         best = replace(
             best, solution=best.mixed.solved(best.mixed.forms(wide), wide, predict=False)
@@ -359,11 +357,21 @@ def _solved(model, problem, fitted, held_out, spreads: Spreads, steps: int) -> S
     found, promised = best_spreads(mixed, problem, fitted, tight, spreads, steps=steps)
     wide = deviations(problem, fitted, tight, found)
     solution = mixed.solved(mixed.forms(wide), wide)
-    deviance = promised + solution.here - solution.deviance
+    deviance, standing, left_out = (
+        promised + solution.here - solution.deviance,
+        found,
+        solution.left_out,
+    )
     if deviance - promised > _ENOUGH:  # other spreads may be likelier here
-        there = best_spreads(mixed, problem, fitted, tight, found, steps=steps, here=True)[1]
-        deviance = min(deviance, there)
-    return Settled(model, problem, fitted, mixed, solution, found, promised, deviance)
+        about = mixed, problem, fitted, tight, found
+        other, least = best_spreads(*about, steps=steps, here=True)
+        if least < deviance:
+            wide = deviations(problem, fitted, tight, other)
+            deviance, standing = least, other
+            left_out = mixed.solved(mixed.forms(wide), wide).left_out
+    return Settled(
+        model, problem, fitted, mixed, solution, found, promised, deviance, standing, left_out
+    )
 
 
 def best_spreads(

@@ -131,15 +131,12 @@ def _matrix(squares: np.ndarray, turned: np.ndarray) -> np.ndarray:
 
 
 def frequency_response(
-    candidate: Candidate, model: Model, fitted: Fitted, segmented: SegmentedRun, run: int
+    candidate: Candidate, model: Model, fitted: Fitted, segmented: SegmentedRun
 ) -> FrequencyResponse:
-    """Of one run, number ``run``, at the fit of a model to it and others.
-
-    fitted : with derivatives
-    """
-    at = fitted.point.shared, fitted.point.own[run], fitted.point.states[run]
+    """Of one run, at the fit of a model to it, with derivatives."""
+    at = fitted.point.shared, fitted.point.own[0], fitted.point.states[0]
     problem = model.problem([segmented])
-    residuals, columns = fitted.residuals[run], fitted.derivatives[run]
+    (residuals,), (columns,) = fitted.residuals, fitted.derivatives
     segments = [rows for rows, _ in columns.states if rows.size]
     along = _along(problem, at, candidate, residuals.size)
     centres = np.array([along[rows].mean() for rows in segments])

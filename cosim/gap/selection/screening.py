@@ -21,6 +21,8 @@ from cosim.processes import Map
 FAINT = 0.004
 #: Usual strength of a law, in such parts.
 _USUAL = 5.0 / FAINT
+#: Into so many parts laws are divided among processes, each of which is sent the base.
+_PARTS = 4
 #: Steps of the search for spreads beside a law.
 _STEPS = 6
 
@@ -37,8 +39,14 @@ def screened(
     if not laws:
         return np.empty(0)
     mixed = mixed_model(base.problem, base.fitted, [faint(law) for law in laws], held_out, mapped)
-    tasks = [(base, mixed.only(number), law) for number, law in enumerate(laws)]
-    return np.array(list(mapped(_gain, tasks)))
+    whole = np.arange(len(laws))
+    parts = [part.tolist() for part in np.array_split(whole, min(len(laws), _PARTS))]
+    tasks = [(base, mixed.only(part), [laws[i] for i in part]) for part in parts]
+    return np.concatenate(list(mapped(_gains, tasks)))
+
+
+def _gains(base: Settled, mixed: MixedModel, laws: Sequence[Candidate]) -> np.ndarray:
+    return np.array([_gain(base, mixed.only([i]), law) for i, law in enumerate(laws)])
 
 
 def _gain(base: Settled, mixed: MixedModel, law: Candidate) -> float:
@@ -49,7 +57,7 @@ def _gain(base: Settled, mixed: MixedModel, law: Candidate) -> float:
         base.problem,
         base.fitted,
         base.model.free_parameters,
-        base.spreads,
+        base.ahead,
         [column],
         _STEPS,
     )

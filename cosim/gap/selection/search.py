@@ -15,6 +15,7 @@ from cosim.gap.candidates.extend import extended
 from cosim.gap.data import MeasuredRun
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
+from cosim.gap.evidence.alignment import FAR, NEAR
 from cosim.gap.evidence.settled import REACH, TURNS, Settled, ended, settled
 from cosim.processes import Map, map_here
 
@@ -160,7 +161,9 @@ class Search:
         done = self._ended([t.model for t in few[:1]])
         if any(is_noise(each) for each in done):
             least = ALIKE * gain(done[0], base)
-            few = [t for i, t in enumerate(few) if i < ANEW or promised[i] >= least]
+            few = [
+                t for i, t in enumerate(few) if i < ANEW or base.evidence - t.model.promise >= least
+            ]
         beyond = min([beyond, *(each.evidence + needed(1) for each in done)])
         done += self._ended([t.model for t in few[1:]], beyond)
         if few and not any(is_noise(each) for each in (base, *done)):
@@ -201,7 +204,7 @@ class Search:
         """By what laws set that changes the motion even without them: a base, and its gain.
 
         What is not near a base that is poor may still be found from the balance of forces; where
-        the base lies along the data, it is ruled out.
+        the base lies along the data, it is ruled out, for what is built on that as well.
         """
         brought = dict.fromkeys(_brings(base, law) for law in laws if not law.periodic)
         kinds = [kind for kind in brought if kind and kind not in self.ruled_out]
@@ -211,7 +214,7 @@ class Search:
         near = self._settled([(model, base) for model in models], FIRST)
         lost = [i for i, each in enumerate(near) if each.rms_residual > ALONG]
         if base.rms_residual > ALONG:
-            springs = (base.loose or base).springs
+            springs = FAR if (base.loose or base).springs == FAR else NEAR
             fresh = self._settled([(models[i], None) for i in lost], springs=springs)
             for i, each in zip(lost, fresh, strict=True):
                 near[i] = min(near[i], each, key=lambda one: one.promise)

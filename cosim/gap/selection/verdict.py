@@ -29,7 +29,7 @@ from .tried import Tried, by_run, gain
 
 #: The most effects of a model.
 MOST = 3
-#: Where the second harmonic of a wave that was found sets out, a part of the first.
+#: As much of a second harmonic as is usual, a part of the first.
 _USUAL_SECOND = 0.3
 
 

@@ -32,7 +32,7 @@ def waves(
     placed = []
     for effect in dict.fromkeys(law.effect for law in laws if law.periodic):
         own = [law for law in laws if law.effect == effect]
-        calls = [(own[0], model, fitted, run, i) for i, run in enumerate(segmented)]
+        calls = [(own[0], model, fitted.of_run(i), run) for i, run in enumerate(segmented)]
         responses = list(mapped(frequency_response, calls))
         periods = {law.periodic: law for law in own}
         found = dict(

@@ -101,10 +101,10 @@ def initialise(p: Floats, z: Floats, time: float):
 def longest_step(p: Floats, z: Floats, w: Floats, rest: float) -> float:
     """Bound on the internal step from HERE, s.
 
-    A twelfth of the shortest period, so that no break-away is stepped over; the end
-    of the speed ramp; and, where the block is coming to rest on the surface in the time ``rest``,
-    most of that time: the approach is geometric, and faster the nearer it is, because the
-    estimate's own error falls with the time that is left.
+    A twelfth of the shortest period, so that no break-away is stepped over, in stick longer where
+    its load is known to grow all along; the end of the speed ramp; and, where the block is coming
+    to rest on the surface in the time ``rest``, most of that time: the approach is geometric, and
+    faster the nearer it is, because the estimate's own error falls with the time that is left.
     """
     h = p[P_LONGEST_STEP]
     if z[HERE + MODE] == STICK:

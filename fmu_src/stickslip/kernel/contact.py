@@ -254,11 +254,12 @@ def rest_speed(p: Floats, u: Floats) -> float:
     """Scaled sliding speed below which a decelerating contact is taken to come to rest, m/s.
 
     Below it the direction of friction is frozen, and one smooth step lands the block on the
-    surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m.
+    surface: what the freezing costs is of the order of rest_speed^2 / (mu g), some 1e-14 m, or
+    1e-12 m where the integrator's tolerance is coarse.
     It also settles what the law leaves open: with mu_s > mu_k a contact that slides in the plane
     and passes rest at a distance never reaches it exactly, however small the distance.
     """
-    return max(1e-6, 0.1 * sqrt(p[P_TOLERANCE])) * speed_scale(p, u)
+    return min(max(1e-6, 0.1 * sqrt(p[P_TOLERANCE])), 1e-5) * speed_scale(p, u)
 
 
 def set_loads(p: Floats, u: Floats, w: Floats, state: int):

@@ -140,19 +140,21 @@ def stopping_time(p: Floats, w: Floats) -> float:
 def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
     """As `stopping_time`, with the friction of the speeds on the way, where it depends on speed.
 
-    When the end is near, ds / (-ds/dt) is integrated by Gauss-Legendre's three points: the nearer
-    to the end a step may go, the fewer are needed.
+    When the end is near, ds / (-ds/dt) is integrated by Gauss-Legendre's three points, the other
+    loads as they are now: the nearer to the end a step may go, the fewer are needed. Leaves the
+    friction of a slower slip in ``w``.
     """
     rest = stopping_time(p, w)
     speed = scaled_sliding_speed(p, w)
-    if p[P_LOCAL_LAW] == 0.0 or rest > p[P_LONGEST_STEP] or speed <= rest_speed(p, u):
+    far = rest < 0.0 or rest > p[P_LONGEST_STEP]
+    if p[P_LOCAL_LAW] == 0.0 or far or speed <= rest_speed(p, u):
         return rest
     time = 0.0
     for i in range(3):
         part = 0.5 + 0.5 * (i - 1) * sqrt(0.6)
         weight = (5.0 + 3.0 * (i % 2)) / 18.0
         rate = slower_sliding_rate(p, u, w, part)
-        if rest < 0.0 or rate >= 0.0:
+        if rate >= 0.0:
             return rest
         time += weight * speed * speed / -rate
     return time

@@ -51,7 +51,7 @@ def scanned(request, tmp_path_factory):
     fitted = with_columns(PLAIN.problem(segmented_runs), coarse_fit(data, PLAIN, 8))
     law = LAWS[request.param]
     responses = [
-        frequency_response(law, PLAIN, fitted, segmented, i)
+        frequency_response(law, PLAIN, fitted.of_run(i), segmented)
         for i, segmented in enumerate(segmented_runs)
     ]
     return request.param, law, responses

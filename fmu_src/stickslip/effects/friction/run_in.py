@@ -87,7 +87,7 @@ def candidates(s: Scales) -> Iterator[Candidate]:
 def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
     """A change, over a share of the distance that a run slides."""
     # what is over within one stroke is the contact's own
-    low = min(max(1e-3 * s.distance, s.travel), share * s.distance)
+    low = min(max(1e-3 * s.distance, s.travel), 0.5 * share * s.distance)
     start, high = share * s.distance, 1e2 * s.distance
     return (
         FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
