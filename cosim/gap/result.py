@@ -214,6 +214,7 @@ class Gap:
     next_experiment : the run that would tell most, or None
     empirical : the formula proposed where the catalogue has no name, or None
     remarks : what the reader should know, a line each; the campaign's own are in the campaign
+    lacks : what the data lack where no model fits, a line each
     """
 
     campaign: Campaign
@@ -239,6 +240,7 @@ class Gap:
     next_experiment: Mapping[str, Any] | None = None
     empirical: Mapping[str, Any] | None = None
     remarks: tuple[str, ...] = ()
+    lacks: tuple[str, ...] = ()
 
     @property
     def model(self) -> FittedModel:

@@ -19,6 +19,7 @@ from cosim.gap.selection.tried import Tried
 from cosim.gap.selection.verdict import Finding
 from cosim.processes import Map
 
+from .lacking import lacking
 from .laws import laws_found, table_found
 from .models import Bench, long_fit, shown
 from .offered import offered
@@ -74,6 +75,7 @@ def answer(
         analysis=analysis,
         next_experiment=_separating(bench, finding, spreads, mapped),
         remarks=remarks(campaign, effects, rounded),
+        lacks=lacking(campaign, spreads) if finding.verdict in ("partial", "unknown") else (),
     )
     if gap.verdict == "unknown" and extended is None:
         gap = replace(gap, empirical=empirical_term(bench.campaign, bench.data, trials[0], mapped))

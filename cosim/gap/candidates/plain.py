@@ -138,15 +138,16 @@ def first_guess(
 
 #: A track is cut into so many pieces, whose means have little noise left.
 _PIECES = 200
-#: Scatter of the pieces' means, or mean of all, in units of one sample's noise.
-_MOVES, _STANDS = 0.5, 1.0
+#: Scatter of the pieces' means, in units of one sample's noise, and mean of all in standard
+#: deviations of the tracker's zero: 3 in 1000 runs that stand still stand as far off.
+_MOVES, _STANDS = 0.5, 3.0
 
 
 def moves_across(campaign: Campaign) -> bool:
     """Seen in y or phi of any run; False where neither was measured or the rig allows neither."""
     free = set(campaign.rig.degrees_of_freedom) & {"y", "phi"}
     return bool(free) and any(
-        _moves(run, channel)
+        _moves(run, channel, campaign.errors.zero)
         for run in campaign.runs
         if run.track is not None
         for channel in ("y", "phi")
@@ -154,7 +155,8 @@ def moves_across(campaign: Campaign) -> bool:
     )
 
 
-def _moves(run: MeasuredRun, channel: str) -> bool:
+def _moves(run: MeasuredRun, channel: str, zero: float) -> bool:
+    """zero : standard deviation of the tracker's zero, in units of the noise"""
     values = run.motion[channel]
     values = values[np.isfinite(values)]
     each = max(5, values.size // _PIECES)
@@ -162,4 +164,4 @@ def _moves(run: MeasuredRun, channel: str) -> bool:
     noise = run.noise[channel]
     alone = noise / np.sqrt(each)  # what noise leaves of the means' scatter
     scatter = np.sqrt(max(np.var(means) - alone**2, 0.0))
-    return bool(scatter > _MOVES * noise or abs(means.mean()) > _STANDS * noise)
+    return bool(scatter > _MOVES * noise or abs(means.mean()) > _STANDS * zero * noise)

@@ -15,7 +15,7 @@ from stickslip import Parameters
 from cosim.gap.data import Campaign, MeasuredRun, Stick, Track
 
 from .segmented_run import TOLERANCE, SegmentedRun
-from .segments import CYCLES, cut, joined
+from .segments import ACROSS, CYCLES, cut, joined
 
 #: Cycles in the short segments in which a fit sets out: hardly a phase to be lost.
 SHORT_CYCLES = 1.2
@@ -41,7 +41,7 @@ def _segmented(campaign: Campaign, run: MeasuredRun, planar: bool, cycles: float
     known = known_parameters(campaign, run, planar)
     seen = ("x", "y", "phi") if planar else ("x",)
     channels = {name: track[name] for name in track.channels if name in seen}
-    across = planar and "y" in channels
+    across = [name for name in ACROSS if name in channels]
     cycle = period(run)
     segments = cut(track, run.sticks, run.surface_speed, cycle, across, min(cycles, SHORT_CYCLES))
     if cycles > SHORT_CYCLES:

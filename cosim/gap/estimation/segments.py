@@ -12,6 +12,8 @@ import numpy as np
 CYCLES = 3
 #: Numbers of a segment's state, and which of them are friction of that stretch.
 STATES, FRICTION = 8, (6, 7)
+#: Where positions across the motion stand in it.
+ACROSS = {"y": 1, "phi": 2}
 #: Half width, in samples, of the stretch that tells position and velocity outside a stick.
 _REACH = 6
 #: A segment starts with a stick that lasts this part of a cycle; a shorter one may be none, and
@@ -40,13 +42,20 @@ class Segment:
     hold_since: float
 
 
-def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float = CYCLES):
-    """Segments of a run: tuple of `Segment`.
+def cut(
+    track,
+    sticks,
+    speed: float,
+    period: float,
+    across: Sequence[str] = (),
+    cycles: float = CYCLES,
+) -> tuple[Segment, ...]:
+    """Segments of a run.
 
     period : of a cycle, s. A segment starts at the beginning of a stick where there is one near the
     place where it is due, else where the block moves against the surface as fast as it ever does:
     near a stick a small error of the velocity would decide between stick and slip.
-    planar: y is measured and the model may move across.
+    across : which of y and phi were measured, where the model may move across
     """
     length = cycles * period
     sticks = [stick for stick in sticks if stick.end - stick.start >= _LASTS * period]
@@ -54,7 +63,7 @@ def cut(track, sticks, speed: float, period: float, planar: bool, cycles: float 
     starts = _starts(track, onsets, speed, length, period)
     ends = [*starts[1:], len(track.time)]
     return tuple(
-        _segment(track, first, last, _held(sticks, first), speed, planar)
+        _segment(track, first, last, _held(sticks, first), speed, across)
         for first, last in zip(starts, ends, strict=True)
     )
 
@@ -113,22 +122,25 @@ def _fastest(track, due: float, speed: float, period: float) -> int:
     return int(seen[steps[np.abs(moved / time - speed).argmax()]])
 
 
-def _segment(track, first: int, last: int, stick, speed: float, planar: bool) -> Segment:
+def _segment(track, first: int, last: int, stick, speed: float, across: Sequence[str]) -> Segment:
     state = np.full(STATES, np.nan)
     state[list(FRICTION)] = 0.0
     if first == 0:
         state[:] = 0.0  # what is measured is put in its place
-    across: tuple[int, ...] = ()
-    if planar:  # friction along x alone leaves a block that sticks free to swing across
-        _fill_moving(track, first, state, track.y, 1)
-        across = (1, 4) if first else (1, 2, 4)  # how it was put down turned, nobody has seen
+    swings: tuple[int, ...] = ()  # friction along x alone leaves a block that sticks free to do so
+    for name, at in ACROSS.items():
+        if name in across:
+            _fill_moving(track, first, state, track[name], at)
+            swings += (at, at + 3)
+        elif first == 0 and across:  # how it was put down, nobody has seen
+            swings += (at,)
     if stick is None:
         _fill_moving(track, first, state, track.x, 0)
-        return Segment(first, last, state, (0, 3, *across), np.nan)
+        return Segment(first, last, state, (0, 3, *swings), np.nan)
     rows = slice(first, stick.last + 1)
     time = track.time[rows] - track.time[first]
     state[0] = np.nanmean(track.x[rows] - speed * time)
-    return Segment(first, last, state, (0, *across), stick.start)
+    return Segment(first, last, state, (0, *swings), stick.start)
 
 
 def _fill_moving(track, first: int, state: np.ndarray, values: np.ndarray, at: int) -> None:

@@ -31,6 +31,8 @@ STRENGTH = 3.0
 #: What is left of a misfit whose law is the catalogue's but for this part of its response is no
 #: second effect.
 LAW = 0.03
+#: Friction that differs by more than this part of it from stretch to stretch is no rig's scatter.
+SCATTERS = 0.05
 #: Largest root of -2 ln evidence a sample that a true model leaves: a contact is not quite a film.
 TAIL = 1.35
 
@@ -102,7 +104,7 @@ def implausible(settled: Settled) -> list[str]:
         lines.append(
             f"friction that scatters by {100 * settled.spreads.friction:.0f} % from run to run"
         )
-    if settled.spreads.stretch > 0.05:
+    if settled.spreads.stretch > SCATTERS:
         lines.append(
             f"friction that scatters by {100 * settled.spreads.stretch:.0f} % within a run"
         )

@@ -44,6 +44,8 @@ QUANTITIES = ("mass", "speed", "stiffness")
 LEVEL = 0.05
 #: One that is less unlikely than this is not looked for any further.
 _PERHAPS = 0.1
+#: Part of what a model leaves that exponents must promise to take, to be looked for any further.
+_REPAIRS = 0.01
 #: Part of the probability that an interval holds.
 BAND = 0.90
 #: No law of friction goes with a higher power.
@@ -261,7 +263,8 @@ def better_rescaled(
     Where none is surely needed, friction of every run may have made up for the likeliest.
     """
     tested = exponents(base, runs, candidate)
-    if not tested:
+    left = base.evidence - base.rows
+    if max((one.gain for one in tested.values()), default=0.0) <= max(0.0, _REPAIRS * left):
         return base
     if not any(one.needed for one in tested.values()):
         name = min(tested, key=lambda each: tested[each].p)

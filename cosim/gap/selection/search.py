@@ -94,6 +94,7 @@ class Search:
         """All laws with the gain that the screening promises, best first; where each sets out."""
         ranked: list[Tried] = []
         starts: dict[int, Settled] = {}
+        laws = _distinct(base, laws)
         waving = [law for law in laws if law.periodic]
         for kind, (start, more) in self._bases(base, laws).items():
             own = [law for law in laws if not law.periodic and _brings(base, law) == kind]
@@ -248,6 +249,8 @@ class Search:
             wave, effect = bool(each.candidate.periodic), each.candidate.effect
             if each.settled is not None or (each.gain <= least and not (wave and poor)):
                 continue
+            if any(_are_twins(each.candidate, other.candidate) for other in chosen):
+                continue
             counts[effect] += 1
             if wave or (counts[effect] <= FORMS and len(chosen) < most):
                 chosen.append(each)
@@ -275,6 +278,29 @@ class Search:
     def _maps(self, count: int) -> tuple[Map, Map]:
         """Over so many tasks, and over the runs of each: one alone has its runs divided."""
         return (map_here, self.mapped) if count == 1 else (self.mapped, map_here)
+
+
+def _distinct(base: Settled, laws: Sequence[Candidate]) -> list[Candidate]:
+    """Laws that are not one another once the base sets what it does."""
+    set_already = base.model.settings.items()
+    found = {
+        (law.effect, law.form, tuple(sorted(law.settings.items() - set_already)), _starts(law)): law
+        for law in laws
+    }
+    return list(found.values())
+
+
+def _starts(law: Candidate) -> tuple[tuple[str, float], ...]:
+    return tuple((free.key, free.start) for free in law.free_parameters)
+
+
+def _are_twins(one: Candidate, other: Candidate) -> bool:
+    """Whether two laws are one, set out with on either side of nothing: one finds where to go."""
+    if (one.effect, one.form, one.settings) != (other.effect, other.form, other.settings):
+        return False
+    mine, its = _starts(one), _starts(other)
+    same = [(key, abs(start)) for key, start in mine] == [(key, abs(start)) for key, start in its]
+    return same and mine != its
 
 
 def _start(tried: Tried) -> Candidate:

@@ -69,6 +69,7 @@ def _of_runs(gap: Gap) -> dict[str, Any]:
         "ladder": gap.ladder,
         "share": gap.share if gap.effects else None,
         "reasons": gap.reasons,
+        "lacks": gap.lacks,
         "spreads": gap.spreads,
         "exponents": gap.powers,
         "curves": [_curve(law) for law in gap.laws],

@@ -189,7 +189,8 @@ def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[st
         lines += _of_runs(gap)
     numbers = fitted_quantities(gap)
     if numbers:
-        lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}")
+        unfit = ", of a model that does not fit" if gap.verdict == "unknown" else ""
+        lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}{unfit}")
     if reproduced:
         simulated = [f"{one.name} {one.gap:.3g} ({one.time[-1]:.3g} s)" for one in reproduced]
         lines.append(f"  fmu        gap in its runs' first segments: {', '.join(simulated)}")
@@ -211,7 +212,7 @@ def _of_runs(gap: Gap) -> list[str]:
         lines.append(f"  curve      {TABLE_SENTENCE}")
     if gap.spreads:
         lines.append(f"  spreads    {spreads_line(gap)}")
-    return lines
+    return lines + [f"  lacks      {line}" for line in gap.lacks]
 
 
 #: Of a curve that is in the model.

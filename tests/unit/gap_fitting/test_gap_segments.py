@@ -32,9 +32,33 @@ def test_a_block_that_sticks_along_x_may_swing_across(aside, tmp_path):
     assert held
     for segment in held:
         # how the block was put down turned, nobody has seen
-        assert segment.free == ((0, 1, 4) if segment.first else (0, 1, 2, 4))
+        assert set(segment.free) == ({0, 1, 4} if segment.first else {0, 1, 2, 4})
         true = np.interp(segmented.time[segment.first], aside.time, aside["vy"])
         assert segment.state[4] == pytest.approx(true, abs=5e-3)  # a parabola through 13 samples
+
+
+def test_where_turning_is_measured_every_segment_sets_out_from_what_was_seen(aside, tmp_path):
+    columns = {"t": aside.time} | {name: aside[name] for name in ("x", "y", "phi")}
+    noise = {"x": NOISE, "y": NOISE, "phi": 1e-3}
+    folder = write_campaign(tmp_path, [{"surface_speed": 0.03, "columns": columns}], noise=noise)
+    campaign = read_campaign(folder)
+    (segmented,) = prepare(campaign, campaign.fit_runs, True)
+    assert len(segmented.segments) > 3
+    for segment in segmented.segments:
+        assert {1, 2, 4, 5} <= set(segment.free)
+        true = aside["phi"][np.searchsorted(aside.time, segmented.time[segment.first])]
+        assert segment.state[2] == pytest.approx(true, abs=2e-3)
+
+
+@pytest.mark.parametrize(("zero", "moves"), [(6.0, False), (12.0, True)])
+def test_a_zero_of_the_tracker_is_no_motion_across(tmp_path, zero, moves):
+    track = motion(speed=0.03, duration=10.0)
+    y = noisy(zero * NOISE + np.zeros_like(track.time), 2)
+    columns = {"t": track.time, "x": noisy(track["x"], 1), "y": y}
+    runs = [{"surface_speed": 0.03, "columns": columns}]
+    campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": NOISE, "y": NOISE}))
+    # a zero has a standard deviation of 3 of the noise, unless said otherwise
+    assert moves_across(campaign) is moves
 
 
 def test_the_plain_model_fits_a_plain_block_that_swings_across(aside, tmp_path):

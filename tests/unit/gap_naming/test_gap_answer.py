@@ -8,10 +8,12 @@ from settled_campaigns import campaign_of, prepared_of, settled_on, strength
 from stickslip.effects.candidate import Candidate
 
 from cosim.gap.answer.answer import answer
+from cosim.gap.answer.lacking import lacking
 from cosim.gap.answer.laws import laws_found, table_found
 from cosim.gap.answer.models import Bench, glance, long_fit
 from cosim.gap.camera.quantisation import Quantisation
 from cosim.gap.candidates.extend import extended
+from cosim.gap.evidence.products import Spreads
 from cosim.gap.evidence.settled import TURNS, ended, settled
 from cosim.gap.selection.probability import posterior
 from cosim.gap.selection.tried import Tried, gain
@@ -139,3 +141,19 @@ def test_odds_are_those_of_bayes():
     found = posterior({"a": 2.0 * np.log(9.0), "b": 0.0}, 4)
     assert found == pytest.approx({"a": one / whole, "b": two / whole})
     assert posterior({"a": 1e6, "b": 0.0}, 2)["a"] == 1.0
+
+
+def test_a_campaign_without_a_name_says_what_it_lacks(campaign):
+    lines = lacking(campaign, Spreads(stretch=0.14))
+    assert any("14 % from stretch to stretch" in line for line in lines)
+    assert any("y and phi not measured" in line for line in lines)
+    assert any("no force measured" in line for line in lines)
+    twice = replace(campaign, runs=(*campaign.runs, campaign.runs[0]))
+    once = [line for line in lines if "settings was run once" in line]
+    assert len(once) == 1 and once[0] not in lacking(twice, Spreads(stretch=0.14))
+    # what scatters as a rig's does is no reason
+    assert not any("stretch to stretch" in line for line in lacking(campaign, Spreads()))
+
+
+def test_what_is_named_lacks_nothing(gap):
+    assert gap.lacks == ()
