@@ -53,7 +53,7 @@ def map_here(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterat
 def processes(jobs: int, first: Callable[[], object] | None = None) -> Iterator[Map]:
     """A map over ``jobs`` processes; over this one for 1, or where it must not have children.
 
-    first : what each of them does as it starts; until they have, this process does the work itself
+    first : a task for each as it starts; until all are done, this process does the work itself
     """
     if _alone(jobs):
         yield map_here
@@ -65,6 +65,8 @@ def processes(jobs: int, first: Callable[[], object] | None = None) -> Iterator[
         def mapped(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterator[Any]:
             if not all(future.done() for future in starting):
                 return map_here(function, arguments)
+            for future in starting:
+                future.result()  # raises what went wrong there
             with held_interrupts(), unheard_by_children():
                 futures = [submit(function, *each) for each in arguments]
             return (future.result() for future in futures)

@@ -139,7 +139,7 @@ def first_guess(
 #: A track is cut into so many pieces, whose means have little noise left.
 _PIECES = 200
 #: Scatter of the pieces' means, in units of one sample's noise, and mean of all in standard
-#: deviations of the tracker's zero: 3 in 1000 runs that stand still stand as far off.
+#: deviations of the tracker's zero: 3 in 1000 channels that stand still stand as far off.
 _MOVES, _STANDS = 0.5, 3.0
 
 
@@ -164,4 +164,5 @@ def _moves(run: MeasuredRun, channel: str, zero: float) -> bool:
     noise = run.noise[channel]
     alone = noise / np.sqrt(each)  # what noise leaves of the means' scatter
     scatter = np.sqrt(max(np.var(means) - alone**2, 0.0))
-    return bool(scatter > _MOVES * noise or abs(means.mean()) > _STANDS * zero * noise)
+    off = noise * np.hypot(zero, 1.0 / np.sqrt(values.size))
+    return bool(scatter > _MOVES * noise or abs(means.mean()) > _STANDS * off)

@@ -25,11 +25,10 @@ def stick_remarks(run: MeasuredRun) -> list[str]:
             return ["no slip is seen, it says nothing of kinetic friction"]
         return ["no stick is seen after the start"]
     remarks = []
-    speed = cycle_features(run).stick_speed
-    off = abs(speed.value - run.surface_speed)
-    if off > max(SPEED_ERRORS * speed.error, SPEED_PART * abs(run.surface_speed)):
+    off = stick_speed_off(run)
+    if off is not None:
         remarks.append(
-            f"in stick x moves at {speed.value / run.surface_speed:.3g} of the surface_speed "
+            f"in stick x moves at {off:.3g} of the surface_speed "
             "given: creep, or the set-point or the scale of x is off"
         )
     scatter = line_scatter(run) / run.noise["x"]
@@ -39,6 +38,15 @@ def stick_remarks(run: MeasuredRun) -> list[str]:
             "noise of a sample: creep, or noise that is not white"
         )
     return remarks
+
+
+def stick_speed_off(run: MeasuredRun) -> float | None:
+    """Speed in stick in parts of the set-point, where it is surely another; else None."""
+    speed = cycle_features(run).stick_speed
+    off = abs(speed.value - run.surface_speed)
+    if off > max(SPEED_ERRORS * speed.error, SPEED_PART * abs(run.surface_speed)):
+        return float(speed.value / run.surface_speed)
+    return None
 
 
 def never_slips(run: MeasuredRun) -> bool:

@@ -116,5 +116,8 @@ def _lost(problem: Problem, run: int, squares: np.ndarray) -> np.ndarray:
 
 def _places(problem: Problem, run: int) -> list[tuple[int, float]]:
     """Numbers of the state and values to set out from."""
-    speed = problem.segmented_runs[run].speed
-    return [(3, part * speed) for part in _LOST_VELOCITIES] + [(2, turn) for turn in _TURNS]
+    segmented = problem.segmented_runs[run]
+    turns = () if "phi" in segmented.channels else _TURNS  # a turn that was seen is known
+    return [(3, part * segmented.speed) for part in _LOST_VELOCITIES] + [
+        (2, turn) for turn in turns
+    ]

@@ -98,7 +98,8 @@ class Settled:
     @property
     def promise(self) -> float:
         """The evidence, were all linear: of a model that is on its way."""
-        return self.evidence + self.promised - self.deviance
+        held_out = [run.held_out for run in self.mixed.runs]
+        return self.promised + float(self.solution.left_out[held_out].sum())
 
     @property
     def springs(self) -> float:

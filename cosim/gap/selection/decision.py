@@ -58,12 +58,13 @@ def resolved(settled: Settled, base: Settled) -> float:
 
 
 def is_at_large(settled: Settled, base: Settled) -> bool:
-    """Whether runs are predicted better by more than the error of that, run by run.
+    """Whether runs are predicted better by more than the standard error of that, run by run.
 
-    Each is predicted from the others: what shows in one run alone gains nothing there.
+    What shows in one of several runs alone is no more than its error. A single run has none.
     """
     gains = by_run(settled, base)
-    return bool(gains.sum() > float(np.std(gains)) * math.sqrt(gains.size))
+    error = float(np.std(gains, ddof=1)) * math.sqrt(gains.size) if gains.size > 1 else 0.0
+    return bool(gains.sum() > error)
 
 
 def is_there(tried: Tried) -> bool:

@@ -165,7 +165,7 @@ def exponents(
 def strengths_of(base: Settled, candidate: Candidate) -> Strengths:
     """Of a candidate that is in a settled model."""
     problem, fitted = base.problem, base.fitted
-    wide = deviations(problem, fitted, base.model.free_parameters, base.spreads)
+    wide = deviations(problem, fitted, base.model.free_parameters, base.ahead)
     keys = strength_keys(candidate.effect)
     point = fitted.point.shared
     shared = np.array(
@@ -260,7 +260,8 @@ def better_rescaled(
 ) -> Settled:
     """The base, or with exponents that a candidate's strength needs, if runs are likelier so.
 
-    Where none is surely needed, friction of every run may have made up for the likeliest.
+    Where none is surely needed, friction of every run may have made up for the likeliest. Those
+    that do not promise to take a hundredth of what is left repair nothing.
     """
     tested = exponents(base, runs, candidate)
     left = base.evidence - base.rows

@@ -215,7 +215,8 @@ class Search:
         near = self._settled([(model, base) for model in models], FIRST)
         lost = [i for i, each in enumerate(near) if each.rms_residual > ALONG]
         if base.rms_residual > ALONG:
-            springs = FAR if (base.loose or base).springs == FAR else NEAR
+            said = (base.loose or base).springs
+            springs = said if said in (NEAR, FAR) else None  # whichever fits
             fresh = self._settled([(models[i], None) for i in lost], springs=springs)
             for i, each in zip(lost, fresh, strict=True):
                 near[i] = min(near[i], each, key=lambda one: one.promise)
@@ -283,10 +284,10 @@ class Search:
 def _distinct(base: Settled, laws: Sequence[Candidate]) -> list[Candidate]:
     """Laws that are not one another once the base sets what it does."""
     set_already = base.model.settings.items()
-    found = {
-        (law.effect, law.form, tuple(sorted(law.settings.items() - set_already)), _starts(law)): law
-        for law in laws
-    }
+    found: dict[tuple, Candidate] = {}
+    for law in laws:
+        new = tuple(sorted(law.settings.items() - set_already))
+        found.setdefault((law.effect, law.form, new, _starts(law)), law)
     return list(found.values())
 
 

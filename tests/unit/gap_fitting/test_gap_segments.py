@@ -43,7 +43,7 @@ def test_where_turning_is_measured_every_segment_sets_out_from_what_was_seen(asi
     folder = write_campaign(tmp_path, [{"surface_speed": 0.03, "columns": columns}], noise=noise)
     campaign = read_campaign(folder)
     (segmented,) = prepare(campaign, campaign.fit_runs, True)
-    assert len(segmented.segments) > 3
+    assert len(segmented.segments) > 3 and np.ptp(aside["phi"]) > 0.015
     for segment in segmented.segments:
         assert {1, 2, 4, 5} <= set(segment.free)
         true = aside["phi"][np.searchsorted(aside.time, segmented.time[segment.first])]

@@ -146,8 +146,10 @@ def test_odds_are_those_of_bayes():
 def test_a_campaign_without_a_name_says_what_it_lacks(campaign):
     lines = lacking(campaign, Spreads(stretch=0.14))
     assert any("14 % from stretch to stretch" in line for line in lines)
-    assert any("y and phi not measured" in line for line in lines)
-    assert any("no force measured" in line for line in lines)
+    assert any("neither y nor phi was measured in any run" in line for line in lines)
+    rig = campaign.rig.model_copy(update={"degrees_of_freedom": ("x",)})
+    guided = lacking(replace(campaign, rig=rig), Spreads(stretch=0.14))
+    assert not any("phi" in line for line in guided)
     twice = replace(campaign, runs=(*campaign.runs, campaign.runs[0]))
     once = [line for line in lines if "settings was run once" in line]
     assert len(once) == 1 and once[0] not in lacking(twice, Spreads(stretch=0.14))

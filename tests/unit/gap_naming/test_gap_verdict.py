@@ -175,3 +175,6 @@ def test_what_one_run_gains_and_others_lose_is_no_effect_of_all():
     assert gains.sum() > needed(1) and not is_at_large(better, base)
     better.by_run = base.by_run - np.abs(gains) / (2.0 * ROWS)
     assert is_at_large(better, base)
+    alone = np.array([400.0, -5.0, -5.0, -5.0, -5.0, -5.0])  # one run's own
+    better.by_run = base.by_run - alone / (2.0 * ROWS)
+    assert not is_at_large(better, base)
