@@ -70,9 +70,10 @@ def _unknown(gap: Answer) -> str:
 
 
 def _unknown_of_runs(gap: Gap) -> str:
-    nearest = gap.ladder[-1] if len(gap.ladder) else None
+    first, nearest = (gap.ladder[0], gap.ladder[-1]) if gap.ladder else (None, None)
     said = "the plain model does not fit, and no catalogued effect repairs it"
-    if nearest and nearest.effects:
+    # what helps in short segments alone is not near
+    if first and nearest and nearest.effects and nearest.fit_gap < first.fit_gap:
         names = " and ".join(nearest.effects)
         said += f"; {names} would take {percent(nearest.share)} of the misfit"
     elif gap.reasons:
