@@ -4,7 +4,19 @@ from kernel_steps import memory_of
 from stickslip import Parameters
 from stickslip.kernel import advance
 from stickslip.kernel.interpolant import copy_instant
-from stickslip.kernel.layout import DONE, E_FIRST, HERE, MODE, NEXT, SLIP, STICK, TIME, W_SIZE
+from stickslip.kernel.layout import (
+    DONE,
+    E_FIRST,
+    HERE,
+    MODE,
+    NEXT,
+    P_LONGEST_STICK,
+    P_TOLERANCE,
+    SLIP,
+    STICK,
+    TIME,
+    W_SIZE,
+)
 
 # steps of a slip over a pattern are as long as the tolerance allows, not as the period does
 SHORT_WAVES = Parameters.model_validate(
@@ -61,3 +73,47 @@ def test_a_slip_comes_to_rest_in_few_steps():
         copy_instant(memory.z, NEXT, HERE)
     assert slips > 5
     assert steps / slips < 17
+
+
+# a stick of half a minute, which the load ends
+SLOW = Parameters.model_validate(
+    {
+        "rig": {"degrees_of_freedom": ["x"]},
+        "surface": {"speed": 1e-3},
+        "friction": {"mu_s": 0.3, "mu_k": 0.2},
+    }
+)
+
+
+def first_break_away(longer: float, tolerance: float) -> tuple[float, int]:
+    """Its time, s, and the steps up to it, with sticks' longest step so many times as long."""
+    memory, w, e = memory_of(SLOW), [0.0] * W_SIZE, [0.0] * E_FIRST
+    memory.p[P_LONGEST_STICK] *= longer
+    memory.p[P_TOLERANCE] = tolerance
+    steps = 0
+    while True:
+        held = memory.z[HERE + MODE] == STICK
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
+        steps += held
+        if held and memory.z[NEXT + MODE] == SLIP:
+            return memory.z[NEXT + TIME], steps
+        copy_instant(memory.z, NEXT, HERE)
+
+
+def test_long_steps_in_stick_miss_no_break_away():
+    """A load that only grows reaches its limit at the same time, in fewer steps."""
+    exact, many = first_break_away(1.0, 1e-11)
+    late, few = first_break_away(20.0, 1e-11)
+    assert few < many / 4
+    assert abs(late - exact) < 1e-10
+
+
+def test_a_break_away_is_as_exact_as_the_tolerance_asks():
+    """The search ends where the load is within tolerance^1.5 of its limit, a part of that.
+
+    The load grows from below nothing to its limit in ``exact`` s, nearly evenly.
+    """
+    exact, _ = first_break_away(20.0, 1e-11)
+    for tolerance in (1e-8, 1e-6, 1e-4):
+        found, _ = first_break_away(20.0, tolerance)
+        assert abs(found - exact) < tolerance**1.5 * exact + 1e-12
