@@ -21,6 +21,7 @@ from cosim.processes import Map
 
 from .lacking import lacking
 from .laws import laws_found, table_found
+from .longer import hidden_line, left_in_longer
 from .models import Bench, long_fit, shown
 from .offered import offered
 from .ranking import ranked
@@ -44,6 +45,9 @@ def answer(
     effects = tuple(dict.fromkeys(law.effect for law in laws_offered))
     spreads = finding.ladder[-1].settled.spreads
     trials = list(mapped(long_fit, [(bench, rung.settled, spreads) for rung in finding.ladder]))
+    hidden = left_in_longer(bench, finding, trials[0], mapped)
+    if hidden:
+        finding = replace(finding, verdict="unknown")
     plain = shown(campaign, bench, trials[0])
     laws = laws_found(bench, finding, mapped)
     table = table_found(bench, finding, laws, mapped)
@@ -75,11 +79,20 @@ def answer(
         analysis=analysis,
         next_experiment=_separating(bench, finding, spreads, mapped),
         remarks=remarks(campaign, effects, rounded),
-        lacks=lacking(campaign, spreads) if finding.verdict in ("partial", "unknown") else (),
+        lacks=_lacks(campaign, finding, spreads, hidden),
     )
     if gap.verdict == "unknown" and extended is None:
         gap = replace(gap, empirical=empirical_term(bench.campaign, bench.data, trials[0], mapped))
     return _with_steps(gap, rounded) if rounded else gap
+
+
+def _lacks(
+    campaign: Campaign, finding: Finding, spreads: Spreads, hidden: float
+) -> tuple[str, ...]:
+    """hidden : what the plain model leaves in long segments alone, units of the noise, or 0"""
+    if finding.verdict not in ("partial", "unknown"):
+        return ()
+    return (*([hidden_line(hidden)] if hidden else []), *lacking(campaign, spreads))
 
 
 def _extended(

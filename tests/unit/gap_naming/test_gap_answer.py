@@ -1,12 +1,14 @@
 """What is said of a finding: models in long segments, ladder, ranking, odds, curves, remarks."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from settled_campaigns import campaign_of, prepared_of, settled_on, strength
 from stickslip.effects.candidate import Candidate
 
+from cosim.gap.answer import longer
 from cosim.gap.answer.answer import answer
 from cosim.gap.answer.lacking import lacking
 from cosim.gap.answer.laws import laws_found, table_found
@@ -155,6 +157,25 @@ def test_a_campaign_without_a_name_says_what_it_lacks(campaign):
     assert len(once) == 1 and once[0] not in lacking(twice, Spreads(stretch=0.14))
     # what scatters as a rig's does is no reason
     assert not any("stretch to stretch" in line for line in lacking(campaign, Spreads()))
+
+
+@pytest.mark.parametrize(
+    ("verdict", "short", "anew", "hidden"),
+    [
+        ("none", 1.2, 3.7, 0.0),  # it fits in long segments as it stands
+        ("none", 2.9, 1.05, 0.0),  # and set out anew
+        ("none", 2.9, 3.7, 3.7),
+        ("named", 2.9, 3.7, 0.0),  # the plain model need not fit
+    ],
+)
+def test_none_must_hold_in_longer_segments(
+    monkeypatch, bench, finding, verdict, short, anew, hidden
+):
+    laid = SimpleNamespace(evidence=anew**2 * 1000.0, rows=1000)
+    monkeypatch.setattr(longer, "settled", lambda *call, **options: laid)
+    plain = SimpleNamespace(fit_rms=short)
+    found = longer.left_in_longer(bench, replace(finding, verdict=verdict), plain, map_here)
+    assert found == pytest.approx(hidden)
 
 
 def test_what_is_named_lacks_nothing(gap):
