@@ -10,10 +10,11 @@ times as probable with it; else they are a class.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy import stats
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.drive import STIFFNESS_OFFSET
 from cosim.gap.evidence.settled import Settled
@@ -68,16 +69,32 @@ def is_at_large(settled: Settled, base: Settled) -> bool:
 
 
 def is_there(tried: Tried) -> bool:
-    """Whether a law's strength is beyond its error: evidence without it is that of a better fit."""
+    """Whether a law's strength is beyond its error: evidence without it is that of a better fit.
+
+    And whether the law is none that is a plain number by another name, like a static friction that
+    ages within milliseconds.
+    """
+    errors = tried.model.errors
+    if any(_is_plain(each, tried.model.values, errors) for each in tried.candidate.free_parameters):
+        return False
     free = [each for each in tried.candidate.free_parameters if each.is_strength]
     if not free:
         return True
-    errors = tried.model.errors
     return any(
         abs(each.scaled(tried.model.values[each.key])) > STRENGTH * errors[each.key]
         for each in free
         if each.key in errors
     )
+
+
+def _is_plain(
+    free: FreeParameter, values: Mapping[str, float], errors: Mapping[str, float]
+) -> bool:
+    """Whether a number is not surely above where what it belongs to is a plain number."""
+    if not free.plain_below or free.key not in values:
+        return False
+    above = free.scaled(values[free.key]) - free.scaled(free.low)
+    return above <= STRENGTH * errors.get(free.key, 0.0)
 
 
 def members_of(tried: Sequence[Tried], level: float = LEVEL) -> list[Tried]:

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from settled_campaigns import strength
-from stickslip.effects.candidate import Candidate
+from stickslip.effects.candidate import Candidate, FreeParameter
 
 from cosim.gap.evidence.products import Spreads
 from cosim.gap.selection.decision import (
@@ -88,6 +88,16 @@ def test_as_good_as_the_best_is_one_of_its_class():
     assert members_of([close, best]) == [best, close]
     far = tried(DRAG, ROWS + 1.1 * needed(1), base)
     assert members_of([best, far]) == [best]
+
+
+@pytest.mark.parametrize(("time", "named"), [(0.03, False), (0.0333, False), (0.05, True)])
+def test_a_law_that_is_a_plain_number_by_another_name_is_none(time, named):
+    """Ageing within 30 ms is another mu_s; the time's error is a tenth of its step, 5 %."""
+    keys = "static_strengthening.saturating", "static_strengthening.saturation_time"
+    shape = FreeParameter(keys[1], 0.5, 0.5, 0.03, 30.0, log=True, plain_below=True)
+    law = Candidate("static_strengthening", "saturating", (strength(keys[0], 0.1, 0.1), shape))
+    tried = Tried(law, 100.0, StandIn(ROWS, {keys[0]: 0.2, keys[1]: time}))
+    assert bool(members_of([tried])) is named
 
 
 def test_a_strength_within_its_error_of_nothing_is_none():
