@@ -10,11 +10,10 @@ times as probable with it; else they are a class.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from scipy import stats
-from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.drive import STIFFNESS_OFFSET
 from cosim.gap.evidence.settled import Settled
@@ -71,12 +70,11 @@ def is_at_large(settled: Settled, base: Settled) -> bool:
 def is_there(tried: Tried) -> bool:
     """Whether a law's strength is beyond its error: evidence without it is that of a better fit.
 
-    And whether the law is none that is a plain number by another name, like a static friction that
-    ages within milliseconds.
+    And whether it is a law, see `is_plain`.
     """
-    errors = tried.model.errors
-    if any(_is_plain(each, tried.model.values, errors) for each in tried.candidate.free_parameters):
+    if is_plain(tried):
         return False
+    errors = tried.model.errors
     free = [each for each in tried.candidate.free_parameters if each.is_strength]
     if not free:
         return True
@@ -87,22 +85,32 @@ def is_there(tried: Tried) -> bool:
     )
 
 
-def _is_plain(
-    free: FreeParameter, values: Mapping[str, float], errors: Mapping[str, float]
-) -> bool:
-    """Whether a number is not surely above where what it belongs to is a plain number."""
-    if not free.plain_below or free.key not in values:
-        return False
-    above = free.scaled(values[free.key]) - free.scaled(free.low)
-    return above <= STRENGTH * errors.get(free.key, 0.0)
+def is_plain(tried: Tried) -> bool:
+    """Whether a law is a plain number by another name, like an ageing within milliseconds.
+
+    Its shape is not surely beyond where it would be.
+    """
+    values, errors = tried.model.values, tried.model.errors
+    return any(
+        free.scaled(values[free.key]) - free.scaled(free.low)
+        <= STRENGTH * errors.get(free.key, 0.0)
+        for free in tried.candidate.free_parameters
+        if free.plain_below and free.key in values
+    )
 
 
 def members_of(tried: Sequence[Tried], level: float = LEVEL) -> list[Tried]:
-    """The best effect, and those that the runs are not 1 / level times less probable with."""
-    effects = best_of_effects([t for t in tried if t.settled is not None and is_there(t)])
+    """The best effect, and those that the runs are not 1 / level times less probable with.
+
+    None, where a plain number by another name does better: the contact is then of another shape.
+    """
+    settled = [t for t in tried if t.settled is not None]
+    effects = best_of_effects([t for t in settled if is_there(t)])
     if not effects:
         return []
     best = effects[0].gain
+    if any(t.gain > best and is_plain(t) for t in settled):
+        return []
     return [t for t in effects if t.gain > best - needed(1, level)]
 
 

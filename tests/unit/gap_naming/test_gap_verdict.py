@@ -3,7 +3,7 @@
 The models are stand-ins that say how probable they make the runs: what a verdict goes by.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -98,6 +98,11 @@ def test_a_law_that_is_a_plain_number_by_another_name_is_none(time, named):
     law = Candidate("static_strengthening", "saturating", (strength(keys[0], 0.1, 0.1), shape))
     tried = Tried(law, 100.0, StandIn(ROWS, {keys[0]: 0.2, keys[1]: time}))
     assert bool(members_of([tried])) is named
+    # what it does better than, then has no name either
+    less = Tried(LINEAR, 50.0, StandIn(ROWS, {"velocity_weakening.linear": 1.0}))
+    assert [t.candidate for t in members_of([tried, less])] == ([law] if named else [])
+    more = replace(less, gain=150.0)
+    assert members_of([tried, more])[0] is more
 
 
 def test_a_strength_within_its_error_of_nothing_is_none():
