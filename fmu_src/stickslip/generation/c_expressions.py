@@ -1,0 +1,406 @@
+"""Expressions as C, evaluated in Python's order and with Python's results."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import NamedTuple
+
+from .c_program import BUILTINS, C_TYPES, MATH, RESERVED, Function, Program, refuse
+from .c_types import Types
+
+#: What binds how tightly in C; parentheses stand where less does within more.
+ATOM, UNARY, PRODUCT, SUM, ORDER, EQUALITY, AND, OR, CHOICE = 9, 8, 7, 6, 5, 4, 3, 2, 1
+_ARITHMETIC = {ast.Add: ("+", SUM), ast.Sub: ("-", SUM), ast.Mult: ("*", PRODUCT)}
+_COMPARISONS = {
+    **{ast.Lt: ("<", ORDER), ast.LtE: ("<=", ORDER), ast.Gt: (">", ORDER), ast.GtE: (">=", ORDER)},
+    **{ast.Eq: ("==", EQUALITY), ast.NotEq: ("!=", EQUALITY)},
+}
+_HELPED = {ast.FloorDiv: "floor_divide", ast.Mod: "modulo"}
+
+#: What C's own operators and functions do otherwise than Python's, as C.
+HELPERS = {
+    "larger": """\
+static inline double larger(double a, double b) {
+    return b > a ? b : a;
+}""",
+    "smaller": """\
+static inline double smaller(double a, double b) {
+    return b < a ? b : a;
+}""",
+    "larger_int": """\
+static inline int64_t larger_int(int64_t a, int64_t b) {
+    return b > a ? b : a;
+}""",
+    "smaller_int": """\
+static inline int64_t smaller_int(int64_t a, int64_t b) {
+    return b < a ? b : a;
+}""",
+    "absolute_int": """\
+static inline int64_t absolute_int(int64_t a) {
+    return a < 0 ? -a : a;
+}""",
+    "radians": """\
+static inline double radians(double degrees) {
+    return degrees * (3.141592653589793 / 180.0);
+}""",
+    "modulo_int": """\
+/* What is left of a after whole b, with the sign of b. */
+static inline int64_t modulo_int(int64_t a, int64_t b) {
+    const int64_t left = a % b;
+    return left != 0 && (left < 0) != (b < 0) ? left + b : left;
+}""",
+    "floor_divide_int": """\
+/* The largest whole number up to a / b. */
+static inline int64_t floor_divide_int(int64_t a, int64_t b) {
+    const int64_t left = a % b;
+    return a / b - (left != 0 && (left < 0) != (b < 0) ? 1 : 0);
+}""",
+    "modulo": """\
+/* What is left of a after whole b, with the sign of b. */
+static inline double modulo(double a, double b) {
+    const double left = fmod(a, b);
+    if (left == 0.0) {
+        return copysign(0.0, b);
+    }
+    return (left < 0.0) != (b < 0.0) ? left + b : left;
+}""",
+    "floor_divide": """\
+/* The largest whole number up to a / b, of a quotient that has been made exact before. */
+static inline double floor_divide(double a, double b) {
+    const double left = fmod(a, b);
+    double quotient = (a - left) / b;
+    if (left != 0.0 && (left < 0.0) != (b < 0.0)) {
+        quotient -= 1.0;
+    }
+    if (quotient == 0.0) {
+        return copysign(0.0, a / b);
+    }
+    const double whole = floor(quotient);
+    return quotient - whole > 0.5 ? whole + 1.0 : whole;
+}""",
+}
+
+
+class Made(NamedTuple):
+    """An expression in C, its type, and how tightly it binds."""
+
+    text: str
+    type: str
+    binds: int = ATOM
+
+    def within(self, binds: int) -> str:
+        """The text where what binds less needs parentheses."""
+        return self.text if self.binds >= binds else f"({self.text})"
+
+
+class Expressions:
+    """The expressions of a function.
+
+    Python evaluates operands from left to right; C says nothing of their order. Where it matters,
+    because one writes into an array, those before the last go into constants of their own, in
+    ``before``: lines for before the statement.
+    """
+
+    def __init__(self, program: Program, function: Function, helpers: set[str]) -> None:
+        self.program, self.where = program, function.where
+        self.types = Types(program, function)
+        self.helpers = helpers
+        self.before: list[str] = []
+        self._always = True
+        used = {n.id for n in ast.walk(function.node) if isinstance(n, ast.Name)}
+        self._taken = {*used, *function.parameters, *RESERVED, *HELPERS, *program.constants}
+        self._names = {name: self._spelled(name) for name in self.types.of_names}
+
+    def _spelled(self, name: str) -> str:
+        if not name.isascii():
+            refuse(self.where, ast.Name(name), "a name with other letters than a to z")
+        return self.new_name(name + "_") if name in RESERVED | HELPERS.keys() else name
+
+    def new_name(self, wish: str) -> str:
+        """A name that nothing else has."""
+        name, number = wish, 1
+        while name in self._taken:
+            number += 1
+            name = f"{wish}{number}"
+        self._taken.add(name)
+        return name
+
+    def name(self, name: str) -> str:
+        """How C spells a variable."""
+        return self._names[name]
+
+    @contextmanager
+    def only_sometimes(self, sometimes: bool = True) -> Iterator[None]:
+        """What is made within is not evaluated once each time that its statement is."""
+        outer, self._always = self._always, self._always and not sometimes
+        yield
+        self._always = outer
+
+    def made(self, node: ast.expr) -> Made:
+        """An expression in C."""
+        match node:
+            case ast.Constant(value=bool() as value):
+                return Made(str(value).lower(), "bool")
+            case ast.Constant(value=int() | float() as value):
+                return Made(number_text(value), type(value).__name__)
+            case ast.Name(id=name):
+                return self._made_name(node, name)
+            case ast.Subscript(value=ast.Name(id=name), slice=index):
+                return Made(f"{self._array(node, name)}[{self.index(index)}]", "float")
+            case ast.BinOp():
+                return self._made_operation(node)
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                return Made(f"!{self.condition(operand).within(ATOM)}", "bool", UNARY)
+            case ast.UnaryOp(op=ast.USub() | ast.UAdd() as op, operand=operand):
+                number = self._as_number(operand, self.made(operand))
+                sign = "-" if isinstance(op, ast.USub) else "+"
+                return Made(sign + number.within(ATOM), number.type, UNARY)
+            case ast.BoolOp():
+                return self._made_boolean(node, self._bool)
+            case ast.Compare():
+                return self._made_comparison(node)
+            case ast.IfExp():
+                return self._made_choice(node)
+            case ast.Call(func=ast.Name(id=name), args=given, keywords=[]):
+                return self._made_call(node, name, given)
+        refuse(self.where, node)
+
+    def condition(self, node: ast.expr) -> Made:
+        """An expression as what `if` asks: a number counts where it is not zero."""
+        if isinstance(node, ast.BoolOp):
+            return self._made_boolean(node, self.condition)
+        value = self.made(node)
+        if value.type == "bool":
+            return value
+        return Made(f"{value.within(SUM)} != {self._zero(node, value)}", "bool", EQUALITY)
+
+    def as_type(self, node: ast.expr, value: Made, wanted: str) -> Made:
+        """An int as float; anything else must be what is wanted."""
+        if value.type == wanted:
+            return value
+        if (value.type, wanted) != ("int", "float"):
+            refuse(self.where, node, f"{value.type} where {wanted} is wanted")
+        if value.text.lstrip("-").isdigit():
+            return Made(repr(float(int(value.text))), "float", value.binds)
+        return Made(f"(double){value.within(UNARY)}", "float", UNARY)
+
+    def typed(self, node: ast.expr, wanted: str) -> Made:
+        """An expression as something of a type."""
+        return self.as_type(node, self.made(node), wanted)
+
+    def index(self, node: ast.expr) -> str:
+        """Where in an array; Python counts negative ones from its end, which C does not know."""
+        if isinstance(node, ast.UnaryOp):
+            refuse(self.where, node, "an index from an array's end")
+        return self.typed(node, "int").text
+
+    def in_order(self, nodes: Sequence[ast.expr]) -> list[Made]:
+        """Operands, those kept before the statement whose order counts."""
+        found = []
+        for i, node in enumerate(nodes):
+            value = self.made(node)
+            if any(self.program.order_matters(node, later) for later in nodes[i + 1 :]):
+                value = self.kept(node, value)
+            found.append(value)
+        return found
+
+    def kept(self, node: ast.expr, value: Made) -> Made:
+        """A value as a constant of its own, made before the statement."""
+        if not self._always:
+            refuse(
+                self.where,
+                node,
+                "what it is evaluated before, or after, writes into an array: "
+                "give it a statement of its own",
+            )
+        name = self.new_name("value")
+        self.before.append(f"const {C_TYPES[value.type]} {name} = {value.text};")
+        return Made(name, value.type)
+
+    def _bool(self, node: ast.expr) -> Made:
+        return self.typed(node, "bool")
+
+    def _as_number(self, node: ast.expr, value: Made) -> Made:
+        if value.type not in ("int", "float"):
+            refuse(self.where, node, f"{value.type} where a number is wanted")
+        return value
+
+    def _zero(self, node: ast.expr, value: Made) -> str:
+        return "0" if self._as_number(node, value).type == "int" else "0.0"
+
+    def _made_name(self, node: ast.expr, name: str) -> Made:
+        if name in self.types.of_names:
+            kind = self.types.of_names[name]
+            if kind not in ("float", "int", "bool"):
+                refuse(
+                    self.where, node, "an array as a whole" if kind else "nothing is known of it"
+                )
+            return Made(self.name(name), kind)
+        number = self.program.number(name)
+        if number is None or isinstance(number, tuple):
+            refuse(self.where, node, "a name that stands for no number")
+        own = name in self.program.constants
+        return Made(name if own else number_text(number), type(number).__name__)
+
+    def _array(self, node: ast.AST, name: str) -> str:
+        if self.types.of_names.get(name) == "array":
+            return self.name(name)
+        if name in self.types.of_names or not isinstance(self.program.number(name), tuple):
+            refuse(self.where, node, f"{name} is no array")
+        return name
+
+    def _made_operation(self, node: ast.BinOp) -> Made:
+        operands = [node.left, node.right]
+        values = [
+            self._as_number(each, value)
+            for each, value in zip(operands, self.in_order(operands), strict=True)
+        ]
+        whole = all(value.type == "int" for value in values)
+        if isinstance(node.op, ast.Pow) and whole:
+            refuse(self.where, node, "int ** int, which is int or float: write float(...)")
+        if not whole or isinstance(node.op, ast.Div):
+            values = self._floats(operands, values)
+        one, other = values
+        kind = one.type
+        if type(node.op) in _ARITHMETIC or isinstance(node.op, ast.Div):
+            sign, binds = _ARITHMETIC.get(type(node.op), ("/", PRODUCT))
+            return Made(f"{one.within(binds)} {sign} {other.within(binds + 1)}", kind, binds)
+        if isinstance(node.op, ast.Pow):
+            return Made(f"pow({one.text}, {other.text})", kind)
+        if type(node.op) not in _HELPED:
+            refuse(self.where, node)
+        return self._helped(_HELPED[type(node.op)], values)
+
+    def _floats(self, nodes: Sequence[ast.expr], values: Sequence[Made]) -> list[Made]:
+        return [
+            self.as_type(node, value, "float") for node, value in zip(nodes, values, strict=True)
+        ]
+
+    def _helped(self, name: str, values: Sequence[Made]) -> Made:
+        """A call of a helper, of the one for int if all are."""
+        kind = values[0].type
+        name += "_int" if kind == "int" else ""
+        self.helpers.add(name)
+        return Made(f"{name}({', '.join(value.text for value in values)})", kind)
+
+    def _made_boolean(self, node: ast.BoolOp, part: Callable[[ast.expr], Made]) -> Made:
+        sign, binds = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
+        texts = []
+        for i, each in enumerate(node.values):
+            with self.only_sometimes(i > 0):
+                texts.append(part(each).within(EQUALITY))
+        return Made(f" {sign} ".join(texts), "bool", binds)
+
+    def _made_comparison(self, node: ast.Compare) -> Made:
+        operands = [node.left, *node.comparators]
+        if len(operands) > 2 and any(self.program.writes(each) for each in operands):
+            refuse(self.where, node, "a chain of comparisons with a call that writes into an array")
+        values = self.in_order(operands)
+        texts = []
+        for i, op in enumerate(node.ops):
+            if type(op) not in _COMPARISONS:
+                refuse(self.where, node)
+            sign, binds = _COMPARISONS[type(op)]
+            one, other = self._alike(operands[i : i + 2], values[i : i + 2])
+            texts.append(f"{one.within(SUM)} {sign} {other.within(SUM)}")
+        return Made(" && ".join(texts), "bool", AND if len(texts) > 1 else binds)
+
+    def _alike(self, nodes: Sequence[ast.expr], values: Sequence[Made]) -> Sequence[Made]:
+        """Values of one type: all as float if any is."""
+        if any(value.type == "float" for value in values):
+            return self._floats(nodes, values)
+        for node, value in zip(nodes, values, strict=True):
+            self.as_type(node, value, values[0].type)
+        return values
+
+    def _made_choice(self, node: ast.IfExp) -> Made:
+        test = self.condition(node.test).within(OR)
+        branches = [node.body, node.orelse]
+        with self.only_sometimes():
+            one, other = self._alike(branches, [self.made(each) for each in branches])
+        return Made(f"{test} ? {one.within(OR)} : {other.within(OR)}", one.type, CHOICE)
+
+    def _made_call(self, node: ast.expr, name: str, given: list[ast.expr]) -> Made:
+        if name in self.types.of_names:
+            refuse(self.where, node, f"{name} is a variable")
+        if name in self.program.functions:
+            return self._made_kernel_call(node, self.program.functions[name], given)
+        if name in self.program.imported and name in MATH:
+            return self._made_math_call(node, name, given)
+        if name not in BUILTINS:
+            refuse(self.where, node, f"{name} is unknown")
+        values = self.in_order(given)
+        if name in ("max", "min") and len(values) > 1:
+            return self._made_extreme(name, given, values)
+        if len(values) != 1:
+            refuse(self.where, node, f"{len(values)} arguments")
+        return self._made_builtin(name, given[0], values[0])
+
+    def _made_builtin(self, name: str, node: ast.expr, value: Made) -> Made:
+        if name == "abs":
+            if self._as_number(node, value).type == "int":
+                return self._helped("absolute", [value])
+            return Made(f"fabs({value.text})", "float")
+        if name not in ("int", "float", "bool"):
+            refuse(self.where, node, f"{name} of a single value")
+        if value.type == name:
+            return value
+        if name == "bool":
+            return Made(f"{value.within(SUM)} != {self._zero(node, value)}", "bool", EQUALITY)
+        if name == "float" and value.type == "int":
+            return self.as_type(node, value, "float")
+        return Made(f"({C_TYPES[name]}){value.within(UNARY)}", name, UNARY)
+
+    def _made_extreme(self, name: str, nodes: list[ast.expr], values: list[Made]) -> Made:
+        values = [
+            self._as_number(node, value)
+            for node, value in zip(nodes, self._alike(nodes, values), strict=True)
+        ]
+        found = values[0]
+        for value in values[1:]:
+            found = self._helped("larger" if name == "max" else "smaller", [found, value])
+        return found
+
+    def _made_math_call(self, node: ast.expr, name: str, given: list[ast.expr]) -> Made:
+        function = MATH[name]
+        if len(given) != function.arguments:
+            refuse(self.where, node, f"{len(given)} arguments instead of {function.arguments}")
+        values = self._floats(given, self.in_order(given))
+        if name in HELPERS:
+            self.helpers.add(name)
+        text = function.form.format(*(value.text for value in values))
+        return Made(text, function.returns, UNARY if text.startswith("(") else ATOM)
+
+    def _made_kernel_call(self, node: ast.expr, function: Function, given: list[ast.expr]) -> Made:
+        if len(given) != len(function.parameters):
+            refuse(
+                self.where, node, f"{len(given)} arguments instead of {len(function.parameters)}"
+            )
+        kinds = list(function.parameters.values())
+        scalars = [each for each, kind in zip(given, kinds, strict=True) if kind != "array"]
+        made = iter(zip(scalars, self.in_order(scalars), strict=True))
+        texts = []
+        for each, kind in zip(given, kinds, strict=True):
+            texts.append(
+                self._whole_array(each) if kind == "array" else self.as_type(*next(made), kind).text
+            )
+        return Made(f"{function_name(function.name)}({', '.join(texts)})", function.returns)
+
+    def _whole_array(self, node: ast.expr) -> str:
+        if isinstance(node, ast.Name) and self.types.of_names.get(node.id) == "array":
+            return self.name(node.id)
+        refuse(self.where, node, "no array as a whole")
+
+
+def number_text(number: int | float) -> str:
+    """A number in C, the same to the last bit; a large int as one that can be multiplied."""
+    if isinstance(number, int) and abs(number) >= 2**15:
+        return f"INT64_C({number})"
+    return repr(number).replace("inf", "INFINITY")
+
+
+def function_name(name: str) -> str:
+    """How C calls a function: libm and others in the process have theirs."""
+    return f"stickslip_{name}"
