@@ -6,13 +6,25 @@
 (501,)
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .effects import EFFECTS
-from .friction.law import friction_coefficient
-from .parameters import Friction, Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
-from .simulate import simulate
-from .trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from .friction.law import friction_coefficient
+    from .parameters import (
+        Friction,
+        Imperfections,
+        Initial,
+        Parameters,
+        Rig,
+        Solver,
+        Springs,
+        Surface,
+    )
+    from .simulation import simulate
+    from .trajectory import Trajectory
 
 __all__ = [
     "EFFECTS",
@@ -32,6 +44,22 @@ __all__ = [
 globals().update({effect.table.__name__: effect.table for effect in EFFECTS})
 __all__ += [effect.table.__name__ for effect in EFFECTS]
 
-if TYPE_CHECKING:
+_HOME = dict.fromkeys(
+    ("Friction", "Imperfections", "Initial", "Parameters", "Rig", "Solver", "Springs", "Surface"),
+    ".parameters",
+) | {
+    "Trajectory": ".trajectory",
+    "friction_coefficient": ".friction.law",
+    "simulate": ".simulation",
+}
 
-    def __getattr__(name: str) -> Any: ...
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: who only builds a unit needs neither numpy nor numba."""
+    if name in _HOME:
+        return getattr(import_module(_HOME[name], __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

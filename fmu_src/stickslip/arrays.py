@@ -80,7 +80,7 @@ class RunArrays:
     def begin(
         cls,
         p: Sequence[float],
-        u: np.ndarray,
+        u: Sequence[float] | np.ndarray,
         start: float = 0.0,
         events: int = 1,
         interpreted: bool = False,

@@ -1,44 +1,84 @@
-"""Parameters that cannot stand side by side. Pure Python: it travels inside the FMU."""
+"""Parameters that cannot stand side by side, in words. Pure Python: it travels inside the FMU."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
-ONE = "give one of the two"
-#: What of ``friction`` a law of speed and state takes the place of, and why.
-NOT_BESIDE_STATE_LAW = {
-    "stick_creep": "whose contact creeps by its own law",
-    "transition_speed": "whose contact has no mu_s to fall from",
+from .kernel.packing.contradictions import (
+    BRISTLES_BESIDE_CREEP,
+    BRISTLES_BESIDE_STICK_STIFFNESS,
+    BRISTLES_WITHOUT_TRANSITION,
+    CREEP_BESIDE_STATE_LAW,
+    FORCE_CURVE_FALLS,
+    FORCE_CURVE_GOES_BACK,
+    FORCE_CURVE_OF_ONE_POINT,
+    FULL_RIPPLE_TOO_FAST,
+    GUIDED_PHI_TURNS,
+    GUIDED_Y_MOVES,
+    NO_CONTRADICTION,
+    SPRINGS_COIL_ON_COIL,
+    SURFACE_TURNS_UNDER_BLOCK,
+    TABLE_AT_NEGATIVE_SPEED,
+    TABLE_BESIDE_DRY_LAW,
+    TABLE_GOES_BACK,
+    TABLE_OF_NEGATIVE_FRICTION,
+    TABLE_OF_ONE_POINT,
+    TRANSITION_BESIDE_STATE_LAW,
+)
+from .kernel.packing.contradictions import contradiction as code_of
+from .packing import in_order
+
+#: What is said of each. ``{name:g}`` stands for the value of the parameter of that name, written
+#: as by "%g"; there is nothing else in braces.
+SAID = {
+    NO_CONTRADICTION: "",
+    CREEP_BESIDE_STATE_LAW: "friction.stick_creep = {friction.stick_creep:g} m/s beside "
+    "rate_and_state, whose contact creeps by its own law; give one of the two",
+    TRANSITION_BESIDE_STATE_LAW: "friction.transition_speed = {friction.transition_speed:g} m/s "
+    "beside rate_and_state, whose contact has no mu_s to fall from; give one of the two",
+    BRISTLES_WITHOUT_TRANSITION: "friction.presliding_distance = "
+    "{friction.presliding_distance:g} m with friction.transition_speed = 0: bristles give way over "
+    "a sliding speed; allowed is a transition_speed above 0 m/s",
+    BRISTLES_BESIDE_CREEP: "friction.presliding_distance = {friction.presliding_distance:g} m "
+    "beside friction.stick_creep, another law of the same shear; give one of the two",
+    BRISTLES_BESIDE_STICK_STIFFNESS: "friction.presliding_distance = "
+    "{friction.presliding_distance:g} m beside stick_stiffness, which judges a rigid stick; give "
+    "one of the two",
+    SPRINGS_COIL_ON_COIL: "rig.spring_natural_length = {rig.spring_natural_length:g} m is more "
+    "than twice rig.spring_length = {rig.spring_length:g} m: a spring pressed below half its "
+    "length lies coil on coil; allowed is at most twice the installed length",
+    FORCE_CURVE_OF_ONE_POINT: "springs.force_curve_extension begins at "
+    "{springs.force_curve_extension[1]:g} m and does not grow to a second value: allowed are no "
+    "force curve (all 0) or 2 to 16 points",
+    FORCE_CURVE_GOES_BACK: "springs.force_curve_extension and springs.force_curve_force: "
+    "extensions must grow from value to value; beyond the last point the places of each repeat "
+    "its last value, or all are 0",
+    FORCE_CURVE_FALLS: "springs.force_curve_force must not fall from value to value",
+    TABLE_OF_ONE_POINT: "friction.table_speed begins at {friction.table_speed[1]:g} m/s and does "
+    "not grow to a second value: allowed are no table (all 0) or 2 to 16 points",
+    TABLE_GOES_BACK: "friction.table_speed and friction.table_mu: speeds must grow from value to "
+    "value; beyond the last point the places of each repeat its last value, or all are 0",
+    TABLE_AT_NEGATIVE_SPEED: "friction.table_speed begins at {friction.table_speed[1]:g} m/s: "
+    "allowed is at least 0 m/s",
+    TABLE_OF_NEGATIVE_FRICTION: "friction.table_mu has a negative value: allowed is at least 0",
+    TABLE_BESIDE_DRY_LAW: "friction.table_speed beside an effect with another law of the sliding "
+    "speed; give one of the two",
+    SURFACE_TURNS_UNDER_BLOCK: "turning_surface.curvature = {turning_surface.curvature:g} 1/m puts "
+    "the centre of turning under the block; allowed is a distance 1/|curvature| above "
+    "rig.contact_radius = {rig.contact_radius:g} m",
+    FULL_RIPPLE_TOO_FAST: "speed_ripple.amplitude = 1 with speed_ripple.frequency = "
+    "{speed_ripple.frequency:g} Hz: a full ripple above 100 Hz is no belt; allowed is a smaller "
+    "amplitude, or at most 100 Hz",
+    GUIDED_Y_MOVES: "initial.vy = {initial.vy:g} m/s in a rig that is guided in y "
+    "(rig.free_y = 0): a guided direction has no velocity; allowed is 0 m/s",
+    GUIDED_PHI_TURNS: "initial.omega = {initial.omega:g} rad/s in a rig that is guided in phi "
+    "(rig.free_phi = 0): a guided direction has no velocity; allowed is 0 rad/s",
 }
+_VALUE = re.compile(r"\{([^:{}]+):g\}")
 
 
 def contradiction(values: Mapping[str, float]) -> str:
     """What two of the parameters (names as of `Parameters.flat`) contradict in; "" if nothing."""
-    return _beside_state_law(values) or _beside_bristles(values)
-
-
-def _beside_state_law(values: Mapping[str, float]) -> str:
-    if values["rate_and_state.direct"] == 0.0 and values["rate_and_state.evolution"] == 0.0:
-        return ""
-    for name, why in NOT_BESIDE_STATE_LAW.items():
-        value = values[f"friction.{name}"]
-        if value != 0.0:
-            return f"friction.{name} = {value:g} m/s beside rate_and_state, {why}; {ONE}"
-    return ""
-
-
-def _beside_bristles(values: Mapping[str, float]) -> str:
-    distance = values["friction.presliding_distance"]
-    said = f"friction.presliding_distance = {distance:g} m"
-    if distance == 0.0:
-        return ""
-    if values["friction.transition_speed"] == 0.0:
-        return (
-            f"{said} with friction.transition_speed = 0: bristles give way over a sliding speed; "
-            "allowed is a transition_speed above 0 m/s"
-        )
-    if values["friction.stick_creep"] != 0.0:
-        return f"{said} beside friction.stick_creep, another law of the same shear; {ONE}"
-    if values["stick_stiffness.ratio"] != 1.0:
-        return f"{said} beside stick_stiffness, which judges a rigid stick; {ONE}"
-    return ""
+    said = SAID[code_of(in_order(values))]
+    return _VALUE.sub(lambda found: f"{values[found[1]]:g}", said)

@@ -32,6 +32,9 @@ AXES = (
     "velocity",
 )
 
+#: What a random number can be.
+DRAWN = ("normal", "uniform")
+
 #: A function of numbers: floats in, a float out, `math` only. Its name says where it enters or what
 #: it is; its arguments are bound by their names, see `stickslip.generation.places`.
 Term = Callable[..., float]
@@ -54,12 +57,14 @@ class State:
     start : parameter that it starts from; "" is 0
     scale : what of it counts as much as the motion's own speed (``speed``, m/s), for the error
         test; None is the energy of that motion, J
+    unit : as FMI writes it
     """
 
     name: str
     rate: Term
     start: str = ""
     scale: Term | None = None
+    unit: str = "J"
 
 
 @dataclass(frozen=True)
@@ -97,7 +102,10 @@ class Effect:
     case : how it is shown
     terms : what it adds to the kernel; each is named by its place there
     derived : numbers made of the parameters once a run; each is named by its function
-    series : derived numbers of which there are several, and how many
+    series : derived numbers of which there are several, and how many: each member has its own
+    draws : random numbers that a derived number of a series can take, by name: each member has
+        its own, "normal" (mean 0, standard deviation 1) or "uniform" (from 0 to 1), drawn in this
+        order by the parameter ``seed``
     sums : word -> function of a member of each series; the word is its sum over them
     states : what it remembers
     core : parameters that the core of the kernel knows, and under which name (`P_...`)
@@ -115,8 +123,9 @@ class Effect:
     source: str
     case: Case
     terms: tuple[Term, ...] = ()
-    derived: tuple[Callable[..., Any], ...] = ()
+    derived: tuple[Term, ...] = ()
     series: Mapping[str, int] = field(default_factory=dict)
+    draws: Mapping[str, str] = field(default_factory=dict)
     sums: Mapping[str, Term] = field(default_factory=dict)
     states: tuple[State, ...] = ()
     core: Mapping[str, str] = field(default_factory=dict)
@@ -135,6 +144,7 @@ class Effect:
                 f"effect {self.id}: axis {self.axis!r} is none; there are {', '.join(AXES)}"
             )
         fields = self.table.model_fields
+        self._check_draws()
         if not self.switch:
             raise ValueError(f"effect {self.id}: no switch: which parameters turn it on?")
         for named in ("switch", "core", "feels_melting"):
@@ -152,6 +162,24 @@ class Effect:
                 raise ValueError(
                     f"effect {self.id}: {name} has neither a typical range nor a tried one"
                 )
+
+    def _check_draws(self) -> None:
+        if not self.draws:
+            return
+        if "seed" not in self.table.model_fields:
+            raise ValueError(f"effect {self.id}: draws by no parameter called seed")
+        if len(set(self.series.values())) != 1:
+            raise ValueError(f"effect {self.id}: draws are for series of one length")
+        for name, kind in self.draws.items():
+            if kind not in DRAWN:
+                raise ValueError(
+                    f"effect {self.id}: draw {name!r} is {kind!r}; there are {', '.join(DRAWN)}"
+                )
+
+    @property
+    def members(self) -> int:
+        """Of each of its series."""
+        return max(self.series.values(), default=0)
 
     @property
     def sentence(self) -> str:

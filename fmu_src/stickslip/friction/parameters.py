@@ -110,8 +110,6 @@ class Friction(Table):
             )
         if len(speed) == 1:
             raise ValueError("table_speed has 1 value: allowed are none or 2 to 16")
-        if speed and speed[0] < 0.0:
-            raise ValueError(f"table_speed begins at {speed[0]:g} m/s: allowed is at least 0 m/s")
         if any(b <= a for a, b in pairwise(speed)):
             raise ValueError("table_speed must grow from value to value")
         if any(value < 0.0 for value in mu):

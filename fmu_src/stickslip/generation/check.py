@@ -40,7 +40,7 @@ def _check_names(effect: Effect) -> None:
     """A term takes its numbers by their names: each must have one, which is no word's."""
     states = [state.name for state in effect.states]
     derived = [function.__name__ for function in effect.derived]
-    own = Counter([*effect.table.model_fields, *derived, *states, *effect.sums])
+    own = Counter([*effect.table.model_fields, *derived, *states, *effect.sums, *effect.draws])
     words = sorted(own.keys() & KERNEL_WORDS)
     if words:
         raise ValueError(f"effect {effect.id}: {', '.join(words)}: the kernel's own words")

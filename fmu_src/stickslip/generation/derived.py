@@ -1,33 +1,27 @@
-"""Text of the functions that make the effects' numbers in ``p`` from their parameters."""
+"""Text of the functions that make the effects' numbers in ``p`` from values and random draws."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..effects.effect import Effect
-from .check import check
-from .functions import WHEN_PACKED, EffectFunctions, arguments, imports_text
-from .places import CONSTANTS, PACKED, Place
-from .slots import derived_slots, parameter_slots
-
-_TYPES = "p: list[float], values: Mapping[str, float]"
+from ..effects.effect import Effect, Term
+from .functions import EffectFunctions, arguments
+from .places import ARRAY, CONSTANTS, PACKED, Place
+from .slots import derived_slots, draw_slot, packed_terms, parameter_slots, value_slot
 
 
-def derived_source(effects: Sequence[Effect]) -> str:
-    """The whole text: for `packing`, in plain Python, without the kernel's restrictions."""
-    for effect in effects:
-        check(effect)
-    packed = {place.name for place in PACKED}
-    texts: list[str] = []
-    imports = {("collections.abc", "Mapping")}
-    for effect in effects:
-        wanted = [*effect.derived, *(term for term in effect.terms if term.__name__ in packed)]
-        text, taken = EffectFunctions(effect).text(wanted, WHEN_PACKED)
-        texts += [text] if text else []
-        imports |= taken
-    texts.append(_set_numbers(effects))
-    texts += [_packed_function(place, effects) for place in PACKED]
-    return imports_text(imports) + "\n\n\n" + "\n\n\n".join(texts) + "\n"
+def packing_functions(effects: Sequence[Effect]) -> list[str]:
+    """What `kernel.packing` calls, beside the effects' own functions."""
+    return [_set_numbers(effects), *(_packed_function(place, effects) for place in PACKED)]
+
+
+def is_on(effect: Effect, function: Term) -> str:
+    """Condition under which a function counts, by the values of the parameters."""
+    taken = [name for name in effect.switch if name in arguments(function)] or effect.switch
+    return " or ".join(
+        f"v[{_place(effect, name)}] != {effect.table.model_fields[name].default!r}"
+        for name in taken
+    )
 
 
 def effect_slot_names(effects: Sequence[Effect]) -> dict[str, str]:
@@ -39,11 +33,21 @@ def effect_slot_names(effects: Sequence[Effect]) -> dict[str, str]:
     }
 
 
+def _place(effect: Effect, name: str) -> str:
+    return value_slot(f"{effect.id}.{name}")
+
+
 def _bound(effect: Effect, function: Callable[..., object], name: str) -> str:
+    """The expression for an argument; of member ``i`` where there is a series."""
     if name in effect.table.model_fields:
-        return f'values["{effect.id}.{name}"]'
-    if name in derived_slots(effect):
-        return f"p[{derived_slots(effect)[name][0]}]"
+        return f"v[{_place(effect, name)}]"
+    in_series = function.__name__ in effect.series
+    if name in derived_slots(effect) and (in_series or name not in effect.series):
+        more = " + i" if name in effect.series else ""
+        return f"p[{derived_slots(effect)[name][0]}{more}]"
+    if name in effect.draws and in_series:
+        number = list(effect.draws).index(name)
+        return f"d[{draw_slot(effect)} + {len(effect.draws)} * i + {number}]"
     if name in CONSTANTS:
         return CONSTANTS[name]
     raise ValueError(
@@ -59,40 +63,36 @@ def _call(effect: Effect, function: Callable[..., object]) -> str:
 
 def _set_numbers(effects: Sequence[Effect]) -> str:
     lines = [
-        f"def set_effect_numbers({_TYPES}) -> None:",
+        f"def set_effect_numbers(v: {ARRAY}, d: {ARRAY}, p: {ARRAY}):",
         '    """Put parameters and derived numbers of the effects where the kernel looks."""',
     ]
     for name, slot in effect_slot_names(effects).items():
-        lines.append(f'    p[{slot}] = float(values["{name}"])')
+        lines.append(f"    p[{slot}] = v[{value_slot(name)}]")
     for effect in effects:
         for function in effect.derived:
             slot, size = derived_slots(effect)[function.__name__]
-            target = f"p[{slot}]" if size == 1 else f"p[{slot} : {slot} + {size}]"
-            lines.append(f"    {target} = {_call(effect, function)}")
-    return "\n".join([*lines, "    return None"])
+            if function.__name__ in effect.series:
+                lines.append(f"    for i in range({size}):")
+                lines.append(f"        p[{slot} + i] = {_call(effect, function)}")
+            else:
+                lines.append(f"    p[{slot}] = {_call(effect, function)}")
+    return "\n".join([*lines, "    return"])
 
 
 def _packed_function(place: Place, effects: Sequence[Effect]) -> str:
     lines = [
-        f"def with_{place.name}({_TYPES}, value: float) -> float:",
+        f"def with_{place.name}(p: {ARRAY}, v: {ARRAY}, value: float) -> float:",
         f'    """Returns with every effect: {place.meaning}."""',
     ]
     for effect in effects:
-        for term in effect.terms:
+        for term in packed_terms(effect):
             if term.__name__ != place.name:
                 continue
             call = _call(effect, term)
-            switches = [name for name in effect.switch if name in arguments(term)]
-            on = " or ".join(
-                f"{_bound(effect, term, name)} != {effect.table.model_fields[name].default!r}"
-                for name in switches or effect.switch
-            )
-            lines.append(f"    if {on}:")
-            lines.append(
-                {
-                    "add": f"        value += {call}",
-                    "multiply": f"        value *= {call}",
-                    "largest": f"        value = max(value, {call})",
-                }[place.joins]
-            )
+            joined = {
+                "add": f"value += {call}",
+                "multiply": f"value *= {call}",
+                "largest": f"value = max(value, {call})",
+            }
+            lines += [f"    if {is_on(effect, term)}:", f"        {joined[place.joins]}"]
     return "\n".join([*lines, "    return value"])

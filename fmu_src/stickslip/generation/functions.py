@@ -3,36 +3,17 @@
 from __future__ import annotations
 
 import ast
-import builtins
 import inspect
 import linecache
 import sys
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..effects.effect import Effect
 
-
-class Vocabulary(NamedTuple):
-    """What functions may use that is not of their file: names, and names imported from modules.
-
-    said: the same in words, for whoever used another.
-    """
-
-    names: Collection[str]
-    modules: Collection[str]
-    said: str
-
-
-#: Of the text that is also compiled, by numba and as C.
-IN_KERNEL = Vocabulary(
-    ("abs", "bool", "float", "int", "max", "min", "range"), ("math",), '"from math import ..."'
-)
-#: Of the text that only Python runs, here and in an FMU.
-WHEN_PACKED = Vocabulary(
-    dir(builtins), sys.stdlib_module_names, '"from ... import ..." of the standard library'
-)
+#: What a function may use that is not of its file: these names, and what it imports from `math`.
+NAMES = ("abs", "bool", "float", "int", "max", "min", "range")
 
 
 class EffectFunctions:
@@ -68,12 +49,12 @@ class EffectFunctions:
         return found
 
     @cached_property
-    def _imported(self) -> dict[str, str]:
-        """Name -> module, of what comes from the standard library."""
+    def _imported(self) -> set[str]:
+        """Names that come from `math`."""
         return {
-            alias.name: node.module or ""
+            alias.name
             for node in self._file.body
-            if isinstance(node, ast.ImportFrom) and not node.level
+            if isinstance(node, ast.ImportFrom) and node.module == "math" and not node.level
             for alias in node.names
         }
 
@@ -81,24 +62,22 @@ class EffectFunctions:
         """By which the text calls a function."""
         return f"{self.effect.id}_{function.__name__}"
 
-    def text(
-        self, functions: Iterable[Callable[..., object]], vocabulary: Vocabulary
-    ) -> tuple[str, set[tuple[str, str]]]:
-        """The functions with those that they call, in the file's order; and (module, name) of what
-        they import."""
-        wanted, imports = [function.__name__ for function in functions], set()
+    def text(self, functions: Iterable[Callable[..., object]]) -> tuple[str, set[str]]:
+        """The functions with those that they call, in the file's order; and what of `math` they
+        import."""
+        wanted, imports = list(dict.fromkeys(each.__name__ for each in functions)), set()
         for name in wanted:  # grows as it goes
             if name not in self._defined:
                 raise ValueError(f"effect {self.effect.id}: {name} is no function of its file")
             for used in self._names_in(self._defined[name]):
                 if used in self._defined:
                     wanted += [] if used in wanted else [used]
-                elif self._imported.get(used) in vocabulary.modules:
-                    imports.add((self._imported[used], used))
-                elif used not in self._numbers and used not in vocabulary.names:
+                elif used in self._imported:
+                    imports.add(used)
+                elif used not in self._numbers and used not in NAMES:
                     raise ValueError(
                         f"effect {self.effect.id}: term {name} uses {used}: a term may use "
-                        f"numbers, functions of its file and {vocabulary.said}"
+                        'numbers, functions of its file and "from math import ..."'
                     )
         parts = [self._renamed(node) for name, node in self._defined.items() if name in wanted]
         return "\n\n\n".join(parts), imports
@@ -121,7 +100,8 @@ class EffectFunctions:
                 if node.id in calls:
                     return ast.Name(f"{self.effect.id}_{node.id}", node.ctx)
                 if node.id in numbers:
-                    return ast.Constant(numbers[node.id])
+                    # not as a constant: a negative one is to bind like the number it is
+                    return ast.parse(repr(numbers[node.id]), mode="eval").body
                 return node
 
         copy = ast.parse(ast.unparse(function)).body[0]
@@ -134,15 +114,6 @@ class EffectFunctions:
 def arguments(function: Callable[..., object]) -> list[str]:
     """Names by which a term takes its numbers."""
     return list(inspect.signature(function).parameters)
-
-
-def imports_text(imports: set[tuple[str, str]]) -> str:
-    """Import statements, one for each module."""
-    modules = sorted({module for module, _ in imports})
-    return "\n".join(
-        f"from {module} import {', '.join(sorted(n for m, n in imports if m == module))}"
-        for module in modules
-    )
 
 
 def define(text: str, name: str, namespace: dict[str, Any]) -> None:

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+#: How the text spells an array of floats: one that needs no import.
+ARRAY = '"float[:]"'
 #: Words that a term of the contact or the surface can take -> where the kernel has them.
 WORDS = {
     "place": "w[W_STATE + X] - w[W_STATE + TRAVEL]",  # on the surface under the block, m

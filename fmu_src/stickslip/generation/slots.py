@@ -12,12 +12,17 @@ _PACKED = {place.name for place in PACKED}
 
 
 def kernel_terms(effect: Effect) -> list[Term]:
-    """Those of its terms that the kernel calls; the others count when parameters are packed."""
+    """Those of its terms that the motion calls; the others count when parameters are packed."""
     return [term for term in effect.terms if term.__name__ not in _PACKED]
 
 
+def packed_terms(effect: Effect) -> list[Term]:
+    """Those that count when parameters are packed."""
+    return [term for term in effect.terms if term.__name__ in _PACKED]
+
+
 def functions_in_kernel(effect: Effect) -> list[Term]:
-    """Everything of the effect that runs inside the kernel."""
+    """Everything of the effect that the motion needs."""
     rates = [state.rate for state in effect.states]
     scales = [state.scale for state in effect.states if state.scale is not None]
     return [*effect.sums.values(), *kernel_terms(effect), *rates, *scales]
@@ -58,6 +63,31 @@ def effect_slots(effects: Iterable[Effect]) -> Iterator[tuple[str, int]]:
         for name in parameter_slots(effect).values():
             yield name, 1
         yield from derived_slots(effect).values()
+
+
+def value_slot(name: str) -> str:
+    """Place in ``v`` of a parameter, by its name in the FMU."""
+    return f"V_{name}".replace(".", "_").upper()
+
+
+def draw_slots(effects: Iterable[Effect]) -> Iterator[tuple[str, int]]:
+    """Name and size of the places in ``d`` that the effects need, in order.
+
+    Member after member of an effect's series, each with all its random numbers.
+    """
+    for effect in effects:
+        if effect.draws:
+            yield draw_slot(effect), effect.members * len(effect.draws)
+
+
+def draw_slot(effect: Effect) -> str:
+    """Where the random numbers of an effect begin in ``d``."""
+    return f"D_{effect.id}".upper()
+
+
+def seed_of(effect: Effect) -> str:
+    """Place in ``v`` of the seed by which an effect draws."""
+    return value_slot(f"{effect.id}.seed")
 
 
 def state_slots(effects: Iterable[Effect]) -> list[str]:

@@ -13,10 +13,11 @@ from ..effects import EFFECTS
 from ..effects.effect import Effect
 from ..kernel import MODULES
 from ..kernel.layout import constants
+from .places import ARRAY
 from .terms import terms_source
 
-#: How the core spells an array of floats, and how the text does: pyccel's way, a string to others.
-_ARRAY, _SPELLED = "Floats", "float[:]"
+#: How the core spells an array of floats.
+_ARRAY = "Floats"
 
 
 def kernel_source(effects: Sequence[Effect] = EFFECTS) -> str:
@@ -39,7 +40,7 @@ def _core(name: str) -> str:
     for node in ast.walk(tree):
         if isinstance(node, ast.arg) and isinstance(node.annotation, ast.Name):
             if node.annotation.id == _ARRAY:
-                node.annotation = ast.Constant(_SPELLED)
+                node.annotation = ast.Constant(ast.literal_eval(ARRAY))
     return ast.unparse(tree)
 
 

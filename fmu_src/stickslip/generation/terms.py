@@ -1,9 +1,10 @@
 """Text of the functions through which the kernel calls the effects' terms.
 
 For each of the `PLACES` one function ``with_<place>`` that takes what is there and returns it with
-every effect that is on; for the states their rates, starts and scales; and the questions that the
-core asks of the effects: whether they feel an input, have a memory, or vary over the contact. The
-calls are direct, and what is off costs a comparison.
+every effect that is on; for the states their rates, starts and scales; the questions that the core
+asks of the effects: whether they feel an input, have a memory, or vary over the contact; and what
+makes their numbers when parameters are packed. The calls are direct, and what is off costs a
+comparison.
 """
 
 from __future__ import annotations
@@ -12,17 +13,17 @@ from collections.abc import Iterable, Sequence
 
 from ..effects.effect import Effect, Term
 from .check import check
-from .functions import IN_KERNEL, EffectFunctions, arguments, imports_text
-from .places import CONSTANTS, LOCAL, MEMORY, PLACES, RATE, SCALE, WORDS, Place
+from .derived import is_on, packing_functions
+from .functions import EffectFunctions, arguments
+from .places import ARRAY, CONSTANTS, LOCAL, MEMORY, PLACES, RATE, SCALE, WORDS, Place
 from .slots import (
     derived_slots,
     functions_in_kernel,
     kernel_terms,
+    packed_terms,
     parameter_slots,
     state_slot,
 )
-
-_ARRAY = '"float[:]"'
 
 
 def terms_source(effects: Sequence[Effect]) -> str:
@@ -31,14 +32,17 @@ def terms_source(effects: Sequence[Effect]) -> str:
         check(effect)
     texts, imports = [], set()
     for effect in effects:
-        text, taken = EffectFunctions(effect).text(functions_in_kernel(effect), IN_KERNEL)
+        wanted = [*functions_in_kernel(effect), *effect.derived, *packed_terms(effect)]
+        text, taken = EffectFunctions(effect).text(wanted)
         texts += [text] if text else []
         texts += [_sum(effect, word) for word in effect.sums]
         imports |= taken
     texts += [_place_function(place, effects) for place in PLACES]
     texts += _state_functions(effects)
     texts += _questions(effects)
-    return imports_text(imports) + "\n\n\n" + "\n\n\n".join(texts) + "\n"
+    texts += packing_functions(effects)
+    head = [f"from math import {', '.join(sorted(imports))}"] if imports else []
+    return "\n\n\n".join([*head, *texts]) + "\n"
 
 
 def bound(effect: Effect, function: Term, name: str, place: Place) -> str:
@@ -81,7 +85,7 @@ def _terms_at(place: str, effects: Iterable[Effect]) -> list[tuple[Effect, Term]
 
 
 def _signature(place: Place) -> str:
-    arrays = [f"{name}: {_ARRAY}" for name in place.arrays.split()]
+    arrays = [f"{name}: {ARRAY}" for name in place.arrays.split()]
     value = f"{place.so_far or 'value'}: float"
     return ", ".join([*arrays, value, *(f"{word}: float" for word in place.words)])
 
@@ -117,7 +121,7 @@ def _sum(effect: Effect, word: str) -> str:
     others = [name for name in names if name not in effect.series]
     slots = derived_slots(effect)
     given = ", ".join(f"p[{slots[n][0]} + i]" if n in series else n for n in names)
-    signature = ", ".join([f"p: {_ARRAY}", *(f"{name}: float" for name in others)])
+    signature = ", ".join([f"p: {ARRAY}", *(f"{name}: float" for name in others)])
     return "\n".join(
         [
             f"def {effect.id}_{word}({signature}) -> float:",
@@ -139,16 +143,16 @@ def _sum_call(effect: Effect, word: str, place: Place) -> str:
 
 def _state_functions(effects: Sequence[Effect]) -> list[str]:
     rates = [
-        f"def set_state_rates(p: {_ARRAY}, u: {_ARRAY}, w: {_ARRAY}, out: int, "
+        f"def set_state_rates(p: {ARRAY}, u: {ARRAY}, w: {ARRAY}, out: int, "
         "friction_power: float, speed: float):",
         '    """Rates of the effects\' states, into ``w[out:]``: power in W, mean speed in m/s."""',
     ]
     starts = [
-        f"def set_starting_states(p: {_ARRAY}, z: {_ARRAY}, at: int):",
+        f"def set_starting_states(p: {ARRAY}, z: {ARRAY}, at: int):",
         '    """Put the effects\' states at the start of a run into the instant ``z[at:]``."""',
     ]
     scales = [
-        f"def with_state_scale(p: {_ARRAY}, i: int, value: float, speed: float) -> float:",
+        f"def with_state_scale(p: {ARRAY}, i: int, value: float, speed: float) -> float:",
         '    """Of state i, what counts as much as ``speed`` (m/s); ``value`` for the others."""',
     ]
     for effect in effects:
@@ -204,14 +208,14 @@ def _questions(effects: Sequence[Effect]) -> list[str]:
             _terms_at("static_growth", effects),
         ),
         _question(
-            "has_dry_law",
-            "Does an effect say how mu_k of the dry contact varies with the local sliding speed?",
-            _terms_at("dry_factor", effects),
-        ),
-        _question(
             "has_memory",
             "Does friction depend on place, distance slid or a state of an effect?",
             remembers,
+        ),
+        _asked(
+            "has_dry_law(v",
+            "Does an effect say how mu_k of the dry contact varies with the local sliding speed?",
+            [is_on(effect, term) for effect, term in _terms_at("dry_factor", effects)],
         ),
     ]
 
@@ -225,8 +229,11 @@ def _taken(effect: Effect, function: Term) -> set[str]:
 
 
 def _question(name: str, meaning: str, terms: list[tuple[Effect, Term]]) -> str:
-    conditions = dict.fromkeys(guard(effect, term) for effect, term in terms)
-    lines = [f"def {name}(p: {_ARRAY}) -> bool:", f'    """{meaning}"""']
-    for condition in conditions:
+    return _asked(f"{name}(p", meaning, [guard(effect, term) for effect, term in terms])
+
+
+def _asked(begins: str, meaning: str, conditions: list[str]) -> str:
+    lines = [f"def {begins}: {ARRAY}) -> bool:", f'    """{meaning}"""']
+    for condition in dict.fromkeys(conditions):
         lines += [f"    if {condition}:", "        return True"]
     return "\n".join([*lines, "    return False"])

@@ -2,7 +2,7 @@
 
 The same source runs interpreted (lists of floats, nothing but `math`: in the FMU), compiled by
 numba (`stickslip.compiled`) and translated to C. What the arrays hold is in `layout`; parameters
-become the array ``p`` in `stickslip.packing`. A run::
+become the array ``p`` in `packing`. A run::
 
     z, w, e, o = [0.0] * Z_SIZE, [0.0] * W_SIZE, [0.0, 0.0], [0.0] * O_SIZE
     initialise(p, z, 0.0)
@@ -34,6 +34,7 @@ MODULES = (
     "layout",
     "terms",
     "rig.springs",
+    "rig.drive",
     "rig.surface",
     "friction.table",
     "friction.coefficient",
@@ -53,4 +54,14 @@ MODULES = (
     "advance",
     "outputs",
     "restarts",
+    "exchange",
+    "packing.points",
+    "packing.imperfections",
+    "packing.friction",
+    "packing.springs",
+    "packing.scales",
+    "packing.quadrature",
+    "packing.tableau",
+    "packing.vector",
+    "packing.contradictions",
 )

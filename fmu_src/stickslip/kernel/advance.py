@@ -76,6 +76,7 @@ from .layout import (
 from .motion import block_energy
 from .rest import look_at, time_to_rest
 from .rig.springs import shortest_spring
+from .rig.surface import set_surface_phase
 from .runge_kutta import begin_step, load_instant, take_step
 from .steady_sliding import direction_is_free
 from .terms import set_starting_states
@@ -270,7 +271,7 @@ def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:
     """
     changed = 0
     for i in range(U_SIZE):
-        if z[Z_INPUTS + i] != u[i] and is_felt(p, i):
+        if z[Z_INPUTS + i] != u[i] and is_felt(p, u, i):
             changed = 1
         z[Z_INPUTS + i] = u[i]
     if z[Z_STARTED] == 0.0:
@@ -322,6 +323,7 @@ def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -
             if same:
                 z[SHOWN + TIME] = end
         else:
+            set_surface_phase(p, w, z[HERE + TIME])  # the step may be one of an earlier call
             look_inside(p, u, z, w, end)
     for i in range(INSTANT):
         if not isfinite(z[SHOWN + i]):

@@ -18,9 +18,7 @@ from .layout import (
     P_RADIUS,
     P_SPEED_SCALE,
     P_TOLERANCE,
-    U_FORCE_X,
-    U_FORCE_Y,
-    U_MOMENT,
+    TIME,
     U_SPEED,
     VX,
     VY,
@@ -31,6 +29,7 @@ from .layout import (
     W_SLIDING,
     W_SURFACE,
 )
+from .rig.drive import external_moment, force_across, force_along
 from .rig.springs import add_damping, add_spring_forces
 from .rig.surface import surface_motion
 
@@ -264,9 +263,9 @@ def rest_speed(p: Floats, u: Floats) -> float:
 
 def set_loads(p: Floats, u: Floats, w: Floats, state: int):
     """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
-    w[W_LOAD] = u[U_FORCE_X]
-    w[W_LOAD + 1] = u[U_FORCE_Y]
-    w[W_LOAD + 2] = u[U_MOMENT]
+    w[W_LOAD] = force_along(u, w[state + TIME])
+    w[W_LOAD + 1] = force_across(u, w[state + TIME])
+    w[W_LOAD + 2] = external_moment(u, w[state + TIME])
     add_spring_forces(p, w, state)
     add_damping(p, w, state)
 

@@ -4,11 +4,19 @@ The kernel speaks only in flat arrays of floats, so that one source runs interpr
 under numba (numpy arrays) and as generated C. Five arrays travel together:
 
 =====  ==========================================================================
-``p``  parameters, constant during a run (`P_*`)
+``p``  parameters as the motion needs them, constant during a run (`P_*`)
 ``u``  inputs, constant during a call of `advance` (`U_*`)
 ``z``  everything that a run remembers; copying it is saving the run (`Z_*`)
 ``w``  scratch space, without memory between calls (`W_*`)
 ``e``  log of events (`E_*`)
+=====  ==========================================================================
+
+Two more are what ``p`` is made of, once a run:
+
+=====  ==========================================================================
+``v``  the value of every parameter as it is given (`V_*`)
+``d``  standard random numbers (`D_*`)
+``g``  inputs as a host gives them, step by step (`G_*`)
 =====  ==========================================================================
 
 An *instant* of the motion is `INSTANT` numbers: time, the integrated state (`X` ...), the mode and
@@ -22,16 +30,17 @@ the effects' declarations name theirs, and `constants` counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ..effects import EFFECTS
 from ..effects.effect import Effect
-from ..generation.slots import effect_slots, state_slots
+from ..generation.slots import draw_slots, effect_slots, seed_of, state_slots, value_slot
 
 Slots = Sequence[tuple[str, int]]
 
 # --- numbers that are no places ---------------------------------------------------------------
+GRAVITY = 9.81  # m/s^2
 STICK = 0  # modes
 SLIP = 1
 UNKNOWN = -1.0  # shear of the contact, see BRISTLES
@@ -56,6 +65,10 @@ STEP_VANISHED = 1  # the error test asks for a step below the resolution of time
 NOT_FINITE = 2
 SPRING_COLLAPSED = 3  # the block has been carried into the anchor of a spring
 TOO_STIFF = 4  # more internal steps than anybody would wait for
+SLIDING_BEGINS = 0  # parts of a slip in model exchange, see `exchange`
+SLIDING_GOES_ON = 1
+SLIDING_ENDS = 2
+INDICATORS = 3  # event indicators of model exchange
 STEPS_AT_LEAST = 20000  # internal steps that a call of `advance` may always take, and beyond them
 STEPS_PER_SECOND = 200000.0  # so many for each second of motion
 
@@ -92,6 +105,23 @@ INPUTS = (
     ("U_FORCE_Y", 1),
     ("U_MOMENT", 1),
     ("U_FILM", 1),  # water between block and surface, mean over the contact, m
+    ("U_SINCE", 1),  # time at which the inputs have the values above, s
+    ("U_SPEED_RATE", 1),  # of those that go on from there linearly in time, the rates
+    ("U_FORCE_X_RATE", 1),
+    ("U_FORCE_Y_RATE", 1),
+    ("U_MOMENT_RATE", 1),
+)
+
+# --- g: inputs as a host of the FMU gives them, see rig.drive; those of `INPUTS` that have values
+GIVEN_INPUTS = 6
+GIVEN = (
+    ("G_VALUE", GIVEN_INPUTS),
+    ("G_RATE", GIVEN_INPUTS),  # with which it goes on, per s
+    ("G_HAS_RATE", GIVEN_INPUTS),  # 1 where the host has said so for the coming step
+    ("G_BEFORE", GIVEN_INPUTS),  # its value for the last step
+    ("G_REACHED", GIVEN_INPUTS),  # where the last step has left it
+    ("G_SPAN", 1),  # size of the last step, s; 0: there was none
+    ("G_FIRST", 1),  # 1: an input without a rate goes on as it has between the last two values
 )
 
 # --- inside parts of p ------------------------------------------------------------------------
@@ -137,7 +167,7 @@ PARAMETERS = (
     ("P_INITIAL", 6),  # x, y, phi, vx, vy, omega
     ("P_FEEDING", 1),  # integrated numbers that the motion depends on: MOVING, SHEARED, REMEMBERED
     ("P_QUADRATURE", sum(size for _, size in QUADRATURE)),  # see friction.disc
-    ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see tableau
+    ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see packing.tableau
     ("P_PRESLIDING", 1),  # sliding speed of a stick per load, m/(s N), see stick
     ("P_RELATIVE_STIFFNESS", 4),  # of each spring: what its force is multiplied by
     ("P_TRANSITION_SPEED", 1),  # over which friction falls from mu_s to mu_k, m/s; 0: at once
@@ -148,6 +178,54 @@ PARAMETERS = (
     ("P_MU_SCALE", 1),  # what the factors of mu_k multiply: mu_k, or 1 where a table gives it
     ("P_TABLE_POINTS", 1),  # points of the table of mu_k over the sliding speed; 0: none
     ("P_TABLE", CURVE_LIMIT * TABLE_WIDTH),
+)
+
+# --- v: values of the parameters, those of the effects before them ------------------------------
+VALUES = (
+    ("rig.mass", 1),
+    ("rig.contact_radius", 1),
+    ("rig.attachment_radius", 1),
+    ("rig.spring_length", 1),
+    ("rig.spring_natural_length", 1),
+    ("springs.stiffness", 1),
+    ("friction.mu_s", 1),
+    ("friction.mu_k", 1),
+    ("friction.stick_creep", 1),
+    ("friction.transition_speed", 1),
+    ("friction.transition_exponent", 1),
+    ("friction.presliding_distance", 1),
+    ("friction.bristle_damping", 1),
+    ("surface.run_up_time", 1),
+    ("initial.x", 1),
+    ("initial.y", 1),
+    ("initial.phi", 1),
+    ("initial.vx", 1),
+    ("initial.vy", 1),
+    ("initial.omega", 1),
+    ("imperfections.seed", 1),
+    ("imperfections.mass", 1),
+    ("imperfections.spring_stiffness", 1),
+    ("imperfections.anchor_position", 1),
+    ("imperfections.start_position", 1),
+    ("imperfections.start_angle_deg", 1),
+    ("solver.tolerance", 1),
+    ("rig.inertia", 1),
+    ("rig.attachment_angles_deg", 4),
+    ("springs.force_curve_extension", CURVE_LIMIT),
+    ("springs.force_curve_force", CURVE_LIMIT),
+    ("friction.table_speed", CURVE_LIMIT),
+    ("friction.table_mu", CURVE_LIMIT),
+    ("rig.free_y", 1),
+    ("rig.free_phi", 1),
+)
+
+# --- d: random numbers; those of the effects follow ----------------------------------------------
+DRAWS = (  # normal deviates of the rig's imperfections, by imperfections.seed
+    ("D_MASS", 1),
+    ("D_SPRING_STIFFNESS", 4),
+    ("D_ANCHOR_POSITION", 8),  # x, y of each
+    ("D_START_POSITION", 2),
+    ("D_START_ANGLE", 1),
 )
 
 # --- e: log of events -------------------------------------------------------------------------
@@ -216,6 +294,9 @@ def memory(size: int, states: int, inputs: int) -> Slots:
         ("Z_SPAN", 1),  # size of the internal step from HERE to NEXT, s
         ("Z_SMOOTH", 1),  # 1 where the interpolant over that step is accurate enough
         ("Z_DENSE", POWERS * states),  # the interpolant: POWERS rows of coefficients
+        ("Z_RAMPING", 1),  # in model exchange: 1 until the end of the speed ramp
+        ("Z_SLIDING", 1),  # in model exchange: which part of a slip, SLIDING_...
+        ("Z_FASTER", 1),  # in model exchange: sliding speed of the next event of a slip, m/s
     )
 
 
@@ -240,30 +321,69 @@ def scratch(size: int, states: int) -> Slots:
     )
 
 
-def constants(effects: Sequence[Effect] = EFFECTS) -> dict[str, int | float]:
+def values(effects: Iterable[Effect]) -> Slots:
+    """Every parameter and how many numbers it is, in the order of `Parameters.flat`."""
+    own = [(f"{effect.id}.{name}", 1) for effect in effects for name in effect.table.model_fields]
+    return (*own, *VALUES)
+
+
+def value_names(effects: Iterable[Effect] = EFFECTS) -> tuple[str, ...]:
+    """The FMU's name of every number in ``v``, in order."""
+    return tuple(
+        name if size == 1 else f"{name}[{i + 1}]"
+        for name, size in values(effects)
+        for i in range(size)
+    )
+
+
+def drawn(effects: Sequence[Effect], places: Mapping[str, int]) -> dict[str, tuple[float, ...]]:
+    """How each number of ``d`` comes about; `places`: of the parameters.
+
+    ``DRAW_SEED``: where in ``v`` the seed is; what one seed draws stands together.
+    ``DRAW_UNIFORM``: 1 for a uniform number from 0 to 1, 0 for a normal deviate.
+    """
+    count = sum(size for _, size in DRAWS)
+    seeds = [float(places[value_slot("imperfections.seed")])] * count
+    uniform = [0.0] * count
+    for effect in effects:
+        kinds = [float(kind == "uniform") for kind in effect.draws.values()] * effect.members
+        seeds += [float(places[seed_of(effect)])] * len(kinds) if kinds else []
+        uniform += kinds
+    return {"DRAW_SEED": tuple(seeds), "DRAW_UNIFORM": tuple(uniform)}
+
+
+def constants(
+    effects: Sequence[Effect] = EFFECTS,
+) -> dict[str, int | float | tuple[float, ...]]:
     """Name -> value of everything that the kernel knows as a constant, with these effects."""
     plain = (int, float)
-    own = {k: v for k, v in _OWN.items() if k.isupper() and isinstance(v, plain)}
+    own = {k: v for k, v in _OWN.items() if k.isupper() and type(v) in plain}
     inside = _placed(instant(effects))
     states = inside["MODE"] - 1
     own |= {
         "STATES": states,  # integrated numbers: X ... DAMPED
+        "EXCHANGED": states + 1,  # the same and the time in slip: states of model exchange
         "MOVING": len(MOVING_STATES),
         "SHEARED": len(MOVING_STATES) + len(BRISTLE_STATES),
         "REMEMBERED": states - len(COUNTED_STATES),
     }
     size = own["INSTANT"] = inside.pop("SIZE")
     inputs, outputs = _placed(INPUTS), _placed([(name, 1) for name in OUTPUTS])
+    given = _placed([(value_slot(name), size) for name, size in values(effects)])
     return {
         **own,
         **inside,
         **_sized(_placed(memory(size, states, inputs["SIZE"])), "Z_SIZE"),
         **_sized(inputs, "U_SIZE"),
         **_sized(_placed([*PARAMETERS, *effect_slots(effects)]), "P_SIZE"),
+        **_sized(given, "V_SIZE"),
+        **_sized(_placed([*DRAWS, *draw_slots(effects)]), "D_SIZE"),
+        **drawn(effects, given),
         **_sized(_placed(TABLEAU), "T_SIZE"),
         **_sized(_placed(QUADRATURE), "Q_SIZE"),
         **_sized(_placed(scratch(size, states)), "W_SIZE"),
         **_sized(_placed(EVENTS), "E_FIRST"),
+        **_sized(_placed(GIVEN), "G_SIZE"),
         **_sized(outputs, "O_SIZE"),
         **_sized(_placed(RESTART), "R_SIZE"),
     }
@@ -288,5 +408,7 @@ _OWN = dict(globals())
 globals().update(constants())
 
 if TYPE_CHECKING:
+    DRAW_SEED: tuple[float, ...]
+    DRAW_UNIFORM: tuple[float, ...]
 
     def __getattr__(name: str) -> int: ...

@@ -26,9 +26,6 @@ from .layout import (
     STICK,
     TIME,
     TRAVEL,
-    U_FORCE_X,
-    U_FORCE_Y,
-    U_MOMENT,
     VX,
     VY,
     W_DIRECTION,
@@ -44,6 +41,7 @@ from .layout import (
     X,
     Y,
 )
+from .rig.drive import external_moment, force_across, force_along
 from .rig.springs import damping_power, elastic_energy
 from .rig.surface import surface_speed
 from .steady_sliding import set_quasi_steady_motion
@@ -139,8 +137,9 @@ def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int):
         heat -= w[W_FRICTION + 2] * w[W_SLIDING + 2]
     work += w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
     work += w[W_FRICTION + 2] * w[W_SURFACE + 2]
-    external = u[U_FORCE_X] * w[W_STATE + VX] + u[U_FORCE_Y] * w[W_STATE + VY]
-    external += u[U_MOMENT] * w[W_STATE + OMEGA]
+    t = w[W_STATE + TIME]
+    external = force_along(u, t) * w[W_STATE + VX] + force_across(u, t) * w[W_STATE + VY]
+    external += external_moment(u, t) * w[W_STATE + OMEGA]
     w[out + HEAT - 1] = heat
     w[out + DISTANCE - 1] = w[W_MEAN_SPEED]
     w[out + TRAVEL - 1] = surface_speed(p, u, w, w[W_STATE + TIME])

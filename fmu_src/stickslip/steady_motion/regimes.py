@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parameters import Parameters
-from ..simulate import simulate
+from ..simulation import simulate
 from ..trajectory import Trajectory, slip_share
 from .live import DRY, Interface, RunEnded
 

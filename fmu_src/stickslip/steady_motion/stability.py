@@ -20,7 +20,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..parameters import Parameters
-from ..simulate import simulate
+from ..simulation import simulate
 from ..trajectory import Trajectory
 from .live import DRY, Interface, LiveRun, RunEnded
 

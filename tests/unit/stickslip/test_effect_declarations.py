@@ -6,7 +6,6 @@ import sys
 import pytest
 from stickslip.effects import catalogue
 from stickslip.effects.effect import Effect
-from stickslip.generation.derived import derived_source
 from stickslip.generation.places import PACKED
 from stickslip.generation.terms import terms_source
 
@@ -81,15 +80,12 @@ def declared(tmp_path, monkeypatch):
     return load
 
 
-def texts(effect):
-    return terms_source([effect]), derived_source([effect])
-
-
 def test_a_sound_one_becomes_text(declared):
-    terms, derived = texts(declared())
-    assert "def brush_dry_factor(" in terms and "0.5 * value" in terms
-    assert "from math import exp" in terms
-    assert "def brush_half(" in derived and "exp" not in derived
+    text = terms_source([declared()])
+    assert "def brush_dry_factor(" in text and "0.5 * value" in text
+    assert "from math import exp" in text
+    assert text.count("def brush_half(") == 1  # which a term and a derived number call
+    assert "p[P_BRUSH_OVER_TWO] = brush_over_two(v[V_BRUSH_OVER])" in text
 
 
 @pytest.mark.parametrize(
@@ -131,26 +127,25 @@ def test_a_word_of_the_kernel_names_no_number_of_an_effect(declared, name, word)
         }[name],
         *([("derived=(over_two,)", f"derived=({word},)")] if name == "over_two" else []),
     )
-    for source in (terms_source, derived_source):
-        with pytest.raises(ValueError, match=f"^effect brush: {word}: the kernel's own words$"):
-            source([effect])
+    with pytest.raises(ValueError, match=f"^effect brush: {word}: the kernel's own words$"):
+        terms_source([effect])
 
 
 def test_two_numbers_of_one_name_are_refused(declared):
     with pytest.raises(ValueError, match="^effect brush: over: two numbers of one name$"):
-        texts(declared(('State("bend"', 'State("over"')))
+        terms_source([declared(('State("bend"', 'State("over"'))])
 
 
 def test_a_state_starts_from_a_parameter(declared):
     effect = declared(('State("bend", bend_rate)', 'State("bend", bend_rate, start="ovre")'))
     with pytest.raises(ValueError, match="state bend starts from 'ovre'.*there are much, over"):
-        texts(effect)
+        terms_source([effect])
 
 
 def test_an_unknown_place_is_refused_with_all_there_are(declared):
     effect = declared(("dry_factor", "dry_facter"))
     with pytest.raises(ValueError, match="^effect brush: no place 'dry_facter'") as caught:
-        texts(effect)
+        terms_source([effect])
     assert all(place.name in str(caught.value) for place in PACKED)
 
 
@@ -165,7 +160,7 @@ def test_an_unknown_place_is_refused_with_all_there_are(declared):
 def test_a_misspelt_argument_is_named_with_its_function(declared, function, changes):
     effect = declared(*changes)
     with pytest.raises(ValueError, match=f"^effect brush: {function} takes 'sped'"):
-        texts(effect)
+        terms_source([effect])
 
 
 @pytest.mark.parametrize("word", ["temperature", "travel", "bend"])
@@ -206,13 +201,52 @@ def test_a_term_uses_what_the_kernel_has(declared, head, call, name):
     assert str(caught.value) == said
 
 
-def test_what_only_python_runs_may_use_the_standard_library(declared):
+def test_a_derived_number_uses_no_more_than_a_term(declared):
     head = ("\nSHARE", "from random import Random\nSHARE")
-    drawn = declared(head, ("return half(over)", "return sum([Random(1).gauss(0.0, over)])"))
-    assert "from random import Random" in derived_source([drawn])
-    other = declared(("\nSHARE", "import numpy as np\nSHARE"), ("half(over)", "np.exp(over)"))
-    with pytest.raises(ValueError, match="over_two uses np: .* of the standard library"):
-        derived_source([other])
+    effect = declared(head, ("return half(over)", "return Random(1).gauss(0.0, over)"))
+    with pytest.raises(ValueError, match="over_two uses Random: a term may use numbers, functions"):
+        terms_source([effect])
+
+
+DRAWN = (
+    ('    over: float = quantity(1.0, "m/s"', '    seed: float = quantity(1.0, "1"'),
+    ('over: float) -> float:\n    """m/s', 'seed: float, height: float) -> float:\n    """m/s'),
+    ("return half(over)", "return height * half(seed)"),
+    ('over_two: float) -> float:\n    """mu_k', 'much_of_it: float) -> float:\n    """mu_k'),
+    ("-speed / over_two", "-speed * much_of_it"),
+    ("bend: float, over: float", "bend: float, seed: float"),
+    ("bend * over\n", "bend * seed\n"),
+    (
+        "def bend_rate(",
+        "def each(speed: float, over_two: float) -> float:\n    return speed * over_two\n\n\n"
+        "def bend_rate(",
+    ),
+    (
+        "    derived=(over_two,),",
+        '    derived=(over_two,),\n    series={"over_two": 3},\n    draws={"height": "uniform", '
+        '"way": "normal"},\n    sums={"much_of_it": each},',
+    ),
+)
+
+
+def test_each_member_of_a_series_has_its_own_random_numbers(declared):
+    text = terms_source([declared(*DRAWN)])
+    assert "for i in range(3):" in text
+    call = "brush_over_two(v[V_BRUSH_SEED], d[D_BRUSH + 2 * i + 0])"
+    assert f"p[P_BRUSH_OVER_TWO + i] = {call}" in text
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"uniform"', '"unifrom"', "draw 'height' is 'unifrom'; there are normal, uniform"),
+        ('series={"over_two": 3}', "series={}", "draws are for series of one length"),
+        ("    seed: float", "    sead: float", "draws by no parameter called seed"),
+    ],
+)
+def test_random_numbers_that_cannot_be_drawn_are_refused(declared, old, new, said):
+    with pytest.raises(ValueError, match=f"^effect brush: {said}$"):
+        declared(*DRAWN, (old, new))
 
 
 def test_a_term_from_another_file_is_refused(declared):

@@ -6,7 +6,7 @@ from stickslip import EFFECTS, Parameters, simulate
 from stickslip.effects.effect import AXES
 from stickslip.parameters import EffectTables
 
-from cosim.fmu import model_description
+from cosim.fmu import units, variables
 
 EACH = pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
 
@@ -38,15 +38,15 @@ def test_a_parameter_has_unit_words_default_and_range(effect):
 @EACH
 def test_a_parameter_has_a_unit_that_the_fmu_can_state(effect):
     for name, field in effect.table.model_fields.items():
-        assert field.json_schema_extra["unit"] in model_description.UNITS, f"{effect.id}.{name}"
+        assert field.json_schema_extra["unit"] in units.UNITS, f"{effect.id}.{name}"
 
 
 def test_a_unit_that_the_fmu_cannot_state_is_named(monkeypatch):
-    known = {name: base for name, base in model_description.UNITS.items() if name != "N/m3"}
-    monkeypatch.setattr(model_description, "UNITS", known)
-    said = "spring_hardening: cubic is in 'N/m3', a unit that UNITS of cosim.fmu.model_description"
+    known = {name: base for name, base in units.UNITS.items() if name != "N/m3"}
+    monkeypatch.setattr(variables, "UNITS", known)
+    said = "spring_hardening: cubic is in 'N/m3', a unit that UNITS of cosim.fmu.variables"
     with pytest.raises(ValueError, match=said):
-        model_description.parameter_table()
+        variables.parameter_table()
 
 
 @EACH

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters
 from stickslip.generation.derived import effect_slot_names
-from stickslip.generation.slots import effect_slots
+from stickslip.generation.slots import draw_slots, effect_slots, value_slot
 from stickslip.kernel import layout
-from stickslip.packing import SLOTS, quadrature_tables
 from stickslip.ports import OUTPUTS
-from stickslip.tableau import flat_tableau
 
 ARRAYS = {
     "z": layout.memory(layout.INSTANT, layout.STATES, layout.U_SIZE),
     "u": layout.INPUTS,
     "p": [*layout.PARAMETERS, *effect_slots(EFFECTS)],
+    "v": [(value_slot(name), size) for name, size in layout.values(EFFECTS)],
+    "d": [*layout.DRAWS, *draw_slots(EFFECTS)],
     "w": layout.scratch(layout.INSTANT, layout.STATES),
     "tableau": layout.TABLEAU,
     "quadrature": layout.QUADRATURE,
@@ -42,24 +42,34 @@ def test_the_integrated_states_come_first():
 
 
 def test_the_tables_have_the_room_that_is_declared():
+    """None is cut off by what follows, and each row of stages is whole: its sum is its node."""
     p = Parameters().pack()
-    tables = quadrature_tables()
-    assert len(tables) == layout.Q_SIZE
-    assert p[layout.P_QUADRATURE : layout.P_QUADRATURE + layout.Q_SIZE] == tables
-    assert len(flat_tableau()) == layout.T_SIZE
+    tableau, stages = np.array(p[layout.P_TABLEAU :][: layout.T_SIZE]), layout.ALL_STAGES
+    rows = tableau[: layout.T_C].reshape(stages, stages)
+    np.testing.assert_allclose(rows.sum(axis=1), tableau[layout.T_C :][:stages], atol=1e-14)
+    assert np.all(np.triu(rows) == 0.0)
+    disc = np.array(p[layout.P_QUADRATURE :][: layout.Q_SIZE])
+    nodes, weights = np.polynomial.legendre.leggauss(layout.DEPTHS)
+    given = disc[layout.Q_DEPTH :].reshape(2, -1)
+    order = np.argsort(given[0])
+    np.testing.assert_allclose(given[:, order], [nodes, weights], rtol=1e-14)
+    for at, whole in ((layout.Q_STRIP, np.pi / 2.0), (layout.Q_RAY, np.pi)):
+        angles = (np.arange(layout.RAYS) + 0.5) * whole / layout.RAYS
+        about = disc[at:][: 2 * layout.RAYS]
+        np.testing.assert_allclose(about, [*np.cos(angles), *np.sin(angles) ** 2], atol=1e-15)
 
 
 def test_two_numbers_of_one_name_are_refused():
     twice = [EFFECTS[3], EFFECTS[3]]
-    with pytest.raises(ValueError, match="two numbers of the kernel are called P_"):
+    with pytest.raises(ValueError, match="two numbers of the kernel are called V_"):
         layout.constants(twice)
 
 
 def test_an_effect_more_moves_no_other_number():
-    """So the text of the core and the effects before it stay what they were."""
+    """So the motion's arrays stay what they were; only parameters as given move, as in the FMU."""
     fewer, all_of_them = layout.constants(EFFECTS[:-1]), layout.constants(EFFECTS)
     moved = {name for name in fewer if fewer[name] != all_of_them[name]}
-    assert moved <= {"P_SIZE"}
+    assert {name for name in moved if not name.startswith("V_")} <= {"P_SIZE", "DRAW_SEED"}
 
 
 def test_parameters_fill_the_vector():
@@ -84,7 +94,6 @@ def test_every_parameter_of_an_effect_reaches_the_vector():
 
 def test_no_two_parameters_share_a_slot():
     slots = [getattr(layout, name) for name in effect_slot_names(EFFECTS).values()]
-    slots += SLOTS.values()
     assert len(set(slots)) == len(slots)
 
 

@@ -26,7 +26,10 @@ REFUSED = {
     "natural length": (
         "rig",
         {"spring_natural_length": 0.41},
-        ["spring_natural_length = 0.41", "allowed is at most 0.4 m"],
+        [
+            "rig.spring_natural_length = 0.41 m is more than twice rig.spring_length = 0.2 m",
+            "allowed is at most twice the installed length",
+        ],
     ),
     "unknown surface": ("rig", {"surface": "ice"}, ["rig.surface", "'belt' or 'slab'"]),
     "centre under the block": (
@@ -89,7 +92,7 @@ REFUSED = {
     "full ripple, too fast": (
         "speed_ripple",
         {"amplitude": 1.0, "frequency": 500.0},
-        ["speed_ripple", "100 Hz"],
+        ["speed_ripple.frequency = 500 Hz", "at most 100 Hz"],
     ),
 }
 

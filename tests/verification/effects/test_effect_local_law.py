@@ -17,7 +17,7 @@ from stickslip.kernel.layout import (
     W_FRICTION,
     W_SIZE,
 )
-from stickslip.packing import FEW_POINTS
+from stickslip.kernel.packing.vector import FEW_POINTS
 
 MU, RADIUS, NORMAL = 0.2, 0.04, 0.67 * 9.81
 FAST = 0.3  # m/s

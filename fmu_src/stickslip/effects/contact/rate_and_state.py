@@ -74,7 +74,7 @@ EFFECT = Effect(
     axis="sliding speed",
     source="Dieterich (1979); saline ice: Lishman et al. (2011)",
     terms=(state_law,),
-    states=(State("age", age_rate, start="initial_age", scale=age_scale),),
+    states=(State("age", age_rate, start="initial_age", scale=age_scale, unit="s"),),
     case=Case(
         {"direct": 0.01, "evolution": 0.03, "distance": 1e-5},
         {

@@ -8,7 +8,6 @@ belongs to the place, so a place met again has the same friction, whatever the s
 from __future__ import annotations
 
 from math import cos, pi, sqrt
-from random import Random
 
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
@@ -32,20 +31,14 @@ class SurfaceScatter(Table):
     seed: int = quantity(1, "1", "which field it is", ge=0, le=2**31 - 1, tried=(1, 10**6))
 
 
-def drawn(seed: float) -> list[tuple[float, float]]:
-    """Standard normal deviate and angle (rad) of each wave."""
-    draw = Random(int(seed))
-    return [(draw.gauss(0.0, 1.0), draw.uniform(0.0, 2.0 * pi)) for _ in range(WAVES)]
+def wavenumber(deviate: float, correlation_length: float) -> float:
+    """Of a wave, rad/m."""
+    return deviate / correlation_length
 
 
-def wavenumber(seed: float, correlation_length: float) -> list[float]:
-    """Of each wave, rad/m."""
-    return [deviate / correlation_length for deviate, _ in drawn(seed)]
-
-
-def phase(seed: float) -> list[float]:
-    """Of each wave, rad."""
-    return [angle for _, angle in drawn(seed)]
+def phase(turn: float) -> float:
+    """Of a wave, rad."""
+    return 2.0 * pi * turn
 
 
 def wave(place: float, wavenumber: float, phase: float) -> float:
@@ -68,6 +61,7 @@ EFFECT = Effect(
     terms=(place_variation,),
     derived=(wavenumber, phase),
     series={"wavenumber": WAVES, "phase": WAVES},
+    draws={"deviate": "normal", "turn": "uniform"},
     sums={"waves": wave},
     case=Case({"deviation": 0.08}),
 )

@@ -62,7 +62,8 @@ FINEST_COLD = 1e-12  # K; a temperature this near to melting is there, but for r
 
 def warming(length: float, hardness: float, effusivity: float, constant: float) -> float:
     """l (H / (C e))^2, K^2 s/m."""
-    return length * (hardness / (constant * effusivity)) ** 2
+    ratio = hardness / (constant * effusivity)
+    return length * (ratio * ratio)
 
 
 def melting(mu: float, speed: float, temperature: float, warming: float) -> float:

@@ -59,9 +59,10 @@ def film_square(
     normal_force: float,
 ) -> float:
     """(mu_f)^2 / v, s/m; the pressure is the load on what the film covers."""
-    area = wetted_share * pi * radius**2
+    area = wetted_share * pi * (radius * radius)
     shear = 2.0 * viscosity * latent_heat / length  # (Pa)^2 s/m
-    return shear * (area / normal_force) ** 2
+    per_force = area / normal_force
+    return shear * (per_force * per_force)
 
 
 def melting(mu: float, speed: float, film_square: float) -> float:

@@ -44,7 +44,7 @@ class MixedLubrication(Table):
 
 def couette(viscosity: float, radius: float, normal_force: float) -> float:
     """Friction coefficient of a film of 1 m at 1 m/s over the whole contact, s."""
-    whole = pi * radius**2
+    whole = pi * (radius * radius)
     return viscosity * whole / normal_force
 
 

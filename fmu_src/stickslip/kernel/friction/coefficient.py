@@ -35,10 +35,12 @@ from ..layout import (
     STICK,
     TIME,
     U_FILM,
+    U_SINCE,
     U_TEMPERATURE,
     W_EXCESS,
     W_STATE,
 )
+from ..rig.drive import varies
 from ..terms import (
     feels_film,
     feels_temperature,
@@ -67,8 +69,10 @@ def surface_factor(p: Floats, u: Floats, w: Floats) -> float:
     return max(0.0, with_place_variation(p, u, w, 1.0))
 
 
-def is_felt(p: Floats, i: int) -> bool:
+def is_felt(p: Floats, u: Floats, i: int) -> bool:
     """Does input i of ``u`` matter to the motion?"""
+    if i == U_SINCE:
+        return varies(u)
     if i == U_TEMPERATURE:
         return feels_temperature(p)
     if i == U_FILM:

@@ -2,7 +2,7 @@
 
 Piecewise cubic Hermite interpolation with the slopes of Fritsch & Butland (SIAM J. Sci. Stat.
 Comput. 5, 1984): it passes the points, is smooth between them, and neither rises nor falls where
-the points do not. The slopes are made once, in `stickslip.packing`.
+the points do not. The slopes are made once, in `packing`.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ from ..layout import (
     P_CURVATURE,
     P_RUN_UP,
     TIME,
-    U_SPEED,
+    U_SPEED_RATE,
     VX,
     VY,
     W_RUNNING_UP,
@@ -16,6 +16,7 @@ from ..layout import (
     Y,
 )
 from ..terms import with_surface_acceleration, with_surface_speed
+from .drive import driven_speed
 
 
 def set_surface_phase(p: Floats, w: Floats, t: float):
@@ -32,8 +33,8 @@ def set_surface_phase(p: Floats, w: Floats, t: float):
 def steady_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
     """Speed of the surface without ripple, m/s: a linear speed ramp, then constant."""
     if w[W_RUNNING_UP] == 1.0:
-        return u[U_SPEED] * t / p[P_RUN_UP]
-    return u[U_SPEED]
+        return driven_speed(u, t) * t / p[P_RUN_UP]
+    return driven_speed(u, t)
 
 
 def surface_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
@@ -43,9 +44,9 @@ def surface_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
 
 def surface_acceleration(p: Floats, u: Floats, w: Floats, t: float) -> float:
     """Rate of `surface_speed`, m/s^2."""
-    rate = 0.0
+    rate = u[U_SPEED_RATE]
     if w[W_RUNNING_UP] == 1.0:
-        rate = u[U_SPEED] / p[P_RUN_UP]
+        rate = (driven_speed(u, t) + rate * t) / p[P_RUN_UP]
     return with_surface_acceleration(p, u, w, rate, steady_speed(p, u, w, t), t)
 
 

@@ -1,0 +1,420 @@
+"""The motion as a hybrid system for a host's own integrator (model exchange).
+
+The host integrates the `EXCHANGED` continuous states of SHOWN: X ... DAMPED and the time in slip.
+Between events the right-hand side is smooth, so that the order of the host's method is kept:
+
+- In stick the velocity is the surface's, or that of presliding, whatever the host's rounding has
+  made of the state; the state follows with the acceleration that goes with it.
+- In slip, friction opposes the sliding velocity. A sliding that turns back beyond the event, in a
+  step that the host will discard, is answered as its mirror image: without that, friction would
+  jump where the host looks for the event.
+- A slip begins and ends with sliding velocities that are too small to have a direction: there the
+  direction is frozen, as in `advance` (SLIDING_BEGINS, SLIDING_ENDS). In between (SLIDING_GOES_ON)
+  it is the velocity's own.
+- In the plane friction turns a slow sliding at the rate mu g / speed: stiff at first, and soon no
+  more. An implicit method that keeps the Jacobian of the slip's beginning for some tens of steps,
+  as CVODE does, takes each correction for as small as that says, and what it has not corrected for
+  solved. So a slip that gains speed has an event each time that it is `FASTER` by so much: there
+  the host starts anew.
+- The shear of bristles is always integrated, also in a fast slip, and no slip is quasi-steady: both
+  are means of an explicit method, and stiff to an integrator that is made for that.
+
+Events: the load of a stick reaches what the contact can hold; a slip has no velocity left along its
+direction; its speed passes `rest_speed`; the speed ramp ends (at a time known before); inputs or
+parameters change. Each is decided where `advance` decides it, by `settle` and `release`, and
+counted in the same way. An instant is made consistent there, and the ledger stays closed.
+
+Inputs may change in events, and between them too. Then the speed of the surface has no rate that
+the model knows of: the acceleration in a stick leaves it out until the next event.
+"""
+
+from __future__ import annotations
+
+from . import Floats
+from .advance import settle_contact
+from .bristles.events import mode_excess
+from .bristles.law import has_bristles
+from .contact import (
+    holding_ratio,
+    rest_speed,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+    speed_scale,
+)
+from .events import log_event, note_break_away, release, set_direction, settle
+from .friction.coefficient import age_left, holding_coefficient, is_felt
+from .layout import (
+    BRISTLES,
+    DIRECTION,
+    DONE,
+    HEAT,
+    HOLD_SINCE,
+    MODE,
+    O_HEAT_FLOW,
+    OMEGA,
+    P_FREE_PHI,
+    P_FREE_Y,
+    P_INERTIA,
+    P_LATERAL,
+    P_MASS,
+    P_PRESLIDING,
+    P_RADIUS,
+    P_RATE,
+    P_RUN_UP,
+    P_SHORTEST,
+    P_STICK_RATIO,
+    P_TOLERANCE,
+    PHI,
+    QUASI_STEADY,
+    SHOWN,
+    SLIDING_BEGINS,
+    SLIDING_ENDS,
+    SLIDING_GOES_ON,
+    SLIP,
+    SLIP_TIME,
+    SPRING_COLLAPSED,
+    STATES,
+    STICK,
+    TIME,
+    U_SIZE,
+    VX,
+    VY,
+    W_DIRECTION,
+    W_FRICTION,
+    W_RUNNING_UP,
+    W_SLIDING,
+    W_SLOPES,
+    W_STATE,
+    WORK_SURFACE,
+    Z_FASTER,
+    Z_INPUTS,
+    Z_RAMPING,
+    Z_SLIDING,
+    X,
+    Y,
+)
+from .motion import set_slopes
+from .outputs import show
+from .rest import excess_load, look_at, stop_sliding
+from .rig.springs import shortest_spring
+from .runge_kutta import load_instant, state_scale
+from .steady_sliding import LOOK_AHEAD
+from .stick import set_stick_velocity
+
+# What a load may lack of the limit, relative to that, for a host's event to be the break-away.
+AT_THE_LIMIT = 1e-9
+# Of `rest_speed`: a slip that began from rest has turned back where it slides back that fast, and
+# has a direction of its own where it slides on so fast.
+TURNED_BACK = 0.5
+WELL_ON = 2.0
+# Of its speed: a slip is reversed, and not only turned, where it goes back that fast.
+REVERSED = 0.5
+# Factor of the speed from one event of a slip in the plane that gains speed to the next one, and
+# part of the motion's own speed up to which there are any.
+FASTER = 8.0
+FAST_ENOUGH = 0.3
+# By which an end of the speed ramp may be missed, relative to its time: hosts round.
+RAMP_ROUNDING = 1e-8
+
+
+def load_moment(p: Floats, z: Floats, w: Floats):
+    """Make SHOWN what the laws of motion look at, in the phase of the surface between events."""
+    load_instant(p, z, w, SHOWN)
+    w[W_RUNNING_UP] = z[Z_RAMPING]
+
+
+def along_direction(p: Floats, z: Floats, w: Floats) -> float:
+    """Sliding velocity in ``w`` along the direction of the slip, m/s: below 0 if reversed."""
+    along = w[W_SLIDING] * z[SHOWN + DIRECTION]
+    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[SHOWN + DIRECTION + 1]
+    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[SHOWN + DIRECTION + 2]
+    return along
+
+
+def put_states(z: Floats, s: Floats):
+    """The host's continuous states ``s`` become those of SHOWN."""
+    for i in range(STATES):
+        z[SHOWN + 1 + i] = s[i]
+    z[SHOWN + SLIP_TIME] = s[STATES]
+
+
+def take_states(z: Floats, s: Floats):
+    """Continuous states of SHOWN, into ``s``."""
+    for i in range(STATES):
+        s[i] = z[SHOWN + 1 + i]
+    s[STATES] = z[SHOWN + SLIP_TIME]
+
+
+def set_nominals(p: Floats, u: Floats, s: Floats):
+    """Sizes of the continuous states that count in this motion, each in its unit, into ``s``."""
+    for i in range(STATES):
+        s[i] = state_scale(p, u, i + 1, 0.0) / p[P_TOLERANCE]
+        if not s[i] > 0.0:
+            s[i] = 1.0
+    s[STATES] = 1.0 / p[P_RATE]
+
+
+# --- right-hand side --------------------------------------------------------------------------
+
+
+def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Slopes of a slip, into ``w[W_SLOPES:]``; of one that has turned back, of its mirror image."""
+    set_contact(p, u, w, W_STATE)
+    along = along_direction(p, z, w)
+    if along < 0.0:
+        back = 2.0 * along
+        w[W_STATE + VX] -= back * z[SHOWN + DIRECTION]
+        if p[P_LATERAL] > 0.0:
+            w[W_STATE + VY] -= back * z[SHOWN + DIRECTION + 1] / p[P_LATERAL]
+            arm = p[P_LATERAL] * p[P_RADIUS]
+            w[W_STATE + OMEGA] -= back * z[SHOWN + DIRECTION + 2] / arm
+    elif z[Z_SLIDING] == SLIDING_GOES_ON:
+        speed = scaled_sliding_speed(p, w)
+        if speed > 0.0:
+            w[W_DIRECTION] = w[W_SLIDING] / speed
+            w[W_DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
+            w[W_DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+    set_slopes(p, u, w, SLIP, W_SLOPES)
+    w[W_SLOPES + X - 1] = z[SHOWN + VX]
+    w[W_SLOPES + Y - 1] = p[P_FREE_Y] * z[SHOWN + VY]
+    w[W_SLOPES + PHI - 1] = p[P_FREE_PHI] * z[SHOWN + OMEGA]
+
+
+def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: float):
+    """Velocity of a presliding contact a time ``ahead`` of SHOWN, s, into ``w[W_STATE:]``."""
+    load_moment(p, z, w)
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
+    for i in range(3):
+        w[W_STATE + X + i] += ahead * w[W_STATE + VX + i]
+    w[W_STATE + TIME] += ahead
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
+
+
+def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Slopes of a stick with presliding, into ``w[W_SLOPES:]``.
+
+    Velocities follow from places there. Their rates are central differences along the motion, and
+    what these make of the kinetic energy is the surface's work, see `stick.held_energy`.
+    """
+    load_moment(p, z, w)
+    set_slopes(p, u, w, STICK, W_SLOPES)
+    ahead = LOOK_AHEAD / p[P_RATE]
+    held = 1
+    if p[P_LATERAL] > 0.0:
+        held = 3
+    set_presliding_velocity(p, u, z, w, ahead)
+    for i in range(held):
+        w[W_SLOPES + VX - 1 + i] = w[W_STATE + VX + i]
+    set_presliding_velocity(p, u, z, w, -ahead)
+    for i in range(held):
+        rate = (w[W_SLOPES + VX - 1 + i] - w[W_STATE + VX + i]) / (2.0 * ahead)
+        w[W_SLOPES + VX - 1 + i] = rate
+        inertia = p[P_MASS]
+        if VX + i == OMEGA:
+            inertia = p[P_INERTIA]
+        w[W_SLOPES + WORK_SURFACE - 1] += inertia * z[SHOWN + VX + i] * rate
+
+
+def set_exchanged_rates(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats):
+    """Rates of the continuous states at SHOWN, into ``s``."""
+    load_moment(p, z, w)
+    mode = z[SHOWN + MODE]
+    if has_bristles(p) or z[SHOWN + QUASI_STEADY] == 1.0:  # the latter where `advance` has led
+        set_slopes(p, u, w, mode, W_SLOPES)
+    elif mode == SLIP:
+        set_rates_in_slip(p, u, z, w)
+    elif p[P_PRESLIDING] != 0.0:
+        set_rates_in_presliding(p, u, z, w)
+    else:
+        set_stick_velocity(p, u, w, 0.0)
+        set_slopes(p, u, w, mode, W_SLOPES)
+    for i in range(STATES):
+        s[i] = w[W_SLOPES + i]
+    s[STATES] = mode
+
+
+# --- event indicators -------------------------------------------------------------------------
+
+
+def stick_reserve(p: Floats, u: Floats, z: Floats, w: Floats) -> float:
+    """What is left to the load of a stick at SHOWN up to the limit, relative to the limit."""
+    load_moment(p, z, w)
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
+    if p[P_PRESLIDING] == 0.0:
+        set_contact(p, u, w, W_STATE)
+        set_holding_load(p, w)
+    for i in range(3):
+        w[W_FRICTION + i] *= p[P_STICK_RATIO]
+    return 1.0 - holding_ratio(p, u, w)
+
+
+def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats):
+    """Event indicators at SHOWN, into ``g``: above 0 until their event, with 1 for none."""
+    g[1] = 1.0
+    g[2] = 1.0
+    if has_bristles(p):
+        g[0] = -mode_excess(p, u, z, w, SHOWN)
+        return
+    if z[SHOWN + MODE] == STICK:
+        g[0] = stick_reserve(p, u, z, w)
+        return
+    load_moment(p, z, w)
+    set_contact(p, u, w, W_STATE)
+    slow = rest_speed(p, u)
+    speed = scaled_sliding_speed(p, w)
+    g[0] = along_direction(p, z, w)
+    if z[Z_SLIDING] == SLIDING_BEGINS:
+        g[0] += TURNED_BACK * slow
+    g[0] /= speed_scale(p, u)
+    if z[Z_SLIDING] != SLIDING_GOES_ON:
+        g[1] = WELL_ON - speed / slow
+    elif p[P_LATERAL] > 0.0:  # on a line the velocity itself passes zero
+        g[1] = (speed - slow) / speed_scale(p, u)
+        if z[Z_FASTER] > 0.0:
+            g[2] = 1.0 - speed / z[Z_FASTER]
+
+
+# --- events -----------------------------------------------------------------------------------
+
+
+def begin_exchange(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Hand a run that `advance` has begun over to a host's integrator."""
+    set_ramp(p, z)
+    settle_sliding(p, u, z, w)
+
+
+def set_ramp(p: Floats, z: Floats):
+    """Say whether the surface is in its speed ramp at SHOWN, by the time."""
+    z[Z_RAMPING] = 0.0
+    if z[SHOWN + TIME] < p[P_RUN_UP]:
+        z[Z_RAMPING] = 1.0
+
+
+def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Say which part of a slip SHOWN is in, after what `settle` has made of it."""
+    if has_bristles(p):
+        z[SHOWN + BRISTLES] = 1.0  # its shear is that of steady sliding where it has been left out
+        return
+    z[Z_SLIDING] = SLIDING_BEGINS
+    if z[SHOWN + MODE] == STICK:
+        return
+    look_at(p, u, z, w, SHOWN)
+    speed = scaled_sliding_speed(p, w)
+    if speed > rest_speed(p, u):
+        slide_on(p, u, z, speed)
+    if speed > 0.0 and along_direction(p, z, w) < 0.0:  # nothing has stopped it: no friction
+        set_direction(p, z, w, SHOWN, speed)
+
+
+def slide_on(p: Floats, u: Floats, z: Floats, speed: float):
+    """Let a slip go on at a sliding speed, m/s, up to the next event by its speed."""
+    z[Z_SLIDING] = SLIDING_GOES_ON
+    z[Z_FASTER] = FASTER * speed
+    if speed > FAST_ENOUGH * speed_scale(p, u):
+        z[Z_FASTER] = 0.0  # none
+
+
+def end_stick(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Let the stick at SHOWN break away if its load has reached the limit; make it exact."""
+    look_at(p, u, z, w, SHOWN)
+    stop_sliding(p, u, z, w, SHOWN, p[P_PRESLIDING])
+    if excess_load(p, u, z, w, SHOWN, z[SHOWN + TIME]) < -AT_THE_LIMIT:
+        return
+    release(p, u, z, w, SHOWN)
+    note_break_away(z, SHOWN)
+    log_event(z, e, SHOWN)
+    settle_sliding(p, u, z, w)
+
+
+def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Go from one part of a slip at SHOWN to the next, or let the contact settle.
+
+    A host that looks for no events finds a slip reversed that has come to rest on the way: what
+    the step has made of that is taken away. One that has found the event has only turned.
+    """
+    look_at(p, u, z, w, SHOWN)
+    slow = rest_speed(p, u)
+    speed = scaled_sliding_speed(p, w)
+    along = along_direction(p, z, w)
+    grip = holding_coefficient(p, u, w)  # without it nothing comes to rest
+    if along < -REVERSED * speed and grip > 0.0:
+        stop_sliding(p, u, z, w, SHOWN, 0.0)
+    if z[Z_SLIDING] == SLIDING_BEGINS:
+        along += TURNED_BACK * slow
+    if along <= AT_THE_LIMIT * slow:
+        settle(p, u, z, w, e, SHOWN)
+        settle_sliding(p, u, z, w)
+    elif z[Z_SLIDING] == SLIDING_GOES_ON:
+        if p[P_LATERAL] > 0.0 and speed <= (1.0 + AT_THE_LIMIT) * slow:
+            z[Z_SLIDING] = SLIDING_ENDS
+            set_direction(p, z, w, SHOWN, speed)
+        elif 0.0 < z[Z_FASTER] <= (1.0 + AT_THE_LIMIT) * speed:
+            slide_on(p, u, z, speed)
+            set_direction(p, z, w, SHOWN, speed)
+    elif speed >= (1.0 - AT_THE_LIMIT) * WELL_ON * slow:
+        slide_on(p, u, z, speed)
+        set_direction(p, z, w, SHOWN, speed)
+
+
+def change_bristle_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Give the contact with bristles at SHOWN its other mode if it is beyond the present one."""
+    if mode_excess(p, u, z, w, SHOWN) < -AT_THE_LIMIT:
+        return
+    load_instant(p, z, w, SHOWN)
+    if z[SHOWN + MODE] == STICK:
+        z[SHOWN + MODE] = SLIP
+        note_break_away(z, SHOWN)
+    else:
+        z[SHOWN + MODE] = STICK
+        z[SHOWN + HOLD_SINCE] = z[SHOWN + TIME] - age_left(p, w)
+    log_event(z, e, SHOWN)
+
+
+def has_other_inputs(p: Floats, u: Floats, z: Floats) -> bool:
+    """Have inputs that matter changed since the last event or step? They are noted."""
+    changed = False
+    for i in range(U_SIZE):
+        if z[Z_INPUTS + i] != u[i] and is_felt(p, u, i):
+            changed = True
+        z[Z_INPUTS + i] = u[i]
+    return changed
+
+
+def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+    """Decide at an event what the contact does from SHOWN on, and make SHOWN consistent."""
+    if z[Z_RAMPING] == 1.0 and z[SHOWN + TIME] >= p[P_RUN_UP] * (1.0 - RAMP_ROUNDING):
+        z[Z_RAMPING] = 0.0
+        z[SHOWN + TIME] = max(z[SHOWN + TIME], p[P_RUN_UP])
+    if has_other_inputs(p, u, z):
+        settle_contact(p, u, z, w, e)
+        settle_sliding(p, u, z, w)
+    elif has_bristles(p):
+        change_bristle_mode(p, u, z, w, e)
+    elif z[SHOWN + MODE] == STICK:
+        end_stick(p, u, z, w, e)
+    else:
+        end_part_of_slip(p, u, z, w, e)
+
+
+def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
+    """Note the course of a slip at the end of a step of the host; DONE, or why it cannot go on."""
+    for i in range(U_SIZE):
+        z[Z_INPUTS + i] = u[i]
+    if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
+        look_at(p, u, z, w, SHOWN)
+        speed = scaled_sliding_speed(p, w)
+        if along_direction(p, z, w) > 0.0 and speed > rest_speed(p, u):
+            set_direction(p, z, w, SHOWN, speed)
+            if z[Z_FASTER] == 0.0 or z[Z_FASTER] > FASTER * speed:
+                slide_on(p, u, z, speed)
+    if p[P_SHORTEST] > 0.0 and shortest_spring(p, z, SHOWN) < p[P_SHORTEST]:
+        return SPRING_COLLAPSED
+    return DONE
+
+
+def show_moment(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats, o: Floats):
+    """Outputs at SHOWN into ``o``; the heat flow is the one of the moment. Rates into ``s``."""
+    show(p, u, z, w, o, 0)
+    set_exchanged_rates(p, u, z, w, s)
+    o[O_HEAT_FLOW] = s[HEAT - 1]

@@ -1,0 +1,159 @@
+"""Parameters that cannot stand side by side, by their values ``v``.
+
+What is said of each is in `stickslip.contradictions`.
+"""
+
+from __future__ import annotations
+
+from .. import Floats
+from ..layout import (
+    CURVE_LIMIT,
+    V_FRICTION_PRESLIDING_DISTANCE,
+    V_FRICTION_STICK_CREEP,
+    V_FRICTION_TABLE_MU,
+    V_FRICTION_TABLE_SPEED,
+    V_FRICTION_TRANSITION_SPEED,
+    V_INITIAL_OMEGA,
+    V_INITIAL_VY,
+    V_RATE_AND_STATE_DIRECT,
+    V_RATE_AND_STATE_EVOLUTION,
+    V_RIG_CONTACT_RADIUS,
+    V_RIG_FREE_PHI,
+    V_RIG_FREE_Y,
+    V_RIG_SPRING_LENGTH,
+    V_RIG_SPRING_NATURAL_LENGTH,
+    V_SPEED_RIPPLE_AMPLITUDE,
+    V_SPEED_RIPPLE_FREQUENCY,
+    V_SPRINGS_FORCE_CURVE_EXTENSION,
+    V_SPRINGS_FORCE_CURVE_FORCE,
+    V_STICK_STIFFNESS_RATIO,
+    V_TURNING_SURFACE_CURVATURE,
+)
+from ..terms import has_dry_law
+from .points import count_points
+
+# what `contradiction` returns
+NO_CONTRADICTION = 0
+CREEP_BESIDE_STATE_LAW = 1
+TRANSITION_BESIDE_STATE_LAW = 2
+BRISTLES_WITHOUT_TRANSITION = 3
+BRISTLES_BESIDE_CREEP = 4
+BRISTLES_BESIDE_STICK_STIFFNESS = 5
+SPRINGS_COIL_ON_COIL = 6
+FORCE_CURVE_OF_ONE_POINT = 7
+FORCE_CURVE_GOES_BACK = 8
+FORCE_CURVE_FALLS = 9
+TABLE_OF_ONE_POINT = 10
+TABLE_GOES_BACK = 11
+TABLE_AT_NEGATIVE_SPEED = 12
+TABLE_OF_NEGATIVE_FRICTION = 13
+TABLE_BESIDE_DRY_LAW = 14
+SURFACE_TURNS_UNDER_BLOCK = 15
+FULL_RIPPLE_TOO_FAST = 16
+GUIDED_Y_MOVES = 17
+GUIDED_PHI_TURNS = 18
+
+FASTEST_FULL_RIPPLE = 100.0  # Hz
+
+
+def contradiction(v: Floats) -> int:
+    """The first contradiction between any of the parameters, NO_CONTRADICTION where there is none.
+
+    Each value by itself is taken as checked against its bounds.
+    """
+    found = contradiction_of_contact(v)
+    if found == NO_CONTRADICTION:
+        found = contradiction_of_springs(v)
+    if found == NO_CONTRADICTION:
+        found = contradiction_of_table(v)
+    if found == NO_CONTRADICTION:
+        found = contradiction_of_motion(v)
+    return found
+
+
+def contradiction_of_contact(v: Floats) -> int:
+    """Laws of how a contact is sheared before it slides: there can be one."""
+    if v[V_RATE_AND_STATE_DIRECT] != 0.0 or v[V_RATE_AND_STATE_EVOLUTION] != 0.0:
+        if v[V_FRICTION_STICK_CREEP] != 0.0:
+            return CREEP_BESIDE_STATE_LAW
+        if v[V_FRICTION_TRANSITION_SPEED] != 0.0:
+            return TRANSITION_BESIDE_STATE_LAW
+    if v[V_FRICTION_PRESLIDING_DISTANCE] == 0.0:
+        return NO_CONTRADICTION
+    if v[V_FRICTION_TRANSITION_SPEED] == 0.0:
+        return BRISTLES_WITHOUT_TRANSITION
+    if v[V_FRICTION_STICK_CREEP] != 0.0:
+        return BRISTLES_BESIDE_CREEP
+    if v[V_STICK_STIFFNESS_RATIO] != 1.0:
+        return BRISTLES_BESIDE_STICK_STIFFNESS
+    return NO_CONTRADICTION
+
+
+def contradiction_of_springs(v: Floats) -> int:
+    """Lengths of the springs, and their force-length curve."""
+    extension = V_SPRINGS_FORCE_CURVE_EXTENSION
+    force = V_SPRINGS_FORCE_CURVE_FORCE
+    if v[V_RIG_SPRING_NATURAL_LENGTH] > 2.0 * v[V_RIG_SPRING_LENGTH]:
+        return SPRINGS_COIL_ON_COIL
+    count = count_points(v, extension)
+    if count == 0 and (is_given(v, extension) or is_given(v, force)):
+        return FORCE_CURVE_OF_ONE_POINT
+    if not (is_ended(v, extension, count) and is_ended(v, force, count)):
+        return FORCE_CURVE_GOES_BACK
+    for i in range(1, count):
+        if v[force + i] < v[force + i - 1]:
+            return FORCE_CURVE_FALLS
+    return NO_CONTRADICTION
+
+
+def contradiction_of_table(v: Floats) -> int:
+    """The table of mu_k over the sliding speed, and other laws of that speed."""
+    speed = V_FRICTION_TABLE_SPEED
+    mu = V_FRICTION_TABLE_MU
+    count = count_points(v, speed)
+    if count == 0 and (is_given(v, speed) or is_given(v, mu)):
+        return TABLE_OF_ONE_POINT
+    if not (is_ended(v, speed, count) and is_ended(v, mu, count)):
+        return TABLE_GOES_BACK
+    if v[speed] < 0.0:
+        return TABLE_AT_NEGATIVE_SPEED
+    for i in range(count):
+        if v[mu + i] < 0.0:
+            return TABLE_OF_NEGATIVE_FRICTION
+    if count > 0 and has_dry_law(v):
+        return TABLE_BESIDE_DRY_LAW
+    return NO_CONTRADICTION
+
+
+def contradiction_of_motion(v: Floats) -> int:
+    """Drive of the surface, and the start."""
+    if abs(v[V_TURNING_SURFACE_CURVATURE]) * v[V_RIG_CONTACT_RADIUS] >= 1.0:
+        return SURFACE_TURNS_UNDER_BLOCK
+    full = v[V_SPEED_RIPPLE_AMPLITUDE] == 1.0
+    if full and v[V_SPEED_RIPPLE_FREQUENCY] > FASTEST_FULL_RIPPLE:
+        return FULL_RIPPLE_TOO_FAST
+    if v[V_RIG_FREE_Y] == 0.0 and v[V_INITIAL_VY] != 0.0:
+        return GUIDED_Y_MOVES
+    if v[V_RIG_FREE_PHI] == 0.0 and v[V_INITIAL_OMEGA] != 0.0:
+        return GUIDED_PHI_TURNS
+    return NO_CONTRADICTION
+
+
+def is_given(v: Floats, first: int) -> bool:
+    """Does any place of a row of a curve hold a number?"""
+    for i in range(CURVE_LIMIT):
+        if v[first + i] != 0.0:
+            return True
+    return False
+
+
+def is_ended(v: Floats, first: int, count: int) -> bool:
+    """Do the places beyond the curve's points repeat the last value, or are all of them 0?"""
+    repeated = True
+    zero = True
+    for i in range(count, CURVE_LIMIT):
+        if v[first + i] != 0.0:
+            zero = False
+        if v[first + i] != v[first + max(count - 1, 0)]:
+            repeated = False
+    return repeated or zero
