@@ -22,7 +22,7 @@ from typing import NoReturn
 COMMANDS = {
     "run": "the coupled case: the mechanical FMU and the heat in belt and ice",
     "simulate": "the mechanics alone, without FMU and heat conduction",
-    "build": "builds StickSlip3DOF.fmu (FMI 2.0 co-simulation) for any FMI tool",
+    "build": "builds the units for any FMI tool: StickSlip3DOF.fmu, and one in Python to read",
     "belt-length": "how long the belt must be: drift of its temperature, loop after loop",
     "effects": "the catalogue of effects: what each adds, its parameters, and a figure",
     "friction-map": "friction against speed and temperature in steady coupled sliding",

@@ -1,23 +1,53 @@
-"""`stickslip build`: the FMU."""
+"""`stickslip build`: the units."""
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from pathlib import Path
 
 from cosim.cli import DONE
 from cosim.cli.arguments import add_output
+from cosim.fmu.platforms import PLATFORMS, Platform
+from cosim.names import unknown_name
 
 EXAMPLE = "stickslip build -o fmus"
-FMU = "StickSlip3DOF.fmu"
+UNITS = ("StickSlip3DOF.fmu", "StickSlip3DOF-python.fmu")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    add_output(
-        parser, "folder of the FMU (default: build of a checkout, else the user's cache folder)"
+    parser.add_argument(
+        "units",
+        nargs="*",
+        type=_unit,
+        metavar="UNIT",
+        help=f"one of {', '.join(UNITS)} (default: all)",
     )
-    parser.add_argument("--fmi", choices=["2"], default="2", help="version of FMI (default: 2)")
+    parser.add_argument(
+        "--platforms",
+        nargs="+",
+        type=_platform,
+        default=PLATFORMS,
+        metavar="PLATFORM",
+        help="that a native unit is to have libraries for, as far as there is a compiler: "
+        f"{', '.join(each.name for each in PLATFORMS)} (default: all)",
+    )
+    add_output(
+        parser, "folder of the units (default: build of a checkout, else the user's cache folder)"
+    )
+
+
+def _unit(name: str) -> str:
+    if name not in UNITS:
+        raise ArgumentTypeError(unknown_name("unit", name, UNITS))
+    return name
+
+
+def _platform(name: str) -> Platform:
+    for platform in PLATFORMS:
+        if platform.name == name:
+            return platform
+    raise ArgumentTypeError(unknown_name("platform", name, [each.name for each in PLATFORMS]))
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -28,10 +58,14 @@ def refused() -> tuple[type[Exception], ...]:
 
 
 def execute(arguments: Namespace) -> int:
-    """Build the FMU afresh and say where it is."""
+    """Build the units afresh and say where they are, and for which platforms."""
     from cosim.files import writable
     from cosim.fmu.build import build_fmu, own_folder
+    from cosim.fmu.native import platforms_of
 
-    folder = Path(arguments.output) if arguments.output else own_folder()
-    print(build_fmu(writable(folder, [FMU])))
+    units = arguments.units or UNITS
+    folder = writable(Path(arguments.output) if arguments.output else own_folder(), units)
+    for name in units:
+        fmu = build_fmu(folder, name, arguments.platforms)
+        print(f"{fmu}: {', '.join(platforms_of(fmu))}")
     return DONE

@@ -1,147 +1,22 @@
-"""What StickSlip3DOF declares: its parameters and ports, with units, ranges and structure."""
+"""modelDescription.xml of a unit, FMI 2.0."""
 
 from __future__ import annotations
 
-import pprint
-import uuid
-from collections.abc import Iterable
-from math import pi
-from typing import Any
-from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from stickslip import Parameters, ports
-from stickslip.kernel import layout
-from stickslip.ports import INPUTS, OUTPUTS, Port
-from stickslip.quantity import details
+from cosim.fmu.units import UNITS
+from cosim.fmu.variables import Variable
 
-Entry = dict[str, Any]
-
-#: Parameters that the FMU shows otherwise than the parameter models do.
-GUIDES: dict[str, Entry] = {
-    key: {
-        "unit": None,
-        "nominal": None,
-        "min": 0,
-        "max": 1,
-        "above_min": False,
-        "description": f"1: the block can move in {motion}; 0: a guide keeps it from that",
-    }
-    for key, motion in (("free_y", "y"), ("free_phi", "phi"))
+LOG_CATEGORIES = {
+    "logStatusWarning": "what should be known, though it is no failure",
+    "logStatusError": "why a call was refused; logged always",
+    "logAll": "both",
 }
-SPECIAL: dict[str, Entry] = {
-    "rig.inertia": {
-        "min": 0,
-        "description": "moment of inertia about the vertical; 0: that of a disc, m a^2 / 2",
-    },
-    **{
-        f"friction.table_{of}[{i + 1}]": {"min": 0}
-        for of in ("speed", "mu")
-        for i in range(layout.CURVE_LIMIT)
-    },
-}
-DESCRIBED = ("name", "unit", "nominal", "min", "max", "description", "start")
-
-
-def parameter_table() -> list[Entry]:
-    """Every parameter of the FMU, with unit, bounds and description from the parameter models.
-
-    One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
-    is excluded), description, start. Raises ValueError for a unit that `UNITS` lacks.
-    """
-    return [_entry(name, start) for name, start in Parameters().flat().items()]
-
-
-def as_ports(table: list[Entry]) -> list[ports.Port]:
-    """The parameters as the model description tells them."""
-    return [ports.Port(slot="", **{key: entry[key] for key in DESCRIBED}) for entry in table]
-
-
-def variables_module(table: list[Entry], content: str) -> bytes:
-    """Text of the module that tells the slave what it is; ``content``: hash of the build."""
-    values = {
-        "BUILD": content,
-        "GUID": str(uuid.uuid5(uuid.NAMESPACE_URL, f"StickSlip3DOF/{content}")),
-        # (name, place in u, start) and (name, place in o, is an integer)
-        "INPUTS": [(each.name, getattr(layout, each.slot), each.start) for each in ports.INPUTS],
-        "OUTPUTS": [
-            (each.name, getattr(layout, each.slot), each.unit is None) for each in ports.OUTPUTS
-        ],
-        "PARAMETERS": table,
-    }
-    lines = ['"""What this build of the FMU is, its ports and its parameters."""']
-    for name, value in values.items():
-        lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")
-    return "\n".join(lines).encode() + b"\n"
-
-
-def _entry(name: str, start: float) -> Entry:
-    group, key = name.split(".")
-    entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
-    if key in GUIDES:
-        return entry | {"start": int(start)}
-    table: Any = Parameters.model_fields[group].annotation
-    field = table.model_fields[key.partition("[")[0]]
-    bounds = {
-        kind: getattr(bound, kind)
-        for bound in field.metadata
-        for kind in ("gt", "ge", "le")
-        if getattr(bound, kind, None) is not None
-    }
-    whole = field.annotation is int
-    unit = None if whole else details(field)["unit"]
-    if unit is not None and unit not in UNITS:
-        raise ValueError(
-            f"effect or table {group}: {key} is in {unit!r}, a unit that UNITS of {__name__} lacks"
-        )
-    return (
-        entry
-        | ({"start": int(start), "nominal": None} if whole else {})
-        | {
-            "unit": unit,
-            "min": bounds.get("gt", bounds.get("ge")),
-            "max": bounds.get("le"),
-            "above_min": "gt" in bounds,
-            "description": field.description,
-        }
-        | SPECIAL.get(name, {})
-    )
-
-
-# FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
-# whole numbers, which FMI cannot state
-UNITS: dict[str, dict[str, float] | None] = {
-    "1": {},
-    "m": {"m": 1},
-    "m/s": {"m": 1, "s": -1},
-    "rad": {"rad": 1},
-    "rad/s": {"rad": 1, "s": -1},
-    "deg": {"rad": 1, "factor": pi / 180},
-    "s": {"s": 1},
-    "kg": {"kg": 1},
-    "kg.m2": {"kg": 1, "m": 2},
-    "N": {"kg": 1, "m": 1, "s": -2},
-    "N.m": {"kg": 1, "m": 2, "s": -2},
-    "N/m": {"kg": 1, "s": -2},
-    "J": {"kg": 1, "m": 2, "s": -2},
-    "J/m3": {"kg": 1, "m": -1, "s": -2},
-    "Pa": {"kg": 1, "m": -1, "s": -2},
-    "Pa.s": {"kg": 1, "m": -1, "s": -1},
-    "W.s0.5/(m2.K)": None,
-    "W": {"kg": 1, "m": 2, "s": -3},
-    "degC": {"K": 1, "offset": 273.15},
-    "1/K": {"K": -1},
-    "1/J": {"kg": -1, "m": -2, "s": 2},
-    "Hz": {"s": -1},
-    "s/m": {"s": 1, "m": -1},
-    "N/m3": {"kg": 1, "m": -2, "s": -2},
-    "N/m5": {"kg": 1, "m": -4, "s": -2},
-    "N.s/m": {"kg": 1, "s": -1},
-    "N.s2/m2": {"kg": 1, "m": -1},
-    "N.m.s": {"kg": 1, "m": 2, "s": -1},
-    "1/m": {"m": -1},
-    "1/s": {"s": -1},
-    "m/s2": {"m": 1, "s": -2},
-}
+AUTHOR = "The stickslip developers"
+COPYRIGHT = "Copyright (c) 2026, the stickslip developers"
+LICENSE = "BSD-3-Clause"
 # Initial value of an output -> the parameters that it follows from. Totals start from zero;
 # of the outputs not named here all parameters and inputs have a say.
 STARTS: dict[str, tuple[str, ...]] = {
@@ -159,69 +34,205 @@ STARTS: dict[str, tuple[str, ...]] = {
     ),
     (),
 )
+# Outputs that follow from the inputs of the moment in model exchange.
+DIRECT = (
+    *(f"friction_{of}" for of in ("force_x", "force_y", "moment")),
+    "sliding_speed",
+    "heat_flow",
+    "surface_speed_actual",
+)
+# States that are only counted: no rate depends on them.
+COUNTED = ("heat", "surface_work", "external_work", "damping_heat", "slip_time")
+STOP_TIME, STEP_SIZE = "30", "0.01"  # s, of the experiment that a host may take
 
 
-def complete(xml: bytes, parameters: Iterable[Port]) -> bytes:
-    """pythonfmu's modelDescription.xml with everything added; no date, so that builds repeat."""
-    root = fromstring(xml)
-    del root.attrib["generationDateAndTime"]
-    variables = _part(root, "ModelVariables")
-    known = {port.name: port for port in (*INPUTS, *OUTPUTS, *parameters)}
-    for variable in variables:
-        _describe(variable, known[variable.attrib["name"]])
-    used = {real.get("unit") for real in variables.iter("Real")}
-    units = _unit_definitions(sorted(filter(None, used)))
-    root.insert(list(root).index(_part(root, "CoSimulation")) + 1, units)
-    root.remove(_part(root, "ModelStructure"))
-    root.append(_structure([variable.attrib["name"] for variable in variables]))
-    for element in root.iter():
-        element.text = element.tail = None
+@dataclass(frozen=True)
+class UnitFacts:
+    """What a unit says of itself beside its variables.
+
+    name : of the model and of its libraries
+    version : of the product, and of the build
+    python : whether it needs a Python in its host, and its temporary files
+    indicators : event indicators of model exchange; None: it is for co-simulation only
+    sources : of the library, in the unit's folder `sources`
+    """
+
+    name: str
+    guid: str
+    description: str
+    version: str
+    tool: str
+    python: bool = False
+    indicators: int | None = None
+    sources: tuple[str, ...] = ()
+
+    @property
+    def license(self) -> str:
+        """Of the unit."""
+        return LICENSE
+
+
+def fmi2_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
+    """The whole file; without a date, so that builds repeat."""
+    root = Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=facts.name,
+        guid=facts.guid,
+        description=facts.description,
+        author=AUTHOR,
+        version=facts.version,
+        copyright=COPYRIGHT,
+        license=LICENSE,
+        generationTool=facts.tool,
+        variableNamingConvention="structured",
+        numberOfEventIndicators=str(facts.indicators or 0),
+    )
+    if facts.indicators is not None:
+        _add_model_exchange(root, facts)
+    _add_co_simulation(root, facts)
+    _add_units(root, variables)
+    categories = SubElement(root, "LogCategories")
+    for name, meaning in LOG_CATEGORIES.items():
+        SubElement(categories, "Category", name=name, description=meaning)
+    SubElement(root, "DefaultExperiment", startTime="0", stopTime=STOP_TIME, stepSize=STEP_SIZE)
+    declared = SubElement(root, "ModelVariables")
+    index = {variable.name: str(i) for i, variable in enumerate(variables, start=1)}
+    exchange = facts.indicators is not None
+    for reference, variable in enumerate(variables):
+        _add_variable(declared, reference, variable, index, exchange)
+    _add_structure(root, variables, index)
     indent(root)
     return tostring(root, encoding="UTF-8", xml_declaration=True)
 
 
-def _part(root: Element, tag: str) -> Element:
-    part = root.find(tag)
-    if part is None:
-        raise ValueError(f"pythonfmu wrote a model description without {tag}")
-    return part
+def _add_model_exchange(root: Element, facts: UnitFacts) -> None:
+    exchange = SubElement(
+        root,
+        "ModelExchange",
+        modelIdentifier=facts.name,
+        needsExecutionTool=_xml(facts.python),
+        completedIntegratorStepNotNeeded="false",
+        providesDirectionalDerivative="true",
+        canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+    )
+    _add_sources(exchange, facts)
 
 
-def _describe(variable: Element, known: Port) -> None:
-    """Complete one variable. pythonfmu writes a start to 16 digits, which can miss the last bit."""
-    variable.set("description", known.description)
-    kind = variable[0]
-    kind.attrib.clear()
-    for key in ("unit", "min", "max", "nominal", "start"):
-        value = getattr(known, key)
-        if value is not None:
-            kind.set(key, value if isinstance(value, str) else repr(value))
+def _add_co_simulation(root: Element, facts: UnitFacts) -> None:
+    co_simulation = SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=facts.name,
+        needsExecutionTool=_xml(facts.python),
+        canHandleVariableCommunicationStepSize="true",
+        canInterpolateInputs=_xml(not facts.python),
+        canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+    )
+    _add_sources(co_simulation, facts)
 
 
-def _unit_definitions(used: Iterable[str]) -> Element:
-    definitions = Element("UnitDefinitions")
-    for name in used:
+def _add_sources(element: Element, facts: UnitFacts) -> None:
+    if facts.sources:
+        files = SubElement(element, "SourceFiles")
+        for name in facts.sources:
+            SubElement(files, "File", name=name)
+
+
+def _add_units(root: Element, variables: Iterable[Variable]) -> None:
+    definitions = SubElement(root, "UnitDefinitions")
+    for name in sorted({variable.unit for variable in variables if variable.unit}):
         unit = SubElement(definitions, "Unit", name=name)
         base = UNITS[name]
         if base is not None:
             SubElement(unit, "BaseUnit", {key: repr(value) for key, value in base.items()})
-    return definitions
 
 
-def _structure(names: list[str]) -> Element:
-    """Outputs and initial unknowns with what they depend on.
+def _add_variable(
+    declared: Element, reference: int, variable: Variable, index: Mapping[str, str], exchange: bool
+) -> None:
+    scalar = SubElement(
+        declared, "ScalarVariable", name=variable.name, valueReference=str(reference)
+    )
+    scalar.set("causality", variable.causality)
+    if variable.causality == "parameter":
+        scalar.set("variability", "tunable" if variable.is_tunable else "fixed")
+        scalar.set("initial", "exact")
+    elif variable.causality != "input":
+        if variable.is_integer:
+            scalar.set("variability", "discrete")
+        scalar.set("initial", "calculated")
+    scalar.set("description", variable.description)
+    kind = SubElement(scalar, "Integer" if variable.is_integer else "Real")
+    for key in ("unit", "min", "max", "nominal", "start"):
+        value = getattr(variable, key)
+        if value is not None and not (key == "unit" and variable.is_integer):
+            kind.set(key, value if isinstance(value, str) else repr(value))
+    if variable.derivative_of:
+        kind.set("derivative", index[variable.derivative_of])
+    if variable.is_state and exchange:
+        kind.set("reinit", "true")
 
-    The outputs at a communication point are those of the end of the step that led there: an input
-    set at the point acts in the next step. So no output depends directly on any input, and a host
-    needs not fear an algebraic loop.
+
+def _xml(value: bool) -> str:
+    return str(value).lower()
+
+
+def _add_structure(root: Element, variables: Sequence[Variable], index: Mapping[str, str]) -> None:
+    """Outputs, rates of the states and initial unknowns, with what they depend on.
+
+    In co-simulation, the outputs at a communication point are those of the end of the step that led
+    there: an input set at the point acts in the next step. In model exchange some follow from the
+    inputs of the moment (`DIRECT`); where there is only co-simulation, none does. Outputs without
+    an entry follow from all states and inputs.
     """
-    index = {name: str(position) for position, name in enumerate(names, start=1)}
-    structure = Element("ModelStructure")
-    outputs, initial = (SubElement(structure, tag) for tag in ("Outputs", "InitialUnknowns"))
-    for port in OUTPUTS:
-        SubElement(outputs, "Unknown", index=index[port.name], dependencies="")
-        unknown = SubElement(initial, "Unknown", index=index[port.name])
-        if port.name in STARTS:
-            sources = (index[source] for source in STARTS[port.name])
-            unknown.set("dependencies", " ".join(sources))
-    return structure
+    structure = SubElement(root, "ModelStructure")
+    exchange = any(variable.is_state for variable in variables)
+    outputs = SubElement(structure, "Outputs")
+    for variable in variables:
+        if variable.causality == "output":
+            unknown = SubElement(outputs, "Unknown", index=index[variable.name])
+            if not exchange or variable.is_integer:
+                unknown.set("dependencies", "")
+            elif variable.name not in DIRECT:
+                unknown.set("dependencies", _of_states(variable, variables, index))
+    if exchange:
+        _add_derivatives(SubElement(structure, "Derivatives"), variables, index)
+    initial = SubElement(structure, "InitialUnknowns")
+    for variable in variables:
+        if variable.causality in ("output", "local"):
+            unknown = SubElement(initial, "Unknown", index=index[variable.name])
+            if variable.name in STARTS:
+                sources = (index[source] for source in STARTS[variable.name])
+                unknown.set("dependencies", " ".join(sources))
+
+
+def _of_states(variable: Variable, variables: Sequence[Variable], index: Mapping[str, str]) -> str:
+    """Of an output that is a state: itself; of another: all states."""
+    if variable.is_state:
+        return index[variable.name]
+    return " ".join(index[each.name] for each in variables if each.is_state)
+
+
+def _add_derivatives(
+    element: Element, variables: Sequence[Variable], index: Mapping[str, str]
+) -> None:
+    """The rates of the states; each follows from the states that the motion depends on and from
+    the inputs, but that of the time in slip, which is the mode."""
+    said = {
+        "der(slip_time)": "",
+        "der(surface_travel)": index["surface_speed"],
+    }
+    motion = " ".join(
+        index[each.name]
+        for each in variables
+        if each.causality == "input" or (each.is_state and each.name not in COUNTED)
+    )
+    for variable in variables:
+        if variable.derivative_of:
+            dependencies = said.get(variable.name, motion)
+            SubElement(element, "Unknown", index=index[variable.name], dependencies=dependencies)

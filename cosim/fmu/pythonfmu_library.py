@@ -1,4 +1,4 @@
-"""Two corrections to pythonfmu's native library, each a matter of one or two constants.
+"""Three corrections to pythonfmu's native library, each a matter of one or two constants.
 
 A refused step (src/pythonfmu/fmi2.cpp, `fmi2DoStep`). A slave that answers False to `do_step` ends
 in these two statements, and no answer at all gives fmi2Error:
@@ -15,10 +15,18 @@ function sets the static pointer `pyState` to null when the library goes. Where 
 loaded until the process ends, the pointer has been destroyed by then, and freed memory is written
 to; now and then the process ends with "corrupted double-linked list" and status 134. As the
 pointer's own destructor does all that is needed, the function returns at once.
+
+Logging (src/pythonfmu/fmi2.cpp, `fmi2Instantiate` and `fmi2SetDebugLogging`). Where a host has not
+switched logging on, the library drops every message, also the error that says why a call was
+refused, why there is no instance, or that it could not return as a status. What is kept as the
+host's wish, `loggingOn != 0`, becomes `true`; the unit says little that is no error.
 """
 
 import warnings
 from dataclasses import dataclass
+
+#: First bytes of a library of Linux, of Windows.
+ELF, DLL = b"\x7fELF", b"MZ"
 
 
 @dataclass(frozen=True)
@@ -45,16 +53,43 @@ PROCESS_END = Correction(
     found=bytes.fromhex("f30f1efa 55 660fefc0 53 4883ec08 488b2d73640100 0f290564640100 4885ed"),
     put=bytes.fromhex("f30f1efa c3 660fefc0 53 4883ec08 488b2d73640100 0f290564640100 4885ed"),
     loss="may abort at the end of its host's process",
-    start=b"\x7fELF",
+    start=ELF,
+)
+UNHEARD = "says nothing of its errors to a host that has not switched logging on"
+LOGGING = (
+    Correction(  # test %eax, %eax; setne 8(%r12); call
+        found=bytes.fromhex("85c0 410f95442408 e8"),
+        put=bytes.fromhex("85c0 41c644240801 e8"),  # movb $1, 8(%r12)
+        loss=UNHEARD,
+        start=ELF,
+    ),
+    Correction(  # test %eax, %eax; setne 8(%rdi); add $0x30, %rdi
+        found=bytes.fromhex("85c0 0f954708 4883c730"),
+        put=bytes.fromhex("85c0 c6470801 4883c730"),  # movb $1, 8(%rdi)
+        loss=UNHEARD,
+        start=ELF,
+    ),
+    Correction(  # setne %al; mov 0x30(%rsp), %rbx; mov %al, 8(%rbx)
+        found=bytes.fromhex("0f95c0 488b5c2430 884308"),
+        put=bytes.fromhex("b00190 488b5c2430 884308"),  # mov $1, %al; nop
+        loss=UNHEARD,
+        start=DLL,
+    ),
+    Correction(  # test %r12d, %r12d; setne %al; mov %al, 8(%rcx)
+        found=bytes.fromhex("4585e4 0f95c0 884108"),
+        put=bytes.fromhex("4585e4 b00190 884108"),
+        loss=UNHEARD,
+        start=DLL,
+    ),
 )
 
 
 def corrected(library: bytes) -> bytes:
-    """The library with both corrections.
+    """The library with all corrections.
 
     Code that is not found exactly once is left as it is, with a warning that says what is lost.
     """
-    for correction in (REFUSED_STEP, PROCESS_END):
+    for correction in (REFUSED_STEP, PROCESS_END, *LOGGING):
         if not library.startswith(correction.start):
             continue
         if library.count(correction.found) == 1:

@@ -81,4 +81,7 @@ def _start(
         states[:, axis] -= values.pop(key, 0.0)
     first = problem.segmented_runs[run].simulate(values, states)[0]
     x, y, phi, vx, vy, omega = (float(first[column]) for column in _STATE)
+    known = problem.segmented_runs[run].known  # a tracker sees some motion along a guide, too
+    vy *= known.get("rig.free_y", 1.0)
+    omega *= known.get("rig.free_phi", 1.0)
     return x, y, phi, vx, vy, omega

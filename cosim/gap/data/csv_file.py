@@ -143,11 +143,11 @@ def _parse(
         raise CampaignError(f"{path}: a header row without numbers, allowed is at least one row")
     text = [line.strip() if separator == r"\s+" else line for _, line in rows]
     longest = max(range(len(text)), key=lambda row: text[row].count(separator))
-    extra = _fields(text[longest], separator)[width:]
-    if any(extra):
+    fields = _fields(text[longest], separator)
+    if len(fields) < width or any(fields[width:]):
         raise CampaignError(
-            f"{path}: line {rows[longest][0]} has {width + len(extra)} fields, the header has "
-            f"{width}; allowed is the same number"
+            f"{path}: line {rows[longest][0]} has {len(fields)} fields, the header has {width}; "
+            "allowed is the same number"
         )
     return pd.read_csv(
         io.StringIO("\n".join(text)), sep=separator, decimal=decimal, header=None,

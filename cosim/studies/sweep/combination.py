@@ -16,7 +16,7 @@ from importlib import resources
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
-from stickslip import Parameters, Trajectory, derived, simulate
+from stickslip import Parameters, Trajectory, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.generation.source import kernel_source
 
@@ -65,7 +65,7 @@ def model_version() -> str:
     package = resources.files("stickslip")
     files = sorted(file.name for file in package.iterdir() if file.name.endswith(".py"))
     texts = [(package / name).read_text(encoding="utf-8") for name in files]
-    texts += [kernel_source(), derived.TEXT, inspect.getsource(feature_module)]
+    texts += [kernel_source(), inspect.getsource(feature_module)]
     plain = "\n".join(ast.unparse(ast.parse(text)) for text in texts)
     return hashlib.sha256(plain.encode()).hexdigest()[:KEY_DIGITS]
 

@@ -1,22 +1,23 @@
-"""StickSlip3DOF.fmu: how its content becomes an FMU, by way of pythonfmu.
+"""StickSlip3DOF-python.fmu: how its content becomes a unit, by way of pythonfmu.
 
 The same content gives the same FMU, byte for byte. A build is known by the hash of its content, and
 the Python modules inside carry that hash in their names: a process keeps one module of a name, so
 two builds in it would otherwise run the code of the one that came first.
 
 What travels inside is pure Python of the standard library: the slave, the kernel as
-`stickslip.generation.source` makes it, and how parameters enter it. The effects' declarations stay
-behind, and pydantic with them.
+`stickslip.generation.source` makes it, and how named parameters and random numbers enter it. The
+effects' declarations stay behind, and pydantic with them.
 """
 
 from __future__ import annotations
 
 import hashlib
-import io
 import json
+import pprint
 import re
 import sys
 import tempfile
+import uuid
 import zipfile
 import zlib
 from importlib import resources
@@ -25,26 +26,54 @@ from pathlib import Path
 
 from stickslip import ports
 from stickslip.generation.source import kernel_source
-from stickslip.kernel.layout import constants
+from stickslip.kernel import layout
+from stickslip.names import NAMES
 
 from cosim.files import write_bytes
-from cosim.fmu.model_description import Entry, as_ports, complete, parameter_table, variables_module
+from cosim.fmu.archive import packed
+from cosim.fmu.model_description import UnitFacts, fmi2_description
+from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
+from cosim.fmu.variables import TUNABLE, Entry, parameter_table, variables
 
+FMU = "StickSlip3DOF-python.fmu"
+MODULE = "stickslip3dof"
 #: Beside the kernel's text: files of the package `stickslip` as they are, but for where the names
 #: of the kernel come from.
-AS_THEY_ARE = ("contradictions.py", "packing.py", "status.py", "tableau.py")
+AS_THEY_ARE = ("contradictions.py", "draws.py", "packing.py", "status.py")
 PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."""\n'
+#: What pythonfmu loads, in whatever Python its host has: nothing newer than the check may come
+#: before it. The library runs it again for every instance and keeps for ever the classes that it
+#: defines, so it defines none.
+DOOR = '''"""StickSlip3DOF, for hosts with a Python that is new enough."""
+
+import sys
+
+if sys.version_info < (3, 10):
+    raise ImportError(
+        "StickSlip3DOF needs Python 3.10 or newer, this host has %d.%d" % sys.version_info[:2]
+    )
+
+import ctypes
+
+from stickslip.slave import StickSlip3DOF
+
+# pythonfmu's library runs this file for every instance, with locals of its own, and then drops a
+# reference to the globals that it never had. This is that reference.
+if locals() is not globals():
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
+'''
 _KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
 
 
 def sources() -> dict[str, bytes]:
     """Path inside the FMU's resources -> content, before anything is renamed."""
     texts = {
-        "slave.py": slave_file().read_text(encoding="utf-8"),
+        f"{MODULE}.py": DOOR,
         "stickslip/__init__.py": PACKAGE_DOC,
+        "stickslip/slave.py": slave_file().read_text(encoding="utf-8"),
         "stickslip/kernel.py": kernel_source(),
-        "stickslip/derived.py": _derived(),
+        "stickslip/names.py": _names(),
     }
     for name in AS_THEY_ARE:
         texts[f"stickslip/{name}"] = (resources.files("stickslip") / name).read_text("utf-8")
@@ -60,22 +89,17 @@ def slave_file() -> Path:
     return checkout if checkout.is_file() else here.with_name("slave.py")
 
 
-def _derived() -> str:
-    from stickslip.derived import TEXT
-
-    used = [name for name in constants() if re.search(rf"\b{name}\b", TEXT)]
-    head = '"""The effects\' numbers in ``p``, made from their declarations."""\n\n'
-    return f"{head}from .kernel import {', '.join(used)}\n{TEXT}"
+def _names() -> str:
+    head = '"""Names of the parameters in the order of the kernel\'s array ``v``."""'
+    return f"{head}\n\nNAMES = {NAMES}\n"
 
 
-FMU = "StickSlip3DOF.fmu"
-MODULE = "stickslip3dof"
 #: Files that an FMU also depends on, though they do not travel.
 RECIPE_FILES = (
     Path(__file__),
     *(
         Path(__file__).with_name(f"{name}.py")
-        for name in ("model_description", "pythonfmu_library")
+        for name in ("model_description", "pythonfmu_library", "units", "variables")
     ),
     Path(ports.__file__),
 )
@@ -117,7 +141,7 @@ def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
     content = content_hash(files, table)
     with tempfile.TemporaryDirectory(prefix="stickslip3dof-") as scratch:
         raw = _build_with_pythonfmu(Path(scratch), files, table, content)
-        finished = _finish(raw, table)
+        finished = _finish(raw, content)
     return write_bytes(finished, directory / FMU)
 
 
@@ -126,14 +150,14 @@ def _build_with_pythonfmu(
 ) -> Path:
     from pythonfmu import FmuBuilder
 
-    names = {"slave": f"{MODULE}_{content}", "stickslip": f"stickslip_{content}"}
+    names = {MODULE: f"{MODULE}_{content}", "stickslip": f"stickslip_{content}"}
     variables = variables_module(table, content)
     for name, source in (files | {"stickslip/variables.py": variables}).items():
         target = scratch / _renamed(name, names)
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(_rename_imports(source, names["stickslip"]))
     fmu: Path = FmuBuilder.build_FMU(
-        scratch / f"{names['slave']}.py",
+        scratch / f"{names[MODULE]}.py",
         dest=scratch / FMU,
         project_files=[scratch / names["stickslip"]],
         needsExecutionTool=True,
@@ -153,26 +177,57 @@ def _rename_imports(source: bytes, package: str) -> bytes:
     return re.sub(rb"(?m)^(\s*(?:from|import)\s+)stickslip\b", rb"\1" + package.encode(), source)
 
 
-def _finish(raw: Path, table: list[Entry]) -> bytes:
-    """The FMU with its full description and library, entries in order and without a date."""
-    packed = io.BytesIO()
-    with zipfile.ZipFile(raw) as archive, zipfile.ZipFile(packed, "w") as result:
-        if not any(name.startswith("binaries/") for name in archive.namelist()):
-            raise ValueError(
-                "pythonfmu has no libraries to put into the FMU; it was imported from inside "
-                "another FMU, so build in a process that has loaded none"
-            )
-        for name in sorted(archive.namelist()):
-            content = archive.read(name)
-            if name == "modelDescription.xml":
-                content = complete(content, as_ports(table))
-            elif name.startswith("binaries/"):
-                content = corrected(content)
-            entry = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o755 << 16 if name.startswith("binaries/") else 0o644 << 16
-            result.writestr(entry, content)
-    return packed.getvalue()
+def _finish(raw: Path, content: str) -> bytes:
+    """The unit with its full description and corrected libraries."""
+    with zipfile.ZipFile(raw) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    if not any(name.startswith("binaries/") for name in files):
+        raise ValueError(
+            "pythonfmu has no libraries to put into the unit; it was imported from inside "
+            "another FMU, so build in a process that has loaded none"
+        )
+    for name in files:
+        if name.startswith("binaries/"):
+            files[name] = corrected(files[name])
+    files["modelDescription.xml"] = fmi2_description(_facts(content), variables())
+    return packed(files)
+
+
+def _facts(content: str) -> UnitFacts:
+    return UnitFacts(
+        name=NAME,
+        guid=_guid(content),
+        description=f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer",
+        version=version("stickslip"),
+        tool=f"stickslip, pythonfmu {version('pythonfmu')}",
+        python=True,
+    )
+
+
+def _guid(content: str) -> str:
+    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{NAME}/{content}"))
+
+
+def variables_module(table: list[Entry], content: str) -> bytes:
+    """Text of the module that tells the slave what it is; ``content``: hash of the build."""
+    values = {
+        "BUILD": content,
+        "GUID": _guid(content),
+        # (name, place in u, start, min, max) and (name, place in o, is an integer)
+        "INPUTS": [
+            (each.name, getattr(layout, each.slot), each.start, each.min, each.max)
+            for each in ports.INPUTS
+        ],
+        "OUTPUTS": [
+            (each.name, getattr(layout, each.slot), each.unit is None) for each in ports.OUTPUTS
+        ],
+        "PARAMETERS": table,
+        "TUNABLE": TUNABLE,
+    }
+    lines = ['"""What this build of the unit is, its ports and its parameters."""']
+    for name, value in values.items():
+        lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")
+    return "\n".join(lines).encode() + b"\n"
 
 
 if __name__ == "__main__":

@@ -1,0 +1,165 @@
+"""What the C of the mechanical unit looks up: its variables, and its words for what is refused."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from string import Formatter
+
+from stickslip.kernel.layout import DRAW_SEED, DRAW_UNIFORM, constants
+from stickslip.status import WHY_NOT
+
+from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
+from cosim.fmu.variables import HOLD, Variable, names
+
+MADE = "/* Made by the build from the declarations in Python. */\n"
+
+
+def variables_header(variables: Sequence[Variable], guid: str) -> str:
+    """How many variables there are, where each kind begins, and the unit's GUID."""
+    first, counts = 0, {}
+    lines = [MADE, "#ifndef VARIABLES_H", "#define VARIABLES_H", ""]
+    for causality in ("input", "output", "parameter", "local"):
+        counts[causality] = len(names(variables, causality))
+        lines.append(f"#define FIRST_{causality.upper()} {first}")
+        lines.append(f"#define {causality.upper()}_COUNT {counts[causality]}")
+        first += counts[causality]
+    hold = [variable.name for variable in variables].index(HOLD["name"])
+    lines += [f"#define INPUT_HOLD {hold}", f"#define VARIABLE_COUNT {first}"]
+    lines += [f'#define UNIT_GUID "{guid}"', ""]
+    lines += [f"#define STATE_COUNT {len(states())}", f"#define INDICATOR_COUNT {INDICATORS}", ""]
+    lines += ["/* Where the kernel keeps each output. */", "extern const int OUTPUT_SLOTS[];"]
+    lines += ["/* Where each local variable is among the states and, behind them, their rates. */"]
+    lines += ["extern const int LOCAL_SLOTS[];"]
+    lines += [
+        "/* Value reference of each continuous state, and a size of each input that counts. */"
+    ]
+    lines += ["extern const int STATE_REFERENCES[];", "extern const double INPUT_NOMINALS[];"]
+    lines += [
+        "/* Of each random number: its seed among the parameters; uniform, or else normal. */"
+    ]
+    lines += ["extern const int DRAW_SEED[], DRAW_UNIFORM[];", "", "#endif", ""]
+    return "\n".join(lines)
+
+
+def variables_source(variables: Sequence[Variable]) -> str:
+    """The table of the variables, and where the kernel keeps what they show."""
+    rows = [f"    {_row(variable)}," for variable in variables]
+    places = constants()
+    nominals = [_number(each.nominal or 1.0) for each in variables if each.causality == "input"]
+    slots = [str(places[each.slot]) for each in variables if each.causality == "output"]
+    return "\n".join(
+        [
+            MADE,
+            "#include <math.h>",
+            "",
+            '#include "unit.h"',
+            "",
+            "const Variable VARIABLES[VARIABLE_COUNT] = {",
+            *rows,
+            "};",
+            "",
+            _whole_numbers("OUTPUT_SLOTS", slots),
+            _whole_numbers("LOCAL_SLOTS", map(str, local_slots(variables))),
+            _whole_numbers("STATE_REFERENCES", map(str, state_references(variables))),
+            f"const double INPUT_NOMINALS[] = {{{', '.join(nominals)}}};",
+            _whole_numbers("DRAW_SEED", (f"{seed:g}" for seed in DRAW_SEED)),
+            _whole_numbers("DRAW_UNIFORM", (f"{kind:g}" for kind in DRAW_UNIFORM)),
+            "",
+        ]
+    )
+
+
+def _whole_numbers(name: str, numbers: Iterable[str]) -> str:
+    return f"const int {name}[] = {{{', '.join(numbers)}}};"
+
+
+def _row(variable: Variable) -> str:
+    low = -math.inf if variable.min is None else variable.min
+    high = math.inf if variable.max is None else variable.max
+    flags = (variable.is_integer, variable.is_tunable)
+    said = ", ".join(str(flag).lower() for flag in flags)
+    numbers = ", ".join(_number(value) for value in (variable.start or 0.0, low, high))
+    above = str(variable.above_min).lower()
+    return f"{{{quoted(variable.name)}, {variable.causality.upper()}, {said}, {numbers}, {above}}}"
+
+
+def _number(value: float) -> str:
+    if math.isinf(value):
+        return "INFINITY" if value > 0 else "-INFINITY"
+    return repr(float(value))
+
+
+def words_header() -> str:
+    """Declarations of `words_source`."""
+    return "\n".join(
+        [
+            MADE,
+            "#ifndef WORDS_H",
+            "#define WORDS_H",
+            "",
+            "#include <stddef.h>",
+            "",
+            "/* Why `advance` gave up, by its status. */",
+            f"extern const char *const WHY_NOT[{max(WHY_NOT) + 1}];",
+            "",
+            "/* What the code of `contradiction` says, with the values in it. */",
+            "void say_contradiction(int code, const double v[], char text[], size_t size);",
+            "",
+            "#endif",
+            "",
+        ]
+    )
+
+
+def words_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -> str:
+    """Sentences for what is refused.
+
+    contradictions : code -> sentence, in which ``{table.parameter:g}`` stands for a value
+    places : where in ``v`` each parameter is
+    """
+    why = [f"    [{status}] = {quoted(text)}," for status, text in WHY_NOT.items()]
+    cases = []
+    for code, sentence in contradictions.items():
+        if not sentence:
+            continue
+        form, values = _printf(sentence, places)
+        given = ", ".join(["text, size", form, *values])
+        cases += [f"    case {code}:", f"        snprintf({given});", "        break;"]
+    return "\n".join(
+        [
+            MADE,
+            "#include <stdio.h>",
+            "",
+            '#include "words.h"',
+            "",
+            f"const char *const WHY_NOT[{max(WHY_NOT) + 1}] = {{",
+            *why,
+            "};",
+            "",
+            "void say_contradiction(int code, const double v[], char text[], size_t size)",
+            "{",
+            "    switch (code) {",
+            *cases,
+            "    }",
+            "}",
+            "",
+        ]
+    )
+
+
+def _printf(sentence: str, places: Mapping[str, int]) -> tuple[str, list[str]]:
+    """A sentence with places for values, as printf takes it, and the values."""
+    form, values = "", []
+    for literal, field, _, _ in Formatter().parse(sentence):
+        form += literal.replace("%", "%%")
+        if field is not None:
+            form += "%g"
+            values.append(f"v[{places[field]}]")
+    return quoted(form), values
+
+
+def quoted(text: str) -> str:
+    """A text as C has it, ASCII."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    return '"' + escaped.encode("ascii").decode() + '"'

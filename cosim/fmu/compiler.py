@@ -1,0 +1,103 @@
+"""C to shared libraries: by zig for every platform, else by the system's compiler for this one."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from cosim.fmu.platforms import Platform, this_platform
+
+# With a * b + c contracted into one rounding, the motion would differ from machine to machine.
+OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", "-s")
+COMPILERS = ("cc", "gcc", "clang")
+
+
+class CompilerError(ValueError):
+    """There is no compiler for a platform, or it refuses the sources; one line."""
+
+
+def has_zig() -> bool:
+    """Whether every platform can be compiled for."""
+    return importlib.util.find_spec("ziglang") is not None
+
+
+def possible(platforms: Sequence[Platform]) -> list[Platform]:
+    """Those that can be compiled for here: all with zig, else at most this machine's own."""
+    if has_zig():
+        return list(platforms)
+    own = this_platform() if _system_compiler() else None
+    return [each for each in platforms if each == own]
+
+
+def libraries(
+    sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
+) -> dict[str, bytes]:
+    """Path in an FMI 2 unit -> library called ``name``, of C sources by their names.
+
+    Each platform is compiled by a process of its own, as many at once as there are processors.
+    Raises CompilerError.
+    """
+    with tempfile.TemporaryDirectory(prefix="stickslip-c-") as scratch:
+        folder = Path(scratch)
+        for file, content in sources.items():
+            (folder / file).write_bytes(content)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            made = list(pool.map(lambda each: _library(folder, each), platforms))
+    by_path: dict[str, list[bytes]] = {}
+    for each, library in zip(platforms, made, strict=True):
+        by_path.setdefault(f"binaries/{each.fmi2}/{name}{each.suffix}", []).append(library)
+    return {path: _joined(parts) for path, parts in by_path.items()}
+
+
+def _library(folder: Path, platform: Platform) -> bytes:
+    library = folder / f"{platform.name}{platform.suffix}"
+    files = sorted(file.name for file in folder.glob("*.c"))
+    math = [] if platform.suffix == ".dll" else ["-lm"]
+    command = [*_compiler(platform), *OPTIONS, "-o", library.name, *files, *math]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        said = next((line for line in done.stderr.splitlines() if "error" in line), done.stderr)
+        raise CompilerError(f"{platform.name}: {command[0]} refuses the sources: {said.strip()}")
+    return library.read_bytes()
+
+
+def _compiler(platform: Platform) -> list[str]:
+    if has_zig():
+        return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
+    compiler = _system_compiler()
+    if compiler and platform == this_platform():
+        return [compiler]
+    raise CompilerError(
+        f"{platform.name}: no compiler for it; `pip install ziglang` brings one for every platform"
+    )
+
+
+def _system_compiler() -> str | None:
+    return next(filter(None, map(shutil.which, COMPILERS)), None)
+
+
+# Of a file for several processors (mach-o/fat.h): magic number, processor type and subtype,
+# alignment of the parts as a power of 2.
+FAT, ALIGNMENT = 0xCAFEBABE, 14
+
+
+def _joined(parts: Sequence[bytes]) -> bytes:
+    """One library for several processors of a Mac; a single one stays as it is."""
+    if len(parts) == 1:
+        return parts[0]
+    header = struct.pack(">II", FAT, len(parts))
+    at = 1 << ALIGNMENT
+    body = b""
+    for part in parts:
+        kind, subtype = struct.unpack_from("<II", part, 4)  # what a thin library begins with
+        header += struct.pack(">IIIII", kind, subtype, at + len(body), len(part), ALIGNMENT)
+        body += part + b"\0" * (-len(part) % (1 << ALIGNMENT))
+    return header.ljust(at, b"\0") + body

@@ -1,0 +1,135 @@
+"""What model exchange adds to the variables of StickSlip3DOF: continuous states and their rates.
+
+They are local variables behind all others, so that no value reference moves. A state that is an
+output has no second variable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from stickslip.effects import EFFECTS
+from stickslip.kernel import layout
+
+from cosim.fmu.units import UNITS
+from cosim.fmu.variables import Variable
+from cosim.fmu.variables import variables as variables_without
+
+#: Event indicators of the kernel.
+INDICATORS = layout.INDICATORS
+# Outputs that are states, by the kernel's names.
+OUTPUTS = {
+    "X": "x",
+    "Y": "y",
+    "PHI": "phi",
+    "VX": "vx",
+    "VY": "vy",
+    "OMEGA": "omega",
+    "TRAVEL": "surface_travel",
+    "DISTANCE": "sliding_distance",
+    "HEAT": "heat",
+    "WORK_SURFACE": "surface_work",
+    "WORK_EXTERNAL": "external_work",
+    "DAMPED": "damping_heat",
+    "SLIP_TIME": "slip_time",
+}
+BRISTLES = {
+    "SHEAR_X": ("bristles.shear_x", "Shear of the contact along x"),
+    "SHEAR_Y": ("bristles.shear_y", "Shear of the contact across, scaled as the sliding velocity"),
+    "SHEAR_SPIN": ("bristles.shear_spin", "Shear of the contact by its spin, as a length"),
+}
+RATE_UNITS = {"m/s": "m/s2", "rad/s": "rad/s2", "J": "W", "s": "1"}
+
+
+@dataclass(frozen=True)
+class State:
+    """A continuous state: its variable, and where the kernel keeps it."""
+
+    name: str
+    unit: str
+    slot: str
+    description: str
+    nominal: float
+    is_output: bool
+
+
+def states() -> list[State]:
+    """The continuous states in the order of the kernel, which is that of FMI's vector of states."""
+    declared = {variable.name: variable for variable in variables_without()}
+    found = []
+    for slot in _slots():
+        if slot in OUTPUTS:
+            output = declared[OUTPUTS[slot]]
+            found.append(
+                State(output.name, output.unit or "1", slot, output.description, 1.0, True)
+            )
+        elif slot in BRISTLES:
+            name, description = BRISTLES[slot]
+            found.append(State(name, "m", slot, description, 1e-4, False))
+        else:
+            found.append(_memory(slot))
+    return found
+
+
+def variables() -> list[Variable]:
+    """All of the native unit: those of every unit, then states that are no outputs, then rates."""
+    every = states()
+    outputs = {state.name for state in every if state.is_output}
+    common = [
+        replace(variable, is_state=True) if variable.name in outputs else variable
+        for variable in variables_without()
+    ]
+    return [
+        *common,
+        *(_state_variable(state) for state in every if not state.is_output),
+        *(_rate_variable(state) for state in every),
+    ]
+
+
+def local_slots(declared: Sequence[Variable]) -> list[int]:
+    """Where each local variable is in the kernel's states followed by their rates."""
+    places = {state.name: place for place, state in enumerate(states())}
+    return [
+        places[variable.derivative_of] + len(places)
+        if variable.derivative_of
+        else places[variable.name]
+        for variable in declared
+        if variable.causality == "local"
+    ]
+
+
+def state_references(declared: Sequence[Variable]) -> list[int]:
+    """Value reference of each continuous state."""
+    names = [variable.name for variable in declared]
+    return [names.index(state.name) for state in states()]
+
+
+def _slots() -> list[str]:
+    """Names of the states in an instant of the kernel, in order; time stands before them."""
+    names = [name for name, _ in layout.instant(EFFECTS)]
+    return [*names[1 : layout.STATES + 1], "SLIP_TIME"]
+
+
+def _memory(slot: str) -> State:
+    """What an effect remembers."""
+    for effect in EFFECTS:
+        for state in effect.states:
+            if slot == f"{effect.id}_{state.name}".upper():
+                said = f"What {effect.id} remembers: {state.name.replace('_', ' ')}"
+                return State(f"{effect.id}.{state.name}", state.unit, slot, said, 1.0, False)
+    raise ValueError(f"the kernel's state {slot} has no variable")
+
+
+def _state_variable(state: State) -> Variable:
+    return Variable(
+        state.name, "local", state.unit, state.nominal, state.description, is_state=True
+    )
+
+
+def _rate_variable(state: State) -> Variable:
+    unit = RATE_UNITS.get(state.unit, f"{state.unit}/s")
+    if unit not in UNITS:
+        raise ValueError(f"the rate of {state.name} is in {unit!r}, a unit that UNITS lacks")
+    name = f"der({state.name})"
+    return Variable(name, "local", unit, None, f"Rate of {state.name}", derivative_of=state.name)

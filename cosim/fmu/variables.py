@@ -1,0 +1,148 @@
+"""What StickSlip3DOF has for variables: ports and parameters, in the order of their references."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from stickslip import Parameters, ports
+from stickslip.kernel import layout
+from stickslip.quantity import details
+
+from cosim.fmu.units import UNITS
+
+Entry = dict[str, Any]
+
+#: Parameters that the FMU shows otherwise than the parameter models do.
+GUIDES: dict[str, Entry] = {
+    key: {
+        "unit": None,
+        "nominal": None,
+        "min": 0,
+        "max": 1,
+        "above_min": False,
+        "description": f"1: the block can move in {motion}; 0: a guide keeps it from that",
+    }
+    for key, motion in (("free_y", "y"), ("free_phi", "phi"))
+}
+SPECIAL: dict[str, Entry] = {
+    "rig.inertia": {
+        "min": 0,
+        "description": "moment of inertia about the vertical; 0: that of a disc, m a^2 / 2",
+    },
+    **{
+        f"friction.table_{of}[{i + 1}]": {"min": 0}
+        for of in ("speed", "mu")
+        for i in range(layout.CURVE_LIMIT)
+    },
+}
+#: Of the unit alone: the model by itself has its inputs as they are.
+HOLD: Entry = {
+    "name": "input.hold",
+    "unit": None,
+    "nominal": None,
+    "min": 0,
+    "max": 1,
+    "above_min": False,
+    "description": "inputs between communication points: 0 held, 1 going on as between the last "
+    "two; rates that a host gives come first. The speed of the surface under a block that sticks "
+    "does not jump",
+    "start": 0,
+}
+#: Parameters that may be changed in a run, where a unit can take that.
+TUNABLE = ("friction.mu_s", "friction.mu_k")
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the unit; its value reference is its place among all.
+
+    causality: input, output, parameter or local; unit: None for an integer; slot: where the kernel
+    keeps a port; above_min: whether min itself is excluded; is_state: whether a host of model
+    exchange integrates it; derivative_of: name of the state that it is the rate of.
+    """
+
+    name: str
+    causality: str
+    unit: str | None
+    nominal: float | None
+    description: str
+    min: float | int | None = None
+    max: float | int | None = None
+    above_min: bool = False
+    start: float | int | None = None
+    slot: str = ""
+    is_state: bool = False
+    derivative_of: str = ""
+
+    @property
+    def is_integer(self) -> bool:
+        """Whether it is of the type Integer of FMI; else it is Real."""
+        return self.unit is None
+
+    @property
+    def is_tunable(self) -> bool:
+        """Whether it is a parameter that may be changed in a run."""
+        return self.name in TUNABLE
+
+
+def variables() -> list[Variable]:
+    """All of them: inputs, outputs, parameters."""
+    return [
+        *(_of_port(port, "input") for port in ports.INPUTS),
+        *(_of_port(port, "output") for port in ports.OUTPUTS),
+        *(Variable(causality="parameter", **entry) for entry in parameter_table()),
+    ]
+
+
+def parameter_table() -> list[Entry]:
+    """Every parameter of the FMU, with unit, bounds and description from the parameter models.
+
+    One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
+    is excluded), description, start. Raises ValueError for a unit that `UNITS` lacks.
+    """
+    return [*(_entry(name, start) for name, start in Parameters().flat().items()), HOLD]
+
+
+def names(of: Iterable[Variable], causality: str) -> list[str]:
+    """Names of those of a causality."""
+    return [each.name for each in of if each.causality == causality]
+
+
+def _of_port(port: ports.Port, causality: str) -> Variable:
+    kept = ("name", "unit", "nominal", "description", "min", "max", "start", "slot")
+    return Variable(causality=causality, **{key: getattr(port, key) for key in kept})
+
+
+def _entry(name: str, start: float) -> Entry:
+    group, key = name.split(".")
+    entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
+    if key in GUIDES:
+        return entry | {"start": int(start)}
+    table: Any = Parameters.model_fields[group].annotation
+    field = table.model_fields[key.partition("[")[0]]
+    bounds = {
+        kind: getattr(bound, kind)
+        for bound in field.metadata
+        for kind in ("gt", "ge", "le")
+        if getattr(bound, kind, None) is not None
+    }
+    whole = field.annotation is int
+    unit = None if whole else details(field)["unit"]
+    if unit is not None and unit not in UNITS:
+        raise ValueError(
+            f"effect or table {group}: {key} is in {unit!r}, a unit that UNITS of {__name__} lacks"
+        )
+    return (
+        entry
+        | ({"start": int(start), "nominal": None} if whole else {})
+        | {
+            "unit": unit,
+            "min": bounds.get("gt", bounds.get("ge")),
+            "max": bounds.get("le"),
+            "above_min": "gt" in bounds,
+            "description": field.description,
+        }
+        | SPECIAL.get(name, {})
+    )

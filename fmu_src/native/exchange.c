@@ -1,0 +1,205 @@
+#include "exchange.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool refuse(Instance *instance, const char *why)
+{
+    snprintf(instance->message, sizeof instance->message, "%s", why);
+    return false;
+}
+
+/* Is this an instance for model exchange whose model is there, and is the host's array as long as
+   what is to be exchanged? */
+static bool is_ready(Instance *instance, const void *numbers, size_t count, size_t expected)
+{
+    if (!instance->memory.exchanges) {
+        return refuse(instance, "this instance is for co-simulation");
+    }
+    if (count != expected || (numbers == NULL && expected != 0)) {
+        snprintf(instance->message, sizeof instance->message, "%zu numbers asked for, there are %zu",
+                 count, expected);
+        return false;
+    }
+    return refresh(instance);
+}
+
+bool set_time(Instance *instance, double time)
+{
+    Memory *memory = &instance->memory;
+    if (!isfinite(time)) {
+        return refuse(instance, "the time is not a finite number");
+    }
+    memory->time = time;
+    memory->is_outdated = true;
+    model_put_time(&memory->model, time - memory->start);
+    return true;
+}
+
+bool set_states(Instance *instance, const double states[], size_t count)
+{
+    if (!is_ready(instance, states, count, STATE_COUNT)) {
+        return false;
+    }
+    instance->memory.is_outdated = true;
+    model_put_states(&instance->memory.model, states);
+    return true;
+}
+
+bool get_states(Instance *instance, double states[], size_t count)
+{
+    if (!is_ready(instance, states, count, STATE_COUNT)) {
+        return false;
+    }
+    model_take_states(&instance->memory.model, states);
+    return true;
+}
+
+bool get_nominals(Instance *instance, double nominals[], size_t count)
+{
+    if (!is_ready(instance, nominals, count, STATE_COUNT)) {
+        return false;
+    }
+    model_nominals(&instance->memory.model, instance->memory.values, nominals);
+    return true;
+}
+
+bool get_rates(Instance *instance, double rates[], size_t count)
+{
+    if (!is_ready(instance, rates, count, STATE_COUNT)) {
+        return false;
+    }
+    model_rates(&instance->memory.model, instance->memory.values, rates);
+    return true;
+}
+
+bool get_indicators(Instance *instance, double indicators[], size_t count)
+{
+    if (!is_ready(instance, indicators, count, INDICATOR_COUNT)) {
+        return false;
+    }
+    model_indicators(&instance->memory.model, instance->memory.values, indicators);
+    return true;
+}
+
+bool update(Instance *instance, Update *told)
+{
+    Memory *memory = &instance->memory;
+    Model *model = &memory->model;
+    double states[2][STATE_COUNT], nominals[STATE_COUNT];
+    if (memory->is_retuned && !model_tune(model, memory->values, memory->tolerance,
+                                          instance->message)) {
+        return false;
+    }
+    memory->is_retuned = false;
+    model_take_states(model, states[0]);
+    model_update(model, memory->values);
+    model_take_states(model, states[1]);
+    model_nominals(model, memory->values, nominals);
+    memory->is_outdated = true;
+    told->states_changed = memcmp(states[0], states[1], sizeof states[0]) != 0;
+    told->nominals_changed = memcmp(memory->nominals, nominals, sizeof nominals) != 0;
+    memcpy(memory->nominals, nominals, sizeof nominals);
+    told->next = model_next_event(model) + memory->start;
+    told->has_next = isfinite(told->next);
+    return true;
+}
+
+bool complete_step(Instance *instance)
+{
+    Memory *memory = &instance->memory;
+    double states[STATE_COUNT];
+    model_take_states(&memory->model, states);
+    for (int i = 0; i < STATE_COUNT; i++) {
+        if (!isfinite(states[i])) {
+            return refuse(instance, "a state is not a finite number");
+        }
+    }
+    return model_complete_step(&memory->model, memory->values, instance->message);
+}
+
+/* Of the nominals: near the cube root of the spacing of numbers, best for central differences. */
+static const double DIFFERENCE = 1e-5;
+
+/* Place of a variable among the states; -1 if it is none. */
+static int state_of(unsigned reference)
+{
+    for (int i = 0; i < STATE_COUNT; i++) {
+        if ((unsigned)STATE_REFERENCES[i] == reference) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool is_input(unsigned reference)
+{
+    return reference - FIRST_INPUT < INPUT_COUNT; /* unsigned: those before it are large */
+}
+
+/* By how much of the direction a difference goes: so that no known variable goes further than
+   `DIFFERENCE` of its nominal; 0 for a direction of zeros. */
+static double span_of(const Memory *memory, const unsigned knowns[], size_t count,
+                      const double seed[])
+{
+    double nominals[STATE_COUNT], fastest = 0.0;
+    model_nominals(&memory->model, memory->values, nominals);
+    for (size_t i = 0; i < count; i++) {
+        int state = state_of(knowns[i]);
+        double size = state >= 0 ? nominals[state] : INPUT_NOMINALS[knowns[i] - FIRST_INPUT];
+        fastest = fmax(fastest, fabs(seed[i]) / size);
+    }
+    return fastest == 0.0 ? 0.0 : DIFFERENCE / fastest;
+}
+
+/* All variables a span along the direction from here. */
+static void look_aside(Memory *memory, const unsigned knowns[], size_t count, const double seed[],
+                       double span)
+{
+    double states[STATE_COUNT];
+    model_take_states(&memory->model, states);
+    for (size_t i = 0; i < count; i++) {
+        int state = state_of(knowns[i]);
+        if (state >= 0) {
+            states[state] += span * seed[i];
+        } else {
+            memory->values[knowns[i]] += span * seed[i];
+        }
+    }
+    model_put_states(&memory->model, states);
+    model_show_moment(&memory->model, memory->values);
+}
+
+bool directional_derivative(Instance *instance, const unsigned unknowns[], size_t unknown_count,
+                            const unsigned knowns[], size_t known_count, const double seed[],
+                            double result[])
+{
+    if (!is_ready(instance, NULL, 0, 0)) {
+        return false;
+    }
+    if ((unknown_count > 0 && (unknowns == NULL || result == NULL)) ||
+        (known_count > 0 && (knowns == NULL || seed == NULL))) {
+        return refuse(instance, "directional derivatives: no value references, or no numbers");
+    }
+    for (size_t i = 0; i < known_count; i++) {
+        if (state_of(knowns[i]) < 0 && !is_input(knowns[i])) {
+            return refuse(instance, "directional derivatives are with respect to states and inputs");
+        }
+    }
+    for (size_t i = 0; i < unknown_count; i++) {
+        if (unknowns[i] >= VARIABLE_COUNT || (VARIABLES[unknowns[i]].causality != OUTPUT &&
+                                              VARIABLES[unknowns[i]].causality != LOCAL)) {
+            return refuse(instance, "directional derivatives are of outputs, states and their rates");
+        }
+    }
+    double span = span_of(&instance->memory, knowns, known_count, seed);
+    Memory ahead = instance->memory, behind = instance->memory;
+    look_aside(&ahead, knowns, known_count, seed, span);
+    look_aside(&behind, knowns, known_count, seed, -span);
+    for (size_t i = 0; i < unknown_count; i++) {
+        double change = ahead.values[unknowns[i]] - behind.values[unknowns[i]];
+        result[i] = span == 0.0 ? 0.0 : change / (2.0 * span);
+    }
+    return true;
+}

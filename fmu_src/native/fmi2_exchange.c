@@ -1,0 +1,101 @@
+/* FMI 2.0, model exchange: the functions of the standard around an instance. */
+#include "exchange.h"
+#include "fmi2Component.h"
+
+static const int INTEGRATING = AT_EVENT | CONTINUOUS;
+static const int INFORMING = INITIALISING | INTEGRATING | TERMINATED;
+
+fmi2Status fmi2EnterEventMode(fmi2Component handle)
+{
+    ENTER(handle, INTEGRATING)
+    component->instance.memory.phase = AT_EVENT;
+    return fmi2OK;
+}
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component handle, fmi2EventInfo *told)
+{
+    ENTER(handle, AT_EVENT)
+    if (told == NULL) {
+        return refused(component, "fmi2NewDiscreteStates: nowhere to put what it tells");
+    }
+    Update news;
+    if (!update(&component->instance, &news)) {
+        return closed(component, false);
+    }
+    told->newDiscreteStatesNeeded = fmi2False; /* one update decides all */
+    told->terminateSimulation = fmi2False;
+    told->nominalsOfContinuousStatesChanged = news.nominals_changed;
+    told->valuesOfContinuousStatesChanged = news.states_changed;
+    told->nextEventTimeDefined = news.has_next;
+    told->nextEventTime = news.has_next ? news.next : 0.0;
+    return fmi2OK;
+}
+
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component handle)
+{
+    ENTER(handle, AT_EVENT)
+    component->instance.memory.phase = CONTINUOUS;
+    return fmi2OK;
+}
+
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component handle, fmi2Boolean no_way_back,
+                                       fmi2Boolean *event, fmi2Boolean *terminate)
+{
+    ENTER(handle, CONTINUOUS)
+    (void)no_way_back;
+    if (event == NULL || terminate == NULL) {
+        return refused(component, "fmi2CompletedIntegratorStep: nowhere to put what it tells");
+    }
+    *event = *terminate = fmi2False;
+    if (!complete_step(&component->instance)) {
+        return closed(component, false);
+    }
+    warn_once(component);
+    return fmi2OK;
+}
+
+fmi2Status fmi2SetTime(fmi2Component handle, fmi2Real time)
+{
+    ENTER(handle, INTEGRATING)
+    return closed(component, set_time(&component->instance, time));
+}
+
+fmi2Status fmi2SetContinuousStates(fmi2Component handle, const fmi2Real states[], size_t count)
+{
+    ENTER(handle, CONTINUOUS)
+    return closed(component, set_states(&component->instance, states, count));
+}
+
+fmi2Status fmi2GetDerivatives(fmi2Component handle, fmi2Real rates[], size_t count)
+{
+    ENTER(handle, INFORMING)
+    return closed(component, get_rates(&component->instance, rates, count));
+}
+
+fmi2Status fmi2GetEventIndicators(fmi2Component handle, fmi2Real indicators[], size_t count)
+{
+    ENTER(handle, INFORMING)
+    return closed(component, get_indicators(&component->instance, indicators, count));
+}
+
+fmi2Status fmi2GetContinuousStates(fmi2Component handle, fmi2Real states[], size_t count)
+{
+    ENTER(handle, INFORMING)
+    return closed(component, get_states(&component->instance, states, count));
+}
+
+fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component handle, fmi2Real nominals[],
+                                             size_t count)
+{
+    ENTER(handle, INSTANTIATED | INFORMING)
+    return closed(component, get_nominals(&component->instance, nominals, count));
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component handle, const fmi2ValueReference unknown[],
+                                        size_t unknowns, const fmi2ValueReference known[],
+                                        size_t knowns, const fmi2Real seed[], fmi2Real out[])
+{
+    ENTER(handle, INFORMING)
+    return closed(component, directional_derivative(&component->instance, unknown, unknowns, known,
+                                                    knowns, seed, out));
+}

@@ -1,0 +1,205 @@
+/* StickSlip3DOF: the kernel as a unit. Parameters stand in `values` in the kernel's order, `V_...`,
+   from FIRST_PARAMETER on, inputs from FIRST_INPUT on as `U_...`. */
+#include "unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "draws.h"
+#include "words.h"
+
+static bool pack_parameters(Model *model, const double values[], double tolerance, char message[])
+{
+    double v[V_SIZE], d[D_SIZE];
+    memcpy(v, values + FIRST_PARAMETER, sizeof v);
+    int code = (int)stickslip_contradiction(v);
+    if (code != 0) {
+        say_contradiction(code, v, message, MESSAGE_SIZE);
+        return false;
+    }
+    if (tolerance > 0.0) {
+        double tighter = fmax(tolerance, VARIABLES[FIRST_PARAMETER + V_SOLVER_TOLERANCE].low);
+        v[V_SOLVER_TOLERANCE] = fmin(v[V_SOLVER_TOLERANCE], tighter);
+    }
+    draw(d, v);
+    stickslip_pack(v, d, model->p);
+    return true;
+}
+
+/* The inputs of the moment, as they are. */
+static void put_inputs(Model *model, const double values[])
+{
+    memset(model->u, 0, sizeof model->u);
+    memcpy(model->u, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
+}
+
+void model_set_rate(Model *model, size_t input, double rate)
+{
+    model->g[G_RATE + input] = rate;
+    model->g[G_HAS_RATE + input] = 1.0;
+}
+
+static void show_outputs(Model *model, double w[], double values[])
+{
+    double o[O_SIZE];
+    stickslip_show(model->p, model->u, model->z, w, o, 0);
+    for (int i = 0; i < OUTPUT_COUNT; i++) {
+        values[FIRST_OUTPUT + i] = o[OUTPUT_SLOTS[i]];
+    }
+}
+
+static bool go_on(Model *model, double values[], double end, char message[])
+{
+    double w[W_SIZE] = {0.0}, e[E_FIRST] = {0.0};
+    int status = (int)stickslip_advance(model->p, model->u, model->z, w, e, end);
+    if (status != DONE) {
+        snprintf(message, MESSAGE_SIZE, "no way to %g s after the start: %s", end, WHY_NOT[status]);
+        return false;
+    }
+    show_outputs(model, w, values);
+    return true;
+}
+
+bool model_begin(Model *model, double values[], double tolerance, char message[])
+{
+    if (!pack_parameters(model, values, tolerance, message)) {
+        return false;
+    }
+    memset(model->g + G_BEFORE, 0, (G_SIZE - G_BEFORE) * sizeof(double));
+    model->g[G_FIRST] = values[INPUT_HOLD];
+    put_inputs(model, values);
+    stickslip_initialise(model->p, model->z, 0.0);
+    return go_on(model, values, 0.0, message);
+}
+
+bool model_step(Model *model, double values[], double end, char message[])
+{
+    double now = model->z[SHOWN + TIME];
+    memcpy(model->g + G_VALUE, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
+    stickslip_lead_inputs(model->g, model->u, model->z[SHOWN + MODE] == STICK, now, end - now);
+    return go_on(model, values, end, message);
+}
+
+bool model_tune(Model *model, double values[], double tolerance, char message[])
+{
+    double before = stickslip_block_energy(model->p, model->z, SHOWN);
+    if (!pack_parameters(model, values, tolerance, message)) {
+        return false;
+    }
+    /* A contact that is stiffer from now on holds more: whoever tunes it has put that in. */
+    model->z[Z_ENERGY] += stickslip_block_energy(model->p, model->z, SHOWN) - before;
+    model->z[Z_INPUTS] = NAN; /* the kernel starts afresh from here, as after a change of inputs */
+    return true;
+}
+
+bool model_warns(const Model *model, const double values[], char message[])
+{
+    const double *p = model->p;
+    double creep = p[P_PRESLIDING] * fmax(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE];
+    double speed = fabs(values[FIRST_INPUT + U_SPEED]);
+    if (speed == 0.0 || speed > creep) {
+        return false;
+    }
+    snprintf(message, MESSAGE_SIZE,
+             "surface_speed = %g m/s is not above friction.stick_creep = %g m/s: the contact creeps "
+             "as fast as the surface and never breaks away; its mode stays 0",
+             speed, creep);
+    return true;
+}
+
+static void show_states_and_rates(const Model *model, const double rates[], double values[])
+{
+    double states[2 * EXCHANGED];
+    stickslip_take_states(model->z, states);
+    memcpy(states + EXCHANGED, rates, EXCHANGED * sizeof *rates);
+    for (int i = 0; i < LOCAL_COUNT; i++) {
+        values[FIRST_LOCAL + i] = states[LOCAL_SLOTS[i]];
+    }
+}
+
+void model_show_locals(Model *model, double values[])
+{
+    double w[W_SIZE] = {0.0}, rates[EXCHANGED];
+    stickslip_set_ramp(model->p, model->z);
+    stickslip_set_exchanged_rates(model->p, model->u, model->z, w, rates);
+    show_states_and_rates(model, rates, values);
+}
+
+/* --- model exchange --- */
+
+void model_hand_over(Model *model)
+{
+    double w[W_SIZE] = {0.0};
+    stickslip_begin_exchange(model->p, model->u, model->z, w);
+}
+
+void model_put_time(Model *model, double time)
+{
+    model->z[SHOWN + TIME] = time;
+}
+
+void model_put_states(Model *model, const double states[])
+{
+    stickslip_put_states(model->z, states);
+}
+
+void model_take_states(const Model *model, double states[])
+{
+    stickslip_take_states(model->z, states);
+}
+
+void model_nominals(const Model *model, const double values[], double nominals[])
+{
+    stickslip_set_nominals(model->p, values + FIRST_INPUT, nominals);
+}
+
+void model_rates(Model *model, const double values[], double rates[])
+{
+    double w[W_SIZE] = {0.0};
+    put_inputs(model, values);
+    stickslip_set_exchanged_rates(model->p, model->u, model->z, w, rates);
+}
+
+void model_indicators(Model *model, const double values[], double indicators[])
+{
+    double w[W_SIZE] = {0.0};
+    put_inputs(model, values);
+    stickslip_set_indicators(model->p, model->u, model->z, w, indicators);
+}
+
+void model_show_moment(Model *model, double values[])
+{
+    double w[W_SIZE] = {0.0}, o[O_SIZE], rates[EXCHANGED];
+    put_inputs(model, values);
+    stickslip_show_moment(model->p, model->u, model->z, w, rates, o);
+    for (int i = 0; i < OUTPUT_COUNT; i++) {
+        values[FIRST_OUTPUT + i] = o[OUTPUT_SLOTS[i]];
+    }
+    show_states_and_rates(model, rates, values);
+}
+
+void model_update(Model *model, const double values[])
+{
+    double w[W_SIZE] = {0.0}, e[E_FIRST] = {0.0};
+    put_inputs(model, values);
+    stickslip_update_event(model->p, model->u, model->z, w, e);
+}
+
+double model_next_event(const Model *model)
+{
+    return model->z[Z_RAMPING] == 1.0 ? model->p[P_RUN_UP] : INFINITY;
+}
+
+bool model_complete_step(Model *model, const double values[], char message[])
+{
+    double w[W_SIZE] = {0.0};
+    put_inputs(model, values);
+    int status = (int)stickslip_complete_step(model->p, model->u, model->z, w);
+    if (status != DONE) {
+        snprintf(message, MESSAGE_SIZE, "no way on from %g s after the start: %s",
+                 model->z[SHOWN + TIME], WHY_NOT[status]);
+        return false;
+    }
+    return true;
+}
