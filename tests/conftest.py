@@ -1,6 +1,7 @@
 """What all tests share: a core for every worker, and where data lie that are not of the project."""
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
@@ -36,10 +37,36 @@ def shared():
 
 @pytest.fixture(scope="session")
 def fmu(tmp_path_factory):
-    """The FMU, built once a session from what is here now."""
+    """The native unit for this machine, built once a session from what is here now."""
     from cosim.fmu.build import build_fmu  # numba: only for who asks for it
+    from cosim.fmu.platforms import this_platform
 
-    return build_fmu(tmp_path_factory.mktemp("fmu"))
+    return build_fmu(tmp_path_factory.mktemp("fmu"), platforms=[this_platform()])
+
+
+@pytest.fixture(scope="session")
+def python_fmu(tmp_path_factory):
+    """The unit that pythonfmu makes."""
+    from cosim.fmu.build import PYTHON, build_fmu
+
+    return build_fmu(tmp_path_factory.mktemp("python_fmu"), PYTHON)
+
+
+@pytest.fixture(params=["native", "python"])
+def unit(request):
+    """One unit after the other, for what both do."""
+    return request.getfixturevalue("fmu" if request.param == "native" else "python_fmu")
+
+
+@pytest.fixture
+def ctrl_c():
+    """SIGINT raises KeyboardInterrupt here, also where the tests run in the background.
+
+    A shell has its background jobs ignore the signal, and so does nohup.
+    """
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,7 @@ import pytest
 
 from cosim import read_scenario
 from cosim.cli import main
-from cosim.fmu.build import build_fmu
+from cosim.fmu.build import ensure_fmu
 from cosim.gap import read_campaign
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -45,7 +45,7 @@ SESSIONS = [
 
 @pytest.mark.parametrize("number", range(len(blocks("python"))))
 def test_python_runs(number, at_home):
-    build_fmu("build")
+    ensure_fmu("build")
     exec(compile(blocks("python")[number], f"README, Python block {number + 1}", "exec"), {})
 
 

@@ -1,13 +1,13 @@
-"""The FMU in another tool: fmpy loads it, as any FMI 2.0 co-simulation unit.
+"""The unit in another tool: fmpy loads it, as any FMI 2.0 co-simulation unit.
 
-`stickslip build` makes the unit. Here it is built from Python.
+`stickslip build` makes it. Here it is built from Python, for this machine.
 """
 
 from fmpy import read_model_description, simulate_fmu
 
-from cosim.fmu.build import build_fmu
+from cosim.fmu.build import ensure_fmu
 
-fmu = build_fmu("build")
+fmu = ensure_fmu("build")
 units = {v.name: v.unit for v in read_model_description(fmu).modelVariables}
 
 rest = {"surface_speed": 0.2, "initial.vx": 0.2, "rig.spring_natural_length": 0.17}

@@ -16,6 +16,8 @@ import pandas as pd
 import pytest
 import xarray as xr
 
+from cosim.fmu.platforms import this_platform
+
 MODULE = [sys.executable, "-m", "cosim"]
 SCRIPT = Path(sys.executable).with_name("stickslip")
 SHORT = """
@@ -42,7 +44,7 @@ def place(tmp_path_factory):
     """A folder like a checkout's, in which the short case was run once, from nothing."""
     folder = tmp_path_factory.mktemp("place")
     (folder / "build").mkdir()
-    (folder / "build" / "stickslip3dof.py").touch()
+    (folder / "build" / "units.py").touch()
     (folder / "short.toml").write_text(SHORT)
     done = stickslip(folder, "run", "short.toml")
     assert (done.returncode, done.stderr) == (0, "")
@@ -98,8 +100,9 @@ def test_a_truncated_fmu_is_rebuilt_and_a_given_one_refused(place):
     refused = stickslip(place, "run", "short.toml", "-o", "given", "--fmu", "given.fmu")
     assert refused.returncode == 2 and refused.stderr.count("\n") == 1
     assert refused.stderr.startswith("error: given.fmu: not an FMU, or truncated")
-    built = stickslip(place, "build")
-    assert (built.returncode, built.stdout) == (0, "build/StickSlip3DOF.fmu\n")
+    own = this_platform().name
+    built = stickslip(place, "build", "StickSlip3DOF.fmu", "--platforms", own)
+    assert (built.returncode, built.stdout) == (0, f"build/StickSlip3DOF.fmu: {own}\n")
     assert fmu.read_bytes() == whole
     fmu.write_bytes(whole[: len(whole) // 2])
     assert stickslip(place, "run", "short.toml", "-o", "rebuilt").returncode == 0
@@ -114,6 +117,15 @@ def test_a_damaged_fmu_with_a_sound_table_of_contents_is_refused(place):
     done = stickslip(place, "run", "short.toml", "-o", "damaged", "--fmu", "damaged.fmu")
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert done.stderr.startswith("error: damaged.fmu: damaged (")
+
+
+def test_run_unpacks_its_unit_under_any_name(place, monkeypatch):
+    (place / "p (old) R&D ü#%").mkdir()
+    monkeypatch.setenv("TMPDIR", str(place / "p (old) R&D ü#%"))
+    done = stickslip(place, "run", "short.toml", "-o", "odd")
+    assert (done.returncode, done.stderr) == (0, "")
+    check_readable(place / "odd", "complete")
+    assert not any((place / "p (old) R&D ü#%").iterdir())
 
 
 def test_simulate_needs_no_fmu_and_says_the_same_motion(place, tmp_path):
@@ -171,6 +183,11 @@ def test_nobody_listening_is_no_traceback(place):
     process.stderr.close()
 
 
+def heed_ctrl_c():
+    """Also where the tests run in the background: what is ignored there is ignored in a child."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class OnTerminal:
     """A command whose stderr is a terminal, so that it draws its progress bar."""
 
@@ -178,7 +195,11 @@ class OnTerminal:
         self.terminal, theirs = pty.openpty()
         termios.tcsetwinsize(theirs, (24, 100))  # a new one has no columns to draw in
         self.process = subprocess.Popen(
-            [*MODULE, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=theirs
+            [*MODULE, *arguments],
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=theirs,
+            preexec_fn=heed_ctrl_c,
         )
         os.close(theirs)
         self.said = ""

@@ -1,4 +1,4 @@
-"""FmuParticipant on the real FMU: what it declares, what it refuses, failures and teardown."""
+"""FmuParticipant on the real units: what it declares, what it refuses, failures and teardown."""
 
 import os
 import signal
@@ -17,6 +17,7 @@ from cosim.coupling import (
     ParticipantError,
     run,
 )
+from cosim.coupling.fmu_participant import FmuCallError
 
 HELD = {"surface_speed": 0.15}
 
@@ -96,15 +97,44 @@ def test_parameters_reach_the_model(fmu):
     assert heavy[force][0] == pytest.approx(2 * light[force][0], rel=1e-12)
 
 
-def test_what_the_fmu_logs_reaches_the_exception(fmu):
+def test_what_the_fmu_logs_reaches_the_exception(unit):
     """mass = 0 lies on the declared limit; the FMU itself knows that it is excluded."""
-    block = FmuParticipant(fmu, "block", inputs=HELD, parameters={"rig.mass": 0.0})
-    with pytest.raises(ParticipantError, match="block: failed during .*rig.mass = 0: must lie in"):
+    block = FmuParticipant(unit, "block", inputs=HELD, parameters={"rig.mass": 0.0})
+    says = r"^block: failed during .*rig.mass = 0: must lie in \(0, inf\]"
+    with pytest.raises(ParticipantError, match=says) as caught:
         alone(block)
+    assert "\n" not in str(caught.value) and str(caught.value).count("rig.mass") == 1
 
 
-def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(fmu):
-    block = FmuParticipant(fmu, "block", inputs=HELD)
+def test_what_parameters_contradict_in_reaches_the_exception(unit):
+    moving = {"rig.free_y": 0, "initial.vy": 0.1}
+    block = FmuParticipant(unit, "block", inputs=HELD, parameters=moving)
+    with pytest.raises(ParticipantError, match="block: .*guided in y .*: a guided direction") as no:
+        alone(block)
+    assert "\n" not in str(no.value) and str(no.value).count("initial.vy") == 1
+
+
+def test_an_input_that_is_refused_in_the_run_says_so(unit):
+    block = FmuParticipant(unit, "block", inputs=HELD)
+    with block:
+        block.enter_initialisation(0.0, 1.0)
+        block.exit_initialisation()
+        block.step(0.0, 0.1)
+        with pytest.raises(FmuCallError, match="^surface_speed = nan: must be a finite number"):
+            block.write({"surface_speed": float("nan")})
+
+
+@pytest.mark.parametrize("name", ["p (old)", "R&D", "ü", "a#b", "50%", "a+b", "two  spaces"])
+def test_the_folder_that_it_is_unpacked_in_may_have_any_name(fmu, tmp_path, monkeypatch, name):
+    """As the native unit needs no resources; pythonfmu's library reads of a URL's escapes %20."""
+    (tmp_path / name).mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / name))
+    result = alone(FmuParticipant(fmu, "block", inputs=HELD), stop=0.1)
+    assert result.status == "complete" and result["block.x"][-1] > 0.0
+
+
+def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(unit):
+    block = FmuParticipant(unit, "block", inputs=HELD)
     step = block.step
     block.step = lambda time, size: step(time + (0.1 if time > 0.5 else 0.0), size)
     result = alone(block)
@@ -112,7 +142,7 @@ def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(fmu):
     assert "the last one ended at" in result.reason and "status 3 (error)" in result.reason
 
 
-def test_ctrl_c_ends_the_run_between_two_steps(fmu):
+def test_ctrl_c_ends_the_run_between_two_steps(fmu, ctrl_c):
     block = FmuParticipant(fmu, "block", inputs=HELD)
     step = block.step
 
@@ -128,8 +158,8 @@ def test_ctrl_c_ends_the_run_between_two_steps(fmu):
         step(result.time[-1], 0.01)
 
 
-def test_state_goes_back_and_on(fmu):
-    with FmuParticipant(fmu, "block", inputs=HELD) as block:
+def test_state_goes_back_and_on(unit):
+    with FmuParticipant(unit, "block", inputs=HELD) as block:
         assert block.can_restore
         block.enter_initialisation(0.0, 1.0)
         block.exit_initialisation()

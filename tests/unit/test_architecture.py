@@ -20,8 +20,9 @@ PACKAGES = {
 }
 FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rglob("*.py")]
 
-#: Most files of a room, and modules of cosim without gap.
-MOST_FILES, MOST_OF_COSIM = 15, 110
+#: Most files of a room, and modules of cosim without gap. A tenth of those make the units: two of
+#: them, each in its own way, and a compiler for one.
+MOST_FILES, MOST_OF_COSIM = 15, 120
 
 #: Parts of cosim that compute and write without knowing what.
 LEAVES = ("cosim.files", "cosim.interrupts", "cosim.names", "cosim.processes")
@@ -35,7 +36,7 @@ MAY_IMPORT = {
     **dict.fromkeys(LEAVES, LEAVES),
     "cosim.coupling": LEAVES,
     "cosim.scenario": ("stickslip", "thermal", *LEAVES),
-    "cosim.fmu": ("stickslip", *LEAVES),
+    "cosim.fmu": ("stickslip", "cosim.report", *LEAVES),
     "cosim.coupling.case": (
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.fmu"),
         *LEAVES,
@@ -235,7 +236,7 @@ def test_a_circle_is_seen():
 
 def test_the_check_sees_the_imports_that_there_are():
     """Also relative ones and those inside functions; a checker that sees nothing passes always."""
-    assert "stickslip.parameters.Parameters" in IMPORTS["stickslip.simulate"]
+    assert "stickslip.parameters.Parameters" in IMPORTS["stickslip.simulation"]
     assert "cosim.cli.arguments.parser" in IMPORTS["cosim.cli"]
     assert "thermal.BeltIceModel" in IMPORTS["cosim.coupling.case"]
     assert home_of("thermal.BeltIceModel") == "thermal"

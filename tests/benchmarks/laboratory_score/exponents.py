@@ -6,9 +6,6 @@ has the same gravity, a power of the load is one of the mass.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from .answers import Row
 
 SAME = {"load": "mass", "normal_force": "mass", "surface_speed": "speed"}
@@ -16,19 +13,16 @@ NEAR = 0.2  # as near as the exponent has to be
 
 
 def exponents_stated(row: Row) -> dict[str, dict[str, float]]:
-    """effect -> quantity -> power, under the laboratory's names of quantities."""
-    stated = (row.found or {}).get("exponents") or {}
-    return {
-        effect: {SAME.get(name, name): number(value) for name, value in powers.items()}
-        for effect, powers in stated.items()
-    }
+    """effect -> quantity -> power, under the laboratory's names of quantities.
 
-
-def number(value: Any) -> float:
-    """A power written as a number, with its interval as a table, or as value, low, high."""
-    if isinstance(value, Mapping):
-        return float(value["value"])
-    return float(value[0] if isinstance(value, (list, tuple)) else value)
+    Of those in gap.json that are stated: one that was tried and left out is no answer.
+    """
+    powers: dict[str, dict[str, float]] = {}
+    for each in (row.found or {}).get("exponents") or []:
+        if each["stated"]:
+            quantity = SAME.get(each["quantity"], each["quantity"])
+            powers.setdefault(each["effect"], {})[quantity] = float(each["value"])
+    return powers
 
 
 def exponents_are_near(row: Row) -> bool:

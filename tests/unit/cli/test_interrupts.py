@@ -13,6 +13,9 @@ from cosim.interrupts import (
     patient_interrupts,
 )
 
+# also where the tests run in the background, and ignore it
+pytestmark = pytest.mark.usefixtures("ctrl_c")
+
 
 def test_ctrl_c_works_at_once_while_there_is_nothing_to_lose():
     before = signal.getsignal(signal.SIGINT)

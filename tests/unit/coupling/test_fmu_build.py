@@ -1,4 +1,4 @@
-"""The recipe of the FMU: repeatable builds, staleness by content, what is inside."""
+"""The recipes of the units: repeatable builds, staleness by content, what is inside."""
 
 import ast
 import re
@@ -8,15 +8,16 @@ import zipfile
 import platformdirs
 import pytest
 
-from cosim.fmu import pythonfmu_library
-from cosim.fmu import stickslip3dof as recipe
-from cosim.fmu.build import FmuBuildError, build_fmu, ensure_fmu, own_folder
-from cosim.fmu.stickslip3dof import sources
+from cosim.fmu import native, python_unit, pythonfmu_library
+from cosim.fmu.build import PYTHON, FmuBuildError, build_fmu, ensure_fmu, own_folder
+from cosim.fmu.platforms import this_platform
 
 STANDARD_LIBRARY_USED = {
     "__future__",
     "collections",
+    "ctypes",
     "random",
+    "re",
     "functools",
     "json",
     "math",
@@ -27,21 +28,28 @@ STANDARD_LIBRARY_USED = {
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("build"))
+    return build_fmu(tmp_path_factory.mktemp("build"), platforms=[this_platform()])
 
 
-def test_the_same_content_gives_the_same_file(built, tmp_path):
-    assert build_fmu(tmp_path).read_bytes() == built.read_bytes()
+@pytest.fixture(scope="module")
+def built_in_python(tmp_path_factory):
+    return build_fmu(tmp_path_factory.mktemp("build"), PYTHON)
 
 
-def test_an_fmu_of_today_s_content_is_not_built_again(built):
+def test_the_same_content_gives_the_same_file(built, built_in_python, tmp_path):
+    again = build_fmu(tmp_path, platforms=[this_platform()])
+    assert again.read_bytes() == built.read_bytes()
+    assert build_fmu(tmp_path, PYTHON).read_bytes() == built_in_python.read_bytes()
+
+
+def test_a_unit_of_today_s_content_is_not_built_again(built):
     before = built.stat().st_mtime_ns
     assert ensure_fmu(built.parent) == built
     assert built.stat().st_mtime_ns == before
 
 
-@pytest.mark.parametrize("damage", ["missing", "truncated", "empty", "flipped", "another"])
-def test_an_fmu_that_will_not_do_is_built_again(built, tmp_path, damage):
+@pytest.mark.parametrize("damage", ["missing", "truncated", "empty", "flipped", "another", "stale"])
+def test_a_unit_that_will_not_do_is_built_again(built, tmp_path, damage):
     content = built.read_bytes()
     middle = len(content) // 2
     flipped = content[:middle] + bytes([content[middle] ^ 255]) + content[middle + 1 :]
@@ -49,14 +57,34 @@ def test_an_fmu_that_will_not_do_is_built_again(built, tmp_path, damage):
     target = tmp_path / built.name
     if damage in spoilt:
         target.write_bytes(spoilt[damage])
+    elif damage == "stale":
+        _rewritten(built, target, guid="of yesterday")
+        assert native.built_guid(target) == "of yesterday"
     assert ensure_fmu(tmp_path).read_bytes() == content
     assert [file.name for file in tmp_path.iterdir()] == [built.name]
 
 
-def test_an_fmu_of_other_content_is_stale(built, tmp_path):
-    other = recipe.build(tmp_path, sources() | {"stickslip/__init__.py": b'"""Another."""\n'})
-    assert recipe.built_hash(other) not in (None, recipe.content_hash())
-    assert ensure_fmu(tmp_path).read_bytes() == built.read_bytes()
+def test_a_unit_without_a_library_for_this_machine_is_built_again(built, tmp_path):
+    target = tmp_path / built.name
+    _rewritten(built, target, without="binaries/")
+    assert native.built_guid(target) == native.guid() and not native.runs_here(target)
+    assert native.runs_here(ensure_fmu(tmp_path))
+
+
+def _rewritten(built, target, guid=None, without="nothing"):
+    with zipfile.ZipFile(built) as old, zipfile.ZipFile(target, "w") as new:
+        for name in old.namelist():
+            content = old.read(name)
+            if name == "modelDescription.xml":
+                content = content.replace(native.guid().encode(), (guid or native.guid()).encode())
+            if not name.startswith(without):
+                new.writestr(name, content)
+
+
+def test_other_content_makes_another_python_unit(tmp_path):
+    files = python_unit.sources() | {"stickslip/__init__.py": b'"""Another."""\n'}
+    other = python_unit.build(tmp_path, files)
+    assert python_unit.built_hash(other) not in (None, python_unit.content_hash())
 
 
 def test_the_fmu_stands_in_build_of_a_checkout_else_in_the_cache(tmp_path, monkeypatch):
@@ -64,7 +92,7 @@ def test_the_fmu_stands_in_build_of_a_checkout_else_in_the_cache(tmp_path, monke
     monkeypatch.chdir(tmp_path)
     (tmp_path / "build").mkdir()
     assert own_folder() == platformdirs.user_cache_path("stickslip")
-    (tmp_path / "build" / "stickslip3dof.py").touch()
+    (tmp_path / "build" / "units.py").touch()
     assert str(own_folder()) == "build"
 
 
@@ -80,9 +108,9 @@ def _names_imported(node):
     return [node.module] if isinstance(node, ast.ImportFrom) and not node.level else []
 
 
-def test_the_slave_needs_the_standard_library_only(built):
-    """No numpy, no pydantic: whatever the host has, the FMU brings what it needs."""
-    with zipfile.ZipFile(built) as archive:
+def test_the_slave_needs_the_standard_library_only(built_in_python):
+    """No numpy, no pydantic: whatever the host has, the unit brings what it needs."""
+    with zipfile.ZipFile(built_in_python) as archive:
         texts = [
             archive.read(name).decode()
             for name in archive.namelist()
@@ -95,15 +123,32 @@ def test_the_slave_needs_the_standard_library_only(built):
         for name in _names_imported(node)
     }
     own = {name for name in imported if re.fullmatch(r"stickslip_[0-9a-f]{12}", name)}
-    assert len(texts) == len(sources()) + 1 and len(own) == 1
+    assert len(texts) == len(python_unit.sources()) + 1 and len(own) == 1
     assert imported - own - {"pythonfmu"} <= STANDARD_LIBRARY_USED
 
 
-def test_the_module_names_carry_the_content_s_hash(built):
-    content = recipe.built_hash(built)
-    with zipfile.ZipFile(built) as archive:
+def test_the_module_names_carry_the_content_s_hash(built_in_python):
+    content = python_unit.built_hash(built_in_python)
+    assert content == python_unit.content_hash()
+    with zipfile.ZipFile(built_in_python) as archive:
         assert f"resources/stickslip3dof_{content}.py" in archive.namelist()
         assert f"resources/stickslip_{content}/packing.py" in archive.namelist()
+
+
+def test_a_host_s_old_python_is_asked_for_a_newer_one_before_anything_else(monkeypatch):
+    """What runs first is understood by any Python 3, and the first that it does is to ask."""
+    ast.parse(python_unit.DOOR, feature_version=(3, 4))
+    monkeypatch.setattr("sys.version_info", (3, 9, 18))
+    with pytest.raises(ImportError, match=r"^StickSlip3DOF needs Python 3\.10 or newer, this host"):
+        exec(python_unit.DOOR, {})
+
+
+def test_only_the_python_unit_says_that_it_needs_another_tool(built, built_in_python):
+    for unit, needs in ((built, "false"), (built_in_python, "true")):
+        with zipfile.ZipFile(unit) as archive:
+            text = archive.read("modelDescription.xml").decode()
+        assert re.findall(r'needsExecutionTool="(\w+)"', text) == [needs] * text.count("needsExec")
+        assert ("For hosts with a Python of 3.10 or newer" in text) is (needs == "true")
 
 
 def test_an_unknown_library_is_left_alone_and_what_is_lost_is_said():
@@ -113,8 +158,14 @@ def test_an_unknown_library_is_left_alone_and_what_is_lost_is_said():
     for unknown in (b"head", known * 2):
         with pytest.warns(UserWarning, match="not known: the FMU returns fmi2Discard"):
             assert pythonfmu_library.corrected(unknown) == unknown
-    with pytest.warns(UserWarning, match="may abort at the end"):
-        pythonfmu_library.corrected(b"\x7fELF" + known)
+    for start, loss in (
+        (pythonfmu_library.ELF, "may abort at the end"),
+        (pythonfmu_library.ELF, "says nothing of its errors"),
+        (pythonfmu_library.DLL, "says nothing of its errors"),
+    ):
+        with pytest.warns(UserWarning) as said:
+            pythonfmu_library.corrected(start + known)
+        assert any(loss in str(warning.message) for warning in said)
 
 
 def test_the_libraries_of_the_installed_pythonfmu_are_known():

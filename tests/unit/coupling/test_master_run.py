@@ -248,7 +248,7 @@ def test_an_interrupt_inside_a_participant_keeps_the_steps_before():
     assert result.reason == "interrupted at t = 0.5 s"
 
 
-def test_ctrl_c_waits_for_the_end_of_the_macro_step():
+def test_ctrl_c_waits_for_the_end_of_the_macro_step(ctrl_c):
     reached = []
 
     def progress(time):

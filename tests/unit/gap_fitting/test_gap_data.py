@@ -155,6 +155,7 @@ BAD_TEXT = {
     "only a header": ("t,x\n", "a header row without numbers"),
     "a word": ("t,x\n0,0\n1,lost\n", 'line 3: x = "lost" is not a number'),
     "ragged": ("t,x\n0,0\n1,0,5\n", "line 3 has 3 fields, the header has 2"),
+    "rows too short": ("t,x,z\n0,0\n1,0\n", "line 2 has 2 fields, the header has 3"),
     "decimal commas": ("t,x\n0,0,1,5\n1,0,1,6\n", "decimal commas between commas"),
     "millimetres in the header": ("t,x [mm]\n0,0\n", r"column x: unit mm, allowed is m"),
     "twice": ("t,x,x\n0,0,0\n", "column x: there twice"),

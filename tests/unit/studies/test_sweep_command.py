@@ -136,6 +136,8 @@ def test_a_signal_to_all_processes_loses_nothing(tmp_path, wanted, chunks):
     with subprocess.Popen(
         [*command, "-o", tmp_path],
         start_new_session=True,
+        # also where the tests run in the background, and ignore it
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -1,0 +1,187 @@
+"""States of the native unit: taken at any time, put back, as bytes, in another process."""
+
+import random
+import subprocess
+import sys
+from ctypes import byref, c_void_p
+from pathlib import Path
+
+import pytest
+from native_unit import ERROR, OK, Instance, Unit
+
+SETS, TIMES, AHEAD = 20, 50, 3  # 1000 states in all
+#: Blocks of which each run has some at random, with the least and the largest of each parameter.
+BLOCKS = [
+    {"lateral_friction.ratio": (0.1, 1.0), "initial.phi": (-0.1, 0.1), "initial.y": (-0.01, 0.01)},
+    {"turning_surface.curvature": (-4.0, 4.0)},
+    {"static_strengthening.rate": (0.01, 0.1), "static_strengthening.hold_time": (0.01, 0.1)},
+    {"velocity_weakening.stribeck": (0.1, 0.5)},
+    {"film_drag.coefficient": (0.1, 2.0)},
+    {"thermal_weakening.per_joule": (0.01, 0.1), "thermal_weakening.relaxation_time": (0.5, 5.0)},
+    {"run_in.change": (-0.3, 0.3), "run_in.distance": (0.1, 1.0)},
+    {"structural_damping.coefficient": (0.1, 1.0), "spring_hardening.cubic": (10.0, 1e3)},
+    {"speed_ripple.amplitude": (0.1, 0.6), "speed_ripple.frequency": (0.5, 3.0)},
+    {"surface_pattern.amplitude": (0.05, 0.3), "surface_scatter.deviation": (0.01, 0.1)},
+    {"friction.stick_creep": (1e-3, 4e-3)},
+    {"surface.run_up_time": (0.1, 3.0)},
+    {"imperfections.spring_stiffness": (0.01, 0.1), "imperfections.seed": (1, 1000)},
+    {"rig.mass": (0.3, 2.0), "springs.stiffness": (10.0, 60.0)},
+]
+
+
+@pytest.fixture(scope="module")
+def unit(fmu, tmp_path_factory):
+    return Unit(fmu, tmp_path_factory.mktemp("unit"))
+
+
+def drawn(numbers: random.Random) -> dict[str, float]:
+    """Parameters and inputs of a run."""
+    chosen = {
+        name: numbers.uniform(*bounds)
+        for block in numbers.sample(BLOCKS, 4)
+        for name, bounds in block.items()
+    }
+    return {"surface_speed": numbers.uniform(0.02, 0.4)} | chosen
+
+
+def run(block: Instance, sizes: list[float]):
+    """State, bytes and all variables before each step."""
+    time, rows = 0.0, []
+    for size in sizes:
+        state = block.save()
+        rows.append((time, state, block.as_bytes(state), block.everything()))
+        block.done("DoStep", time, size, 1)
+        time += size
+    return rows
+
+
+def goes_on_alike(block: Instance, sizes: list[float], rows, n: int) -> None:
+    for k in range(n, min(n + AHEAD, len(rows))):
+        assert block.everything() == rows[k][3]
+        block.done("DoStep", rows[k][0], sizes[k], 1)
+
+
+def test_a_run_goes_on_to_the_last_bit_from_any_of_a_thousand_states(unit):
+    modes = []
+    for seed in range(SETS):
+        numbers = random.Random(seed)
+        values = drawn(numbers)
+        sizes = [10.0 ** numbers.uniform(-4.0, -0.5) for _ in range(TIMES)]
+        with unit.instance() as block, unit.instance() as other:
+            block.begin(**values)
+            rows = run(block, sizes)
+            order = numbers.sample(range(TIMES), TIMES)
+            for n in order:
+                _, state, content, _ = rows[n]
+                block.restore(state)
+                modes += block.get("mode")
+                goes_on_alike(block, sizes, rows, n)
+                loaded = other.from_bytes(content)  # an instance that never began the run
+                other.restore(loaded)
+                goes_on_alike(other, sizes, rows, n)
+                assert other.as_bytes(loaded) == content
+                other.forget(loaded)
+                block.forget(state)
+    assert len(modes) == SETS * TIMES and min(modes.count(0), modes.count(1)) > 100
+
+
+def test_a_state_that_is_overwritten_is_the_later_one(unit):
+    with unit.instance().begin() as block:
+        state = block.save()
+        first = state.value
+        block.march(range(100), 0.01)
+        then = block.everything()
+        block.done("GetFMUstate", state)
+        assert state.value == first
+        block.march(range(100, 120), 0.01)
+        block.restore(state)
+        assert block.everything() == then
+        block.forget(state)
+
+
+def test_a_state_brings_its_phase_along(unit):
+    """Back before the initialisation, and back into a run that was ended or has failed."""
+    with unit.instance() as block:
+        instantiated = block.save()
+        block.set("rig.mass", 1.0)
+        block.begin()
+        running = block.save()
+        block.march(range(50), 0.01)
+        ahead = block.everything()
+        block.done("Terminate")
+        assert block.call("DoStep", 0.5, 0.01, 1) == ERROR
+        for _ in range(2):
+            block.restore(running)
+            block.march(range(50), 0.01)
+            assert block.everything() == ahead
+            assert block.call("DoStep", 0.0, 0.01, 1) == ERROR
+        block.restore(instantiated)
+        assert block.call(*block.set_arguments("rig.mass", 1.0)) == OK
+        block.begin()
+        block.march(range(50), 0.01)
+        assert block.everything() == ahead
+        block.forget(instantiated)
+        block.forget(running)
+
+
+CONTINUE = """
+import sys
+from pathlib import Path
+from native_unit import Unit
+fmu, folder, size, *states = sys.argv[1:]
+unit = Unit(Path(fmu), Path(folder))
+for state in states:
+    block = unit.instance()
+    block.restore(block.from_bytes(Path(state).read_bytes()))
+    block.march(range(40), float(size), float(Path(state).stem))
+    print(*block.everything())
+"""
+
+
+def test_states_go_on_alike_in_another_process(fmu, unit, tmp_path):
+    size, files, expected = 0.03125, [], []
+    for seed in range(5):
+        numbers = random.Random(100 + seed)
+        with unit.instance().begin(**drawn(numbers)) as block:
+            steps = numbers.randrange(1, 200)
+            block.march(range(steps), size)
+            files.append(tmp_path / f"{steps * size}.state")
+            files[-1].write_bytes(block.as_bytes(block.save()))
+            block.march(range(steps, steps + 40), size)
+            expected.append(block.everything())
+    done = subprocess.run(
+        [sys.executable, "-c", CONTINUE, *map(str, [fmu, tmp_path, size, *files])],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=Path(__file__).parents[2] / "helpers",
+    )
+    assert done.returncode == 0, done.stderr
+    assert [line.split() for line in done.stdout.splitlines()] == expected
+
+
+def test_any_damage_to_the_bytes_is_found(unit):
+    numbers = random.Random(7)
+    with unit.instance().begin() as block:
+        block.march(range(30), 0.01)
+        content = block.as_bytes(block.save())
+        then = block.everything()
+        for _ in range(200):
+            at = numbers.randrange(len(content))
+            damaged = bytearray(content)
+            damaged[at] ^= 1 << numbers.randrange(8)
+            given = bytes(damaged)
+            with unit.instance() as other:
+                assert "is damaged" in refusal(other, given)
+        for given in (b"", content[:-1], content + b"\0", content[:64]):
+            with unit.instance() as other:
+                assert "is damaged" in refusal(other, given)
+        block.restore(block.from_bytes(content))
+        assert block.everything() == then
+
+
+def refusal(block: Instance, content: bytes) -> str:
+    state = c_void_p()
+    said = block.reason("DeSerializeFMUstate", content, len(content), byref(state))
+    assert state.value is None
+    return said

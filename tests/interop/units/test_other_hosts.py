@@ -1,0 +1,175 @@
+"""The native unit in tools that other people use: the same motion as in fmpy.
+
+Each in a process of its own, with the lines of the scripts in `hosts`. A tool that is not installed
+is skipped.
+"""
+
+import importlib.metadata
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from cosim.fmu.build import PYTHON, build_fmu
+
+SPEED, STEP, COUNT = 0.2, 0.01, 300
+HOSTS = Path(__file__).with_name("hosts")
+# numbers of six places in the files of `ecos`
+SIX_PLACES = 5.1e-7
+
+
+def needs(module):
+    if importlib.util.find_spec(module) is None:
+        pytest.skip(f"needs {module}")
+
+
+def tool(distribution, name):
+    """A program that a package has brought, wherever it is installed."""
+    return tools(distribution, name)[0]
+
+
+def tools(distribution, name):
+    """All places in which a package has put a program."""
+    try:
+        files = importlib.metadata.files(distribution) or []
+    except importlib.metadata.PackageNotFoundError:
+        files = []
+    found = [Path(each.locate()).resolve() for each in files if each.name == name]
+    found += [Path(each) for each in [shutil.which(name)] if each]
+    if not found:
+        pytest.skip(f"needs {name} of {distribution}")
+    return found
+
+
+def library_folders():
+    """Where the libraries of tbb lie, which ecospy needs and does not find by itself."""
+    return str(tool("tbb", "libtbb.so.12").parent)
+
+
+def output(command, **more):
+    """What a command says; it works in a folder of its own, as tools leave logs where they are."""
+    with tempfile.TemporaryDirectory() as scratch:
+        done = subprocess.run(
+            list(map(str, command)),
+            **{"cwd": scratch} | more,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=120,
+        )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def x_by(script, fmu, **more):
+    said = output([sys.executable, HOSTS / script, fmu, SPEED, STEP, COUNT], **more)
+    return [float(line.split()[1]) for line in said.splitlines() if line.startswith("x ")]
+
+
+def x_in_fmpy(fmu):
+    result = fmpy.simulate_fmu(
+        str(fmu),
+        stop_time=COUNT * STEP,
+        output_interval=STEP,
+        start_values={"surface_speed": SPEED},
+        output=["x"],
+    )
+    return result["x"][1:]
+
+
+@pytest.fixture(scope="module")
+def expected(fmu):
+    return x_in_fmpy(fmu)
+
+
+@pytest.fixture(scope="module")
+def without_integers(fmu, tmp_path_factory):
+    """A copy whose integer outputs are not declared, for tools that read all outputs as real."""
+    copy = tmp_path_factory.mktemp("real") / "real.fmu"
+    changed = ["-remove-regexp", "^(mode|slip_count)$", "-output", copy]
+    output([tool("fmu-manipulation-toolbox", "fmutool"), "-input", fmu, *changed])
+    return copy
+
+
+def same(x, expected, tolerance=1e-10):
+    assert len(x) == len(expected)
+    np.testing.assert_allclose(x, expected, rtol=0, atol=tolerance)
+
+
+@pytest.fixture
+def ecos_environment():
+    """ecospy's programs come without the right to be run."""
+    needs("ecospy")
+    for name in ("ecos", "proxyfmu"):
+        for program in tools("ecospy", name):
+            program.chmod(0o755)
+    return os.environ | {"LD_LIBRARY_PATH": library_folders()}
+
+
+def test_ecospy(fmu, expected, ecos_environment):
+    same(x_by("in_ecospy.py", fmu, env=ecos_environment), expected)
+
+
+def test_ecospy_with_the_unit_in_a_process_without_python(fmu, expected, ecos_environment):
+    where = f"proxyfmu://localhost?file={fmu}"
+    same(x_by("in_ecospy.py", where, env=ecos_environment), expected)
+
+
+def test_ecos_which_has_no_python(fmu, tmp_path, ecos_environment):
+    options = ["--path", fmu, "--stopTime", COUNT * STEP, "--stepSize", STEP]
+    bare = {"LD_LIBRARY_PATH": ecos_environment["LD_LIBRARY_PATH"]}
+    output([tool("ecospy", "ecos"), "simulate", *options], cwd=tmp_path, env=bare)
+    (table,) = tmp_path.glob("*.csv")
+    names = table.read_text().splitlines()[0].split(", ")
+    rows = np.loadtxt(table, delimiter=",", skiprows=1, usecols=names.index("instance::x[REAL]"))
+    result = fmpy.simulate_fmu(str(fmu), stop_time=COUNT * STEP, output_interval=STEP, output=["x"])
+    same(rows[-COUNT:], result["x"][-COUNT:], SIX_PLACES)
+
+
+def test_fmuloader(fmu, expected):
+    needs("fmuloader")
+    if fmpy.read_model_description(fmu).modelExchange is None:
+        pytest.skip("fmuloader asks every unit for the functions of model exchange")
+    same(x_by("in_fmuloader.py", fmu), expected)
+
+
+def test_cofmupy(without_integers, expected):
+    needs("cofmupy")
+    same(x_by("in_cofmupy.py", without_integers), expected)
+
+
+def test_pathsim(without_integers, expected):
+    needs("pathsim_fmi")
+    same(x_by("in_pathsim.py", without_integers), expected)
+
+
+def test_a_container_of_fmutool_runs_it(fmu, expected, tmp_path):
+    program = tool("fmu-manipulation-toolbox", "fmucontainer")
+    shutil.copy(fmu, tmp_path)
+    described = {
+        "name": "container.fmu",
+        "fmu": [fmu.name],
+        "step_size": STEP,
+        "input": [["surface_speed", fmu.name, "surface_speed"]],
+        "output": [[fmu.name, "x", "x"]],
+    }
+    (tmp_path / "container.json").write_text(json.dumps(described))
+    output([program, "-fmu-directory", tmp_path, "-container", "container.json"], cwd=tmp_path)
+    same(x_in_fmpy(tmp_path / "container.fmu"), expected)
+
+
+@pytest.mark.parametrize("name", ["native", "python"])
+def test_fmutool_finds_nothing_wrong(fmu, tmp_path, name):
+    program = tool("fmu-manipulation-toolbox", "fmutool")
+    file = fmu if name == "native" else build_fmu(tmp_path, PYTHON)
+    said = output([program, "-input", file, "-check"])
+    assert "seems to be compliant with FMI-2.0" in said and "No semantic error" in said
+    assert "WARNING" not in said and "ERROR" not in said
