@@ -28,6 +28,8 @@ MU_S, MU_K = SCATTERED
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
 #: s; of a run whose time series is not known.
 DURATION = 30.0
+#: Part of mu_s by which a run's may differ from the campaign's without a word.
+SAME = 0.005
 
 
 def safe_name(name: str) -> str:
@@ -85,7 +87,8 @@ def model_text(gap: Gap | SummaryGap) -> str:
         shown = shown_run(gap)
         scenario, run = scenario_of(gap, shown), shown.name
     given = scenario.model_dump(exclude_unset=True)
-    lines = [*_header(gap, run), "", *_entries({"name": given.pop("name")})]
+    own = [] if isinstance(gap, SummaryGap) else _own_friction(gap, shown, scenario)
+    lines = [*_header(gap, run, own), "", *_entries({"name": given.pop("name")})]
     for table in sorted(given, key=lambda table: table not in FIRST):
         if given[table]:
             lines += ["", f"[{table}]", *_entries(given[table], table)]
@@ -141,12 +144,25 @@ def _digits(value: float, digits: int) -> float:
     return float(f"{value:.{digits}g}")
 
 
-def _header(gap: Gap | SummaryGap, run: str) -> list[str]:
-    """What a reader of the file alone has to know."""
+def _own_friction(gap: Gap, run: FittedRun, scenario: Scenario) -> list[str]:
+    """In which this run's friction is another than that of the campaign."""
+    of_campaign = gap.model.values.get(MU_S, scenario.friction.mu_s)
+    if abs(scenario.friction.mu_s - of_campaign) < SAME * of_campaign:
+        return []
+    return [
+        f"Its mu_s is that of {run.name}; of the campaign it is {of_campaign:.4g}. Friction "
+        "scatters from run to run, and a contact that is loaded fast breaks away before it has "
+        "all of it."
+    ]
+
+
+def _header(gap: Gap | SummaryGap, run: str, own: list[str]) -> list[str]:
+    """What a reader of the file alone has to know; own: of the run's friction."""
     said = [
         f"The model that campaign {gap.campaign.name!r} leaves, at {run}. {verdict(gap)}",
         f"Gap: {gap_line(gap)}.",
     ]
+    said += own
     if gap.verdict == "class":
         said.append("The block below is the member of the class that fits best.")
     if gap.campaign.scheme == "study":

@@ -18,7 +18,7 @@ OFFSETS = {
     "offset.x": ("m", "zero of the tracker along x"),
     "offset.y": ("m", "zero of the tracker along y"),
     "offset.speed": ("", "part by which the surface is faster than its set-point"),
-    LOADING: ("s^0.5", "static friction lacking for a loading rate of 1/s, a part of it"),
+    LOADING: ("s^0.5", "static friction lacking where springs load by m g in 1 s, a part"),
     "speed_ripple.wavelength": ("m", "travel of the surface in one period of its speed"),
 } | {
     f"{effect}.{part}": ("", f"second harmonic {how}, as part of the first's amplitude")
