@@ -1,0 +1,181 @@
+"""BeltIceThermal.fmu: the reduced heat model in C, with the functions of FMI around it.
+
+The library is the same whatever belt and ice are: it is compiled without the heat model at hand, as
+where a wheel is made. Their matrices are a file in the unit's resources.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import uuid
+from collections.abc import Sequence
+from dataclasses import asdict
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from stickslip.quantity import details
+
+import cosim
+from cosim.files import write_bytes
+from cosim.fmu import c_tables, native
+from cosim.fmu.archive import packed
+from cosim.fmu.description import UnitFacts
+from cosim.fmu.description.fmi2 import fmi2_description
+from cosim.fmu.libraries import of_platforms
+from cosim.fmu.platforms import PLATFORMS, Platform
+from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, reduced
+from cosim.fmu.variables import Variable, names
+
+if TYPE_CHECKING:  # the heat model needs scikit-fem
+    from thermal import ThermalParameters
+    from thermal.reduction import Reduction
+
+FMU = f"{NAME}.fmu"
+#: Files that make the sources, and the heat model that the matrices are of.
+MAKERS = (Path(__file__), Path(__file__).with_name("variables.py"), Path(c_tables.__file__))
+CAN = {"HAS_EXCHANGE": False, "TAKES_RATES": False, "BEGINS_WITH_INPUTS": False}
+#: Of the documentation: how far the unit is from the whole model, measured.
+ERRORS = (
+    ("interface_temperature", "1.2e-7 (2e-6)", "4e-7 (2e-6)"),
+    ("ice_face_temperature", "7e-8 (2e-6)", "2.2e-7 (1e-6)"),
+    ("belt_entry_temperature", "2.2e-7 (6e-6)", "1.5e-7 (1e-6)"),
+    ("belt_exit_temperature", "1.6e-6 (3e-5)", "1.3e-6 (5e-6)"),
+    ("belt_share", "1.4e-5", "1.4e-5"),
+)
+#: Of the C of every unit, what is for model exchange.
+NOT_NEEDED = ("exchange.c", "exchange.h", "fmi2_exchange.c")
+
+
+@cache
+def sources() -> dict[str, bytes]:
+    """File name -> content of everything that the library is compiled from."""
+    declared = reduced()
+    made = {
+        "variables.h": _header(),
+        "variables.c": "\n".join([c_tables.MADE, *c_tables.table_lines(declared)]),
+    }
+    return _written() | {name: content.encode() for name, content in made.items()}
+
+
+def _header() -> str:
+    declared = reduced()
+    lines = c_tables.count_lines(declared, guid(), CAN)
+    lines += ["#define STATE_COUNT 0", ""]
+    for causality, prefix in (("input", "IN"), ("output", "OUT")):
+        places = [f"{prefix}_{name.upper()}" for name in names(declared, causality)]
+        lines.append(f"enum {{ {', '.join(places)} }};")
+    return c_tables.guarded("VARIABLES_H", lines)
+
+
+def _written() -> dict[str, bytes]:
+    shared = native.written("beltice")
+    return {
+        name: content
+        for name, content in shared.items()
+        if name not in NOT_NEEDED and not name.startswith("fmi3")
+    }
+
+
+@cache
+def guid() -> str:
+    """The GUID of a unit built now: of its C, its variables and the heat model's code."""
+    made_from = {
+        "variables": json.dumps([asdict(each) for each in reduced()], sort_keys=True).encode(),
+        **{f"maker/{file.name}": file.read_bytes() for file in MAKERS},
+        **{f"thermal/{file}": (_heat_model() / file).read_bytes() for file in _heat_files()},
+        **_written(),
+    }
+    digest = hashlib.sha256()
+    for name, content in sorted(made_from.items()):
+        digest.update(f"{name}\0{len(content)}\0".encode())
+        digest.update(content)
+    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{NAME}/{digest.hexdigest()}"))
+
+
+def _heat_model() -> Path:
+    """The folder of the package `thermal`, which is not imported: it needs scikit-fem."""
+    return Path(cosim.__path__[0]).parent / "thermal"
+
+
+def _heat_files() -> list[str]:
+    folder = _heat_model()
+    return sorted(file.relative_to(folder).as_posix() for file in folder.rglob("*.py"))
+
+
+def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS) -> Path:
+    """Make the unit of the reference scenario in a directory, with libraries for platforms.
+
+    Raises CompilerError where there is a way to none.
+    """
+    from thermal import ThermalParameters  # scikit-fem
+
+    tables: dict[str, dict[str, float]] = {}
+    for name, value in REFERENCE.items():
+        table, _, key = name.partition(".")
+        tables.setdefault(table, {})[key] = value
+    return build_for(ThermalParameters.checked(tables), directory / FMU, platforms)
+
+
+def build_for(
+    parameters: ThermalParameters, target: Path, platforms: Sequence[Platform] = PLATFORMS
+) -> Path:
+    """Make a unit of any belt and ice."""
+    from cosim.fmu.thermal import resources  # scikit-fem
+
+    made = resources.reduction(parameters)
+    declared = reduced(resources.starts(made))
+    files = {f"sources/{name}": content for name, content in sources().items()}
+    files[f"resources/{resources.FILE}"] = resources.packed(made)
+    files["modelDescription.xml"] = fmi2_description(_facts(), declared)
+    files["documentation/index.html"] = _documentation(made, declared)
+    files |= of_platforms(guid(), sources, platforms, NAME)
+    return write_bytes(packed(files), target)
+
+
+def _documentation(made: Reduction, declared: Sequence[Variable]) -> bytes:
+    from cosim.fmu.description.documentation import allowed
+    from cosim.report.page import render
+
+    page = render(
+        "documentation.html.j2",
+        "cosim.fmu.thermal",
+        facts=_facts(),
+        variables=declared,
+        allowed=allowed,
+        fixed=_fixed(made.parameters, {each.name for each in declared}),
+        errors=ERRORS,
+        belt=made.belt.face.size,
+        ice=made.ice.contact.size,
+        cells=made.parameters.belt.cells,
+    )
+    return page.encode()
+
+
+def _fixed(parameters: ThermalParameters, free: set[str]) -> list[tuple[str, str, str]]:
+    """Key, value and unit of what is in the matrices: all that is no parameter of the unit."""
+    free |= {"belt.still_air_speed"}  # of which follows a heat transfer, which is free
+    rows = []
+    for name, table in parameters:
+        for key, field in type(table).model_fields.items():
+            value = getattr(table, key)
+            if f"{name}.{key}" not in free and value not in ("", ()):
+                said = f"{value:g}" if isinstance(value, int | float) else str(value)
+                rows.append((f"{name}.{key}", said, details(field).get("unit", "")))
+    return rows
+
+
+def _facts() -> UnitFacts:
+    return UnitFacts(
+        name=NAME,
+        guid=guid(),
+        description=f"{DESCRIPTION}. Modes of the finite elements",
+        version=version("stickslip"),
+        tool="stickslip",
+        sources=tuple(sorted(name for name in sources() if name.endswith(".c"))),
+        interpolates=False,
+        gives_rates=False,
+        starts=STARTS,
+    )

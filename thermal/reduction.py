@@ -1,0 +1,183 @@
+"""Belt and ice as small matrices: what a solver without finite elements needs of them.
+
+Of each, the Galerkin space is cut down to a rational Krylov space that answers heat at the contact
+as the whole does (`thermal.ice.krylov`): of the belt through its thickness, where a solver steps it
+column by column; of the ice as a body. The trial functions are orthonormal in the capacity, and the
+films stay apart from conduction, so that a solver finds the modes for any heat transfer by
+diagonalising one small symmetric matrix.
+
+Modes of the operators, as many, with a static correction for those that are left out, err a hundred
+times as much: what is left out has a memory of milliseconds, and a step is as short.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.sparse import csr_matrix
+from skfem import BilinearForm, CellBasis, ElementLineP2, FacetBasis, MeshLine
+
+from .belt.parameters import Belt
+from .belt.thickness import element_boundaries
+from .contact.footprint import Footprint
+from .ice.block import standing_block
+from .ice.krylov import response_space
+from .ice.space import IceSpace
+from .materials import GRAVITY
+from .parameters import ParameterError, ThermalParameters
+
+Array = NDArray[np.float64]
+
+#: Shifts (1/s) at which the belt's answer is that of all its functions: from the tenth part of a
+#: short step to the slowest of its modes, each at most so many times the next; and, over the rate
+#: of the first mode that carries no heat, the two lowest. See `ice.krylov`.
+_FASTEST, _APART, _LOWEST = 3000.0, 4.2, (0.3, 1e-3)
+
+#: Heat transfer to the ice that its space also answers at, W/m2K, and the shifts where it matters.
+_WIND, _SLOW = 300.0, np.geomspace(1e-1, 1e-5, 6)
+
+#: Directions of the space that are the same but for this part are left out.
+_SAME = 1e-9
+
+#: Heat transfer of the ice that stands in for none while its space is made, W/m2K.
+_SOME_AIR = 1.0
+
+
+@dataclass(frozen=True)
+class ReducedBelt:
+    """n trial functions through the thickness, per metre of belt.
+
+    conduction (n, n) W/(m K); film (n, n) m, to be multiplied by h; along (n, n) m2/s, to be
+    multiplied by a wave number squared; face (n,): values at the contact face.
+    """
+
+    conduction: Array
+    film: Array
+    along: Array
+    face: Array
+
+
+@dataclass(frozen=True)
+class ReducedIce:
+    """n trial functions of the block; the forms of `thermal.ice.space`, (n, n).
+
+    across, upwards W/K; side, top m2, to be multiplied by h; sinking W/K for 1 m/s; contact (n,):
+    mean over the contact, and load of 1 W there.
+    """
+
+    across: Array
+    upwards: Array
+    side: Array
+    top: Array
+    sinking: Array
+    contact: Array
+    weight: float
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """Both, and their contact."""
+
+    parameters: ThermalParameters
+    footprint: Footprint
+    belt: ReducedBelt
+    ice: ReducedIce
+
+
+def reduce(parameters: ThermalParameters) -> Reduction:
+    """Assemble and reduce. ParameterError for a belt with a railing or rollers that matter."""
+    belt = parameters.belt
+    if belt.railing_length > 0.0 or belt.rollers > 0:
+        key = "railing_length" if belt.railing_length > 0.0 else "rollers"
+        raise ParameterError(
+            f"belt.{key} = {getattr(belt, key):g}: the reduced model has no supports of the belt;"
+            " allowed is 0"
+        )
+    air = parameters.ice.air_heat_transfer or _SOME_AIR
+    ice = parameters.ice.model_copy(update={"air_heat_transfer": air})
+    footprint, block = standing_block(parameters.model_copy(update={"ice": ice}))
+    return Reduction(
+        parameters,
+        footprint,
+        _belt(belt, footprint.lane),
+        _ice(block.space, air, ice.heat_capacity),
+    )
+
+
+def _belt(belt: Belt, lane: float) -> ReducedBelt:
+    boundaries, of_element = element_boundaries(belt.stack, belt.elements)
+    basis = CellBasis(MeshLine(boundaries), ElementLineP2())
+    faces = FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets())
+    capacity, conductivity = (
+        np.array([value(belt.stack[i]) for i in of_element])[:, None]
+        for value in (
+            lambda layer: layer.density * layer.heat_capacity,
+            lambda layer: layer.conductivity,
+        )
+    )
+    stored, conduction, along = (
+        lane * form.assemble(basis).toarray()
+        for form in (
+            BilinearForm(lambda u, v, w: capacity * u * v),
+            BilinearForm(lambda u, v, w: conductivity * u.grad[0] * v.grad[0]),
+            BilinearForm(lambda u, v, w: conductivity * u * v),
+        )
+    )
+    film = lane * BilinearForm(lambda u, v, w: u * v).assemble(faces).toarray()
+    contact_face = np.zeros(basis.N)
+    contact_face[np.argmin(basis.doflocs[0])] = 1.0
+    trial = _answers(stored, conduction, conduction + belt.film * film, contact_face)
+    conduction, film, along = (trial.T @ form @ trial for form in (conduction, film, along))
+    return ReducedBelt(conduction, film, along, contact_face @ trial)
+
+
+def _answers(stored: Array, conduction: Array, loss: Array, load: Array) -> Array:
+    """Trial functions (N, n), orthonormal in the capacity, that answer a load: all where few."""
+    rates, modes = eigh(conduction, stored)
+    low, lowest = (part * rates[1] for part in _LOWEST)
+    count = 1 + max(1, int(np.ceil(np.log(_FASTEST / low) / np.log(_APART))))
+    shifts = [*np.geomspace(max(_FASTEST, _APART * low), low, count), lowest]
+    if rates.size <= len(shifts) + 1:
+        return modes
+    found = [np.linalg.solve(shift * stored + loss, load) for shift in shifts]
+    trial, _ = np.linalg.qr(modes.T @ stored @ np.column_stack([np.ones(load.size), *found]))
+    return modes @ trial
+
+
+def _ice(space: IceSpace, air: float, heat_capacity: float) -> ReducedIce:
+    still = _loss(space, 1.0)
+    trial = response_space(csr_matrix(space.capacity), csr_matrix(still), space.contact)
+    windy = _loss(space, _WIND / air)
+    found = [np.linalg.solve(shift * space.capacity + windy, space.contact) for shift in _SLOW]
+    trial = _orthonormal(np.column_stack([trial, *found]), space.capacity)
+    across, upwards, side, top = (
+        (factor @ trial).T @ (factor @ trial)
+        for factor in (space.across, space.upwards, space.side, space.top)
+    )
+    return ReducedIce(
+        across=across,
+        upwards=upwards,
+        side=side / air,
+        top=top / air,
+        sinking=trial.T @ space.sinking @ trial,
+        contact=trial.T @ space.contact,
+        weight=GRAVITY * space.whole_capacity / heat_capacity,
+    )
+
+
+def _loss(space: IceSpace, times: float) -> Array:
+    """Conduction and films, W/K, these so many times as strong."""
+    films = [np.sqrt(times) * factor for factor in (space.side, space.top)]
+    whole = np.concatenate((space.across, space.upwards, *films))
+    return whole.T @ whole
+
+
+def _orthonormal(functions: Array, capacity: Array) -> Array:
+    """The same space, orthonormal in the capacity; functions (N, n) as sizes of their own."""
+    lower = np.linalg.cholesky(capacity)
+    scaled = lower.T @ functions
+    basis, sizes, _ = np.linalg.svd(scaled / np.linalg.norm(scaled, axis=0), full_matrices=False)
+    return np.linalg.solve(lower.T, basis[:, sizes > _SAME * sizes[0]])
