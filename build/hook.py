@@ -26,11 +26,13 @@ class NativeUnits(BuildHookInterface):
         if self.target_name != "wheel" or version == "editable":
             return
         sys.path[:0] = [str(ROOT), str(ROOT / "fmu_src")]
-        from cosim.fmu import native
+        from cosim.fmu import libraries, native
+        from cosim.fmu.thermal import native_unit
 
         self.scratch = Path(tempfile.mkdtemp(prefix="stickslip-prebuilt-"))
-        native.prebuild(self.scratch)
-        build_data["force_include"][str(self.scratch)] = f"cosim/fmu/{native.PREBUILT}"
+        for unit in (native, native_unit):
+            libraries.prebuild(self.scratch, unit.guid(), unit.sources)
+        build_data["force_include"][str(self.scratch)] = f"cosim/fmu/{libraries.PREBUILT}"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """After it."""

@@ -2,7 +2,7 @@
 
     python build/units.py [DIRECTORY]
 
-makes StickSlip3DOF.fmu and StickSlip3DOF-python.fmu in DIRECTORY (default: where this file is).
+makes the units and the system of them in DIRECTORY (default: where this file is).
 What goes in, and how it becomes a unit, is in `cosim.fmu`.
 """
 

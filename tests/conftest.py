@@ -45,6 +45,15 @@ def fmu(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def fmu3(tmp_path_factory):
+    """The native unit for FMI 3."""
+    from cosim.fmu.build import FMI3, build_fmu
+    from cosim.fmu.platforms import this_platform
+
+    return build_fmu(tmp_path_factory.mktemp("fmu3"), FMI3, [this_platform()])
+
+
+@pytest.fixture(scope="session")
 def python_fmu(tmp_path_factory):
     """The unit that pythonfmu makes."""
     from cosim.fmu.build import PYTHON, build_fmu

@@ -11,7 +11,11 @@ from cosim.fmu.platforms import PLATFORMS, Platform
 from cosim.names import unknown_name
 
 EXAMPLE = "stickslip build -o fmus"
-UNITS = ("StickSlip3DOF.fmu", "StickSlip3DOF-python.fmu")
+UNITS = (
+    *("StickSlip3DOF.fmu", "StickSlip3DOF-fmi3.fmu", "StickSlip3DOF-python.fmu"),
+    *("BeltIceThermal.fmu", "BeltIceThermal-python.fmu"),
+    "StickSlipThermal.ssp",
+)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -61,7 +65,7 @@ def execute(arguments: Namespace) -> int:
     """Build the units afresh and say where they are, and for which platforms."""
     from cosim.files import writable
     from cosim.fmu.build import build_fmu, own_folder
-    from cosim.fmu.native import platforms_of
+    from cosim.fmu.libraries import platforms_of
 
     units = arguments.units or UNITS
     folder = writable(Path(arguments.output) if arguments.output else own_folder(), units)

@@ -6,21 +6,28 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import platformdirs
 import stickslip
 
 import cosim
-from cosim.fmu import native, python_unit
+from cosim.fmu import libraries, native, python_unit
 from cosim.fmu.compiler import CompilerError
+from cosim.fmu.libraries import runs_here
 from cosim.fmu.platforms import PLATFORMS, Platform, this_platform
+from cosim.fmu.thermal import native_unit
 
 #: Folder of a checkout in which its units stand, beside the recipes.
 BUILD_FOLDER = Path("build")
-NATIVE, PYTHON = f"{native.NAME}.fmu", python_unit.FMU
-UNITS = (NATIVE, PYTHON)
+NATIVE, FMI3, PYTHON = native.FILES[libraries.FMI2], native.FILES[libraries.FMI3], python_unit.FMU
+THERMAL, THERMAL_PYTHON = native_unit.FMU, f"{native_unit.NAME}-python.fmu"
+SYSTEM = "StickSlipThermal.ssp"
+UNITS = (NATIVE, FMI3, PYTHON, THERMAL, THERMAL_PYTHON, SYSTEM)
+#: Units of pythonfmu -> the module that makes them when it is run.
+MADE_APART = {PYTHON: python_unit.__name__, THERMAL_PYTHON: "cosim.fmu.thermal.python_unit"}
 
 
 class FmuBuildError(ValueError):
@@ -48,17 +55,17 @@ def own_fmu() -> Path:
         raise refused from None
 
 
-def ensure_fmu(directory: str | Path) -> Path:
-    """The native unit in a directory, built there when it is missing, damaged or stale.
+def ensure_fmu(directory: str | Path, name: str = NATIVE) -> Path:
+    """A native unit of `UNITS` in a directory, built there when it is missing, damaged or stale.
 
     Its GUID decides, never a date. What is built has a library for this machine. Raises
     FmuBuildError.
     """
-    fmu = Path(directory) / NATIVE
-    if native.built_guid(fmu) == native.guid() and native.runs_here(fmu):
+    fmu = Path(directory) / name
+    if native.built_guid(fmu) == native.guid() and runs_here(fmu):
         return fmu
     own = this_platform()
-    return build_fmu(directory, platforms=PLATFORMS if own is None else [own])
+    return build_fmu(directory, name, PLATFORMS if own is None else [own])
 
 
 def build_fmu(
@@ -71,18 +78,28 @@ def build_fmu(
     """
     directory = Path(directory)
     _check_writable(directory)
-    if name == PYTHON:
-        return _build_python_unit(directory)
+    if name in MADE_APART:
+        return _build_python_unit(directory, name)
     try:
-        return native.build(directory, platforms)
+        return _maker(name)(directory, platforms)
     except CompilerError as error:
         raise FmuBuildError(f"{name} was not built: {error}") from error
 
 
-def _build_python_unit(directory: Path) -> Path:
+def _maker(name: str) -> Callable[[Path, Sequence[Platform]], Path]:
+    if name == SYSTEM:
+        from cosim.fmu.thermal import structure  # the scenario, and with it the heat model
+
+        return structure.build
+    if name == THERMAL:
+        return native_unit.build
+    return partial(native.build, fmi=libraries.FMI3 if name == FMI3 else libraries.FMI2)
+
+
+def _build_python_unit(directory: Path, name: str) -> Path:
     """In a process of its own, since pythonfmu imports what it builds."""
     done = subprocess.run(
-        [sys.executable, "-P", "-m", python_unit.__name__, str(directory.resolve())],
+        [sys.executable, "-P", "-m", MADE_APART[name], str(directory.resolve())],
         capture_output=True,
         text=True,
         check=False,
@@ -90,8 +107,8 @@ def _build_python_unit(directory: Path) -> Path:
     )
     if done.returncode != 0:
         said = done.stderr.strip().splitlines()
-        raise FmuBuildError(f"{PYTHON} was not built: {said[-1] if said else 'no reason given'}")
-    return directory / PYTHON
+        raise FmuBuildError(f"{name} was not built: {said[-1] if said else 'no reason given'}")
+    return directory / name
 
 
 def _packages() -> str:

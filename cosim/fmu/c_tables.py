@@ -10,23 +10,48 @@ from stickslip.kernel.layout import DRAW_SEED, DRAW_UNIFORM, constants
 from stickslip.status import WHY_NOT
 
 from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
-from cosim.fmu.variables import HOLD, Variable, names
+from cosim.fmu.variables import HOLD, Variable, by_array, names
 
 MADE = "/* Made by the build from the declarations in Python. */\n"
 
 
+def count_lines(variables: Sequence[Variable], guid: str, can: Mapping[str, bool]) -> list[str]:
+    """How many variables there are, where each kind begins, the unit's GUID, and what it can.
+
+    can: HAS_EXCHANGE: model exchange; TAKES_RATES: of inputs; BEGINS_WITH_INPUTS: those that are
+    set behind the initialisation, before the first step, count as if they had been there before.
+    """
+    first, lines = 0, []
+    for causality in ("input", "output", "parameter", "local"):
+        count = len(names(variables, causality))
+        lines.append(f"#define FIRST_{causality.upper()} {first}")
+        lines.append(f"#define {causality.upper()}_COUNT {count}")
+        first += count
+    lines += [f"#define VARIABLE_COUNT {first}", f'#define UNIT_GUID "{guid}"']
+    return [*lines, *(f"#define {name} {int(value)}" for name, value in can.items()), ""]
+
+
+def table_lines(variables: Sequence[Variable]) -> list[str]:
+    """The table of the variables, as unit.h declares it."""
+    rows = [
+        f"    {_row(variable, 0 if place else len(elements))},"
+        for elements in by_array(variables)
+        for place, variable in enumerate(elements)
+    ]
+    includes = ["#include <math.h>", "", '#include "unit.h"', ""]
+    return [*includes, "const Variable VARIABLES[VARIABLE_COUNT] = {", *rows, "};", ""]
+
+
+def guarded(name: str, lines: Iterable[str]) -> str:
+    """A header with these lines."""
+    return "\n".join([MADE, f"#ifndef {name}", f"#define {name}", "", *lines, "", "#endif", ""])
+
+
 def variables_header(variables: Sequence[Variable], guid: str) -> str:
     """How many variables there are, where each kind begins, and the unit's GUID."""
-    first, counts = 0, {}
-    lines = [MADE, "#ifndef VARIABLES_H", "#define VARIABLES_H", ""]
-    for causality in ("input", "output", "parameter", "local"):
-        counts[causality] = len(names(variables, causality))
-        lines.append(f"#define FIRST_{causality.upper()} {first}")
-        lines.append(f"#define {causality.upper()}_COUNT {counts[causality]}")
-        first += counts[causality]
+    can = dict.fromkeys(("HAS_EXCHANGE", "TAKES_RATES", "BEGINS_WITH_INPUTS"), True)
     hold = [variable.name for variable in variables].index(HOLD["name"])
-    lines += [f"#define INPUT_HOLD {hold}", f"#define VARIABLE_COUNT {first}"]
-    lines += [f'#define UNIT_GUID "{guid}"', ""]
+    lines = [*count_lines(variables, guid, can), f"#define INPUT_HOLD {hold}"]
     lines += [f"#define STATE_COUNT {len(states())}", f"#define INDICATOR_COUNT {INDICATORS}", ""]
     lines += ["/* Where the kernel keeps each output. */", "extern const int OUTPUT_SLOTS[];"]
     lines += ["/* Where each local variable is among the states and, behind them, their rates. */"]
@@ -38,27 +63,19 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
     lines += [
         "/* Of each random number: its seed among the parameters; uniform, or else normal. */"
     ]
-    lines += ["extern const int DRAW_SEED[], DRAW_UNIFORM[];", "", "#endif", ""]
-    return "\n".join(lines)
+    lines += ["extern const int DRAW_SEED[], DRAW_UNIFORM[];"]
+    return guarded("VARIABLES_H", lines)
 
 
 def variables_source(variables: Sequence[Variable]) -> str:
     """The table of the variables, and where the kernel keeps what they show."""
-    rows = [f"    {_row(variable)}," for variable in variables]
     places = constants()
     nominals = [_number(each.nominal or 1.0) for each in variables if each.causality == "input"]
     slots = [str(places[each.slot]) for each in variables if each.causality == "output"]
     return "\n".join(
         [
             MADE,
-            "#include <math.h>",
-            "",
-            '#include "unit.h"',
-            "",
-            "const Variable VARIABLES[VARIABLE_COUNT] = {",
-            *rows,
-            "};",
-            "",
+            *table_lines(variables),
             _whole_numbers("OUTPUT_SLOTS", slots),
             _whole_numbers("LOCAL_SLOTS", map(str, local_slots(variables))),
             _whole_numbers("STATE_REFERENCES", map(str, state_references(variables))),
@@ -74,14 +91,15 @@ def _whole_numbers(name: str, numbers: Iterable[str]) -> str:
     return f"const int {name}[] = {{{', '.join(numbers)}}};"
 
 
-def _row(variable: Variable) -> str:
+def _row(variable: Variable, elements: int) -> str:
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
     flags = (variable.is_integer, variable.is_tunable)
     said = ", ".join(str(flag).lower() for flag in flags)
     numbers = ", ".join(_number(value) for value in (variable.start or 0.0, low, high))
     above = str(variable.above_min).lower()
-    return f"{{{quoted(variable.name)}, {variable.causality.upper()}, {said}, {numbers}, {above}}}"
+    kind = variable.causality.upper()
+    return f"{{{quoted(variable.name)}, {kind}, {said}, {numbers}, {above}, {elements}}}"
 
 
 def _number(value: float) -> str:

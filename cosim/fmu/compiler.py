@@ -16,7 +16,16 @@ from pathlib import Path
 from cosim.fmu.platforms import Platform, this_platform
 
 # With a * b + c contracted into one rounding, the motion would differ from machine to machine.
-OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", "-s")
+OPTIONS = (
+    "-std=c99",
+    "-Werror=implicit-function-declaration",
+    "-O2",
+    "-ffp-contract=off",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+    "-s",
+)
 COMPILERS = ("cc", "gcc", "clang")
 
 
@@ -37,13 +46,11 @@ def possible(platforms: Sequence[Platform]) -> list[Platform]:
     return [each for each in platforms if each == own]
 
 
-def libraries(
-    sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
-) -> dict[str, bytes]:
-    """Path in an FMI 2 unit -> library called ``name``, of C sources by their names.
+def compiled(sources: Mapping[str, bytes], platforms: Sequence[Platform]) -> dict[Platform, bytes]:
+    """A library for each platform, of C sources by their names.
 
-    Each platform is compiled by a process of its own, as many at once as there are processors.
-    Raises CompilerError.
+    Each is compiled by a process of its own, as many at once as there are processors. Raises
+    CompilerError.
     """
     with tempfile.TemporaryDirectory(prefix="stickslip-c-") as scratch:
         folder = Path(scratch)
@@ -51,10 +58,7 @@ def libraries(
             (folder / file).write_bytes(content)
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             made = list(pool.map(lambda each: _library(folder, each), platforms))
-    by_path: dict[str, list[bytes]] = {}
-    for each, library in zip(platforms, made, strict=True):
-        by_path.setdefault(f"binaries/{each.fmi2}/{name}{each.suffix}", []).append(library)
-    return {path: _joined(parts) for path, parts in by_path.items()}
+    return dict(zip(platforms, made, strict=True))
 
 
 def _library(folder: Path, platform: Platform) -> bytes:
@@ -89,7 +93,7 @@ def _system_compiler() -> str | None:
 FAT, ALIGNMENT = 0xCAFEBABE, 14
 
 
-def _joined(parts: Sequence[bytes]) -> bytes:
+def joined(parts: Sequence[bytes]) -> bytes:
     """One library for several processors of a Mac; a single one stays as it is."""
     if len(parts) == 1:
         return parts[0]

@@ -1,6 +1,7 @@
-"""StickSlip3DOF.fmu: the kernel as C, with the functions of FMI around it.
+"""StickSlip3DOF.fmu and StickSlip3DOF-fmi3.fmu: the kernel as C, the functions of FMI around it.
 
-The same content gives the same GUID, and with the same compiler the same file, byte for byte. What
+One library has the functions of FMI 2.0 and 3.0, and both units the same GUID. The same content
+gives the same GUID, and with the same compiler the same file, byte for byte. What
 was compiled while the package was made into a wheel (see `build/hook.py`) is taken where it is of
 today's content; else it is compiled here.
 """
@@ -29,12 +30,16 @@ from stickslip.status import WHY_NOT
 from cosim.files import write_bytes
 from cosim.fmu import c_tables
 from cosim.fmu.archive import packed
-from cosim.fmu.compiler import CompilerError, libraries, possible
+from cosim.fmu.description import UnitFacts
+from cosim.fmu.description.fmi2 import fmi2_description
+from cosim.fmu.description.fmi3 import build_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
-from cosim.fmu.model_description import UnitFacts, fmi2_description
-from cosim.fmu.platforms import PLATFORMS, Platform, this_platform
+from cosim.fmu.libraries import FMI2, FMI3, of_platforms
+from cosim.fmu.platforms import PLATFORMS, Platform
 
 NAME = "StickSlip3DOF"
+#: Version of FMI -> file.
+FILES = {FMI2: f"{NAME}.fmu", FMI3: f"{NAME}-fmi3.fmu"}
 DESCRIPTION = (
     "Stick-slip of a block on four springs on a moving surface: three degrees of freedom, dry "
     "friction, friction heat handed over as energy"
@@ -44,11 +49,9 @@ MAKERS = (
     *Path(c_generation.__file__).parent.glob("c*.py"),
     *(
         Path(__file__).with_name(f"{name}.py")
-        for name in ("native", "c_tables", "compiler", "exchange")
+        for name in ("native", "c_tables", "compiler", "exchange", "libraries", "variables")
     ),
 )
-#: Beside this file in an installed package: libraries of the wheel, in a folder called by the GUID.
-PREBUILT = "prebuilt"
 
 
 @cache
@@ -86,14 +89,18 @@ def guid() -> str:
 
 
 def _written() -> dict[str, bytes]:
-    """What is written in C, not made: in fmu_src/native in a checkout."""
+    return written("stickslip3dof")
+
+
+def written(model: str) -> dict[str, bytes]:
+    """What is written in C, not made, of a unit with a model of its own."""
     folder = native_folder()
-    places = (folder, folder / "headers", folder / "stickslip3dof")
+    places = (folder, folder / "headers", folder / model)
     return {
         file.name: file.read_bytes()
         for place in places
         for file in place.iterdir()
-        if file.name.endswith((".c", ".h")) and not file.name.startswith("fmi3")
+        if file.name.endswith((".c", ".h"))
     }
 
 
@@ -104,64 +111,30 @@ def native_folder() -> Path:
     return checkout if checkout.is_dir() else here.with_name("native_sources")
 
 
-def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS) -> Path:
-    """Make the unit in a directory, with libraries for those platforms that there is a way to.
+def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS, fmi: int = FMI2) -> Path:
+    """Make the unit of a version of FMI, with libraries for those platforms that there is a way to.
 
     Written beside its final place and moved there, so that nobody ever sees half of it. Raises
     CompilerError where there is a way to none.
     """
-    from cosim.fmu.documentation import documentation  # not for who only compiles
+    from cosim.fmu.description.documentation import documentation  # not for who only compiles
 
-    files = {f"sources/{name}": content for name, content in sources().items()}
-    files["modelDescription.xml"] = fmi2_description(_facts(), variables())
-    files |= documentation(_facts(), variables())
-    return write_bytes(packed(files | _libraries(platforms)), directory / f"{NAME}.fmu")
-
-
-def _libraries(platforms: Sequence[Platform]) -> dict[str, bytes]:
-    """Path in the unit -> library: the wheel's where they are of today's content, or compiled."""
-    wanted = {f"binaries/{each.fmi2}/{NAME}{each.suffix}" for each in platforms}
-    made = _prebuilt()
-    if wanted <= made.keys():
-        return {path: made[path] for path in wanted}
-    there = possible(platforms)
-    if there:
-        return libraries(sources(), there, NAME)
-    raise CompilerError(
-        "no C compiler for the unit: install one (cc, gcc or clang), or `pip install ziglang`, "
-        "which compiles for every platform"
-    )
+    facts = _facts(fmi)
+    files = {f"sources/{name}": content for name, content in _sources_of(fmi).items()}
+    if fmi == FMI3:
+        files["modelDescription.xml"] = fmi3_description(facts, variables())
+        files["sources/buildDescription.xml"] = build_description(facts)
+    else:
+        files["modelDescription.xml"] = fmi2_description(facts, variables())
+    files |= documentation(facts, variables())
+    files |= of_platforms(guid(), sources, platforms, NAME, fmi)
+    return write_bytes(packed(files), directory / FILES[fmi])
 
 
-def _prebuilt() -> dict[str, bytes]:
-    folder = Path(__file__).with_name(PREBUILT) / guid()
-    return {
-        file.relative_to(folder).as_posix(): file.read_bytes()
-        for file in folder.rglob("*")
-        if file.is_file()
-    }
-
-
-def prebuild(folder: Path) -> Path:
-    """Compile for every platform that can be, for a wheel; the folder that it is to bring along."""
-    target = folder / guid()
-    for path, library in libraries(sources(), possible(PLATFORMS), NAME).items():
-        (target / path).parent.mkdir(parents=True, exist_ok=True)
-        (target / path).write_bytes(library)
-    return target
-
-
-def runs_here(fmu: Path) -> bool:
-    """Whether a unit as a file has a library for this machine."""
-    own = this_platform()
-    return own is None or own.name in platforms_of(fmu)
-
-
-def platforms_of(fmu: Path) -> list[str]:
-    """Names of the platforms that a unit as a file has libraries for."""
-    with zipfile.ZipFile(fmu) as archive:
-        there = set(archive.namelist())
-    return [each.name for each in PLATFORMS if f"binaries/{each.fmi2}/{NAME}{each.suffix}" in there]
+def _sources_of(fmi: int) -> dict[str, bytes]:
+    """Without the functions and headers of the other version."""
+    other = f"fmi{FMI2 if fmi == FMI3 else FMI3}"
+    return {name: content for name, content in sources().items() if not name.startswith(other)}
 
 
 def built_guid(fmu: Path) -> str | None:
@@ -170,12 +143,13 @@ def built_guid(fmu: Path) -> str | None:
         with zipfile.ZipFile(fmu) as archive:
             if archive.testzip() is not None:
                 return None
-            return fromstring(archive.read("modelDescription.xml")).get("guid")
+            root = fromstring(archive.read("modelDescription.xml"))
+            return root.get("guid") or root.get("instantiationToken")
     except (OSError, zipfile.BadZipFile, zlib.error, EOFError, KeyError, ValueError, ParseError):
         return None
 
 
-def _facts() -> UnitFacts:
+def _facts(fmi: int) -> UnitFacts:
     return UnitFacts(
         name=NAME,
         guid=guid(),
@@ -183,5 +157,5 @@ def _facts() -> UnitFacts:
         version=version("stickslip"),
         tool="stickslip",
         indicators=INDICATORS,
-        sources=tuple(sorted(name for name in sources() if name.endswith(".c"))),
+        sources=tuple(sorted(name for name in _sources_of(fmi) if name.endswith(".c"))),
     )

@@ -1,10 +1,10 @@
-"""StickSlip3DOF-python.fmu: how its content becomes a unit, by way of pythonfmu.
+"""How content becomes a unit by way of pythonfmu; StickSlip3DOF-python.fmu is made of this.
 
 The same content gives the same FMU, byte for byte. A build is known by the hash of its content, and
 the Python modules inside carry that hash in their names: a process keeps one module of a name, so
 two builds in it would otherwise run the code of the one that came first.
 
-What travels inside is pure Python of the standard library: the slave, the kernel as
+What travels inside StickSlip3DOF is pure Python of the standard library: the slave, the kernel as
 `stickslip.generation.source` makes it, and how named parameters and random numbers enter it. The
 effects' declarations stay behind, and pydantic with them.
 """
@@ -20,9 +20,12 @@ import tempfile
 import uuid
 import zipfile
 import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib import resources
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from stickslip import ports
 from stickslip.generation.source import kernel_source
@@ -30,11 +33,13 @@ from stickslip.kernel import layout
 from stickslip.names import NAMES
 
 from cosim.files import write_bytes
+from cosim.fmu import description
 from cosim.fmu.archive import packed
-from cosim.fmu.model_description import UnitFacts, fmi2_description
+from cosim.fmu.description import UnitFacts, fmi2
+from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
-from cosim.fmu.variables import TUNABLE, Entry, parameter_table, variables
+from cosim.fmu.variables import TUNABLE, Entry, Variable, parameter_table, variables
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"
@@ -71,7 +76,8 @@ def sources() -> dict[str, bytes]:
     texts = {
         f"{MODULE}.py": DOOR,
         "stickslip/__init__.py": PACKAGE_DOC,
-        "stickslip/slave.py": slave_file().read_text(encoding="utf-8"),
+        "stickslip/slave.py": slave_file("slave").read_text(encoding="utf-8"),
+        "stickslip/unit_slave.py": slave_file("unit_slave").read_text(encoding="utf-8"),
         "stickslip/kernel.py": kernel_source(),
         "stickslip/names.py": _names(),
     }
@@ -82,11 +88,11 @@ def sources() -> dict[str, bytes]:
     }
 
 
-def slave_file() -> Path:
-    """The slave: in fmu_src in a checkout, beside this file in an installed package."""
+def slave_file(name: str) -> Path:
+    """A module that travels: in fmu_src in a checkout, beside this file in a package."""
     here = Path(__file__).resolve()
-    checkout = here.parents[2] / "fmu_src" / "slave.py"
-    return checkout if checkout.is_file() else here.with_name("slave.py")
+    checkout = here.parents[2] / "fmu_src" / f"{name}.py"
+    return checkout if checkout.is_file() else here.with_name(f"{name}.py")
 
 
 def _names() -> str:
@@ -99,8 +105,10 @@ RECIPE_FILES = (
     Path(__file__),
     *(
         Path(__file__).with_name(f"{name}.py")
-        for name in ("model_description", "pythonfmu_library", "units", "variables")
+        for name in ("pythonfmu_library", "units", "variables")
     ),
+    Path(description.__file__),
+    Path(fmi2.__file__),
     Path(ports.__file__),
 )
 
@@ -110,8 +118,13 @@ def content_hash(files: dict[str, bytes] | None = None, table: list[Entry] | Non
     files = sources() if files is None else files
     table = parameter_table() if table is None else table
     recipe = {f"recipe/{file.name}": file.read_bytes() for file in RECIPE_FILES}
+    return hash_of(files | recipe, table)
+
+
+def hash_of(files: dict[str, bytes], table: list[Any]) -> str:
+    """Twelve hex digits over files and declarations, and pythonfmu."""
     digest = hashlib.sha256()
-    for name, content in sorted((files | recipe).items()):
+    for name, content in sorted(files.items()):
         digest.update(f"{name}\0{len(content)}\0".encode())
         digest.update(content)
     digest.update(json.dumps(table, sort_keys=True).encode())
@@ -131,35 +144,64 @@ def built_hash(fmu: Path) -> str | None:
     return module.removeprefix(f"{MODULE}_") if module.startswith(f"{MODULE}_") else None
 
 
-def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
-    """Make the FMU in a directory and return its path; other content than ours for tests.
+@dataclass(frozen=True)
+class Recipe:
+    """What a unit is made of.
 
-    Written beside its final place and moved there, so that nobody ever sees half of it.
+    facts: GUID included; module: name of the door, without the hash; package: of all else that
+    travels; files: path inside the resources -> content; content: its hash; tells: text of the
+    package's module `variables`, which tells the slave what it is.
     """
+
+    facts: UnitFacts
+    module: str
+    package: str
+    files: dict[str, bytes]
+    variables: Sequence[Variable]
+    tells: bytes
+    content: str
+
+
+def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
+    """Make the FMU in a directory and return its path; other content than ours for tests."""
     files = sources() if files is None else files
     table = parameter_table()
     content = content_hash(files, table)
-    with tempfile.TemporaryDirectory(prefix="stickslip3dof-") as scratch:
-        raw = _build_with_pythonfmu(Path(scratch), files, table, content)
-        finished = _finish(raw, content)
-    return write_bytes(finished, directory / FMU)
+    recipe = Recipe(
+        facts=_facts(content),
+        module=MODULE,
+        package="stickslip",
+        files=files,
+        variables=variables(),
+        tells=variables_module(table, content),
+        content=content,
+    )
+    return made(recipe, directory / FMU)
 
 
-def _build_with_pythonfmu(
-    scratch: Path, files: dict[str, bytes], table: list[Entry], content: str
-) -> Path:
+def made(recipe: Recipe, target: Path) -> Path:
+    """Make a unit and return its path.
+
+    Written beside its final place and moved there, so that nobody ever sees half of it.
+    """
+    with tempfile.TemporaryDirectory(prefix=f"{recipe.module}-") as scratch:
+        finished = _finish(_build_with_pythonfmu(Path(scratch), recipe), recipe)
+    return write_bytes(finished, target)
+
+
+def _build_with_pythonfmu(scratch: Path, recipe: Recipe) -> Path:
     from pythonfmu import FmuBuilder
 
-    names = {MODULE: f"{MODULE}_{content}", "stickslip": f"stickslip_{content}"}
-    variables = variables_module(table, content)
-    for name, source in (files | {"stickslip/variables.py": variables}).items():
-        target = scratch / _renamed(name, names)
+    hashed = {name: f"{name}_{recipe.content}" for name in (recipe.module, recipe.package)}
+    tells = {f"{recipe.package}/variables.py": recipe.tells}
+    for name, source in (recipe.files | tells).items():
+        target = scratch / _renamed(name, hashed)
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(_rename_imports(source, names["stickslip"]))
+        target.write_bytes(_rename_imports(source, recipe.package, hashed[recipe.package]))
     fmu: Path = FmuBuilder.build_FMU(
-        scratch / f"{names[MODULE]}.py",
-        dest=scratch / FMU,
-        project_files=[scratch / names["stickslip"]],
+        scratch / f"{hashed[recipe.module]}.py",
+        dest=scratch / "raw.fmu",
+        project_files=[scratch / hashed[recipe.package]],
         needsExecutionTool=True,
         canGetAndSetFMUstate=True,
         canSerializeFMUstate=True,
@@ -173,11 +215,12 @@ def _renamed(name: str, names: dict[str, str]) -> Path:
     return Path(first + ".py") if len(path.parts) == 1 else Path(first, *path.parts[1:])
 
 
-def _rename_imports(source: bytes, package: str) -> bytes:
-    return re.sub(rb"(?m)^(\s*(?:from|import)\s+)stickslip\b", rb"\1" + package.encode(), source)
+def _rename_imports(source: bytes, package: str, name: str) -> bytes:
+    pattern = rf"(?m)^(\s*(?:from|import)\s+){package}\b".encode()
+    return re.sub(pattern, rb"\1" + name.encode(), source)
 
 
-def _finish(raw: Path, content: str) -> bytes:
+def _finish(raw: Path, recipe: Recipe) -> bytes:
     """The unit with its full description and corrected libraries."""
     with zipfile.ZipFile(raw) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
@@ -189,14 +232,14 @@ def _finish(raw: Path, content: str) -> bytes:
     for name in files:
         if name.startswith("binaries/"):
             files[name] = corrected(files[name])
-    files["modelDescription.xml"] = fmi2_description(_facts(content), variables())
+    files["modelDescription.xml"] = fmi2_description(recipe.facts, recipe.variables)
     return packed(files)
 
 
 def _facts(content: str) -> UnitFacts:
     return UnitFacts(
         name=NAME,
-        guid=_guid(content),
+        guid=guid_of(NAME, content),
         description=f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer",
         version=version("stickslip"),
         tool=f"stickslip, pythonfmu {version('pythonfmu')}",
@@ -204,15 +247,16 @@ def _facts(content: str) -> UnitFacts:
     )
 
 
-def _guid(content: str) -> str:
-    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{NAME}/{content}"))
+def guid_of(name: str, content: str) -> str:
+    """The GUID of a unit by its name and the hash of its content."""
+    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{name}/{content}"))
 
 
 def variables_module(table: list[Entry], content: str) -> bytes:
     """Text of the module that tells the slave what it is; ``content``: hash of the build."""
     values = {
         "BUILD": content,
-        "GUID": _guid(content),
+        "GUID": guid_of(NAME, content),
         # (name, place in u, start, min, max) and (name, place in o, is an integer)
         "INPUTS": [
             (each.name, getattr(layout, each.slot), each.start, each.min, each.max)
@@ -224,6 +268,11 @@ def variables_module(table: list[Entry], content: str) -> bytes:
         "PARAMETERS": table,
         "TUNABLE": TUNABLE,
     }
+    return module_of(values)
+
+
+def module_of(values: dict[str, Any]) -> bytes:
+    """Text of a module with these names, which tells a slave what it is."""
     lines = ['"""What this build of the unit is, its ports and its parameters."""']
     for name, value in values.items():
         lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from stickslip import Parameters, ports
@@ -82,6 +82,11 @@ class Variable:
         return self.unit is None
 
     @property
+    def array(self) -> str:
+        """Name of the array that it is an element of, empty if it is none: ``a`` of ``a[3]``."""
+        return self.name.partition("[")[0] if self.name.endswith("]") else ""
+
+    @property
     def is_tunable(self) -> bool:
         """Whether it is a parameter that may be changed in a run."""
         return self.name in TUNABLE
@@ -103,6 +108,23 @@ def parameter_table() -> list[Entry]:
     is excluded), description, start. Raises ValueError for a unit that `UNITS` lacks.
     """
     return [*(_entry(name, start) for name, start in Parameters().flat().items()), HOLD]
+
+
+def by_array(declared: Iterable[Variable]) -> list[list[Variable]]:
+    """The variables, those of an array together; each of the others by itself.
+
+    Raises ValueError where elements of an array differ in more than name, nominal and start.
+    """
+    found: list[list[Variable]] = []
+    for variable in declared:
+        if not variable.array or not found or found[-1][0].array != variable.array:
+            found.append([variable])
+            continue
+        first = found[-1][0]
+        if replace(variable, name=first.name, nominal=first.nominal, start=first.start) != first:
+            raise ValueError(f"{variable.name} is not declared as {first.name} is")
+        found[-1].append(variable)
+    return found
 
 
 def names(of: Iterable[Variable], causality: str) -> list[str]:

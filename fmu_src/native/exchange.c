@@ -87,6 +87,10 @@ bool update(Instance *instance, Update *told)
 {
     Memory *memory = &instance->memory;
     Model *model = &memory->model;
+    if (!memory->exchanges) {
+        *told = (Update){.has_next = false};
+        return refresh(instance);
+    }
     double states[2][STATE_COUNT], nominals[STATE_COUNT];
     if (memory->is_retuned && !model_tune(model, memory->values, memory->tolerance,
                                           instance->message)) {
@@ -201,5 +205,86 @@ bool directional_derivative(Instance *instance, const unsigned unknowns[], size_
         double change = ahead.values[unknowns[i]] - behind.values[unknowns[i]];
         result[i] = span == 0.0 ? 0.0 : change / (2.0 * span);
     }
+    return true;
+}
+
+/* A copy of the memory as model exchange has it, for who looks on. */
+static Memory handed_over(const Memory *memory)
+{
+    Memory copy = *memory;
+    if (!copy.exchanges) {
+        model_show_inputs(&copy.model, copy.values);
+        model_hand_over(&copy.model);
+    }
+    return copy;
+}
+
+bool look_at_indicators(Instance *instance, double indicators[])
+{
+    if (!refresh(instance)) {
+        return false;
+    }
+    Memory aside = handed_over(&instance->memory);
+    model_indicators(&aside.model, aside.values, indicators);
+    return true;
+}
+
+/* An output a time along the motion from here, with the inputs of this moment. */
+static double ahead(const Memory *memory, const double rates[], double span, size_t reference)
+{
+    Memory aside = *memory;
+    double states[STATE_COUNT];
+    model_take_states(&aside.model, states);
+    for (int i = 0; i < STATE_COUNT; i++) {
+        states[i] += span * rates[i];
+    }
+    model_put_states(&aside.model, states);
+    model_put_time(&aside.model, model_time(&aside.model) + span);
+    model_show_moment(&aside.model, aside.values);
+    return aside.values[reference];
+}
+
+/* Rate of an output that is no state, by central differences along the motion. */
+static double rate_along_motion(const Memory *memory, size_t reference)
+{
+    Memory here = handed_over(memory);
+    double rates[STATE_COUNT], nominals[STATE_COUNT], fastest = 0.0;
+    model_rates(&here.model, here.values, rates);
+    model_nominals(&here.model, here.values, nominals);
+    for (int i = 0; i < STATE_COUNT; i++) {
+        fastest = fmax(fastest, fabs(rates[i]) / nominals[i]);
+    }
+    double span = fastest == 0.0 ? DIFFERENCE : DIFFERENCE / fastest;
+    double change = ahead(&here, rates, span, reference) - ahead(&here, rates, -span, reference);
+    return change / (2.0 * span);
+}
+
+/* Value reference of the rate of a state. */
+static size_t rate_of(int state)
+{
+    size_t local = 0;
+    while (LOCAL_SLOTS[local] != state + STATE_COUNT) {
+        local++;
+    }
+    return FIRST_LOCAL + local;
+}
+
+bool get_output_rate(Instance *instance, size_t reference, int order, double *rate)
+{
+    if (reference >= VARIABLE_COUNT || VARIABLES[reference].causality != OUTPUT ||
+        VARIABLES[reference].is_integer) {
+        return refuse(instance, "output derivatives are of outputs that are real numbers");
+    }
+    if (order != 1) {
+        return refuse(instance, "output derivatives are of order 1");
+    }
+    int state = state_of((unsigned)reference);
+    if (state >= 0) {
+        return get_number(instance, rate_of(state), false, rate);
+    }
+    if (!refresh(instance)) {
+        return false;
+    }
+    *rate = rate_along_motion(&instance->memory, reference);
     return true;
 }

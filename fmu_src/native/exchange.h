@@ -17,14 +17,22 @@ typedef struct {
     double next;   /* that time, s */
 } Update;
 
+/* An event is over: what is new. In co-simulation it was decided in the step that it has ended. */
+bool update(Instance *instance, Update *told);
 bool set_time(Instance *instance, double time);
 bool set_states(Instance *instance, const double states[], size_t count);
 bool get_states(Instance *instance, double states[], size_t count);
 bool get_nominals(Instance *instance, double nominals[], size_t count);
 bool get_rates(Instance *instance, double rates[], size_t count);
 bool get_indicators(Instance *instance, double indicators[], size_t count);
-bool update(Instance *instance, Update *told);
 bool complete_step(Instance *instance);
+
+/* Event indicators for who looks on, also in co-simulation. */
+bool look_at_indicators(Instance *instance, double indicators[]);
+
+/* Rate of an output at this moment. Of one that is no state it is made of differences along the
+   motion, as below, with the inputs of this moment. */
+bool get_output_rate(Instance *instance, size_t reference, int order, double *rate);
 
 /* Derivative of unknown variables along a direction of known ones, states and inputs, between
    events. By central differences over a hundred-thousandth of the nominals: relative to the

@@ -96,7 +96,6 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
                               fmi2Boolean logging)
 {
-    (void)resources; /* this unit needs none */
     (void)visible;
     const char *why = NULL;
     if (name == NULL || name[0] == '\0') {
@@ -104,8 +103,9 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         why = "fmi2Instantiate: the instance has no name";
     } else if (functions == NULL || functions->logger == NULL) {
         return NULL;
-    } else if (type != fmi2CoSimulation && type != fmi2ModelExchange) {
-        why = "fmi2Instantiate: this unit is for co-simulation and model exchange";
+    } else if (type != fmi2CoSimulation && (type != fmi2ModelExchange || !HAS_EXCHANGE)) {
+        why = HAS_EXCHANGE ? "fmi2Instantiate: this unit is for co-simulation and model exchange"
+                           : "fmi2Instantiate: this unit is for co-simulation";
     } else if (guid == NULL || strcmp(guid, UNIT_GUID) != 0) {
         why = "fmi2Instantiate: the GUID is not that of this unit, " UNIT_GUID ": "
               "modelDescription.xml and library are of different builds";
@@ -115,6 +115,12 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         component = calloc(1, sizeof *component + strlen(name) + 1);
         why = component == NULL ? "fmi2Instantiate: no memory" : NULL;
     }
+    char escaped[2 * MESSAGE_SIZE];
+    if (why == NULL && !read_resources(&component->instance, resources)) {
+        escape(escaped, sizeof escaped, component->instance.message);
+        why = escaped;
+        free(component);
+    }
     if (why != NULL) {
         refuse_instance(functions, name, why);
         return NULL;
@@ -123,7 +129,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     component->log = functions->logger;
     component->environment = functions->componentEnvironment;
     component->logs_warnings = logging;
-    set_up(&component->instance, type == fmi2ModelExchange);
+    set_up(&component->instance, type == fmi2ModelExchange, false);
     return component;
 }
 
@@ -136,21 +142,9 @@ fmi2Status fmi2SetDebugLogging(fmi2Component handle, fmi2Boolean logging, size_t
                                const fmi2String categories[])
 {
     ENTER(handle, ANY_PHASE)
-    bool warnings = count == 0;
-    if (count > 0 && categories == NULL) {
-        return refused(component, "fmi2SetDebugLogging: no categories");
-    }
-    for (size_t i = 0; i < count; i++) {
-        if (categories[i] == NULL) {
-            return refused(component, "fmi2SetDebugLogging: a category without a name");
-        }
-        bool all = strcmp(categories[i], "logAll") == 0;
-        if (all || strcmp(categories[i], "logStatusWarning") == 0) {
-            warnings = true;
-        } else if (strcmp(categories[i], "logStatusError") != 0) {
-            return refused(component, "fmi2SetDebugLogging: the categories are logStatusError, "
-                                      "logStatusWarning and logAll");
-        }
+    bool warnings;
+    if (!choose_messages(&component->instance, __func__, count, categories, &warnings)) {
+        return closed(component, false);
     }
     component->logs_warnings = logging && warnings;
     return fmi2OK;
@@ -187,7 +181,7 @@ fmi2Status fmi2Terminate(fmi2Component handle)
 fmi2Status fmi2Reset(fmi2Component handle)
 {
     ENTER(handle, ANY_PHASE)
-    set_up(&component->instance, component->instance.memory.exchanges);
+    set_up(&component->instance, component->instance.memory.exchanges, false);
     return fmi2OK;
 }
 
@@ -354,7 +348,7 @@ fmi2Status fmi2DoStep(fmi2Component handle, fmi2Real time, fmi2Real size, fmi2Bo
 {
     ENTER(handle, STEPPING)
     (void)no_way_back;
-    if (!step(&component->instance, time, size)) {
+    if (!step(&component->instance, time, size, NULL)) {
         return closed(component, false);
     }
     warn_once(component);
@@ -378,14 +372,6 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component handle, const fmi2ValueRefe
         done = set_rate(&component->instance, references[i], order[i], values[i]);
     }
     return closed(component, done);
-}
-
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component handle, const fmi2ValueReference references[],
-                                        size_t count, const fmi2Integer order[], fmi2Real values[])
-{
-    ENTER(handle, READABLE)
-    (void)references, (void)order, (void)values;
-    return count == 0 ? fmi2OK : refused(component, "fmi2GetRealOutputDerivatives: not offered");
 }
 
 /* Steps are never pending: what there is to be asked of one is known. */

@@ -1,4 +1,5 @@
-/* FMI 2.0, model exchange: the functions of the standard around an instance. */
+/* FMI 2.0: the functions of the standard that need the rates of the states, those of model exchange
+   and the derivatives of outputs. */
 #include "exchange.h"
 #include "fmi2Component.h"
 
@@ -98,4 +99,23 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component handle, const fmi2ValueRef
     ENTER(handle, INFORMING)
     return closed(component, directional_derivative(&component->instance, unknown, unknowns, known,
                                                     knowns, seed, out));
+}
+
+/* --- co-simulation: what needs the rates of the states --- */
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component handle, const fmi2ValueReference references[],
+                                        size_t count, const fmi2Integer order[], fmi2Real values[])
+{
+    ENTER(handle, STEPPING | TERMINATED)
+    if (component->instance.memory.exchanges) {
+        return refused(component, "fmi2GetRealOutputDerivatives: this instance is for model exchange");
+    }
+    if (count > 0 && (references == NULL || order == NULL || values == NULL)) {
+        return refused(component, "fmi2GetRealOutputDerivatives: no value references, or no values");
+    }
+    bool done = true;
+    for (size_t i = 0; done && i < count; i++) {
+        done = get_output_rate(&component->instance, references[i], order[i], &values[i]);
+    }
+    return closed(component, done);
 }

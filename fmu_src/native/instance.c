@@ -35,16 +35,23 @@ static const char *phase_name(Phase phase)
     }
 }
 
-void set_up(Instance *instance, bool exchanges)
+bool read_resources(Instance *instance, const char *resources)
+{
+    return model_read(&instance->memory.model, resources, instance->message);
+}
+
+void set_up(Instance *instance, bool exchanges, bool has_event_mode)
 {
     Memory *memory = &instance->memory;
-    memset(memory, 0, sizeof *memory);
+    memset(memory, 0, offsetof(Memory, model));
     memory->phase = INSTANTIATED;
     memory->exchanges = exchanges;
+    memory->has_event_mode = has_event_mode;
     memory->is_stale = true;
     for (size_t i = 0; i < VARIABLE_COUNT; i++) {
         memory->values[i] = VARIABLES[i].start;
     }
+    model_clear(&memory->model, memory->values);
 }
 
 bool is_allowed(Instance *instance, const char *call, int phases)
@@ -103,10 +110,32 @@ bool refresh(Instance *instance)
 bool begin_run(Instance *instance)
 {
     Memory *memory = &instance->memory;
-    memory->phase = memory->exchanges ? AT_EVENT : STEPPING;
+    memory->phase = memory->exchanges || memory->has_event_mode ? AT_EVENT : STEPPING;
     bool done = refresh(instance);
     memory->has_stepped = memory->exchanges; /* from here on all follows from the host's states */
     return done;
+}
+
+bool choose_messages(Instance *instance, const char *call, size_t count,
+                     const char *const categories[], bool *warnings)
+{
+    *warnings = count == 0;
+    if (count > 0 && categories == NULL) {
+        return refuse(instance, "%s: no categories", call);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (categories[i] == NULL) {
+            return refuse(instance, "%s: a category without a name", call);
+        }
+        bool all = strcmp(categories[i], "logAll") == 0;
+        if (all || strcmp(categories[i], "logStatusWarning") == 0) {
+            *warnings = true;
+        } else if (strcmp(categories[i], "logStatusError") != 0) {
+            return refuse(instance, "%s: the categories are logStatusError, logStatusWarning and "
+                          "logAll", call);
+        }
+    }
+    return true;
 }
 
 /* What follows from states and time: in co-simulation outputs are there since the step. */
@@ -151,7 +180,7 @@ static bool is_possible_step(Instance *instance, double time, double size)
     return true;
 }
 
-bool step(Instance *instance, double time, double size)
+bool step(Instance *instance, double time, double size, bool *event)
 {
     Memory *memory = &instance->memory;
     if (!is_possible_step(instance, time, size) || !refresh(instance)) {
@@ -163,10 +192,11 @@ bool step(Instance *instance, double time, double size)
     }
     memory->is_retuned = false;
     double end = time + size - memory->start;
-    if (!model_step(&memory->model, memory->values, end, instance->message)) {
+    if (!model_step(&memory->model, memory->values, end, event, instance->message)) {
         return false;
     }
-    memory->time = time + size;
+    bool early = model_time(&memory->model) < end;
+    memory->time = early ? model_time(&memory->model) + memory->start : time + size;
     memory->has_stepped = true;
     memory->is_outdated = true;
     return true;
@@ -229,6 +259,9 @@ static bool may_be_set(Instance *instance, const Variable *variable)
         return refuse(instance, "%s cannot be set in continuous-time mode: enter event mode",
                       variable->name);
     }
+    if (variable->causality == PARAMETER && phase == STEPPING && instance->memory.has_event_mode) {
+        return refuse(instance, "%s cannot be set in step mode: enter event mode", variable->name);
+    }
     return true;
 }
 
@@ -243,7 +276,8 @@ bool set_number(Instance *instance, size_t reference, bool integer, double value
         return false;
     }
     if (memory->values[reference] != value) {
-        memory->is_stale = true;
+        bool leads = BEGINS_WITH_INPUTS || memory->phase != STEPPING;
+        memory->is_stale = memory->is_stale || leads || variable->causality != INPUT;
         memory->is_outdated = true;
         memory->is_retuned = memory->is_retuned || variable->causality == PARAMETER;
     }
@@ -256,6 +290,10 @@ bool put_back(Instance *instance, const Memory *memory)
     if (memory->exchanges != instance->memory.exchanges) {
         return refuse(instance, "the state is of an instance for %s",
                       memory->exchanges ? "model exchange" : "co-simulation");
+    }
+    if (memory->has_event_mode != instance->memory.has_event_mode) {
+        return refuse(instance, "the state is of an instance %s event mode",
+                      memory->has_event_mode ? "with" : "without");
     }
     instance->memory = *memory;
     return true;
@@ -273,6 +311,10 @@ bool set_rate(Instance *instance, size_t reference, int order, double rate)
     }
     if (VARIABLES[reference].causality != INPUT) {
         return refuse(instance, "%s is no input, and takes no derivative", VARIABLES[reference].name);
+    }
+    if (!TAKES_RATES) {
+        return refuse(instance, "%s is held over a step, and takes no derivative",
+                      VARIABLES[reference].name);
     }
     if (order != 1) {
         return refuse(instance, "%s: derivative of order %d; what can be used is that of order 1",

@@ -17,8 +17,8 @@ typedef enum {
     STEPPING = 4,
     TERMINATED = 8,
     FAILED = 16, /* until a reset, or until a state from before is set */
-    AT_EVENT = 32, /* of model exchange */
-    CONTINUOUS = 64
+    AT_EVENT = 32,
+    CONTINUOUS = 64 /* of model exchange */
 } Phase;
 
 enum { ANY_PHASE = 127, BEFORE_THE_RUN = INSTANTIATED | INITIALISING };
@@ -27,6 +27,7 @@ enum { ANY_PHASE = 127, BEFORE_THE_RUN = INSTANTIATED | INITIALISING };
 typedef struct {
     Phase phase;
     bool exchanges;      /* model exchange; else co-simulation */
+    bool has_event_mode; /* co-simulation whose host takes part in events */
     bool has_experiment; /* start time and tolerance have been set */
     bool has_stepped;    /* before the first step all follows from parameters and inputs */
     bool is_stale;       /* the model is to be begun again, from other parameters or inputs */
@@ -37,7 +38,7 @@ typedef struct {
     double time;  /* of the last communication point, s */
     double tolerance;
     double values[VARIABLE_COUNT];
-    double nominals[STATE_COUNT]; /* that a host of model exchange was told of last */
+    double nominals[STATE_COUNT + 1]; /* that a host of model exchange was told of last */
     Model model;
 } Memory;
 
@@ -51,11 +52,19 @@ enum { SAVED_HEADER = 64 };
 
 /* Each of these returns false for a call that is refused, with the reason in `message`. */
 
-void set_up(Instance *instance, bool exchanges);
+bool read_resources(Instance *instance, const char *resources); /* before `set_up`, once */
+void set_up(Instance *instance, bool exchanges, bool has_event_mode);
 bool is_allowed(Instance *instance, const char *call, int phases);
 bool set_experiment(Instance *instance, double start, bool has_stop, double stop, double tolerance);
 bool begin_run(Instance *instance); /* end of the initialisation */
-bool step(Instance *instance, double time, double size);
+
+/* event: where to say whether the step has ended in an event, at its end or before; NULL: it takes
+   events as they come. */
+bool step(Instance *instance, double time, double size, bool *event);
+
+/* Of the categories of messages, those that errors do not belong to: whether the host wants them. */
+bool choose_messages(Instance *instance, const char *call, size_t count,
+                     const char *const categories[], bool *warnings);
 
 bool get_number(Instance *instance, size_t reference, bool integer, double *value);
 bool set_number(Instance *instance, size_t reference, bool integer, double value);

@@ -30,9 +30,16 @@ typedef struct {
     double start;
     double low, high; /* bounds, both allowed */
     bool above_low;   /* `low` itself is not allowed */
+    unsigned elements; /* of the array that begins here, 1: it is none; 0: this is inside of one */
 } Variable;
 
 extern const Variable VARIABLES[VARIABLE_COUNT];
+
+/* Read what the model needs from the unit's resources, a URI or NULL, before anything else; once. */
+bool model_read(Model *model, const char *resources, char message[]);
+
+/* Empty the memory, but for what was read; `values` are the starts, and may get others. */
+void model_clear(Model *model, double values[]);
 
 /* Begin a run from parameters and inputs in `values`; fills in the outputs there.
    tolerance: the host's, which can tighten the model's own and not loosen it; 0: none. */
@@ -42,8 +49,13 @@ bool model_begin(Model *model, double values[], double tolerance, char message[]
 void model_set_rate(Model *model, size_t input, double rate);
 
 /* Go on to the time `end` with the inputs in `values`; fills in the outputs there.
+   event: where to say whether an event has ended the step, then or before; NULL: none does.
    After a failure `values` are as they were, and the model is of no further use. */
-bool model_step(Model *model, double values[], double end, char message[]);
+bool model_step(Model *model, double values[], double end, bool *event, char message[]);
+
+/* What a step has reached: the time, and inputs that have gone on in it, into `values`. */
+double model_time(const Model *model);
+void model_show_inputs(const Model *model, double values[]);
 
 /* Take over tunable parameters that have changed in `values` in the run. */
 bool model_tune(Model *model, double values[], double tolerance, char message[]);

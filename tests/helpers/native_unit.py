@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import ctypes
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
 from pathlib import Path
 from types import TracebackType
 
 from cosim.fmu.native import NAME, built_guid
 from cosim.fmu.platforms import this_platform
-from cosim.fmu.variables import variables
+from cosim.fmu.variables import Variable, variables
 
 OK, WARNING, DISCARD, ERROR = range(4)
 MODEL_EXCHANGE, CO_SIMULATION = 0, 1
@@ -81,6 +81,10 @@ ARGUMENTS = {
 }
 
 
+#: Those of model exchange.
+OF_EXCHANGE = tuple(ARGUMENTS)[tuple(ARGUMENTS).index("EnterEventMode") :]
+
+
 class _Callbacks(ctypes.Structure):
     _fields_ = [
         ("logger", _LOGGER),
@@ -91,33 +95,47 @@ class _Callbacks(ctypes.Structure):
     ]
 
 
-def library_of(fmu: Path, folder: Path) -> Path:
+def library_of(fmu: Path, folder: Path, name: str = NAME) -> Path:
     """The library for this machine, unpacked into a folder."""
     platform = this_platform()
     assert platform is not None
     with zipfile.ZipFile(fmu) as archive:
-        return Path(archive.extract(f"binaries/{platform.fmi2}/{NAME}{platform.suffix}", folder))
+        return Path(archive.extract(f"binaries/{platform.fmi2}/{name}{platform.suffix}", folder))
 
 
-def references() -> dict[str, int]:
+def references(declared: Sequence[Variable] | None = None) -> dict[str, int]:
     """Name -> value reference."""
-    return {variable.name: place for place, variable in enumerate(variables())}
+    declared = variables() if declared is None else declared
+    return {variable.name: place for place, variable in enumerate(declared)}
 
 
 class Unit:
-    """A library; `instance` makes instances, which are freed with it as a context."""
+    """A library; `instance` makes instances, which are freed with it as a context.
 
-    def __init__(self, fmu: Path, folder: Path) -> None:
+    name, declared: of another unit than the mechanical one; without: functions it has not.
+    """
+
+    def __init__(
+        self,
+        fmu: Path,
+        folder: Path,
+        name: str = NAME,
+        declared: Sequence[Variable] | None = None,
+        without: Iterable[str] = (),
+    ) -> None:
         guid = built_guid(fmu)
         assert guid is not None
         self.guid = guid.encode()
-        self.library = ctypes.CDLL(str(library_of(fmu, folder)))
+        self.library = ctypes.CDLL(str(library_of(fmu, folder, name)))
         self.library.fmi2Instantiate.restype = c_void_p
         for name, arguments in ARGUMENTS.items():
+            if name in without:
+                continue
             function = getattr(self.library, f"fmi2{name}")
             function.argtypes, function.restype = (c_void_p, *arguments), c_int
-        self.references = references()
-        self.integers = {variable.name for variable in variables() if variable.is_integer}
+        declared = variables() if declared is None else declared
+        self.references = references(declared)
+        self.integers = {variable.name for variable in declared if variable.is_integer}
 
     def instance(self, logging: bool = False, **changed) -> Instance:
         """A new one; changed: name, kind, guid or resources, to differ from what is right."""

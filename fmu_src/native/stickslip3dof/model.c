@@ -49,16 +49,34 @@ static void show_outputs(Model *model, double w[], double values[])
     }
 }
 
-static bool go_on(Model *model, double values[], double end, char message[])
+static bool go_on(Model *model, double values[], double end, bool *event, char message[])
 {
     double w[W_SIZE] = {0.0}, e[E_FIRST] = {0.0};
-    int status = (int)stickslip_advance(model->p, model->u, model->z, w, e, end);
-    if (status != DONE) {
+    int status;
+    if (event == NULL) {
+        status = (int)stickslip_advance(model->p, model->u, model->z, w, e, end);
+    } else {
+        status = (int)stickslip_advance_to_event(model->p, model->u, model->z, w, e, end);
+        *event = status == MODE_CHANGED;
+    }
+    if (status != DONE && status != MODE_CHANGED) {
         snprintf(message, MESSAGE_SIZE, "no way to %g s after the start: %s", end, WHY_NOT[status]);
         return false;
     }
     show_outputs(model, w, values);
     return true;
+}
+
+bool model_read(Model *model, const char *resources, char message[])
+{
+    (void)model, (void)resources, (void)message; /* all there is stands in the library */
+    return true;
+}
+
+void model_clear(Model *model, double values[])
+{
+    (void)values;
+    memset(model, 0, sizeof *model);
 }
 
 bool model_begin(Model *model, double values[], double tolerance, char message[])
@@ -70,15 +88,35 @@ bool model_begin(Model *model, double values[], double tolerance, char message[]
     model->g[G_FIRST] = values[INPUT_HOLD];
     put_inputs(model, values);
     stickslip_initialise(model->p, model->z, 0.0);
-    return go_on(model, values, 0.0, message);
+    return go_on(model, values, 0.0, NULL, message);
 }
 
-bool model_step(Model *model, double values[], double end, char message[])
+bool model_step(Model *model, double values[], double end, bool *event, char message[])
 {
     double now = model->z[SHOWN + TIME];
     memcpy(model->g + G_VALUE, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
     stickslip_lead_inputs(model->g, model->u, model->z[SHOWN + MODE] == STICK, now, end - now);
-    return go_on(model, values, end, message);
+    if (!go_on(model, values, end, event, message)) {
+        return false;
+    }
+    if (model_time(model) < end) {
+        stickslip_cut_inputs(model->g, model->u, model_time(model));
+    }
+    return true;
+}
+
+double model_time(const Model *model)
+{
+    return model->z[SHOWN + TIME];
+}
+
+void model_show_inputs(const Model *model, double values[])
+{
+    double now = model_time(model);
+    values[FIRST_INPUT + U_SPEED] = stickslip_driven_speed(model->u, now);
+    values[FIRST_INPUT + U_FORCE_X] = stickslip_force_along(model->u, now);
+    values[FIRST_INPUT + U_FORCE_Y] = stickslip_force_across(model->u, now);
+    values[FIRST_INPUT + U_MOMENT] = stickslip_external_moment(model->u, now);
 }
 
 bool model_tune(Model *model, double values[], double tolerance, char message[])

@@ -33,6 +33,7 @@ from .layout import (
     HOLD_SINCE,
     INSTANT,
     MODE,
+    MODE_CHANGED,
     NEXT,
     NOT_FINITE,
     P_INITIAL,
@@ -264,6 +265,19 @@ def settle_contact(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
         settle(p, u, z, w, e, SHOWN)
 
 
+def has_just_begun(p: Floats, u: Floats, z: Floats, w: Floats) -> bool:
+    """Is SHOWN a break-away that the last call has stopped at, from where the slip has to go on?
+
+    Its load was at the limit. Judged anew, by inputs that differ by a rounding or by what they
+    become, the contact would stick for a moment and break away a second time. What has begun to
+    slide goes on with kinetic friction, and if that is too much for it, comes to rest.
+    """
+    if z[Z_STATUS] != MODE_CHANGED or z[SHOWN + MODE] != SLIP or has_bristles(p):
+        return False
+    look_at(p, u, z, w, SHOWN)
+    return scaled_sliding_speed(p, w) <= rest_speed(p, u)
+
+
 def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:
     """Start afresh from SHOWN where inputs that matter have changed; 1 if so in mid-run.
 
@@ -282,14 +296,15 @@ def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:
         copy_instant(z, SHOWN, HERE)
         return 0
     if changed == 1:
-        settle_contact(p, u, z, w, e)
+        if not has_just_begun(p, u, z, w):
+            settle_contact(p, u, z, w, e)
         copy_instant(z, SHOWN, HERE)
         z[Z_HAS_NEXT] = 0.0
     return changed
 
 
-def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -> int:
-    """Bring SHOWN to the time ``end``; returns DONE or the reason why not.
+def walk(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float, stops: bool) -> int:
+    """Bring SHOWN to the time ``end``, or only to the next change of mode if it ``stops`` there.
 
     After a change of inputs the first internal step ends at ``end``: whoever changes the inputs
     at every communication point pays for no step that the next change would discard.
@@ -298,7 +313,8 @@ def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -
     z[Z_HEAT_BEFORE] = z[SHOWN + HEAT]
     budget = STEPS_AT_LEAST + STEPS_PER_SECOND * (end - z[SHOWN + TIME])
     changed = take_inputs(p, u, z, w, e)
-    while z[SHOWN + TIME] < end:
+    outcome = DONE
+    while outcome == DONE and z[SHOWN + TIME] < end:
         if z[Z_HAS_NEXT] == 0.0:
             cap = 0.0
             if changed == 1:
@@ -317,6 +333,8 @@ def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -
         gap = end - z[NEXT + TIME]
         same = abs(gap) <= 4e-16 * abs(end)
         if gap >= 0.0 or same:
+            if stops and z[NEXT + MODE] != z[HERE + MODE]:
+                outcome = MODE_CHANGED
             copy_instant(z, NEXT, HERE)
             copy_instant(z, NEXT, SHOWN)
             z[Z_HAS_NEXT] = 0.0
@@ -329,4 +347,19 @@ def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -
         if not isfinite(z[SHOWN + i]):
             z[Z_STATUS] = NOT_FINITE
             return NOT_FINITE
-    return DONE
+    z[Z_STATUS] = outcome
+    return outcome
+
+
+def advance(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -> int:
+    """Bring SHOWN to the time ``end``; returns DONE or the reason why not."""
+    return walk(p, u, z, w, e, end, False)
+
+
+def advance_to_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float) -> int:
+    """As `advance`, but a change of mode on the way ends it there; MODE_CHANGED then.
+
+    Stick and slip are the integrator's own instants, so the motion is the same whether or not
+    anybody stops at them. A change that new inputs bring about at once is none on the way.
+    """
+    return walk(p, u, z, w, e, end, True)

@@ -65,6 +65,7 @@ STEP_VANISHED = 1  # the error test asks for a step below the resolution of time
 NOT_FINITE = 2
 SPRING_COLLAPSED = 3  # the block has been carried into the anchor of a spring
 TOO_STIFF = 4  # more internal steps than anybody would wait for
+MODE_CHANGED = 5  # no failure: what `advance_to_event` was to stop at
 SLIDING_BEGINS = 0  # parts of a slip in model exchange, see `exchange`
 SLIDING_GOES_ON = 1
 SLIDING_ENDS = 2

@@ -6,12 +6,14 @@ What decides when a stick ends is the surface's acceleration, which is right to 
 three, so the order of the motion is 1 in all; with a rate its error is several times smaller.
 """
 
+import ctypes
 import math
 
 import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
+from test_fmpy import instance
 
 AMPLITUDE, FREQUENCY, SPEED, STOP, SHOWN = 0.3, 1.0, 0.15, 8.0, 0.04
 STEPS = (0.02, 0.01, 0.005, 0.0025, 0.00125)
@@ -107,3 +109,32 @@ def test_the_unit_in_python_takes_them_the_same_way(block, python_fmu, tmp_path,
     again, slips_again, _ = Block(python_fmu, tmp_path).motion(0.02, hold=hold)
     assert slips == slips_again
     np.testing.assert_array_equal(x, again)
+
+
+def test_outputs_have_first_derivatives(fmu, tmp_path):
+    """For who interpolates them between the steps: exact of what the model integrates."""
+    with instance(fmu, tmp_path) as block:
+        block.initialise(surface_speed=SPEED, **{"lateral_friction.ratio": 1.0, "initial.y": 0.01})
+        block.march(0, 300, 0.01)
+        at = {name: each.valueReference for name, each in block.variables.items()}
+
+        def rate(name, order=1):
+            value = ctypes.c_double()
+            block.slave.fmi2GetRealOutputDerivatives(
+                block.slave.component,
+                ctypes.byref(ctypes.c_uint(at[name])),
+                1,
+                ctypes.byref(ctypes.c_int(order)),
+                ctypes.byref(value),
+            )
+            return value.value
+
+        for place, velocity in (("x", "vx"), ("y", "vy"), ("phi", "omega")):
+            assert rate(place) == block.get(velocity)
+        assert rate("surface_travel") == pytest.approx(SPEED)
+        power = block.get("friction_force_x") * (SPEED - block.get("vx"))
+        power -= block.get("friction_force_y") * block.get("vy")
+        power -= block.get("friction_moment") * block.get("omega")
+        assert rate("heat") == pytest.approx(power, rel=1e-9)
+        with pytest.raises(fmpy.fmi1.FMICallException):
+            rate("x", order=2)

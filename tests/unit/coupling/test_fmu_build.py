@@ -8,8 +8,8 @@ import zipfile
 import platformdirs
 import pytest
 
-from cosim.fmu import native, python_unit, pythonfmu_library
-from cosim.fmu.build import PYTHON, FmuBuildError, build_fmu, ensure_fmu, own_folder
+from cosim.fmu import libraries, native, python_unit, pythonfmu_library
+from cosim.fmu.build import FMI3, PYTHON, FmuBuildError, build_fmu, ensure_fmu, own_folder
 from cosim.fmu.platforms import this_platform
 
 STANDARD_LIBRARY_USED = {
@@ -67,8 +67,27 @@ def test_a_unit_that_will_not_do_is_built_again(built, tmp_path, damage):
 def test_a_unit_without_a_library_for_this_machine_is_built_again(built, tmp_path):
     target = tmp_path / built.name
     _rewritten(built, target, without="binaries/")
-    assert native.built_guid(target) == native.guid() and not native.runs_here(target)
-    assert native.runs_here(ensure_fmu(tmp_path))
+    assert native.built_guid(target) == native.guid() and not libraries.runs_here(target)
+    assert libraries.runs_here(ensure_fmu(tmp_path))
+
+
+def test_one_library_serves_both_native_units(built, tmp_path):
+    own = this_platform()
+    other = build_fmu(tmp_path, FMI3, [own])
+    held = []
+    for unit, folder in ((built, own.fmi2), (other, own.name)):
+        with zipfile.ZipFile(unit) as archive:
+            held.append(archive.read(f"binaries/{folder}/{native.NAME}{own.suffix}"))
+        assert own.name in libraries.platforms_of(unit)
+    assert held[0] == held[1]
+    assert ensure_fmu(tmp_path, FMI3) == other
+
+
+def test_a_wheel_brings_a_library_for_this_platform(tmp_path):
+    own = this_platform()
+    made = libraries.prebuild(tmp_path, native.guid(), native.sources)
+    assert made.name == native.guid()
+    assert (made / f"{own.name}{own.suffix}").stat().st_size > 50_000
 
 
 def _rewritten(built, target, guid=None, without="nothing"):

@@ -105,3 +105,12 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
         g[G_BEFORE + i] = g[G_VALUE + i]
         g[G_HAS_RATE + i] = 0.0
     g[G_SPAN] = h
+
+
+def cut_inputs(g: Floats, u: Floats, t: float):
+    """Note in ``g`` that the step which `lead_inputs` has prepared has ended early, at ``t``."""
+    g[G_REACHED + U_SPEED] = driven_speed(u, t)
+    g[G_REACHED + U_FORCE_X] = force_along(u, t)
+    g[G_REACHED + U_FORCE_Y] = force_across(u, t)
+    g[G_REACHED + U_MOMENT] = external_moment(u, t)
+    g[G_SPAN] = t - u[U_SINCE]

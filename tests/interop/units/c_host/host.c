@@ -5,7 +5,7 @@
    Each of THREADS threads makes INSTANCES instances, sets the real variables named by value
    reference, and steps all in turn. Prints OUTPUT (a value reference) of the first after every step
    as C's exact hexadecimal, with one instance; else the last value of each; and, on stderr, the
-   microseconds of a step. */
+   microseconds of a step. The environment's RESOURCES is the location of the unit's resources. */
 #define _POSIX_C_SOURCE 200809L
 #include <dlfcn.h>
 #include <pthread.h>
@@ -72,8 +72,8 @@ static void check(fmi2Status status)
 static fmi2Component begun(void)
 {
     static const fmi2CallbackFunctions callbacks = {say, calloc, free, NULL, NULL};
-    fmi2Component block = Instantiate("block", fmi2CoSimulation, guid, NULL, &callbacks, fmi2False,
-                                      fmi2False);
+    fmi2Component block = Instantiate("block", fmi2CoSimulation, guid, getenv("RESOURCES"), &callbacks,
+                                      fmi2False, fmi2False);
     if (block == NULL) {
         exit(3);
     }

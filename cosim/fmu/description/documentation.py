@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from stickslip import EFFECTS, Parameters
 from stickslip.kernel.layout import O_SIZE, U_SIZE, constants
 
-from cosim.fmu.model_description import UnitFacts
+from cosim.fmu.description import UnitFacts
 from cosim.fmu.variables import Variable
 
 STOP, STEP = 10.0, 0.01  # s, of the run to compare with
@@ -19,7 +19,7 @@ def documentation(facts: UnitFacts, variables: Sequence[Variable]) -> dict[str, 
 
     page = render(
         "documentation.html.j2",
-        "cosim.fmu",
+        "cosim.fmu.description",
         facts=facts,
         variables=variables,
         effects=EFFECTS,

@@ -1,0 +1,137 @@
+"""modelDescription.xml of a unit, FMI 2.0."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from cosim.fmu.description import (
+    AUTHOR,
+    COPYRIGHT,
+    LICENSE,
+    Dependencies,
+    UnitFacts,
+    add_common,
+    add_units,
+    of_initial_unknowns,
+    of_outputs,
+    of_rates,
+    xml,
+)
+from cosim.fmu.variables import Variable
+
+
+def fmi2_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
+    """The whole file; without a date, so that builds repeat."""
+    root = Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=facts.name,
+        guid=facts.guid,
+        description=facts.description,
+        author=AUTHOR,
+        version=facts.version,
+        copyright=COPYRIGHT,
+        license=LICENSE,
+        generationTool=facts.tool,
+        variableNamingConvention="structured",
+        numberOfEventIndicators=str(facts.indicators or 0),
+    )
+    if facts.indicators is not None:
+        _add_model_exchange(root, facts)
+    _add_co_simulation(root, facts)
+    add_units(root, variables)
+    add_common(root)
+    declared = SubElement(root, "ModelVariables")
+    index = {variable.name: str(i) for i, variable in enumerate(variables, start=1)}
+    exchange = facts.indicators is not None
+    for reference, variable in enumerate(variables):
+        _add_variable(declared, reference, variable, index, exchange)
+    _add_structure(root, variables, index, facts.starts)
+    indent(root)
+    return tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _add_model_exchange(root: Element, facts: UnitFacts) -> None:
+    exchange = SubElement(
+        root,
+        "ModelExchange",
+        modelIdentifier=facts.name,
+        needsExecutionTool=xml(facts.python),
+        completedIntegratorStepNotNeeded="false",
+        providesDirectionalDerivative="true",
+        canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+    )
+    _add_sources(exchange, facts)
+
+
+def _add_co_simulation(root: Element, facts: UnitFacts) -> None:
+    co_simulation = SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=facts.name,
+        needsExecutionTool=xml(facts.python),
+        canHandleVariableCommunicationStepSize="true",
+        canInterpolateInputs=xml(facts.interpolates and not facts.python),
+        maxOutputDerivativeOrder="1" if facts.gives_rates and not facts.python else "0",
+        canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+    )
+    _add_sources(co_simulation, facts)
+
+
+def _add_sources(element: Element, facts: UnitFacts) -> None:
+    if facts.sources:
+        files = SubElement(element, "SourceFiles")
+        for name in facts.sources:
+            SubElement(files, "File", name=name)
+
+
+def _add_variable(
+    declared: Element, reference: int, variable: Variable, index: Mapping[str, str], exchange: bool
+) -> None:
+    scalar = SubElement(
+        declared, "ScalarVariable", name=variable.name, valueReference=str(reference)
+    )
+    scalar.set("causality", variable.causality)
+    if variable.causality == "parameter":
+        scalar.set("variability", "tunable" if variable.is_tunable else "fixed")
+        scalar.set("initial", "exact")
+    elif variable.causality != "input":
+        if variable.is_integer:
+            scalar.set("variability", "discrete")
+        scalar.set("initial", "calculated")
+    scalar.set("description", variable.description)
+    kind = SubElement(scalar, "Integer" if variable.is_integer else "Real")
+    for key in ("unit", "min", "max", "nominal", "start"):
+        value = getattr(variable, key)
+        if value is not None and not (key == "unit" and variable.is_integer):
+            kind.set(key, value if isinstance(value, str) else repr(value))
+    if variable.derivative_of:
+        kind.set("derivative", index[variable.derivative_of])
+    if variable.is_state and exchange:
+        kind.set("reinit", "true")
+
+
+def _add_structure(
+    root: Element,
+    variables: Sequence[Variable],
+    index: Mapping[str, str],
+    starts: Mapping[str, tuple[str, ...]],
+) -> None:
+    structure = SubElement(root, "ModelStructure")
+    _add_unknowns(SubElement(structure, "Outputs"), of_outputs(variables), index)
+    if any(variable.is_state for variable in variables):
+        _add_unknowns(SubElement(structure, "Derivatives"), of_rates(variables), index)
+    initial = SubElement(structure, "InitialUnknowns")
+    _add_unknowns(initial, of_initial_unknowns(variables, starts), index)
+
+
+def _add_unknowns(element: Element, unknowns: Dependencies, index: Mapping[str, str]) -> None:
+    for name, sources in unknowns.items():
+        unknown = SubElement(element, "Unknown", index=index[name])
+        if sources is not None:
+            unknown.set("dependencies", " ".join(index[source] for source in sources))

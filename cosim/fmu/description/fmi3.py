@@ -1,0 +1,182 @@
+"""modelDescription.xml of a unit, FMI 3.0, and how its sources are named.
+
+What is an array is one variable here, with the reference of its first element. Behind all others
+stand the time and the event indicators, which FMI 3 has for variables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from cosim.fmu.description import (
+    AUTHOR,
+    COPYRIGHT,
+    LICENSE,
+    STARTS,
+    Dependencies,
+    UnitFacts,
+    add_common,
+    add_units,
+    of_initial_unknowns,
+    of_outputs,
+    of_rates,
+)
+from cosim.fmu.variables import Variable, by_array
+
+#: Event indicators, in the kernel's order, each with what its event is.
+INDICATORS = {
+    "event_indicators.contact": "load of a stick reaches the limit, or a slip is at its end",
+    "event_indicators.sliding": "a slip in the plane passes the speed at which it has a direction",
+    "event_indicators.faster": "a slip in the plane has gained so much speed that a host starts "
+    "anew",
+}
+
+
+def fmi3_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
+    """The whole file; without a date, so that builds repeat."""
+    root = Element(
+        "fmiModelDescription",
+        fmiVersion="3.0",
+        modelName=facts.name,
+        instantiationToken=facts.guid,
+        description=facts.description,
+        author=AUTHOR,
+        version=facts.version,
+        copyright=COPYRIGHT,
+        license=LICENSE,
+        generationTool=facts.tool,
+        variableNamingConvention="structured",
+    )
+    _add_interfaces(root, facts)
+    add_units(root, variables)
+    add_common(root)
+    added = ["time", *INDICATORS]
+    names = [*(variable.name for variable in variables), *added]
+    references = {name: str(place) for place, name in enumerate(names)}
+    declared = SubElement(root, "ModelVariables")
+    for elements in by_array(variables):
+        _add_variable(declared, elements, references)
+    _add_time_and_indicators(declared, references)
+    _add_structure(root, variables, references)
+    return _written(root)
+
+
+def build_description(facts: UnitFacts) -> bytes:
+    """buildDescription.xml: for who compiles the unit, where it has no library for a platform."""
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    built = SubElement(root, "BuildConfiguration", modelIdentifier=facts.name)
+    files = SubElement(built, "SourceFileSet", language="C99")
+    for name in facts.sources:
+        SubElement(files, "SourceFile", name=name)
+    SubElement(built, "Library", name="m")
+    return _written(root)
+
+
+def _written(root: Element) -> bytes:
+    indent(root)
+    return tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _add_interfaces(root: Element, facts: UnitFacts) -> None:
+    common = {
+        "modelIdentifier": facts.name,
+        "canGetAndSetFMUState": "true",
+        "canSerializeFMUState": "true",
+    }
+    SubElement(
+        root,
+        "ModelExchange",
+        common,
+        providesDirectionalDerivatives="true",
+        needsCompletedIntegratorStep="true",
+    )
+    SubElement(
+        root,
+        "CoSimulation",
+        common,
+        canHandleVariableCommunicationStepSize="true",
+        maxOutputDerivativeOrder="1",
+        mightReturnEarlyFromDoStep="true",
+        hasEventMode="true",
+    )
+
+
+def _add_variable(
+    declared: Element, elements: Sequence[Variable], references: Mapping[str, str]
+) -> None:
+    """A variable, or an array of which all elements but the start values are alike."""
+    first = elements[0]
+    variable = SubElement(
+        declared,
+        "Int32" if first.is_integer else "Float64",
+        name=first.array or first.name,
+        valueReference=references[first.name],
+        causality=first.causality,
+    )
+    if first.causality == "parameter":
+        variable.set("variability", "tunable" if first.is_tunable else "fixed")
+        variable.set("initial", "exact")
+    elif first.causality != "input":
+        variable.set("variability", "discrete" if first.is_integer else "continuous")
+        variable.set("initial", "calculated")
+    variable.set("description", first.description)
+    for key in ("unit", "min", "max"):
+        value = getattr(first, key)
+        if value is not None:
+            variable.set(key, value if isinstance(value, str) else repr(value))
+    nominals = [each.nominal for each in elements if each.nominal is not None]
+    if nominals and not first.is_integer:
+        variable.set("nominal", repr(max(nominals)))
+    if first.start is not None:
+        variable.set("start", " ".join(repr(each.start) for each in elements))
+    if first.derivative_of:
+        variable.set("derivative", references[first.derivative_of])
+    if first.is_state:
+        variable.set("reinit", "true")
+    if first.array:
+        SubElement(variable, "Dimension", start=str(len(elements)))
+
+
+def _add_time_and_indicators(declared: Element, references: Mapping[str, str]) -> None:
+    SubElement(
+        declared,
+        "Float64",
+        name="time",
+        valueReference=references["time"],
+        causality="independent",
+        variability="continuous",
+        description="Time",
+        unit="s",
+    )
+    for name, event in INDICATORS.items():
+        SubElement(
+            declared,
+            "Float64",
+            name=name,
+            valueReference=references[name],
+            causality="local",
+            variability="continuous",
+            initial="calculated",
+            description=f"Above 0 until its event: {event}",
+            unit="1",
+        )
+
+
+def _add_structure(
+    root: Element, variables: Sequence[Variable], references: Mapping[str, str]
+) -> None:
+    structure = SubElement(root, "ModelStructure")
+    _add_unknowns(structure, "Output", of_outputs(variables), references)
+    _add_unknowns(structure, "ContinuousStateDerivative", of_rates(variables), references)
+    _add_unknowns(structure, "InitialUnknown", of_initial_unknowns(variables, STARTS), references)
+    _add_unknowns(structure, "EventIndicator", dict.fromkeys(INDICATORS), references)
+
+
+def _add_unknowns(
+    structure: Element, kind: str, unknowns: Dependencies, references: Mapping[str, str]
+) -> None:
+    for name, sources in unknowns.items():
+        unknown = SubElement(structure, kind, valueReference=references[name])
+        if sources is not None:
+            unknown.set("dependencies", " ".join(references[source] for source in sources))

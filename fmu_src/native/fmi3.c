@@ -1,0 +1,387 @@
+/* FMI 3.0: the life of an instance, saved states and co-simulation.
+
+   As in fmi2.c, a call that is refused returns fmi3Error and says why in the log, whether or not
+   the host has switched logging on; the instance has failed then, until it is reset or given an
+   earlier state. */
+#include "fmi3Component.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "exchange.h"
+
+static void say(const Component3 *component, fmi3Status status, const char *category)
+{
+    if (component->log != NULL) {
+        component->log(component->environment, status, category, component->instance.message);
+    }
+}
+
+fmi3Status closed3(Component3 *component, bool done)
+{
+    if (done) {
+        return fmi3OK;
+    }
+    component->instance.memory.phase = FAILED;
+    say(component, fmi3Error, "logStatusError");
+    return fmi3Error;
+}
+
+fmi3Status refused3(Component3 *component, const char *call, const char *why)
+{
+    snprintf(component->instance.message, MESSAGE_SIZE, "%s: %s", call, why);
+    return closed3(component, false);
+}
+
+Component3 *entered3(fmi3Instance handle, const char *call, int phases)
+{
+    Component3 *component = handle;
+    if (component == NULL || closed3(component, is_allowed(&component->instance, call, phases))) {
+        return NULL;
+    }
+    return component;
+}
+
+void warn_once3(Component3 *component)
+{
+    Memory *memory = &component->instance.memory;
+    if (!memory->has_warned &&
+        model_warns(&memory->model, memory->values, component->instance.message)) {
+        memory->has_warned = true;
+        if (component->logs_warnings) {
+            say(component, fmi3Warning, "logStatusWarning");
+        }
+    }
+}
+
+static const int RUNNING = STEPPING | AT_EVENT | CONTINUOUS;
+
+/* --- the unit and its life --- */
+
+const char *fmi3GetVersion(void)
+{
+    return "3.0";
+}
+
+/* What is wrong with how the host asks for an instance; NULL: nothing. */
+static const char *wrong_request(fmi3String name, fmi3String token)
+{
+    if (name == NULL || name[0] == '\0') {
+        return "the instance has no name";
+    }
+    if (token == NULL || strcmp(token, UNIT_GUID) != 0) {
+        return "the instantiation token is not that of this unit, " UNIT_GUID ": "
+               "modelDescription.xml and library are of different builds";
+    }
+    return NULL;
+}
+
+static Component3 *made(const char *call, const char *why, fmi3InstanceEnvironment environment,
+                        fmi3LogMessageCallback log, bool logging)
+{
+    Component3 *component = why == NULL ? calloc(1, sizeof *component) : NULL;
+    if (component == NULL) {
+        char message[MESSAGE_SIZE];
+        snprintf(message, sizeof message, "%s: %s", call, why == NULL ? "no memory" : why);
+        if (log != NULL) {
+            log(environment, fmi3Error, "logStatusError", message);
+        }
+        return NULL;
+    }
+    component->log = log;
+    component->environment = environment;
+    component->logs_warnings = logging;
+    return component;
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
+                                          fmi3Boolean visible, fmi3Boolean logging,
+                                          fmi3InstanceEnvironment environment,
+                                          fmi3LogMessageCallback log)
+{
+    (void)resources, (void)visible; /* this unit needs none, and shows nothing */
+    Component3 *component = made(__func__, wrong_request(name, token), environment, log, logging);
+    if (component != NULL) {
+        set_up(&component->instance, true, false);
+    }
+    return component;
+}
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging,
+                                         fmi3Boolean has_event_mode, fmi3Boolean early_return,
+                                         const fmi3ValueReference required[], size_t count,
+                                         fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback update)
+{
+    (void)resources, (void)visible, (void)required, (void)update;
+    const char *why = wrong_request(name, token);
+    if (why == NULL && count > 0) {
+        why = "this unit has no intermediate update, and no variable can be required for it";
+    }
+    Component3 *component = made(__func__, why, environment, log, logging);
+    if (component != NULL) {
+        set_up(&component->instance, false, has_event_mode);
+        component->returns_early = has_event_mode && early_return;
+    }
+    return component;
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+    fmi3Boolean logging, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3ClockUpdateCallback update, fmi3LockPreemptionCallback lock,
+    fmi3UnlockPreemptionCallback unlock)
+{
+    (void)name, (void)token, (void)resources, (void)visible, (void)update, (void)lock, (void)unlock;
+    const char *why = "this unit is for co-simulation and model exchange";
+    return made(__func__, why, environment, log, logging);
+}
+
+void fmi3FreeInstance(fmi3Instance handle)
+{
+    free(handle);
+}
+
+fmi3Status fmi3SetDebugLogging(fmi3Instance handle, fmi3Boolean logging, size_t count,
+                               const fmi3String categories[])
+{
+    ENTER(handle, ANY_PHASE)
+    bool warnings;
+    if (!choose_messages(&component->instance, __func__, count, categories, &warnings)) {
+        return closed3(component, false);
+    }
+    component->logs_warnings = logging && warnings;
+    return fmi3OK;
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance handle, fmi3Boolean has_tolerance,
+                                       fmi3Float64 tolerance, fmi3Float64 start,
+                                       fmi3Boolean has_stop, fmi3Float64 stop)
+{
+    ENTER(handle, INSTANTIATED)
+    if (!set_experiment(&component->instance, start, has_stop, stop,
+                        has_tolerance ? tolerance : 0.0)) {
+        return closed3(component, false);
+    }
+    component->instance.memory.phase = INITIALISING;
+    return fmi3OK;
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance handle)
+{
+    ENTER(handle, INITIALISING)
+    return closed3(component, begin_run(&component->instance));
+}
+
+fmi3Status fmi3Terminate(fmi3Instance handle)
+{
+    ENTER(handle, RUNNING)
+    component->instance.memory.phase = TERMINATED;
+    return fmi3OK;
+}
+
+fmi3Status fmi3Reset(fmi3Instance handle)
+{
+    ENTER(handle, ANY_PHASE)
+    const Memory *memory = &component->instance.memory;
+    set_up(&component->instance, memory->exchanges, memory->has_event_mode);
+    return fmi3OK;
+}
+
+/* There are no structural parameters, so there is nothing to configure. */
+
+fmi3Status fmi3EnterConfigurationMode(fmi3Instance handle)
+{
+    ENTER(handle, ANY_PHASE)
+    return refused3(component, __func__, "this unit has no structural parameters");
+}
+
+fmi3Status fmi3ExitConfigurationMode(fmi3Instance handle)
+{
+    ENTER(handle, ANY_PHASE)
+    return refused3(component, __func__, "this unit has no structural parameters");
+}
+
+/* --- saved states --- */
+
+fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState *state)
+{
+    ENTER(handle, ANY_PHASE)
+    if (state == NULL) {
+        return refused3(component, __func__, "nowhere to put the state");
+    }
+    if (*state == NULL) { /* else it is one that was made before, to be overwritten */
+        *state = malloc(sizeof(Memory));
+    }
+    if (*state == NULL) {
+        return refused3(component, __func__, "no memory");
+    }
+    memcpy(*state, &component->instance.memory, sizeof(Memory));
+    return fmi3OK;
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state)
+{
+    ENTER(handle, ANY_PHASE)
+    if (state == NULL) {
+        return refused3(component, __func__, "there is no state");
+    }
+    return closed3(component, put_back(&component->instance, state));
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState *state)
+{
+    ENTER(handle, ANY_PHASE)
+    if (state != NULL) {
+        free(*state);
+        *state = NULL;
+    }
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMUState state, size_t *size)
+{
+    ENTER(handle, ANY_PHASE)
+    if (state == NULL || size == NULL) {
+        return refused3(component, __func__, "there is no state");
+    }
+    *size = saved_size();
+    return fmi3OK;
+}
+
+fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[],
+                                 size_t size)
+{
+    ENTER(handle, ANY_PHASE)
+    if (state == NULL || bytes == NULL) {
+        return refused3(component, __func__, "no state, or nowhere to put it");
+    }
+    if (size < saved_size()) {
+        return refused3(component, __func__, "there are fewer bytes than "
+                                             "fmi3SerializedFMUStateSize asks for");
+    }
+    save(state, bytes);
+    return fmi3OK;
+}
+
+fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3Byte bytes[], size_t size,
+                                   fmi3FMUState *state)
+{
+    ENTER(handle, ANY_PHASE)
+    if (bytes == NULL || state == NULL) {
+        return refused3(component, __func__, "no bytes, or nowhere to put the state");
+    }
+    Memory *memory = malloc(sizeof *memory);
+    if (memory == NULL) {
+        return refused3(component, __func__, "no memory");
+    }
+    if (!load(&component->instance, bytes, size, memory)) {
+        free(memory);
+        return closed3(component, false);
+    }
+    free(*state);
+    *state = memory;
+    return fmi3OK;
+}
+
+/* --- events --- */
+
+fmi3Status fmi3EnterEventMode(fmi3Instance handle)
+{
+    ENTER(handle, STEPPING | CONTINUOUS)
+    Memory *memory = &component->instance.memory;
+    if (!memory->exchanges && !memory->has_event_mode) {
+        return refused3(component, __func__, "this instance was made without event mode");
+    }
+    memory->phase = AT_EVENT;
+    return fmi3OK;
+}
+
+fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance handle)
+{
+    ENTER(handle, INITIALISING | AT_EVENT)
+    return fmi3OK; /* nothing that can be read follows from a discrete state that is to come */
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance handle, fmi3Boolean *again,
+                                    fmi3Boolean *terminate, fmi3Boolean *nominals_changed,
+                                    fmi3Boolean *states_changed, fmi3Boolean *has_next,
+                                    fmi3Float64 *next)
+{
+    ENTER(handle, AT_EVENT)
+    if (again == NULL || terminate == NULL || nominals_changed == NULL || states_changed == NULL ||
+        has_next == NULL || next == NULL) {
+        return refused3(component, __func__, "nowhere to put what it tells");
+    }
+    Update news;
+    if (!update(&component->instance, &news)) {
+        return closed3(component, false);
+    }
+    *again = *terminate = fmi3False; /* one update decides all */
+    *nominals_changed = news.nominals_changed;
+    *states_changed = news.states_changed;
+    *has_next = news.has_next;
+    *next = news.has_next ? news.next : 0.0;
+    return fmi3OK;
+}
+
+/* --- co-simulation --- */
+
+fmi3Status fmi3EnterStepMode(fmi3Instance handle)
+{
+    ENTER(handle, AT_EVENT)
+    if (component->instance.memory.exchanges) {
+        return refused3(component, __func__, "this instance is for model exchange");
+    }
+    component->instance.memory.phase = STEPPING;
+    return fmi3OK;
+}
+
+fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 time, fmi3Float64 size,
+                      fmi3Boolean no_way_back, fmi3Boolean *event, fmi3Boolean *terminate,
+                      fmi3Boolean *early, fmi3Float64 *reached)
+{
+    ENTER(handle, STEPPING)
+    (void)no_way_back;
+    if (event == NULL || terminate == NULL || early == NULL || reached == NULL) {
+        return refused3(component, __func__, "nowhere to put what it tells");
+    }
+    const Memory *memory = &component->instance.memory;
+    *event = *terminate = *early = fmi3False;
+    bool done = step(&component->instance, time, size, component->returns_early ? event : NULL);
+    *reached = memory->time;
+    if (!done) {
+        return closed3(component, false);
+    }
+    *early = *event && *reached < time + size;
+    warn_once3(component);
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetOutputDerivatives(fmi3Instance handle, const fmi3ValueReference references[],
+                                    size_t many, const fmi3Int32 orders[], fmi3Float64 values[],
+                                    size_t count)
+{
+    ENTER(handle, STEPPING | AT_EVENT | TERMINATED)
+    if (component->instance.memory.exchanges) {
+        return refused3(component, __func__, "this instance is for model exchange");
+    }
+    if (count != many || (many > 0 && (references == NULL || orders == NULL || values == NULL))) {
+        return refused3(component, __func__, "one reference, order and value for each derivative");
+    }
+    bool done = true;
+    for (size_t i = 0; done && i < many; i++) {
+        done = get_output_rate(&component->instance, references[i], orders[i], &values[i]);
+    }
+    return closed3(component, done);
+}
+
+fmi3Status fmi3ActivateModelPartition(fmi3Instance handle, fmi3ValueReference clock,
+                                      fmi3Float64 time)
+{
+    ENTER(handle, ANY_PHASE)
+    (void)clock, (void)time;
+    return refused3(component, __func__, "this unit has no clocks");
+}

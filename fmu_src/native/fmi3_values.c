@@ -1,0 +1,276 @@
+/* FMI 3.0: values of variables, and what this unit has none of.
+
+   A variable that is an array has the reference of its first element. Behind the references of all
+   elements follow those of what FMI 3 alone asks for: the time, and the event indicators. */
+#include "fmi3Component.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "exchange.h"
+
+static const size_t TIME_REFERENCE = VARIABLE_COUNT, FIRST_INDICATOR = VARIABLE_COUNT + 1;
+
+static const int RUNNING = STEPPING | AT_EVENT | CONTINUOUS;
+static const int READABLE = INITIALISING | STEPPING | AT_EVENT | CONTINUOUS | TERMINATED | FAILED;
+static const int SETTABLE = INSTANTIATED | INITIALISING | STEPPING | AT_EVENT | CONTINUOUS;
+
+/* How many values a reference stands for; 0: it is no variable's, but that of an array's inside. */
+static size_t elements_of(fmi3ValueReference reference)
+{
+    return reference < VARIABLE_COUNT ? VARIABLES[reference].elements : 1;
+}
+
+/* Are there as many values as the variables have? */
+static bool fits(Component3 *component, const char *call, const fmi3ValueReference references[],
+                 size_t many, const void *values, size_t count)
+{
+    char *message = component->instance.message;
+    if ((many > 0 && references == NULL) || (count > 0 && values == NULL)) {
+        snprintf(message, MESSAGE_SIZE, "%s: no value references, or no values", call);
+        return false;
+    }
+    size_t needed = 0;
+    for (size_t i = 0; i < many; i++) {
+        if (elements_of(references[i]) == 0) {
+            snprintf(message, MESSAGE_SIZE, "value reference %u: there is no such variable, it is "
+                     "within an array", (unsigned)references[i]);
+            return false;
+        }
+        needed += elements_of(references[i]);
+    }
+    if (needed != count) {
+        snprintf(message, MESSAGE_SIZE, "%s: %zu values, the variables have %zu", call, count,
+                 needed);
+        return false;
+    }
+    return true;
+}
+
+static bool get_real(Instance *instance, size_t reference, double *value)
+{
+    if (reference == TIME_REFERENCE) {
+        *value = instance->memory.time;
+        return true;
+    }
+    if (reference >= FIRST_INDICATOR && reference - FIRST_INDICATOR < INDICATOR_COUNT) {
+        double indicators[INDICATOR_COUNT];
+        bool done = look_at_indicators(instance, indicators);
+        *value = done ? indicators[reference - FIRST_INDICATOR] : 0.0;
+        return done;
+    }
+    return get_number(instance, reference, false, value);
+}
+
+static bool set_real(Instance *instance, size_t reference, double value)
+{
+    if (reference >= TIME_REFERENCE && reference - TIME_REFERENCE <= INDICATOR_COUNT) {
+        strcpy(instance->message, reference == TIME_REFERENCE
+                                      ? "time is the independent variable and cannot be set"
+                                      : "an event indicator is a local variable and cannot be set");
+        return false;
+    }
+    return set_number(instance, reference, false, value);
+}
+
+fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
+                          fmi3Float64 values[], size_t count)
+{
+    ENTER(handle, READABLE)
+    bool done = fits(component, __func__, references, many, values, count);
+    for (size_t i = 0; done && i < many; i++) {
+        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
+            done = get_real(&component->instance, references[i] + k, values++);
+        }
+    }
+    return closed3(component, done);
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
+                          const fmi3Float64 values[], size_t count)
+{
+    ENTER(handle, SETTABLE)
+    bool done = fits(component, __func__, references, many, values, count);
+    for (size_t i = 0; done && i < many; i++) {
+        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
+            done = set_real(&component->instance, references[i] + k, *values++);
+        }
+    }
+    return closed3(component, done);
+}
+
+fmi3Status fmi3GetInt32(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
+                        fmi3Int32 values[], size_t count)
+{
+    ENTER(handle, READABLE)
+    bool done = fits(component, __func__, references, many, values, count);
+    for (size_t i = 0; done && i < many; i++) {
+        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
+            double value = 0.0;
+            done = get_number(&component->instance, references[i] + k, true, &value);
+            *values++ = (fmi3Int32)value;
+        }
+    }
+    return closed3(component, done);
+}
+
+fmi3Status fmi3SetInt32(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
+                        const fmi3Int32 values[], size_t count)
+{
+    ENTER(handle, SETTABLE)
+    bool done = fits(component, __func__, references, many, values, count);
+    for (size_t i = 0; done && i < many; i++) {
+        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
+            done = set_number(&component->instance, references[i] + k, true, *values++);
+        }
+    }
+    return closed3(component, done);
+}
+
+/* --- types that no variable has --- */
+
+static fmi3Status of_no_variable(fmi3Instance handle, const char *call, size_t many, int phases)
+{
+    Component3 *component = entered3(handle, call, phases);
+    if (component == NULL) {
+        return fmi3Error;
+    }
+    return many == 0 ? fmi3OK
+                     : refused3(component, call, "all variables are of the types Float64 and Int32");
+}
+
+#define OF_NO_VARIABLE(type)                                                                       \
+    fmi3Status fmi3Get##type(fmi3Instance handle, const fmi3ValueReference references[],           \
+                             size_t many, fmi3##type values[], size_t count)                       \
+    {                                                                                              \
+        (void)references, (void)values, (void)count;                                               \
+        return of_no_variable(handle, __func__, many, READABLE);                                   \
+    }                                                                                              \
+    fmi3Status fmi3Set##type(fmi3Instance handle, const fmi3ValueReference references[],           \
+                             size_t many, const fmi3##type values[], size_t count)                 \
+    {                                                                                              \
+        (void)references, (void)values, (void)count;                                               \
+        return of_no_variable(handle, __func__, many, SETTABLE);                                   \
+    }
+OF_NO_VARIABLE(Float32)
+OF_NO_VARIABLE(Int8)
+OF_NO_VARIABLE(UInt8)
+OF_NO_VARIABLE(Int16)
+OF_NO_VARIABLE(UInt16)
+OF_NO_VARIABLE(UInt32)
+OF_NO_VARIABLE(Int64)
+OF_NO_VARIABLE(UInt64)
+OF_NO_VARIABLE(Boolean)
+OF_NO_VARIABLE(String)
+
+fmi3Status fmi3GetBinary(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
+                         size_t sizes[], fmi3Binary values[], size_t count)
+{
+    (void)references, (void)sizes, (void)values, (void)count;
+    return of_no_variable(handle, __func__, many, READABLE);
+}
+
+fmi3Status fmi3SetBinary(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
+                         const size_t sizes[], const fmi3Binary values[], size_t count)
+{
+    (void)references, (void)sizes, (void)values, (void)count;
+    return of_no_variable(handle, __func__, many, SETTABLE);
+}
+
+/* --- clocks --- */
+
+static fmi3Status of_no_clock(fmi3Instance handle, const char *call, size_t many)
+{
+    Component3 *component = entered3(handle, call, INSTANTIATED | INITIALISING | RUNNING);
+    if (component == NULL) {
+        return fmi3Error;
+    }
+    return many == 0 ? fmi3OK : refused3(component, call, "this unit has no clocks");
+}
+
+#define CLOCKS fmi3Instance handle, const fmi3ValueReference clocks[], size_t many
+
+fmi3Status fmi3GetClock(CLOCKS, fmi3Clock values[])
+{
+    (void)clocks, (void)values;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3SetClock(CLOCKS, const fmi3Clock values[])
+{
+    (void)clocks, (void)values;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3GetIntervalDecimal(CLOCKS, fmi3Float64 intervals[],
+                                  fmi3IntervalQualifier qualifiers[])
+{
+    (void)clocks, (void)intervals, (void)qualifiers;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3GetIntervalFraction(CLOCKS, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
+                                   fmi3IntervalQualifier qualifiers[])
+{
+    (void)clocks, (void)counters, (void)resolutions, (void)qualifiers;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3GetShiftDecimal(CLOCKS, fmi3Float64 shifts[])
+{
+    (void)clocks, (void)shifts;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3GetShiftFraction(CLOCKS, fmi3UInt64 counters[], fmi3UInt64 resolutions[])
+{
+    (void)clocks, (void)counters, (void)resolutions;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3SetIntervalDecimal(CLOCKS, const fmi3Float64 intervals[])
+{
+    (void)clocks, (void)intervals;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3SetIntervalFraction(CLOCKS, const fmi3UInt64 counters[],
+                                   const fmi3UInt64 resolutions[])
+{
+    (void)clocks, (void)counters, (void)resolutions;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3SetShiftDecimal(CLOCKS, const fmi3Float64 shifts[])
+{
+    (void)clocks, (void)shifts;
+    return of_no_clock(handle, __func__, many);
+}
+
+fmi3Status fmi3SetShiftFraction(CLOCKS, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[])
+{
+    (void)clocks, (void)counters, (void)resolutions;
+    return of_no_clock(handle, __func__, many);
+}
+
+/* --- dependencies: those in modelDescription.xml hold as long as the instance lives --- */
+
+fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance handle, fmi3ValueReference reference,
+                                               size_t *count)
+{
+    ENTER(handle, ANY_PHASE)
+    (void)reference, (void)count;
+    return refused3(component, __func__, "see the dependencies in modelDescription.xml");
+}
+
+fmi3Status fmi3GetVariableDependencies(fmi3Instance handle, fmi3ValueReference dependent,
+                                       size_t dependent_elements[],
+                                       fmi3ValueReference independents[],
+                                       size_t independent_elements[], fmi3DependencyKind kinds[],
+                                       size_t count)
+{
+    ENTER(handle, ANY_PHASE)
+    (void)dependent, (void)dependent_elements, (void)independents, (void)independent_elements;
+    (void)kinds, (void)count;
+    return refused3(component, __func__, "see the dependencies in modelDescription.xml");
+}

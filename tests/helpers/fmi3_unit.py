@@ -1,0 +1,181 @@
+"""The unit for FMI 3.0 as a host written in C meets it: its functions, through ctypes.
+
+What each function takes is read off the standard's header.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import re
+import zipfile
+from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint, c_void_p
+from pathlib import Path
+
+from cosim.fmu.exchange import variables
+from cosim.fmu.native import NAME, built_guid, native_folder
+from cosim.fmu.platforms import this_platform
+from cosim.fmu.variables import by_array
+
+OK, WARNING, DISCARD, ERROR = range(4)
+LOGGER = ctypes.CFUNCTYPE(None, c_void_p, c_int, c_char_p, c_char_p)
+_KINDS = {
+    **{"fmi3Float64": c_double, "fmi3Boolean": c_bool, "fmi3Int32": c_int32, "size_t": c_size_t},
+    **{"fmi3ValueReference": c_uint, "fmi3String": c_char_p},
+}
+
+
+def _kind(argument: str):
+    if "*" in argument or "[" in argument:
+        return c_void_p
+    return _KINDS.get(argument.split()[-2], c_void_p)  # else a handle, or a function
+
+
+def functions() -> dict[str, list]:
+    """Name without "fmi3" -> types of its arguments, of each function that returns a status."""
+    header = (native_folder() / "headers" / "fmi3FunctionTypes.h").read_text()
+    found = re.findall(r"typedef fmi3Status +fmi3(\w+)TYPE *\(([^;]*)\);", header)
+    return {name: [_kind(each) for each in given.split(",")] for name, given in found}
+
+
+def references() -> dict[str, int]:
+    """Name -> value reference, of an array that of its first element."""
+    found, place = {}, 0
+    for elements in by_array(variables()):
+        found[elements[0].array or elements[0].name] = place
+        place += len(elements)
+    return found | {"time": place}
+
+
+class Unit:
+    """A library; `instance` makes instances."""
+
+    def __init__(self, fmu: Path, folder: Path) -> None:
+        platform = this_platform()
+        path = f"binaries/{platform.name}/{NAME}{platform.suffix}"
+        with zipfile.ZipFile(fmu) as archive:
+            self.library = ctypes.CDLL(archive.extract(path, folder))
+        self.token = built_guid(fmu).encode()
+        for name, arguments in functions().items():
+            function = getattr(self.library, f"fmi3{name}")
+            function.argtypes, function.restype = arguments, c_int
+        self.references = references()
+        self.integers = {each.name for each in variables() if each.is_integer}
+        self.sizes = {e[0].array or e[0].name: len(e) for e in by_array(variables())}
+
+    def instance(self, **how) -> Instance:
+        return Instance(self, **how)
+
+
+class Instance:
+    """One instance. What is logged is in `messages`."""
+
+    def __init__(
+        self,
+        unit: Unit,
+        exchanges: bool = False,
+        events: bool = False,
+        early: bool = False,
+        name: bytes | None = b"block",
+        token: bytes | None = b"",
+        required: int = 0,
+    ) -> None:
+        self.unit, self.messages, self.time = unit, [], 0.0
+        self._log = LOGGER(lambda _, *said: self.messages.append(said))
+        token = unit.token if token == b"" else token
+        first = (name, token, None, c_bool(False), c_bool(False))
+        if exchanges:
+            make, given = unit.library.fmi3InstantiateModelExchange, (None, self._log)
+        else:
+            make = unit.library.fmi3InstantiateCoSimulation
+            given = (c_bool(events), c_bool(early), None, c_size_t(required), None, self._log, None)
+        make.restype = c_void_p
+        self.handle = make(*first, *given)
+
+    def __enter__(self) -> Instance:
+        return self
+
+    def __exit__(self, *_) -> None:
+        free = self.unit.library.fmi3FreeInstance
+        free.argtypes, free.restype = (c_void_p,), None
+        free(self.handle)
+
+    def call(self, function: str, *arguments) -> int:
+        return getattr(self.unit.library, f"fmi3{function}")(self.handle, *arguments)
+
+    def done(self, function: str, *arguments) -> None:
+        assert self.call(function, *arguments) == OK, self.messages
+
+    def reason(self, function: str, *arguments) -> str:
+        """Why a call is refused, as logged; it must be."""
+        self.messages.clear()
+        assert self.call(function, *arguments) == ERROR
+        ((status, category, text),) = self.messages
+        assert (status, category) == (ERROR, b"logStatusError")
+        return text.decode()
+
+    # --- with names ---
+
+    def _values(self, name: str, given=()):
+        whole, size = name in self.unit.integers, self.unit.sizes.get(name, 1)
+        kind, exact = (c_int32, int) if whole else (c_double, float)
+        numbers = (kind * size)(*map(exact, given))
+        reference = c_uint(self.unit.references[name])
+        return "Int32" if whole else "Float64", (byref(reference), 1, numbers, size)
+
+    def set(self, name: str, *values: float) -> None:
+        kind, arguments = self._values(name, values)
+        self.done(f"Set{kind}", *arguments)
+
+    def get(self, name: str):
+        kind, arguments = self._values(name)
+        self.done(f"Get{kind}", *arguments)
+        values = list(arguments[2])
+        return values if name in self.unit.sizes and len(values) > 1 else values[0]
+
+    def everything(self) -> list:
+        return [self.get(name) for name in self.unit.references]
+
+    def begin(self, **values) -> Instance:
+        for name, value in {"surface_speed": 0.15, **values}.items():
+            self.set(name, *(value if isinstance(value, (list, tuple)) else [value]))
+        self.done("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)
+        self.done("ExitInitializationMode")
+        return self
+
+    def update(self) -> list:
+        told = [*(c_bool() for _ in range(5)), c_double()]
+        self.done("UpdateDiscreteStates", *map(byref, told))
+        return [each.value for each in told]
+
+    def handle_event(self) -> None:
+        self.done("EnterEventMode")
+        self.update()
+        self.done("EnterStepMode")
+
+    def step(self, size: float) -> tuple[bool, bool]:
+        """Event, early return; the time reached is in `time`."""
+        event, end, early, reached = c_bool(), c_bool(), c_bool(), c_double()
+        told = map(byref, (event, end, early, reached))
+        self.done("DoStep", self.time, size, True, *told)
+        assert not end.value
+        self.time = reached.value
+        return event.value, early.value
+
+    # --- states ---
+
+    def save(self) -> c_void_p:
+        state = c_void_p()
+        self.done("GetFMUState", byref(state))
+        return state
+
+    def as_bytes(self, state: c_void_p) -> bytes:
+        size = c_size_t()
+        self.done("SerializedFMUStateSize", state, byref(size))
+        room = ctypes.create_string_buffer(size.value)
+        self.done("SerializeFMUState", state, room, size.value)
+        return room.raw
+
+    def from_bytes(self, content: bytes) -> c_void_p:
+        state = c_void_p()
+        self.done("DeserializeFMUState", content, len(content), byref(state))
+        return state

@@ -1,0 +1,610 @@
+"""The unit for FMI 3.0: the motion of the one for FMI 2.0, and what is FMI 3's alone."""
+
+import ctypes
+import random
+import shutil
+import subprocess
+import sys
+import zipfile
+from ctypes import byref, c_bool, c_double, c_size_t, c_uint, c_void_p
+from xml.etree import ElementTree
+
+import fmpy
+import numpy as np
+import pytest
+from fmi3_unit import ERROR, OK, Unit, functions, references
+from fmpy.validation import validate_fmu
+from stickslip import Parameters, simulate
+
+from cosim.fmu.native import built_guid
+
+OUTPUTS = ["x", "y", "mode", "slip_count", "heat", "heat_flow", "friction_force_x"]
+PLANE = {"lateral_friction": {"ratio": 1.0}, "initial": {"phi": 0.05, "y": 0.005}}
+CASES = {
+    "line": {},
+    "plane": {**PLANE, "surface": {"speed": 0.05}},
+    "bristles": {
+        "surface": {"speed": 0.03},
+        "initial": {"vx": 0.03},
+        "friction": {"transition_speed": 5e-3, "presliding_distance": 1e-4},
+    },
+    "run-up": {"surface": {"speed": 0.05, "run_up_time": 0.9}},
+    "strengthening": {"static_strengthening": {"rate": 0.02}},
+}
+
+
+@pytest.fixture(scope="module")
+def unit(fmu3, tmp_path_factory):
+    return Unit(fmu3, tmp_path_factory.mktemp("unit"))
+
+
+def scalars(tables):
+    """Start values by FMI 2's names."""
+    parameters = Parameters(**tables)
+    return {**parameters.flat(), "surface_speed": parameters.surface.speed}
+
+
+def values(tables):
+    """Start values by FMI 3's names: lists for arrays."""
+    found = {}
+    for name, value in scalars(tables).items():
+        array, _, element = name.partition("[")
+        if element:
+            found.setdefault(array, []).append(value)
+        else:
+            found[name] = value
+    return found
+
+
+# --- description ---
+
+
+def test_validation_finds_nothing(fmu3):
+    assert validate_fmu(str(fmu3)) == []
+    command = [sys.executable, "-m", "fmpy", "validate", str(fmu3)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stderr == "" and "No problems found" in done.stdout
+
+
+def test_it_is_of_the_same_content_as_the_unit_for_fmi_2(fmu, fmu3):
+    assert built_guid(fmu3) == built_guid(fmu)
+    libraries = []
+    for file in (fmu, fmu3):
+        with zipfile.ZipFile(file) as archive:
+            names = archive.namelist()
+            libraries += [archive.read(name) for name in names if name.startswith("binaries/")]
+    assert len(libraries) == 2 and libraries[0] == libraries[1]
+
+
+def test_value_references_are_those_of_fmi_2(fmu, fmu3):
+    old = {v.name: v.valueReference for v in fmpy.read_model_description(fmu).modelVariables}
+    new = fmpy.read_model_description(fmu3).modelVariables
+    added = {"time", *(v.name for v in new if v.name.startswith("event_indicators."))}
+    arrays = {v.name: v for v in new if v.dimensions}
+    assert {name: int(v.dimensions[0].start) for name, v in arrays.items()} == {
+        "rig.attachment_angles_deg": 4,
+        "springs.force_curve_extension": 16,
+        "springs.force_curve_force": 16,
+        "friction.table_speed": 16,
+        "friction.table_mu": 16,
+    }
+    for variable in new:
+        name = f"{variable.name}[1]" if variable.name in arrays else variable.name
+        assert variable.name in added or variable.valueReference == old[name]
+        assert variable.description, variable.name
+    assert all(v.valueReference > max(old.values()) for v in new if v.name in added)
+
+
+def test_the_named_sources_make_the_library(fmu3, tmp_path):
+    compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
+    if compiler is None:
+        pytest.skip("needs a C compiler")
+    with zipfile.ZipFile(fmu3) as archive:
+        archive.extractall(tmp_path)
+    sources = tmp_path / "sources"
+    assert not [*sources.glob("fmi2*")]
+    described = ElementTree.parse(sources / "buildDescription.xml")
+    named = [file.get("name") for file in described.iter("SourceFile")]
+    assert sorted(named) == sorted(file.name for file in sources.glob("*.c"))
+    library = tmp_path / "own.so"
+    options = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O0", "-fPIC", "-shared"]
+    done = subprocess.run(
+        [compiler, *options, "-o", library, *named, "-lm"],
+        cwd=sources,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    ctypes.CDLL(str(library)).fmi3DoStep.restype = ctypes.c_int
+
+
+def test_every_function_of_the_standard_is_there_and_wants_an_instance(unit):
+    found = functions()
+    assert len(found) == 70
+    for name, arguments in found.items():
+        nothing = [kind() for kind in arguments[1:]]
+        assert getattr(unit.library, f"fmi3{name}")(None, *nothing) == ERROR, name
+    version = unit.library.fmi3GetVersion
+    version.restype = ctypes.c_char_p
+    assert version() == b"3.0"
+
+
+# --- the same motion ---
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_co_simulation_is_that_of_fmi_2_to_the_last_bit(fmu, fmu3, case):
+    given = {"stop_time": 3.0, "output_interval": 0.01, "output": OUTPUTS}
+    old = fmpy.simulate_fmu(str(fmu), start_values=scalars(CASES[case]), **given)
+    new = fmpy.simulate_fmu(str(fmu3), start_values=values(CASES[case]), **given)
+    assert old.tobytes() == new.tobytes()
+
+
+def test_model_exchange_converges_to_the_models_own_events(fmu3):
+    own = simulate(Parameters(surface={"speed": 0.15}), duration=5.0).events
+    for tolerance in (1e-4, 1e-6, 1e-8):
+        result = fmpy.simulate_fmu(
+            str(fmu3),
+            fmi_type="ModelExchange",
+            relative_tolerance=tolerance,
+            stop_time=5.0,
+            output_interval=0.01,
+            record_events=True,
+            start_values={"surface_speed": 0.15},
+            output=["mode"],
+        )
+        at = np.flatnonzero(np.diff(result["mode"])) + 1
+        assert list(result["mode"][at]) == list(own[:, 1])
+        assert np.abs(result["time"][at] - own[:, 0]).max() < 100.0 * tolerance + 5e-7
+
+
+# --- early return ---
+
+
+def marched(block, steps, size, watch=lambda block: None):
+    """Times of events, on the way through so many steps."""
+    events = []
+    for n in range(steps):
+        end = (n + 1) * size
+        while block.time < end:
+            event, early = block.step(end - block.time)
+            assert early is (block.time < end) and (event or not early)
+            if event:
+                events.append((block.time, block.get("mode")))
+                block.handle_event()
+        watch(block)
+    return events
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_steps_end_at_the_models_own_events(unit, case):
+    rows, plain = [], []
+    with unit.instance(events=True, early=True) as block, unit.instance() as other:
+        block.begin(**values(CASES[case]))
+        block.done("EnterStepMode")
+        names = ["time", "x", "y", "heat", "mode", "slip_count", "energy_residual"]
+        events = marched(block, 128, 0.03125, lambda b: rows.append([*map(b.get, names)]))
+        other.begin(**values(CASES[case]))
+        for _ in range(128):
+            assert other.step(0.03125) == (False, False)
+            plain.append([*map(other.get, names)])
+    own = simulate(Parameters(**CASES[case]), duration=4.0).events
+    assert len(own) >= 3
+    assert events == [(time, int(mode)) for time, mode, _ in own]
+    assert rows == plain
+
+
+def test_fmpy_stops_at_events_and_the_motion_is_the_same(fmu3):
+    given = {"stop_time": 3.0, "output_interval": 0.01, "output": ["x", "heat", "mode"]}
+    given["start_values"] = {"surface_speed": 0.15}
+    plain = fmpy.simulate_fmu(str(fmu3), **given)
+    stopped = fmpy.simulate_fmu(str(fmu3), use_event_mode=True, early_return_allowed=True, **given)
+    own = simulate(Parameters(surface={"speed": 0.15}), duration=3.0).events
+    extra = ~np.isin(stopped["time"], plain["time"])
+    assert sorted(set(stopped["time"][extra])) == list(own[:, 0])
+    assert stopped[~extra].tobytes() == plain.tobytes()
+
+
+def test_a_step_that_happens_to_end_at_an_event_is_no_early_return(unit):
+    with unit.instance(events=True, early=True) as block:
+        block.begin().done("EnterStepMode")
+        assert block.step(1.0) == (True, True)
+        time = block.time
+    with unit.instance(events=True, early=True) as block:
+        block.begin().done("EnterStepMode")
+        assert block.step(time) == (True, False) and block.time == time
+
+
+@pytest.mark.parametrize(("events", "early"), [(False, False), (False, True), (True, False)])
+def test_a_host_that_allows_no_early_return_gets_none(unit, events, early):
+    with unit.instance(events=events, early=early) as block:
+        block.begin()
+        if events:
+            block.done("EnterStepMode")
+        assert block.step(1.0) == (False, False) and block.time == 1.0
+        assert block.get("slip_count") > 0
+
+
+def driven(block, steps, drive):
+    """The block after steps of 0.01 s, its inputs set before each call; times of events."""
+    events = []
+    for n in range(steps):
+        end = (n + 1) * 0.01
+        while block.time < end:
+            for name, value in drive(block.time).items():
+                block.set(name, value)
+            if block.step(end - block.time)[0]:
+                events.append(block.time)
+                block.handle_event()
+    return events
+
+
+@pytest.mark.parametrize("case", ["line", "plane", "bristles", "run-up", "strengthening"])
+def test_inputs_that_go_on_are_taken_up_where_an_event_has_cut_them(unit, case):
+    """What inputs become from there on differs a little; no slip is begun twice for that."""
+
+    def drive(time):
+        speed = values(CASES[case])["surface_speed"]
+        push = 0.05 * np.sin(3.0 * time)
+        return {"surface_speed": speed * (1.0 + 0.1 * np.sin(time)), "external_force_x": push}
+
+    ends = []
+    for early in (False, True):
+        with unit.instance(events=True, early=early) as block:
+            block.begin(**(values(CASES[case]) | {"input.hold": 1}))
+            block.done("EnterStepMode")
+            events = driven(block, 400, drive)
+            assert len(set(events)) == len(events) and bool(events) is early
+            ends.append([*map(block.get, ("slip_count", "surface_travel", "x", "heat"))])
+    assert ends[0][0] == ends[1][0] > 0
+    np.testing.assert_allclose(ends[0], ends[1], rtol=0, atol=1e-6)
+
+
+def test_an_input_that_is_linear_is_followed_through_events_to_rounding(unit):
+    ends = []
+    for early in (False, True):
+        with unit.instance(events=True, early=early) as block:
+            block.begin(**{"input.hold": 1, "surface_speed": 0.1})
+            block.done("EnterStepMode")
+            driven(block, 400, lambda time: {"surface_speed": 0.1 + 0.01 * time})
+            ends.append([*map(block.get, ("slip_count", "surface_travel", "x"))])
+    np.testing.assert_allclose(ends[0], ends[1], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_whatever_the_inputs_do_at_events_the_ledger_stays_closed(unit, seed):
+    numbers = random.Random(seed)
+
+    def drive(_):
+        return {
+            "surface_speed": numbers.uniform(-0.2, 0.2),
+            "external_force_x": numbers.uniform(-3.0, 3.0),
+            "external_moment": numbers.uniform(-0.1, 0.1),
+        }
+
+    with unit.instance(events=True, early=True) as block:
+        block.begin(**values(CASES[numbers.choice([*CASES])]))
+        block.done("EnterStepMode")
+        events = driven(block, 200, drive)
+        assert len(events) < 2000
+        assert abs(block.get("energy_residual")) < 1e-9
+        assert np.all(np.isfinite([block.get("x"), block.get("heat")]))
+
+
+def test_tunable_parameters_change_in_event_mode(unit):
+    with unit.instance(events=True) as block:
+        block.begin().set("friction.mu_k", 0.2)
+        block.done("EnterStepMode")
+        block.step(0.01)
+        said = block.reason("SetFloat64", *block._values("friction.mu_k", [0.1])[1])
+        assert said == "friction.mu_k cannot be set in step mode: enter event mode"
+
+
+# --- arrays ---
+
+
+def test_an_array_is_one_variable(unit):
+    speeds, mus = [0.0, 0.1, 0.3, *[0.0] * 13], [0.4, 0.3, 0.2, *[0.0] * 13]
+    with unit.instance() as block:
+        block.begin(**{"friction.table_speed": speeds, "friction.table_mu": mus})
+        assert block.get("friction.table_speed") == speeds
+        assert block.get("friction.table_mu") == mus
+        # three variables, one of them an array, in one call
+        names = ["rig.mass", "rig.attachment_angles_deg", "time"]
+        numbers = (c_double * 6)()
+        wanted = (c_uint * 3)(*(unit.references[name] for name in names))
+        block.done("GetFloat64", wanted, 3, numbers, 6)
+        assert numbers[0] == block.get("rig.mass") and numbers[5] == 0.0
+        assert numbers[1:5] == block.get("rig.attachment_angles_deg")
+
+
+def test_a_curve_set_as_an_array_is_that_of_its_elements(fmu, fmu3):
+    tables = {"springs": {"force_curve_extension": [0, 0.05, 0.2], "force_curve_force": [0, 2, 5]}}
+    given = {"stop_time": 2.0, "output_interval": 0.01, "output": ["x", "heat"]}
+    old = fmpy.simulate_fmu(str(fmu), start_values=scalars(tables), **given)
+    new = fmpy.simulate_fmu(str(fmu3), start_values=values(tables), **given)
+    assert old.tobytes() == new.tobytes()
+
+
+# --- rates of outputs ---
+
+
+def test_derivatives_of_outputs_are_what_differences_come_to(unit):
+    names = ["x", "vx", "phi", "heat", "friction_force_x", "spring_force_x", "sliding_speed"]
+    names = [name for name in names if name in unit.references]
+    count = len(names)
+    wanted = (c_uint * count)(*(unit.references[name] for name in names))
+    size = 1e-4
+    with unit.instance() as block:
+        block.begin(**PLANE_VALUES)
+        block.step(0.02)  # in slip
+        seen = []
+        for _ in range(2):
+            block.step(size)
+            rates = (c_double * count)()
+            block.done(
+                "GetOutputDerivatives",
+                wanted,
+                count,
+                (ctypes.c_int32 * count)(*[1] * count),
+                rates,
+                count,
+            )
+            seen.append(([block.get(name) for name in names], list(rates)))
+        assert seen[1][1][0] == block.get("der(x)")
+        (first, before), (second, after) = seen
+        assert block.get("mode") == 1
+        change = (np.array(second) - np.array(first)) / size
+        middle = (np.array(before) + np.array(after)) / 2
+        np.testing.assert_allclose(middle, change, rtol=2e-4, atol=1e-6)
+
+
+PLANE_VALUES = {"lateral_friction.ratio": 1.0, "initial.phi": 0.05, "surface_speed": 0.1}
+
+
+# --- saved states ---
+
+
+@pytest.mark.parametrize("exchanges", [False, True])
+def test_a_run_goes_on_from_a_state_in_another_instance(unit, exchanges):
+    how = {"exchanges": exchanges} if exchanges else {"events": True, "early": True}
+    with unit.instance(**how) as block, unit.instance(**how) as other:
+        block.begin(**PLANE_VALUES)
+        if exchanges:
+            block.update()
+        else:
+            block.done("EnterStepMode")
+            marched(block, 7, 0.1)
+            block.step(1.0)
+        state = block.save()
+        content = block.as_bytes(state)
+        loaded = other.from_bytes(content)
+        other.done("SetFMUState", loaded)
+        other.time = block.time
+        assert other.everything() == block.everything()
+        if not exchanges:
+            assert marched(block, 20, 0.1) == marched(other, 20, 0.1)
+            assert other.everything() == block.everything()
+        block.done("SetFMUState", state)
+        again = block.save()
+        assert block.as_bytes(again) == content
+        for one in (state, loaded, again):
+            block.done("FreeFMUState", byref(one))
+        broken = bytes([content[0] ^ 1]) + content[1:]
+        said = other.reason("DeserializeFMUState", broken, len(broken), byref(c_void_p()))
+        assert said == "the state is damaged, or was taken from another build of this unit"
+
+
+def test_a_state_is_of_an_instance_of_its_kind(unit):
+    kinds = [{}, {"events": True}, {"exchanges": True}]
+    for own in kinds:
+        with unit.instance(**own) as block:
+            state = block.save()
+            for kind in kinds:
+                with unit.instance(**kind) as other:
+                    assert other.call("SetFMUState", state) == (OK if kind == own else ERROR)
+            block.done("FreeFMUState", byref(state))
+
+
+# --- refusals ---
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"token": b"{0}"}, "the instantiation token is not that of this unit"),
+        ({"token": None}, "the instantiation token is not that of this unit"),
+        ({"name": None}, "has no name"),
+        ({"name": b""}, "has no name"),
+        ({"required": 1}, "has no intermediate update"),
+    ],
+)
+def test_an_instance_that_cannot_be_is_none(unit, changed, said):
+    block = unit.instance(**changed)
+    ((status, category, text),) = block.messages
+    assert block.handle is None
+    assert (status, category) == (ERROR, b"logStatusError") and said in text.decode()
+
+
+def test_scheduled_execution_is_refused(unit):
+    make = unit.library.fmi3InstantiateScheduledExecution
+    make.restype = c_void_p
+    assert make(b"a", unit.token, None, False, False, None, None, None, None, None) is None
+
+
+def one_float(place, count=1):
+    """Arguments for one variable, by name or reference, and so many values."""
+    name, _, inside = str(place).partition("+")
+    reference = references()[name] + int(inside or 0) if isinstance(place, str) else place
+    return byref(c_uint(reference)), 1, (c_double * max(count, 1))(), count
+
+
+REFUSED = [
+    ("GetFloat64", one_float(4711), "value reference 4711: there is no such variable"),
+    ("GetFloat64", one_float(2**32 - 1), "value reference 4294967295: there is no such variable"),
+    ("GetFloat64", one_float(0, 2), "fmi3GetFloat64: 2 values, the variables have 1"),
+    ("GetFloat64", (None, 1, None, 1), "fmi3GetFloat64: no value references, or no values"),
+    ("GetInt32", one_float(0), "surface_speed is a real number, not an integer"),
+    ("SetFloat64", one_float("time"), "time is the independent variable and cannot be set"),
+    ("SetFloat64", one_float("x"), "x is an output and cannot be set"),
+    ("SetFloat64", one_float("rig.mass"), "rig.mass is fixed and cannot be set after"),
+    ("GetFloat64", one_float("friction.table_mu", 3), "3 values, the variables have 16"),
+    ("GetFloat64", one_float("friction.table_mu+1"), "no such variable, it is within an array"),
+    ("GetBoolean", one_float(0), "all variables are of the types Float64 and Int32"),
+    ("SetString", one_float(0), "all variables are of the types Float64 and Int32"),
+    ("GetFloat32", one_float(0), "all variables are of the types Float64 and Int32"),
+    ("GetBinary", (None, 1, None, None, 1), "all variables are of the types Float64 and Int32"),
+    ("GetClock", (None, 1, None), "fmi3GetClock: this unit has no clocks"),
+    ("SetIntervalFraction", (None, 1, None, None), "this unit has no clocks"),
+    ("ActivateModelPartition", (0, 0.0), "this unit has no clocks"),
+    ("EnterConfigurationMode", (), "this unit has no structural parameters"),
+    ("ExitConfigurationMode", (), "this unit has no structural parameters"),
+    ("GetVariableDependencies", (0, None, None, None, None, 0), "see the dependencies in"),
+    ("GetNumberOfVariableDependencies", (0, None), "see the dependencies in"),
+    ("EnterEventMode", (), "this instance was made without event mode"),
+    ("GetOutputDerivatives", (byref(c_uint(0)), 1, (ctypes.c_int32 * 1)(1), (c_double * 1)(), 1),
+     "output derivatives are of outputs that are real numbers"),
+    ("DoStep", (0.0, 0.01, True, None, None, None, None), "nowhere to put what it tells"),
+    ("SetDebugLogging", (True, 1, None), "fmi3SetDebugLogging: no categories"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("function", "arguments", "says"), REFUSED)
+def test_a_call_that_makes_no_sense_is_refused(unit, function, arguments, says):
+    with unit.instance() as block:
+        block.begin()
+        assert says in block.reason(function, *arguments)
+        assert "failed before" in block.reason("EnterEventMode")
+        block.done("Reset")
+        block.begin()
+
+
+# Function -> states in which it is taken. I instantiated, N initialising, S step mode, E event
+# mode of co-simulation, M that of model exchange, C continuous-time mode, T terminated
+ALLOWED = {
+    "EnterInitializationMode": "I",
+    "ExitInitializationMode": "N",
+    "EnterEventMode": "SC",
+    "EnterStepMode": "E",
+    "EnterContinuousTimeMode": "M",
+    "UpdateDiscreteStates": "EM",
+    "EvaluateDiscreteStates": "NEM",
+    "DoStep": "S",
+    "SetTime": "C",
+    "SetContinuousStates": "C",
+    "CompletedIntegratorStep": "C",
+    "GetContinuousStates": "MC",
+    "GetContinuousStateDerivatives": "MC",
+    "GetEventIndicators": "MC",
+    "GetNumberOfContinuousStates": "MC",
+    "Terminate": "SEMC",
+    "GetFloat64": "NSEMCT",
+    "SetFloat64": "INSEMC",
+    "GetOutputDerivatives": "SET",
+    "Reset": "INSEMCT",
+}
+
+
+def in_state(unit, state):
+    """An instance that has come that far."""
+    block = unit.instance(exchanges=state in "MC", events=True, early=True)
+    if state == "I":
+        return block
+    block.set("surface_speed", 0.15)
+    block.done("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)
+    if state != "N":
+        block.done("ExitInitializationMode")
+    if state == "C":
+        block.update()
+        block.done("EnterContinuousTimeMode")
+    if state in "ST":
+        block.done("EnterStepMode")
+    if state == "T":
+        block.done("Terminate")
+    return block
+
+
+def sensible(function):
+    """Arguments that would do."""
+    flags = [byref(c_bool()) for _ in range(5)]
+    numbers = (c_double * 20)()
+    return {
+        "EnterInitializationMode": (False, 0.0, 0.0, False, 0.0),
+        "UpdateDiscreteStates": (*flags, byref(c_double())),
+        "DoStep": (0.0, 0.01, True, *flags[:3], byref(c_double())),
+        "SetTime": (0.001,),
+        "CompletedIntegratorStep": (True, *flags[:2]),
+        "GetEventIndicators": (numbers, 3),
+        "GetNumberOfContinuousStates": (byref(c_size_t()),),
+        "GetFloat64": (byref(c_uint(0)), 1, numbers, 1),
+        "SetFloat64": (byref(c_uint(0)), 1, numbers, 1),
+        "GetOutputDerivatives": (None, 0, None, None, 0),
+        **dict.fromkeys(
+            ("SetContinuousStates", "GetContinuousStates", "GetContinuousStateDerivatives"),
+            (numbers, 20),
+        ),
+    }.get(function, ())
+
+
+@pytest.mark.parametrize("state", "INSEMCT")
+@pytest.mark.parametrize("function", ALLOWED)
+def test_each_state_takes_the_calls_of_the_standard(unit, function, state):
+    with in_state(unit, state) as block:
+        taken = block.call(function, *sensible(function))
+        assert taken == (OK if state in ALLOWED[function] else ERROR), block.messages
+        if taken == ERROR:
+            assert block.messages[0][2].startswith((f"fmi3{function}".encode(), b"this instance"))
+
+
+@pytest.mark.parametrize("state", "NSEMCT")
+def test_every_variable_can_be_read_and_is_a_number(unit, state):
+    with in_state(unit, state) as block:
+        for name in [*unit.references]:
+            assert np.all(np.isfinite(block.get(name))), name
+        numbers = (c_double * 3)()
+        last = unit.references["time"]
+        block.done("GetFloat64", (c_uint * 3)(last + 1, last + 2, last + 3), 3, numbers, 3)
+        assert all(numbers)
+
+
+def test_looking_at_indicators_leaves_a_step_as_it_is(unit):
+    ends = []
+    for looks in (False, True):
+        with unit.instance() as block:
+            block.begin(**PLANE_VALUES)
+            for _ in range(100):
+                block.step(0.01)
+                if looks:
+                    place = unit.references["time"] + 1
+                    block.done("GetFloat64", byref(c_uint(place)), 1, (c_double * 1)(), 1)
+                    rate = (c_double * 1)()
+                    x = byref(c_uint(unit.references["x"]))
+                    block.done("GetOutputDerivatives", x, 1, (ctypes.c_int32 * 1)(1), rate, 1)
+            ends.append(block.everything())
+    assert ends[0] == ends[1]
+
+
+def test_no_sequence_of_calls_is_too_much(unit):
+    """Whatever comes: an answer with a reason, numbers that are numbers, and a reset that helps."""
+    answers = {OK: 0, ERROR: 0}
+    for seed in range(300):
+        numbers = random.Random(seed)
+        with in_state(unit, numbers.choice("INSEMC")) as block:
+            saved = []
+            for _ in range(40):
+                function = numbers.choice([*ALLOWED, "GetFMUState", "SetFMUState"])
+                if function == "GetFMUState":
+                    saved.append(block.save())
+                elif function == "SetFMUState":
+                    if saved:
+                        block.done("SetFMUState", numbers.choice(saved))
+                else:
+                    block.messages.clear()
+                    answer = block.call(function, *sensible(function))
+                    answers[answer] += 1
+                    assert (answer == ERROR) is bool(block.messages)
+            for state in saved:
+                block.done("FreeFMUState", byref(state))
+            block.done("Reset")
+    assert min(answers.values()) > 500
