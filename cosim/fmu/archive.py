@@ -1,8 +1,10 @@
-"""A unit as a file: a zip that is the same, byte for byte, for the same content."""
+"""A unit as a file, the same byte for byte for the same content, and known by it."""
 
 from __future__ import annotations
 
+import hashlib
 import io
+import uuid
 import zipfile
 from collections.abc import Mapping
 
@@ -17,3 +19,17 @@ def packed(files: Mapping[str, bytes]) -> bytes:
             entry.external_attr = 0o755 << 16 if name.startswith("binaries/") else 0o644 << 16
             archive.writestr(entry, files[name], compresslevel=9)
     return result.getvalue()
+
+
+def digest_of(files: Mapping[str, bytes]) -> hashlib._Hash:
+    """SHA-256 of name -> content, of which no two can be taken for each other."""
+    digest = hashlib.sha256()
+    for name, content in sorted(files.items()):
+        digest.update(f"{name}\0{len(content)}\0".encode())
+        digest.update(content)
+    return digest
+
+
+def guid_of(name: str, content: str) -> str:
+    """The GUID of a unit, by its name and the digest of what it is made from."""
+    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{name}/{content}"))

@@ -8,9 +8,7 @@ today's content; else it is compiled here.
 
 from __future__ import annotations
 
-import hashlib
 import json
-import uuid
 import zipfile
 import zlib
 from collections.abc import Sequence
@@ -29,7 +27,7 @@ from stickslip.status import WHY_NOT
 
 from cosim.files import write_bytes
 from cosim.fmu import c_tables
-from cosim.fmu.archive import packed
+from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.description.fmi3 import build_description, fmi3_description
@@ -81,11 +79,7 @@ def guid() -> str:
         **{f"maker/{file.name}": file.read_bytes() for file in MAKERS},
         **_written(),
     }
-    digest = hashlib.sha256()
-    for name, content in sorted(made_from.items()):
-        digest.update(f"{name}\0{len(content)}\0".encode())
-        digest.update(content)
-    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{NAME}/{digest.hexdigest()}"))
+    return guid_of(NAME, digest_of(made_from).hexdigest())
 
 
 def _written() -> dict[str, bytes]:

@@ -11,13 +11,11 @@ effects' declarations stay behind, and pydantic with them.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import pprint
 import re
 import sys
 import tempfile
-import uuid
 import zipfile
 import zlib
 from collections.abc import Sequence
@@ -34,7 +32,7 @@ from stickslip.names import NAMES
 
 from cosim.files import write_bytes
 from cosim.fmu import description
-from cosim.fmu.archive import packed
+from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts, fmi2
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.native import DESCRIPTION, NAME
@@ -123,10 +121,7 @@ def content_hash(files: dict[str, bytes] | None = None, table: list[Entry] | Non
 
 def hash_of(files: dict[str, bytes], table: list[Any]) -> str:
     """Twelve hex digits over files and declarations, and pythonfmu."""
-    digest = hashlib.sha256()
-    for name, content in sorted(files.items()):
-        digest.update(f"{name}\0{len(content)}\0".encode())
-        digest.update(content)
+    digest = digest_of(files)
     digest.update(json.dumps(table, sort_keys=True).encode())
     digest.update(version("pythonfmu").encode())
     return digest.hexdigest()[:12]
@@ -245,11 +240,6 @@ def _facts(content: str) -> UnitFacts:
         tool=f"stickslip, pythonfmu {version('pythonfmu')}",
         python=True,
     )
-
-
-def guid_of(name: str, content: str) -> str:
-    """The GUID of a unit by its name and the hash of its content."""
-    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{name}/{content}"))
 
 
 def variables_module(table: list[Entry], content: str) -> bytes:

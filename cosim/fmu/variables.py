@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from pydantic.fields import FieldInfo
 from stickslip import Parameters, ports
 from stickslip.kernel import layout
 from stickslip.quantity import details
@@ -137,6 +138,16 @@ def _of_port(port: ports.Port, causality: str) -> Variable:
     return Variable(causality=causality, **{key: getattr(port, key) for key in kept})
 
 
+def bounds_of(field: FieldInfo) -> dict[str, float]:
+    """Those that pydantic checks of a parameter: gt, ge, lt and le, where there are any."""
+    return {
+        kind: getattr(bound, kind)
+        for bound in field.metadata
+        for kind in ("gt", "ge", "lt", "le")
+        if getattr(bound, kind, None) is not None
+    }
+
+
 def _entry(name: str, start: float) -> Entry:
     group, key = name.split(".")
     entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
@@ -144,12 +155,7 @@ def _entry(name: str, start: float) -> Entry:
         return entry | {"start": int(start)}
     table: Any = Parameters.model_fields[group].annotation
     field = table.model_fields[key.partition("[")[0]]
-    bounds = {
-        kind: getattr(bound, kind)
-        for bound in field.metadata
-        for kind in ("gt", "ge", "le")
-        if getattr(bound, kind, None) is not None
-    }
+    bounds = bounds_of(field)
     whole = field.annotation is int
     unit = None if whole else details(field)["unit"]
     if unit is not None and unit not in UNITS:

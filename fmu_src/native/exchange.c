@@ -1,14 +1,7 @@
 #include "exchange.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-static bool refuse(Instance *instance, const char *why)
-{
-    snprintf(instance->message, sizeof instance->message, "%s", why);
-    return false;
-}
 
 /* Is this an instance for model exchange whose model is there, and is the host's array as long as
    what is to be exchanged? */
@@ -18,9 +11,7 @@ static bool is_ready(Instance *instance, const void *numbers, size_t count, size
         return refuse(instance, "this instance is for co-simulation");
     }
     if (count != expected || (numbers == NULL && expected != 0)) {
-        snprintf(instance->message, sizeof instance->message, "%zu numbers asked for, there are %zu",
-                 count, expected);
-        return false;
+        return refuse(instance, "%zu numbers asked for, there are %zu", count, expected);
     }
     return refresh(instance);
 }

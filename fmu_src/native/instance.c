@@ -13,7 +13,7 @@ static const double GAP = 1e-6;
 /* s. A step cannot be interrupted: nobody shall wait for one for more than a minute. */
 static const double LONGEST_STEP = 1000.0;
 
-static bool refuse(Instance *instance, const char *format, ...)
+bool refuse(Instance *instance, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);

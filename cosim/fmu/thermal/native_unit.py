@@ -6,9 +6,7 @@ where a wheel is made. Their matrices are a file in the unit's resources.
 
 from __future__ import annotations
 
-import hashlib
 import json
-import uuid
 from collections.abc import Sequence
 from dataclasses import asdict
 from functools import cache
@@ -21,7 +19,7 @@ from stickslip.quantity import details
 import cosim
 from cosim.files import write_bytes
 from cosim.fmu import c_tables, native
-from cosim.fmu.archive import packed
+from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.libraries import of_platforms
@@ -88,11 +86,7 @@ def guid() -> str:
         **{f"thermal/{file}": (_heat_model() / file).read_bytes() for file in _heat_files()},
         **_written(),
     }
-    digest = hashlib.sha256()
-    for name, content in sorted(made_from.items()):
-        digest.update(f"{name}\0{len(content)}\0".encode())
-        digest.update(content)
-    return str(uuid.uuid5(uuid.NAMESPACE_URL, f"{NAME}/{digest.hexdigest()}"))
+    return guid_of(NAME, digest_of(made_from).hexdigest())
 
 
 def _heat_model() -> Path:

@@ -15,10 +15,11 @@ from typing import Any
 from stickslip.quantity import details
 
 from cosim.fmu import python_unit
+from cosim.fmu.archive import guid_of
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, inputs, outputs
 from cosim.fmu.units import UNITS
-from cosim.fmu.variables import Variable, names
+from cosim.fmu.variables import Variable, bounds_of, names
 from thermal import ThermalParameters
 
 FMU = f"{NAME}-python.fmu"
@@ -69,12 +70,7 @@ def _parameter(name: str, block: Any, key: str) -> Variable:
     unit = None if whole else details(field)["unit"]
     if unit is not None and unit not in UNITS:
         raise ValueError(f"{name} is in {unit!r}, a unit that UNITS lacks")
-    bounds = {
-        kind: getattr(bound, kind)
-        for bound in field.metadata
-        for kind in ("gt", "ge", "lt", "le")
-        if getattr(bound, kind, None) is not None
-    }
+    bounds = bounds_of(field)
     return Variable(
         name,
         "parameter",
@@ -114,7 +110,7 @@ def build(directory: Path) -> Path:
     content = python_unit.hash_of(files | recipe, [asdict(each) for each in declared])
     facts = UnitFacts(
         name=NAME,
-        guid=python_unit.guid_of(NAME, content),
+        guid=guid_of(NAME, content),
         description=f"{DESCRIPTION}. Finite elements; for hosts with a Python that has stickslip",
         version=version("stickslip"),
         tool=f"stickslip, pythonfmu {version('pythonfmu')}",
