@@ -31,7 +31,7 @@ class NativeUnits(BuildHookInterface):
 
         self.scratch = Path(tempfile.mkdtemp(prefix="stickslip-prebuilt-"))
         for unit in (native, native_unit):
-            libraries.prebuild(self.scratch, unit.guid(), unit.sources)
+            libraries.prebuild(self.scratch, unit.NAME, unit.guid(), unit.sources)
         build_data["force_include"][str(self.scratch)] = f"cosim/fmu/{libraries.PREBUILT}"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:

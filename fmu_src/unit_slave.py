@@ -134,6 +134,7 @@ class UnitSlave(Fmi2Slave):
         self.has_experiment = False
         self.tolerance = 0.0
         self.start = self.time = 0.0
+        self.stop = inf  # time past which no step may go, s
         self.stepped = False  # before the first step all follows from parameters and inputs
         self.stale = True
         self.retuned = False  # tunable parameters have changed since the last step
@@ -230,6 +231,7 @@ class UnitSlave(Fmi2Slave):
             raise Refused(f"tolerance is {tolerance:g}; must be a finite number of at least 0")
         self.has_experiment = True
         self.start = self.time = start_time
+        self.stop = inf if stop_time is None else stop_time
         self.tolerance = tolerance
         # pythonfmu's library leaves the extracted FMU at the head of the process's path for good.
         sys.path[:] = [entry for entry in sys.path if entry != self.resources]
@@ -284,6 +286,17 @@ class UnitSlave(Fmi2Slave):
         if abs(time - self.time) > GAP * size + 4.0 * ulp(self.time):
             raise Refused(
                 f"step begins at t = {time:.15g} s, the last one ended at t = {self.time:.15g} s"
+            )
+        end = time + size
+        if not end - self.start > self.time - self.start:
+            raise Refused(
+                f"step size is {size:g} s, lost in the rounding of the time, {self.time:.15g} s, "
+                "and of that since the start"
+            )
+        if end > self.stop and end - self.stop > GAP * size + 4.0 * ulp(self.stop):
+            raise Refused(
+                f"step to t = {end:.15g} s goes past the stop time that was set up, "
+                f"{self.stop:.15g} s"
             )
 
     @guarded("fmi2Terminate", (STEPPING,))
@@ -382,7 +395,8 @@ class UnitSlave(Fmi2Slave):
 
     # --- state ---
 
-    OWN = tuple("phase failure has_experiment tolerance start time stepped stale retuned".split())
+    OWN = tuple("phase failure has_experiment tolerance start stop time".split())
+    OWN += tuple("stepped stale retuned".split())
 
     @guarded("fmi2GetFMUstate", ANY_PHASE, result=dict)
     def _get_fmu_state(self):

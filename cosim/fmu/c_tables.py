@@ -44,7 +44,14 @@ def table_lines(variables: Sequence[Variable]) -> list[str]:
 
 def guarded(name: str, lines: Iterable[str]) -> str:
     """A header with these lines."""
-    return "\n".join([MADE, f"#ifndef {name}", f"#define {name}", "", *lines, "", "#endif", ""])
+    header = [MADE, f"#ifndef {name}", f"#define {name}", "", *lines, "", "#endif", ""]
+    return hidden("\n".join(header))
+
+
+def hidden(header: str) -> str:
+    """A header of whose names a library shows none, however it is compiled: see instance.h."""
+    pragma = "#if defined(__GNUC__)\n#pragma GCC visibility {}\n#endif\n"
+    return f"{pragma.format('push(hidden)')}\n{header}\n{pragma.format('pop')}"
 
 
 def variables_header(variables: Sequence[Variable], guid: str) -> str:
@@ -110,24 +117,16 @@ def _number(value: float) -> str:
 
 def words_header() -> str:
     """Declarations of `words_source`."""
-    return "\n".join(
-        [
-            MADE,
-            "#ifndef WORDS_H",
-            "#define WORDS_H",
-            "",
-            "#include <stddef.h>",
-            "",
-            "/* Why `advance` gave up, by its status. */",
-            f"extern const char *const WHY_NOT[{max(WHY_NOT) + 1}];",
-            "",
-            "/* What the code of `contradiction` says, with the values in it. */",
-            "void say_contradiction(int code, const double v[], char text[], size_t size);",
-            "",
-            "#endif",
-            "",
-        ]
-    )
+    lines = [
+        "#include <stddef.h>",
+        "",
+        "/* Why `advance` gave up, by its status. */",
+        f"extern const char *const WHY_NOT[{max(WHY_NOT) + 1}];",
+        "",
+        "/* What the code of `contradiction` says, with the values in it. */",
+        "void say_contradiction(int code, const double v[], char text[], size_t size);",
+    ]
+    return guarded("WORDS_H", lines)
 
 
 def words_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -> str:

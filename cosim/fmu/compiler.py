@@ -26,6 +26,9 @@ OPTIONS = (
     "-fvisibility=hidden",
     "-s",
 )
+# A library of a Mac says where it is to be looked for: wherever who links to it says. (Who opens it
+# by its path, as hosts do, does not ask.)
+MORE = {".dll": [], ".dylib": ["-lm", "-Wl,-install_name,@rpath/{library}"]}
 COMPILERS = ("cc", "gcc", "clang")
 
 
@@ -46,8 +49,10 @@ def possible(platforms: Sequence[Platform]) -> list[Platform]:
     return [each for each in platforms if each == own]
 
 
-def compiled(sources: Mapping[str, bytes], platforms: Sequence[Platform]) -> dict[Platform, bytes]:
-    """A library for each platform, of C sources by their names.
+def compiled(
+    sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
+) -> dict[Platform, bytes]:
+    """A library for each platform, of C sources by their names; ``name``: what it calls itself.
 
     Each is compiled by a process of its own, as many at once as there are processors. Raises
     CompilerError.
@@ -57,20 +62,22 @@ def compiled(sources: Mapping[str, bytes], platforms: Sequence[Platform]) -> dic
         for file, content in sources.items():
             (folder / file).write_bytes(content)
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            made = list(pool.map(lambda each: _library(folder, each), platforms))
+            made = list(pool.map(lambda each: _library(folder, each, name), platforms))
     return dict(zip(platforms, made, strict=True))
 
 
-def _library(folder: Path, platform: Platform) -> bytes:
-    library = folder / f"{platform.name}{platform.suffix}"
+def _library(folder: Path, platform: Platform, name: str) -> bytes:
+    # A DLL calls itself as the file that the compiler writes, so each platform has a folder.
+    library = Path(platform.name) / f"{name}{platform.suffix}"
+    (folder / library.parent).mkdir()
     files = sorted(file.name for file in folder.glob("*.c"))
-    math = [] if platform.suffix == ".dll" else ["-lm"]
-    command = [*_compiler(platform), *OPTIONS, "-o", library.name, *files, *math]
+    more = [word.format(library=library.name) for word in MORE.get(platform.suffix, ["-lm"])]
+    command = [*_compiler(platform), *OPTIONS, "-o", str(library), *files, *more]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         said = next((line for line in done.stderr.splitlines() if "error" in line), done.stderr)
         raise CompilerError(f"{platform.name}: {command[0]} refuses the sources: {said.strip()}")
-    return library.read_bytes()
+    return (folder / library).read_bytes()
 
 
 def _compiler(platform: Platform) -> list[str]:

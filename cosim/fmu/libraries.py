@@ -21,36 +21,55 @@ Sources = Callable[[], dict[str, bytes]]
 
 @cache
 def libraries(
-    guid: str, sources: Sources, platforms: tuple[Platform, ...]
+    name: str, guid: str, sources: Sources, platforms: tuple[Platform, ...]
 ) -> dict[Platform, bytes]:
     """Platform -> library, of those platforms that there is a way to.
 
-    guid : of the unit; sources : makes its C files by their names, where they are compiled. Once in
-    a process: a library serves several units. Raises CompilerError where there is a way to none.
+    name, guid : of the unit; sources : makes its C files by their names, where they are compiled.
+    Once in a process: a library serves several units. Raises CompilerError where there is a way to
+    none.
     """
     made = _prebuilt(guid)
-    if set(platforms) <= made.keys():
-        return {platform: made[platform] for platform in platforms}
-    there = possible(platforms)
-    if there:
-        return compiled(sources(), there)
-    raise CompilerError(
+    lacking = possible([each for each in platforms if each not in made])
+    if lacking:
+        made |= compiled(sources(), lacking, name)
+    found = {each: made[each] for each in platforms if each in made}
+    if not found:
+        raise CompilerError(_no_way(guid))
+    return found
+
+
+def _prebuilt(guid: str) -> dict[Platform, bytes]:
+    folder = _prebuilt_folder() / guid
+    files = {each: folder / f"{each.name}{each.suffix}" for each in PLATFORMS}
+    return {each: file.read_bytes() for each, file in files.items() if file.is_file()}
+
+
+def _prebuilt_folder() -> Path:
+    return Path(__file__).with_name(PREBUILT)
+
+
+def _no_way(guid: str) -> str:
+    """Why there is a library for none of the platforms."""
+    folder = _prebuilt_folder()
+    if folder.is_dir() and not (folder / guid).is_dir():
+        return (
+            f"the libraries in {folder} are of another content than the installed files beside "
+            "them, of which some have been changed or are of another version, and there is no C "
+            "compiler to make new ones: install stickslip again "
+            "(`pip install --force-reinstall stickslip`)"
+        )
+    return (
         "no C compiler for the unit: install one (cc, gcc or clang), or `pip install ziglang`, "
         "which compiles for every platform"
     )
 
 
-def _prebuilt(guid: str) -> dict[Platform, bytes]:
-    folder = Path(__file__).with_name(PREBUILT) / guid
-    files = {each: folder / f"{each.name}{each.suffix}" for each in PLATFORMS}
-    return {each: file.read_bytes() for each, file in files.items() if file.is_file()}
-
-
-def prebuild(folder: Path, guid: str, sources: Sources) -> Path:
+def prebuild(folder: Path, name: str, guid: str, sources: Sources) -> Path:
     """Compile for every platform that can be, for a wheel; the folder that it is to bring along."""
     target = folder / guid
     target.mkdir(parents=True, exist_ok=True)
-    for platform, library in compiled(sources(), possible(PLATFORMS)).items():
+    for platform, library in compiled(sources(), possible(PLATFORMS), name).items():
         (target / f"{platform.name}{platform.suffix}").write_bytes(library)
     return target
 
@@ -93,4 +112,4 @@ def of_platforms(
     guid: str, sources: Sources, platforms: Sequence[Platform], name: str, fmi: int = FMI2
 ) -> dict[str, bytes]:
     """`libraries` as `binaries`."""
-    return binaries(libraries(guid, sources, tuple(platforms)), name, fmi)
+    return binaries(libraries(name, guid, sources, tuple(platforms)), name, fmi)

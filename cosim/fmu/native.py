@@ -58,7 +58,7 @@ def sources() -> dict[str, bytes]:
     text, declared = kernel_source(), variables()
     places = {name: place for place, name in enumerate(NAMES)}
     made = {
-        "kernel.h": c_header(text),
+        "kernel.h": c_tables.hidden(c_header(text)),
         "kernel.c": c_source(text),
         "variables.h": c_tables.variables_header(declared, guid()),
         "variables.c": c_tables.variables_source(declared),
@@ -120,7 +120,7 @@ def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS, fmi: int =
         files["sources/buildDescription.xml"] = build_description(facts)
     else:
         files["modelDescription.xml"] = fmi2_description(facts, variables())
-    files |= documentation(facts, variables())
+    files |= documentation(facts, variables(), fmi)
     files |= of_platforms(guid(), sources, platforms, NAME, fmi)
     return write_bytes(packed(files), directory / FILES[fmi])
 

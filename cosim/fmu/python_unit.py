@@ -34,6 +34,7 @@ from cosim.files import write_bytes
 from cosim.fmu import description
 from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts, fmi2
+from cosim.fmu.description.cross_check import of_mechanics
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
@@ -145,7 +146,8 @@ class Recipe:
 
     facts: GUID included; module: name of the door, without the hash; package: of all else that
     travels; files: path inside the resources -> content; content: its hash; tells: text of the
-    package's module `variables`, which tells the slave what it is.
+    package's module `variables`, which tells the slave what it is; documentation: path in the unit
+    -> content.
     """
 
     facts: UnitFacts
@@ -155,6 +157,7 @@ class Recipe:
     variables: Sequence[Variable]
     tells: bytes
     content: str
+    documentation: dict[str, bytes]
 
 
 def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
@@ -170,6 +173,7 @@ def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
         variables=variables(),
         tells=variables_module(table, content),
         content=content,
+        documentation=of_mechanics(NAME, variables()),
     )
     return made(recipe, directory / FMU)
 
@@ -228,7 +232,7 @@ def _finish(raw: Path, recipe: Recipe) -> bytes:
         if name.startswith("binaries/"):
             files[name] = corrected(files[name])
     files["modelDescription.xml"] = fmi2_description(recipe.facts, recipe.variables)
-    return packed(files)
+    return packed(files | recipe.documentation)
 
 
 def _facts(content: str) -> UnitFacts:

@@ -47,8 +47,8 @@ HOLD: Entry = {
     "max": 1,
     "above_min": False,
     "description": "inputs between communication points: 0 held, 1 going on as between the last "
-    "two; rates that a host gives come first. The speed of the surface under a block that sticks "
-    "does not jump",
+    "two, through events too; rates that a host gives come first. The speed of the surface under a "
+    "block that sticks does not jump",
     "start": 0,
 }
 #: Parameters that may be changed in a run, where a unit can take that.

@@ -134,7 +134,7 @@ static bool is_input(unsigned reference)
 }
 
 /* By how much of the direction a difference goes: so that no known variable goes further than
-   `DIFFERENCE` of its nominal; 0 for a direction of zeros. */
+   `DIFFERENCE` of its nominal; 0 for a direction of zeros, or of numbers hardly above. */
 static double span_of(const Memory *memory, const unsigned knowns[], size_t count,
                       const double seed[])
 {
@@ -145,7 +145,8 @@ static double span_of(const Memory *memory, const unsigned knowns[], size_t coun
         double size = state >= 0 ? nominals[state] : INPUT_NOMINALS[knowns[i] - FIRST_INPUT];
         fastest = fmax(fastest, fabs(seed[i]) / size);
     }
-    return fastest == 0.0 ? 0.0 : DIFFERENCE / fastest;
+    double span = fastest == 0.0 ? 0.0 : DIFFERENCE / fastest;
+    return isfinite(span) ? span : 0.0; /* of next to nothing */
 }
 
 /* All variables a span along the direction from here. */
@@ -180,6 +181,10 @@ bool directional_derivative(Instance *instance, const unsigned unknowns[], size_
     for (size_t i = 0; i < known_count; i++) {
         if (state_of(knowns[i]) < 0 && !is_input(knowns[i])) {
             return refuse(instance, "directional derivatives are with respect to states and inputs");
+        }
+        if (!isfinite(seed[i])) {
+            return refuse(instance, "the direction along %s is %g; must be a finite number",
+                          VARIABLES[knowns[i]].name, seed[i]);
         }
     }
     for (size_t i = 0; i < unknown_count; i++) {

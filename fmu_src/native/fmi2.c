@@ -337,8 +337,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component handle, const fmi2Byte bytes[],
         free(memory);
         return closed(component, false);
     }
-    free(*state);
-    *state = memory;
+    *state = memory; /* what stood there before is not looked at: it need not be a state */
     return fmi2OK;
 }
 

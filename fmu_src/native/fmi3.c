@@ -281,8 +281,7 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3Byte bytes[], 
         free(memory);
         return closed3(component, false);
     }
-    free(*state);
-    *state = memory;
+    *state = memory; /* what stood there before is not looked at: it need not be a state */
     return fmi3OK;
 }
 

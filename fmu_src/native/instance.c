@@ -48,6 +48,7 @@ void set_up(Instance *instance, bool exchanges, bool has_event_mode)
     memory->exchanges = exchanges;
     memory->has_event_mode = has_event_mode;
     memory->is_stale = true;
+    memory->stop = INFINITY;
     for (size_t i = 0; i < VARIABLE_COUNT; i++) {
         memory->values[i] = VARIABLES[i].start;
     }
@@ -85,6 +86,7 @@ bool set_experiment(Instance *instance, double start, bool has_stop, double stop
     }
     memory->has_experiment = true;
     memory->start = memory->time = start;
+    memory->stop = has_stop ? stop : INFINITY;
     memory->tolerance = tolerance;
     memory->is_stale = true;
     return true;
@@ -162,7 +164,7 @@ static double spacing(double time)
 
 static bool is_possible_step(Instance *instance, double time, double size)
 {
-    double last = instance->memory.time;
+    double last = instance->memory.time, stop = instance->memory.stop;
     if (!isfinite(time) || !isfinite(size)) {
         return refuse(instance, "step from t = %g of size %g: must be finite numbers", time, size);
     }
@@ -176,6 +178,10 @@ static bool is_possible_step(Instance *instance, double time, double size)
     if (fabs(time - last) > GAP * size + 4.0 * spacing(last)) {
         return refuse(instance, "step begins at t = %.15g s, the last one ended at t = %.15g s", time,
                       last);
+    }
+    if (time + size > stop && time + size - stop > GAP * size + 4.0 * spacing(stop)) {
+        return refuse(instance, "step to t = %.15g s goes past the stop time that was set up, "
+                      "%.15g s", time + size, stop);
     }
     return true;
 }
@@ -192,6 +198,10 @@ bool step(Instance *instance, double time, double size, bool *event)
     }
     memory->is_retuned = false;
     double end = time + size - memory->start;
+    if (!(end > model_time(&memory->model))) {
+        return refuse(instance, "step size is %g s, lost in the rounding of the time, %.15g s, and of "
+                      "that since the start", size, memory->time);
+    }
     if (!model_step(&memory->model, memory->values, end, event, instance->message)) {
         return false;
     }
@@ -311,6 +321,10 @@ bool set_rate(Instance *instance, size_t reference, int order, double rate)
     }
     if (VARIABLES[reference].causality != INPUT) {
         return refuse(instance, "%s is no input, and takes no derivative", VARIABLES[reference].name);
+    }
+    if (instance->memory.exchanges) {
+        return refuse(instance, "%s takes no derivative in model exchange, where it is set at each time",
+                      VARIABLES[reference].name);
     }
     if (!TAKES_RATES) {
         return refuse(instance, "%s is held over a step, and takes no derivative",

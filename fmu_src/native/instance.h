@@ -35,6 +35,7 @@ typedef struct {
     bool is_outdated;    /* what follows from states and time is not yet in `values` */
     bool has_warned;
     double start; /* time at which the experiment begins, s */
+    double stop;  /* time past which no step may go, s; infinite: any */
     double time;  /* of the last communication point, s */
     double tolerance;
     double values[VARIABLE_COUNT];

@@ -20,6 +20,9 @@ from .kernel.layout import CURVE_LIMIT
 from .packing import pack
 from .quantity import Table, quantity
 
+#: m/s; nothing that ice lies on moves as fast: a slip of the unit.
+FASTEST_SURFACE = 1e3
+
 
 class Rig(Table):
     """Block, spring geometry and guides."""
@@ -113,7 +116,13 @@ class Springs(Table):
 class Surface(Table):
     """Drive of the surface under the block."""
 
-    speed: float = quantity(0.15, "m/s", "speed of the surface; negative runs backwards")
+    speed: float = quantity(
+        0.15,
+        "m/s",
+        "speed of the surface; negative runs backwards",
+        ge=-FASTEST_SURFACE,
+        le=FASTEST_SURFACE,
+    )
     run_up_time: float = quantity(
         0.0, "s", "time in which the speed grows linearly from standstill", ge=0
     )
@@ -136,19 +145,35 @@ class Imperfections(Table):
     Each is the standard deviation of a normal distribution that is cut at three of them.
     """
 
-    seed: int = quantity(1, "1", "which rig it is", ge=0, le=2**31 - 1)
-    mass: float = quantity(0.0, "1", "of the block's mass, part of it", ge=0, le=0.1)
+    seed: int = quantity(
+        1, "1", "which rig it is: the same seed, the same departures", ge=0, le=2**31 - 1
+    )
+    mass: float = quantity(
+        0.0, "1", "standard deviation of the block's mass, part of it", ge=0, le=0.1
+    )
     spring_stiffness: float = quantity(
-        0.0, "1", "of the stiffness of each of the four springs, part of it", ge=0, le=0.2
+        0.0,
+        "1",
+        "standard deviation of the stiffness of each of the four springs, part of it",
+        ge=0,
+        le=0.2,
     )
     anchor_position: float = quantity(
-        0.0, "m", "of the place, in x and in y, at which each spring is held", ge=0, le=0.02
+        0.0, "m", "standard deviation of the place, in x and in y, of each anchor", ge=0, le=0.02
     )
     start_position: float = quantity(
-        0.0, "m", "of x and of y at the start, on top of [initial]", ge=0, le=0.02
+        0.0,
+        "m",
+        "standard deviation of x and of y at the start, on top of initial.x and initial.y",
+        ge=0,
+        le=0.02,
     )
     start_angle_deg: float = quantity(
-        0.0, "deg", "of the rotation at the start, on top of [initial]", ge=0, le=10
+        0.0,
+        "deg",
+        "standard deviation of the rotation at the start, on top of initial.phi",
+        ge=0,
+        le=10,
     )
 
 

@@ -35,7 +35,7 @@ INPUTS = (
     ),
     Port("external_force_x", "U_FORCE_X", "N", 1.0, "Force on the block along x", start=0.0),
     Port("external_force_y", "U_FORCE_Y", "N", 1.0, "Force on the block along y", start=0.0),
-    Port("external_moment", "U_MOMENT", "N.m", 0.1, "Moment on the block", start=0.0),
+    Port("external_moment", "U_MOMENT", "N.m", 0.1, "Moment about the vertical", start=0.0),
     Port(
         "film_thickness",
         "U_FILM",
@@ -48,18 +48,27 @@ INPUTS = (
 )
 OUTPUTS = (
     Port("x", "O_X", "m", 0.1, "Position along the motion of the surface; 0 as installed"),
-    Port("y", "O_Y", "m", 0.1, "Position across"),
-    Port("phi", "O_PHI", "rad", 0.1, "Rotation about the vertical"),
+    Port("y", "O_Y", "m", 0.1, "Position across, to the left of x"),
+    Port("phi", "O_PHI", "rad", 0.1, "Rotation about the vertical, counter-clockwise"),
     Port("vx", "O_VX", "m/s", 0.1, "Velocity along x"),
     Port("vy", "O_VY", "m/s", 0.1, "Velocity along y"),
     Port("omega", "O_OMEGA", "rad/s", 1.0, "Angular velocity"),
     Port("friction_force_x", "O_FRICTION_X", "N", 1.0, "Friction on the block along x"),
     Port("friction_force_y", "O_FRICTION_Y", "N", 1.0, "Friction on the block along y"),
-    Port("friction_moment", "O_FRICTION_MOMENT", "N.m", 0.1, "Friction moment on the block"),
-    Port("sliding_speed", "O_SLIDING_SPEED", "m/s", 0.1, "Local sliding speed, mean", min=0.0),
-    Port("heat_flow", "O_HEAT_FLOW", "W", 0.1, "Friction heat, mean over the last step", min=0.0),
+    Port("friction_moment", "O_FRICTION_MOMENT", "N.m", 0.1, "Friction moment about the vertical"),
+    Port(
+        "sliding_speed", "O_SLIDING_SPEED", "m/s", 0.1, "Sliding speed, mean of the disc", min=0.0
+    ),
+    Port(
+        "heat_flow",
+        "O_HEAT_FLOW",
+        "W",
+        0.1,
+        "Friction heat, mean over the last step; in model exchange that of the moment",
+        min=0.0,
+    ),
     Port("heat", "O_HEAT", "J", 1.0, "Friction heat since the start", min=0.0),
-    Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Local sliding distance, mean", min=0.0),
+    Port("sliding_distance", "O_DISTANCE", "m", 1.0, "Distance slid, mean of the disc", min=0.0),
     Port("surface_travel", "O_TRAVEL", "m", 1.0, "Travel of the surface since the start"),
     Port("mode", "O_MODE", None, None, "0 stick, 1 slip", min=0, max=1),
     Port("slip_time", "O_SLIP_TIME", "s", 1.0, "Time spent in slip since the start", min=0.0),

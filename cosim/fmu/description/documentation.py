@@ -1,38 +1,35 @@
-"""The folder `documentation` of a unit: its equations and variables, and a run to compare with."""
+"""The folder `documentation` of the mechanical unit: its equations and variables, and a run to
+compare with."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-from stickslip import EFFECTS, Parameters
-from stickslip.kernel.layout import O_SIZE, U_SIZE, constants
+from stickslip import EFFECTS
 
 from cosim.fmu.description import UnitFacts
-from cosim.fmu.variables import Variable
+from cosim.fmu.description.cross_check import of_mechanics
+from cosim.fmu.libraries import FMI2
+from cosim.fmu.variables import Variable, by_array
 
-STOP, STEP = 10.0, 0.01  # s, of the run to compare with
 
-
-def documentation(facts: UnitFacts, variables: Sequence[Variable]) -> dict[str, bytes]:
-    """Path in the unit -> content."""
+def documentation(
+    facts: UnitFacts, variables: Sequence[Variable], fmi: int = FMI2
+) -> dict[str, bytes]:
+    """Path in the unit -> content; the page is that of a version of FMI."""
     from cosim.report.page import render
 
     page = render(
         "documentation.html.j2",
         "cosim.fmu.description",
         facts=facts,
-        variables=variables,
+        fmi=fmi,
+        variables=by_array(variables),
         effects=EFFECTS,
         allowed=allowed,
+        starts=starts,
     )
-    opt = f"StartTime, 0\nStopTime, {STOP:g}\nStepSize, {STEP:g}\nRelTol, 1e-9\n"
-    files = {
-        "index.html": page,
-        f"{facts.name}_ref.opt": opt,
-        f"{facts.name}_in.csv": _inputs(variables),
-        f"{facts.name}_ref.csv": _reference(variables),
-    }
-    return {f"documentation/{name}": text.encode() for name, text in files.items()}
+    return {"documentation/index.html": page.encode()} | of_mechanics(facts.name, variables)
 
 
 def allowed(variable: Variable) -> str:
@@ -40,43 +37,14 @@ def allowed(variable: Variable) -> str:
     low, high = variable.min, variable.max
     if low is None and high is None:
         return ""
-    above = "above" if variable.above_min else "at least"
-    parts = [f"{above} {low:g}" if low is not None else ""]
-    parts.append(f"at most {high:g}" if high is not None else "")
-    return ", ".join(filter(None, parts))
+    if low is None:
+        return f"at most {high:.10g}"
+    if high is None:
+        return f"{'above' if variable.above_min else 'at least'} {low:.10g}"
+    return f"{'above ' if variable.above_min else ''}{low:.10g} to {high:.10g}"
 
 
-def _inputs(variables: Sequence[Variable]) -> str:
-    inputs = [variable for variable in variables if variable.causality == "input"]
-    starts = [variable.start or 0.0 for variable in inputs]
-    return _csv([each.name for each in inputs], iter([(0.0, starts), (STOP, starts)]))
-
-
-def _reference(variables: Sequence[Variable]) -> str:
-    """Outputs of the model at its defaults, interpreted: not by what it is to be compared with."""
-    places = constants()
-    outputs = [variable for variable in variables if variable.causality == "output"]
-    starts = {each.slot: each.start for each in variables if each.causality == "input"}
-    u = [0.0] * U_SIZE
-    for slot, start in starts.items():
-        u[int(str(places[slot]))] = start or 0.0
-    slots = [int(str(places[each.slot])) for each in outputs]
-    return _csv([each.name for each in outputs], _rows(u, slots))
-
-
-def _rows(u: list[float], slots: list[int]) -> Iterator[tuple[float, list[float]]]:
-    from stickslip.arrays import RunArrays  # numba: only for who gets here
-
-    run = RunArrays.begin(Parameters().pack(), u, interpreted=True)
-    o = [0.0] * O_SIZE
-    for n in range(round(STOP / STEP) + 1):
-        if not run.advance(n * STEP):
-            raise ValueError(f"the run to compare with stops: {run.failure}")
-        run.kernel.show(run.p, run.u, run.z, run.w, o, 0)
-        yield n * STEP, [o[slot] for slot in slots]
-
-
-def _csv(names: list[str], rows: Iterator[tuple[float, list[float]]]) -> str:
-    lines = [",".join(f'"{name}"' for name in ["time", *names])]
-    lines += [",".join(repr(float(value)) for value in (time, *values)) for time, values in rows]
-    return "\n".join(lines) + "\n"
+def starts(elements: Sequence[Variable]) -> str:
+    """Start value of a variable, or of an array: once, where all of its elements have the same."""
+    values = [f"{each.start:g}" for each in elements if each.start is not None]
+    return ", ".join(values if len(set(values)) > 1 else values[:1])

@@ -24,7 +24,7 @@ from cosim.fmu.description import UnitFacts
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.libraries import of_platforms
 from cosim.fmu.platforms import PLATFORMS, Platform
-from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, reduced
+from cosim.fmu.thermal.variables import DESCRIPTION, NAME, STARTS, reduced
 from cosim.fmu.variables import Variable, names
 
 if TYPE_CHECKING:  # the heat model needs scikit-fem
@@ -104,20 +104,16 @@ def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS) -> Path:
 
     Raises CompilerError where there is a way to none.
     """
-    from thermal import ThermalParameters  # scikit-fem
+    from cosim.fmu.thermal.reference_run import reference_parameters  # scikit-fem
 
-    tables: dict[str, dict[str, float]] = {}
-    for name, value in REFERENCE.items():
-        table, _, key = name.partition(".")
-        tables.setdefault(table, {})[key] = value
-    return build_for(ThermalParameters.checked(tables), directory / FMU, platforms)
+    return build_for(reference_parameters(), directory / FMU, platforms)
 
 
 def build_for(
     parameters: ThermalParameters, target: Path, platforms: Sequence[Platform] = PLATFORMS
 ) -> Path:
     """Make a unit of any belt and ice."""
-    from cosim.fmu.thermal import resources  # scikit-fem
+    from cosim.fmu.thermal import reference_run, resources  # scikit-fem
 
     made = resources.reduction(parameters)
     declared = reduced(resources.starts(made))
@@ -125,6 +121,7 @@ def build_for(
     files[f"resources/{resources.FILE}"] = resources.packed(made)
     files["modelDescription.xml"] = fmi2_description(_facts(), declared)
     files["documentation/index.html"] = _documentation(made, declared)
+    files |= reference_run.of_heat(parameters, declared)
     files |= of_platforms(guid(), sources, platforms, NAME)
     return write_bytes(packed(files), target)
 
@@ -144,20 +141,26 @@ def _documentation(made: Reduction, declared: Sequence[Variable]) -> bytes:
         belt=made.belt.face.size,
         ice=made.ice.contact.size,
         cells=made.parameters.belt.cells,
+        strips=made.parameters.contact.strips,
     )
     return page.encode()
 
 
-def _fixed(parameters: ThermalParameters, free: set[str]) -> list[tuple[str, str, str]]:
-    """Key, value and unit of what is in the matrices: all that is no parameter of the unit."""
+def _fixed(parameters: ThermalParameters, free: set[str]) -> list[tuple[str, str, str, str]]:
+    """Key, value, unit and meaning of what is in the matrices: all that is no parameter.
+
+    Railing and rollers are left out: a reduced belt has none.
+    """
     free |= {"belt.still_air_speed"}  # of which follows a heat transfer, which is free
     rows = []
     for name, table in parameters:
         for key, field in type(table).model_fields.items():
             value = getattr(table, key)
-            if f"{name}.{key}" not in free and value not in ("", ()):
+            absent = key.startswith(("railing", "roller"))
+            if f"{name}.{key}" not in free and not absent and value not in ("", ()):
                 said = f"{value:g}" if isinstance(value, int | float) else str(value)
-                rows.append((f"{name}.{key}", said, details(field).get("unit", "")))
+                unit, meaning = details(field).get("unit", ""), field.description or ""
+                rows.append((f"{name}.{key}", said, unit, meaning))
     return rows
 
 

@@ -17,6 +17,7 @@ from stickslip.quantity import details
 from cosim.fmu import python_unit
 from cosim.fmu.archive import guid_of
 from cosim.fmu.description import UnitFacts
+from cosim.fmu.thermal.reference_run import of_heat, reference_parameters
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, inputs, outputs
 from cosim.fmu.units import UNITS
 from cosim.fmu.variables import Variable, bounds_of, names
@@ -137,6 +138,7 @@ def build(directory: Path) -> Path:
             variables=declared,
             tells=python_unit.module_of(tells),
             content=content,
+            documentation=of_heat(reference_parameters(), declared),
         ),
         directory / FMU,
     )

@@ -28,7 +28,9 @@ _EDGE = "face of the belt an eighth of the contact's length"
 def inputs() -> list[Variable]:
     """Held over a step."""
     return [
-        Variable("heat_flow", "input", "W", 0.1, "Friction heat, mean over the step", start=0.0),
+        Variable(
+            "heat_flow", "input", "W", 0.1, "Friction heat, mean of the step, >= 0", start=0.0
+        ),
         Variable(
             "surface_speed", "input", "m/s", 0.1, "Speed of the belt, mean over the step", start=0.0
         ),
@@ -45,7 +47,9 @@ def outputs() -> list[Variable]:
         _output("belt_entry_temperature", "degC", 10.0, f"{_EDGE} before the contact".capitalize()),
         _output("belt_exit_temperature", "degC", 10.0, f"{_EDGE} behind the contact".capitalize()),
         _output("ice_face_temperature", "degC", 10.0, "Face of the ice, mean over the contact"),
-        _output("belt_share", "1", 1.0, "Share of the friction heat that went into the belt"),
+        _output(
+            "belt_share", "1", 1.0, "Share of the friction heat that went into the belt so far"
+        ),
         _output("melt_rate", "kg/s", 1e-6, "Ice that melts, mean over the step; below 0: freezes"),
         _output("melted_mass", "kg", 1e-3, "Ice that has melted since the start"),
     ]

@@ -10,8 +10,10 @@ An effect is one file. It declares an `Effect` named ``EFFECT`` and stands in th
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from inspect import cleandoc
 from typing import Any
 
 from ..quantity import Table, details
@@ -185,3 +187,9 @@ class Effect:
     def sentence(self) -> str:
         """What it adds to the plain model."""
         return (self.table.__doc__ or "").split("\n")[0]
+
+    @property
+    def law(self) -> list[str]:
+        """Its law in words and formulas, the paragraphs of its file; a formula is indented."""
+        said = cleandoc(sys.modules[self.table.__module__].__doc__ or "")
+        return said.split("\n\n")[1:]

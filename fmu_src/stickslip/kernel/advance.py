@@ -56,6 +56,7 @@ from .layout import (
     SPRING_COLLAPSED,
     STEP_VANISHED,
     STEPS_AT_LEAST,
+    STEPS_AT_MOST,
     STEPS_PER_SECOND,
     STICK,
     TIME,
@@ -311,7 +312,7 @@ def walk(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, end: float, stop
     """
     z[Z_TIME_BEFORE] = z[SHOWN + TIME]
     z[Z_HEAT_BEFORE] = z[SHOWN + HEAT]
-    budget = STEPS_AT_LEAST + STEPS_PER_SECOND * (end - z[SHOWN + TIME])
+    budget = min(STEPS_AT_LEAST + STEPS_PER_SECOND * (end - z[SHOWN + TIME]), STEPS_AT_MOST)
     changed = take_inputs(p, u, z, w, e)
     outcome = DONE
     while outcome == DONE and z[SHOWN + TIME] < end:

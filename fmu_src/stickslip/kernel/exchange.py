@@ -20,7 +20,7 @@ Between events the right-hand side is smooth, so that the order of the host's me
   are means of an explicit method, and stiff to an integrator that is made for that.
 
 Events: the load of a stick reaches what the contact can hold; a slip has no velocity left along its
-direction; its speed passes `rest_speed`; the speed ramp ends (at a time known before); inputs or
+direction; its speed passes `slowest_slip`; the speed ramp ends (at a time known before); inputs or
 parameters change. Each is decided where `advance` decides it, by `settle` and `release`, and
 counted in the same way. An instant is made consistent there, and the ledger stays closed.
 
@@ -101,10 +101,11 @@ from .rig.springs import shortest_spring
 from .runge_kutta import load_instant, state_scale
 from .steady_sliding import LOOK_AHEAD
 from .stick import set_stick_velocity
+from .terms import has_state_law
 
 # What a load may lack of the limit, relative to that, for a host's event to be the break-away.
 AT_THE_LIMIT = 1e-9
-# Of `rest_speed`: a slip that began from rest has turned back where it slides back that fast, and
+# Of `slowest_slip`: a slip that began from rest has turned back where it slides back that fast, and
 # has a direction of its own where it slides on so fast.
 TURNED_BACK = 0.5
 WELL_ON = 2.0
@@ -114,6 +115,9 @@ REVERSED = 0.5
 # part of the motion's own speed up to which there are any.
 FASTER = 8.0
 FAST_ENOUGH = 0.3
+# Of the motion's own speed: up to that a slip is slow whose friction follows the state of the
+# contact, see `slowest_slip`.
+CREEPING = 2e-4
 # By which an end of the speed ramp may be missed, relative to its time: hosts round.
 RAMP_ROUNDING = 1e-8
 
@@ -153,6 +157,18 @@ def set_nominals(p: Floats, u: Floats, s: Floats):
         if not s[i] > 0.0:
             s[i] = 1.0
     s[STATES] = 1.0 / p[P_RATE]
+
+
+def slowest_slip(p: Floats, u: Floats) -> float:
+    """Scaled sliding speed below which a slip begins or ends, m/s.
+
+    With friction that follows the state of the contact a slip creeps for a while, and stiffly, at
+    speeds that a host's integrator does not resolve: it keeps the block's velocity to its tolerance
+    of the surface's. What that makes of a creeping slip is no event, or there is one at every step.
+    """
+    if has_state_law(p):
+        return max(rest_speed(p, u), CREEPING * speed_scale(p, u))
+    return rest_speed(p, u)
 
 
 # --- right-hand side --------------------------------------------------------------------------
@@ -261,7 +277,7 @@ def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats):
         return
     load_moment(p, z, w)
     set_contact(p, u, w, W_STATE)
-    slow = rest_speed(p, u)
+    slow = slowest_slip(p, u)
     speed = scaled_sliding_speed(p, w)
     g[0] = along_direction(p, z, w)
     if z[Z_SLIDING] == SLIDING_BEGINS:
@@ -301,7 +317,7 @@ def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
         return
     look_at(p, u, z, w, SHOWN)
     speed = scaled_sliding_speed(p, w)
-    if speed > rest_speed(p, u):
+    if speed > slowest_slip(p, u):
         slide_on(p, u, z, speed)
     if speed > 0.0 and along_direction(p, z, w) < 0.0:  # nothing has stopped it: no friction
         set_direction(p, z, w, SHOWN, speed)
@@ -334,7 +350,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     the step has made of that is taken away. One that has found the event has only turned.
     """
     look_at(p, u, z, w, SHOWN)
-    slow = rest_speed(p, u)
+    slow = slowest_slip(p, u)
     speed = scaled_sliding_speed(p, w)
     along = along_direction(p, z, w)
     grip = holding_coefficient(p, u, w)  # without it nothing comes to rest
@@ -404,7 +420,7 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
     if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
         look_at(p, u, z, w, SHOWN)
         speed = scaled_sliding_speed(p, w)
-        if along_direction(p, z, w) > 0.0 and speed > rest_speed(p, u):
+        if along_direction(p, z, w) > 0.0 and speed > slowest_slip(p, u):
             set_direction(p, z, w, SHOWN, speed)
             if z[Z_FASTER] == 0.0 or z[Z_FASTER] > FASTER * speed:
                 slide_on(p, u, z, speed)

@@ -72,6 +72,7 @@ SLIDING_ENDS = 2
 INDICATORS = 3  # event indicators of model exchange
 STEPS_AT_LEAST = 20000  # internal steps that a call of `advance` may always take, and beyond them
 STEPS_PER_SECOND = 200000.0  # so many for each second of motion
+STEPS_AT_MOST = 4e6  # of a call, which nobody can interrupt: they take some ten seconds
 
 # --- an instant of the motion -----------------------------------------------------------------
 MOVING_STATES = ("X", "Y", "PHI", "VX", "VY", "OMEGA")  # what every motion depends on
@@ -119,9 +120,15 @@ GIVEN = (
     ("G_VALUE", GIVEN_INPUTS),
     ("G_RATE", GIVEN_INPUTS),  # with which it goes on, per s
     ("G_HAS_RATE", GIVEN_INPUTS),  # 1 where the host has said so for the coming step
-    ("G_BEFORE", GIVEN_INPUTS),  # its value for the last step
+    ("G_BEFORE", GIVEN_INPUTS),  # its value at the last regular point
+    ("G_LAST", GIVEN_INPUTS),  # its value for the last step
+    ("G_LINE", GIVEN_INPUTS),  # where what the host has said of it was when the last step began
+    ("G_SLOPE", GIVEN_INPUTS),  # and with which rate that goes on, per s
+    ("G_GOING", GIVEN_INPUTS),  # rate of the input itself in the last step, per s
     ("G_REACHED", GIVEN_INPUTS),  # where the last step has left it
-    ("G_SPAN", 1),  # size of the last step, s; 0: there was none
+    ("G_POINT", 1),  # time of the last regular point, s
+    ("G_STEP", 1),  # size of the step that the host has asked for there, s; 0: there was none
+    ("G_CUT", 1),  # 1: an event has ended that step, and its own end has not been reached
     ("G_FIRST", 1),  # 1: an input without a rate goes on as it has between the last two values
 )
 

@@ -6,13 +6,13 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from ctypes import byref, c_bool, c_double, c_size_t, c_uint, c_void_p
+from ctypes import byref, c_bool, c_double, c_uint, c_void_p
 from xml.etree import ElementTree
 
 import fmpy
 import numpy as np
 import pytest
-from fmi3_unit import ERROR, OK, Unit, functions, references
+from fmi3_unit import ERROR, OK, Unit, functions
 from fmpy.validation import validate_fmu
 from stickslip import Parameters, simulate
 
@@ -216,6 +216,16 @@ def test_a_step_that_happens_to_end_at_an_event_is_no_early_return(unit):
         assert block.step(time) == (True, False) and block.time == time
 
 
+def test_a_step_past_the_stop_time_is_refused(unit):
+    with unit.instance() as block:
+        block.done("EnterInitializationMode", False, 0.0, 0.0, True, 0.3)
+        block.done("ExitInitializationMode")
+        for _ in range(3):
+            block.step(0.1)
+        told = map(byref, (c_bool(), c_bool(), c_bool(), c_double()))
+        assert "past the stop time" in block.reason("DoStep", block.time, 1e-3, True, *told)
+
+
 @pytest.mark.parametrize(("events", "early"), [(False, False), (False, True), (True, False)])
 def test_a_host_that_allows_no_early_return_gets_none(unit, events, early):
     with unit.instance(events=events, early=early) as block:
@@ -363,6 +373,23 @@ def test_derivatives_of_outputs_are_what_differences_come_to(unit):
 PLANE_VALUES = {"lateral_friction.ratio": 1.0, "initial.phi": 0.05, "surface_speed": 0.1}
 
 
+def test_looking_at_indicators_leaves_a_step_as_it_is(unit):
+    ends = []
+    for looks in (False, True):
+        with unit.instance() as block:
+            block.begin(**PLANE_VALUES)
+            for _ in range(100):
+                block.step(0.01)
+                if looks:
+                    place = unit.references["time"] + 1
+                    block.done("GetFloat64", byref(c_uint(place)), 1, (c_double * 1)(), 1)
+                    rate = (c_double * 1)()
+                    x = byref(c_uint(unit.references["x"]))
+                    block.done("GetOutputDerivatives", x, 1, (ctypes.c_int32 * 1)(1), rate, 1)
+            ends.append(block.everything())
+    assert ends[0] == ends[1]
+
+
 # --- saved states ---
 
 
@@ -405,206 +432,3 @@ def test_a_state_is_of_an_instance_of_its_kind(unit):
                 with unit.instance(**kind) as other:
                     assert other.call("SetFMUState", state) == (OK if kind == own else ERROR)
             block.done("FreeFMUState", byref(state))
-
-
-# --- refusals ---
-
-
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        ({"token": b"{0}"}, "the instantiation token is not that of this unit"),
-        ({"token": None}, "the instantiation token is not that of this unit"),
-        ({"name": None}, "has no name"),
-        ({"name": b""}, "has no name"),
-        ({"required": 1}, "has no intermediate update"),
-    ],
-)
-def test_an_instance_that_cannot_be_is_none(unit, changed, said):
-    block = unit.instance(**changed)
-    ((status, category, text),) = block.messages
-    assert block.handle is None
-    assert (status, category) == (ERROR, b"logStatusError") and said in text.decode()
-
-
-def test_scheduled_execution_is_refused(unit):
-    make = unit.library.fmi3InstantiateScheduledExecution
-    make.restype = c_void_p
-    assert make(b"a", unit.token, None, False, False, None, None, None, None, None) is None
-
-
-def one_float(place, count=1):
-    """Arguments for one variable, by name or reference, and so many values."""
-    name, _, inside = str(place).partition("+")
-    reference = references()[name] + int(inside or 0) if isinstance(place, str) else place
-    return byref(c_uint(reference)), 1, (c_double * max(count, 1))(), count
-
-
-REFUSED = [
-    ("GetFloat64", one_float(4711), "value reference 4711: there is no such variable"),
-    ("GetFloat64", one_float(2**32 - 1), "value reference 4294967295: there is no such variable"),
-    ("GetFloat64", one_float(0, 2), "fmi3GetFloat64: 2 values, the variables have 1"),
-    ("GetFloat64", (None, 1, None, 1), "fmi3GetFloat64: no value references, or no values"),
-    ("GetInt32", one_float(0), "surface_speed is a real number, not an integer"),
-    ("SetFloat64", one_float("time"), "time is the independent variable and cannot be set"),
-    ("SetFloat64", one_float("x"), "x is an output and cannot be set"),
-    ("SetFloat64", one_float("rig.mass"), "rig.mass is fixed and cannot be set after"),
-    ("GetFloat64", one_float("friction.table_mu", 3), "3 values, the variables have 16"),
-    ("GetFloat64", one_float("friction.table_mu+1"), "no such variable, it is within an array"),
-    ("GetBoolean", one_float(0), "all variables are of the types Float64 and Int32"),
-    ("SetString", one_float(0), "all variables are of the types Float64 and Int32"),
-    ("GetFloat32", one_float(0), "all variables are of the types Float64 and Int32"),
-    ("GetBinary", (None, 1, None, None, 1), "all variables are of the types Float64 and Int32"),
-    ("GetClock", (None, 1, None), "fmi3GetClock: this unit has no clocks"),
-    ("SetIntervalFraction", (None, 1, None, None), "this unit has no clocks"),
-    ("ActivateModelPartition", (0, 0.0), "this unit has no clocks"),
-    ("EnterConfigurationMode", (), "this unit has no structural parameters"),
-    ("ExitConfigurationMode", (), "this unit has no structural parameters"),
-    ("GetVariableDependencies", (0, None, None, None, None, 0), "see the dependencies in"),
-    ("GetNumberOfVariableDependencies", (0, None), "see the dependencies in"),
-    ("EnterEventMode", (), "this instance was made without event mode"),
-    ("GetOutputDerivatives", (byref(c_uint(0)), 1, (ctypes.c_int32 * 1)(1), (c_double * 1)(), 1),
-     "output derivatives are of outputs that are real numbers"),
-    ("DoStep", (0.0, 0.01, True, None, None, None, None), "nowhere to put what it tells"),
-    ("SetDebugLogging", (True, 1, None), "fmi3SetDebugLogging: no categories"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("function", "arguments", "says"), REFUSED)
-def test_a_call_that_makes_no_sense_is_refused(unit, function, arguments, says):
-    with unit.instance() as block:
-        block.begin()
-        assert says in block.reason(function, *arguments)
-        assert "failed before" in block.reason("EnterEventMode")
-        block.done("Reset")
-        block.begin()
-
-
-# Function -> states in which it is taken. I instantiated, N initialising, S step mode, E event
-# mode of co-simulation, M that of model exchange, C continuous-time mode, T terminated
-ALLOWED = {
-    "EnterInitializationMode": "I",
-    "ExitInitializationMode": "N",
-    "EnterEventMode": "SC",
-    "EnterStepMode": "E",
-    "EnterContinuousTimeMode": "M",
-    "UpdateDiscreteStates": "EM",
-    "EvaluateDiscreteStates": "NEM",
-    "DoStep": "S",
-    "SetTime": "C",
-    "SetContinuousStates": "C",
-    "CompletedIntegratorStep": "C",
-    "GetContinuousStates": "MC",
-    "GetContinuousStateDerivatives": "MC",
-    "GetEventIndicators": "MC",
-    "GetNumberOfContinuousStates": "MC",
-    "Terminate": "SEMC",
-    "GetFloat64": "NSEMCT",
-    "SetFloat64": "INSEMC",
-    "GetOutputDerivatives": "SET",
-    "Reset": "INSEMCT",
-}
-
-
-def in_state(unit, state):
-    """An instance that has come that far."""
-    block = unit.instance(exchanges=state in "MC", events=True, early=True)
-    if state == "I":
-        return block
-    block.set("surface_speed", 0.15)
-    block.done("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)
-    if state != "N":
-        block.done("ExitInitializationMode")
-    if state == "C":
-        block.update()
-        block.done("EnterContinuousTimeMode")
-    if state in "ST":
-        block.done("EnterStepMode")
-    if state == "T":
-        block.done("Terminate")
-    return block
-
-
-def sensible(function):
-    """Arguments that would do."""
-    flags = [byref(c_bool()) for _ in range(5)]
-    numbers = (c_double * 20)()
-    return {
-        "EnterInitializationMode": (False, 0.0, 0.0, False, 0.0),
-        "UpdateDiscreteStates": (*flags, byref(c_double())),
-        "DoStep": (0.0, 0.01, True, *flags[:3], byref(c_double())),
-        "SetTime": (0.001,),
-        "CompletedIntegratorStep": (True, *flags[:2]),
-        "GetEventIndicators": (numbers, 3),
-        "GetNumberOfContinuousStates": (byref(c_size_t()),),
-        "GetFloat64": (byref(c_uint(0)), 1, numbers, 1),
-        "SetFloat64": (byref(c_uint(0)), 1, numbers, 1),
-        "GetOutputDerivatives": (None, 0, None, None, 0),
-        **dict.fromkeys(
-            ("SetContinuousStates", "GetContinuousStates", "GetContinuousStateDerivatives"),
-            (numbers, 20),
-        ),
-    }.get(function, ())
-
-
-@pytest.mark.parametrize("state", "INSEMCT")
-@pytest.mark.parametrize("function", ALLOWED)
-def test_each_state_takes_the_calls_of_the_standard(unit, function, state):
-    with in_state(unit, state) as block:
-        taken = block.call(function, *sensible(function))
-        assert taken == (OK if state in ALLOWED[function] else ERROR), block.messages
-        if taken == ERROR:
-            assert block.messages[0][2].startswith((f"fmi3{function}".encode(), b"this instance"))
-
-
-@pytest.mark.parametrize("state", "NSEMCT")
-def test_every_variable_can_be_read_and_is_a_number(unit, state):
-    with in_state(unit, state) as block:
-        for name in [*unit.references]:
-            assert np.all(np.isfinite(block.get(name))), name
-        numbers = (c_double * 3)()
-        last = unit.references["time"]
-        block.done("GetFloat64", (c_uint * 3)(last + 1, last + 2, last + 3), 3, numbers, 3)
-        assert all(numbers)
-
-
-def test_looking_at_indicators_leaves_a_step_as_it_is(unit):
-    ends = []
-    for looks in (False, True):
-        with unit.instance() as block:
-            block.begin(**PLANE_VALUES)
-            for _ in range(100):
-                block.step(0.01)
-                if looks:
-                    place = unit.references["time"] + 1
-                    block.done("GetFloat64", byref(c_uint(place)), 1, (c_double * 1)(), 1)
-                    rate = (c_double * 1)()
-                    x = byref(c_uint(unit.references["x"]))
-                    block.done("GetOutputDerivatives", x, 1, (ctypes.c_int32 * 1)(1), rate, 1)
-            ends.append(block.everything())
-    assert ends[0] == ends[1]
-
-
-def test_no_sequence_of_calls_is_too_much(unit):
-    """Whatever comes: an answer with a reason, numbers that are numbers, and a reset that helps."""
-    answers = {OK: 0, ERROR: 0}
-    for seed in range(300):
-        numbers = random.Random(seed)
-        with in_state(unit, numbers.choice("INSEMC")) as block:
-            saved = []
-            for _ in range(40):
-                function = numbers.choice([*ALLOWED, "GetFMUState", "SetFMUState"])
-                if function == "GetFMUState":
-                    saved.append(block.save())
-                elif function == "SetFMUState":
-                    if saved:
-                        block.done("SetFMUState", numbers.choice(saved))
-                else:
-                    block.messages.clear()
-                    answer = block.call(function, *sensible(function))
-                    answers[answer] += 1
-                    assert (answer == ERROR) is bool(block.messages)
-            for state in saved:
-                block.done("FreeFMUState", byref(state))
-            block.done("Reset")
-    assert min(answers.values()) > 500

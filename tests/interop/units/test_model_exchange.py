@@ -21,7 +21,7 @@ from fmpy.validation import validate_fmu
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
 
-from cosim.coupling.fmu_unit import FmuLog
+from cosim.coupling.fmu.log import FmuLog
 from cosim.fmu.exchange import states, variables
 from cosim.fmu.variables import variables as variables_without
 
@@ -87,6 +87,31 @@ def changes(result):
     """Times at which the mode changes, and the modes from there on."""
     at = np.flatnonzero(np.diff(result["mode"])) + 1
     return result["time"][at], result["mode"][at]
+
+
+CREEPING = {
+    "default": {"surface": {"speed": 0.05}},
+    "slow and stiff": {
+        "surface": {"speed": 1e-3},
+        "initial": {"vx": 1e-3},
+        "springs": {"stiffness": 300.0},
+    },
+    "plane": {**PLANE, "surface": {"speed": 0.05}, "initial": {"y": 0.005, "phi": 0.05}},
+}
+
+
+@pytest.mark.parametrize("case", CREEPING)
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_a_slip_that_creeps_at_first_is_not_begun_again_at_every_step(fmu, case, tolerance):
+    """Friction follows speed and age of the contact: a slip begins at speeds far below a coarse
+    tolerance. What a host makes of them costs some events, and there is an end of them."""
+    law = {"rate_and_state": {"direct": 0.01, "evolution": 0.03}}
+    tables = {**law, **CREEPING[case]}
+    own = simulate(Parameters(**tables), duration=DURATION).events
+    found = exchanged(fmu, tables, tolerance, timeout=100.0)
+    assert found["time"][-1] == DURATION
+    assert found["slip_count"][-1] == np.count_nonzero(own[:, 1] == 1.0) > 0
+    assert len(found) - DURATION / 0.01 < 2000
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -498,6 +523,18 @@ def test_calls_out_of_turn(host):
             host.log.take_errors()
 
 
+def test_rates_of_inputs_are_for_co_simulation(host):
+    """In model exchange an input is what the host sets at each time."""
+    reference = ctypes.byref(ctypes.c_uint(host.variables["surface_speed"].valueReference))
+    order, rate = ctypes.byref(ctypes.c_int(1)), ctypes.byref(ctypes.c_double(0.1))
+    function = host.unit.dll.fmi2SetRealInputDerivatives
+    function.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 2]
+    host.begin()
+    assert function(host.unit.component, reference, 1, order, rate) == fmi2Error
+    assert "takes no derivative in model exchange" in str(host.log.take_errors())
+    assert host.description.coSimulation.canInterpolateInputs
+
+
 def test_one_interface_is_not_the_other(host):
     slave = FMU2Slave(
         guid=host.description.guid,
@@ -534,3 +571,21 @@ def test_a_state_that_is_no_number_is_refused_at_the_step(host):
     host.be_at(0.1, x)
     refused(host.unit.completedIntegratorStep)
     assert "not a finite number" in host.log.take_errors()
+
+
+def test_with_pretension_a_long_run_is_that_of_co_simulation(fmu):
+    """As the documentation has it: without, both leave their line by rounding, each in its way."""
+
+    def x(values, **options):
+        result = simulate_fmu(
+            str(fmu), stop_time=30.0, output_interval=0.01, start_values=values, **options
+        )
+        return np.interp(np.arange(0.0, 30.0, 0.01), result["time"], result["x"])
+
+    exchange = {"fmi_type": "ModelExchange", "solver": "CVode", "relative_tolerance": 1e-9}
+    apart = [
+        np.abs(x(values) - x(values, **exchange))
+        for values in ({"rig.spring_natural_length": 0.17}, {})
+    ]
+    assert apart[0].max() < 1e-6
+    assert apart[1][:1000].max() < 1e-6 and apart[1][1500:].max() > 1e-4

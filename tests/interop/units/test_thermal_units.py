@@ -1,6 +1,7 @@
 """BeltIceThermal, whole and reduced: what they say of themselves, and what they compute."""
 
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -20,7 +21,7 @@ from fmpy.validation import validate_fmu
 from native_unit import ERROR, MODEL_EXCHANGE, OF_EXCHANGE, OK, Unit, references
 
 from cosim import read_scenario, run_scenario
-from cosim.coupling.fmu_unit import FmuLog
+from cosim.coupling.fmu.log import FmuLog
 from cosim.fmu.build import build_fmu
 from cosim.fmu.native import native_folder
 from cosim.fmu.platforms import this_platform
@@ -213,6 +214,17 @@ def test_the_whole_model_s_unit_computes_what_the_coupled_case_does(whole, refer
     _, given, x, expected = reference
     with instance(whole, tmp_path / "unit") as heat:
         np.testing.assert_allclose(heat.begin(x=x).run(*given), expected, rtol=0, atol=1e-11)
+
+
+def test_the_documentation_explains_what_is_fixed(native):
+    """By key, value, unit and meaning; nothing that a reduced belt has none of."""
+    with zipfile.ZipFile(native) as archive:
+        page = archive.read("documentation/index.html").decode()
+    table = page[page.index("What is fixed") : page.index("<h2>Inputs")]
+    rows = re.findall(r"<tr><td><code>(.*?)</code></td>" + r"<td.*?>(.*?)</td>" * 3, table)
+    assert {"belt.length", "ice.height", "contact.radius"} <= {row[0] for row in rows}
+    assert all(value and meaning for _, value, _, meaning in rows)
+    assert not any("rail" in row[0] or "roller" in row[0] for row in rows)
 
 
 def test_the_reduced_unit_is_as_near_as_its_documentation_says(native, reference, tmp_path):

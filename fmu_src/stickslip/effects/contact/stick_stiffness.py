@@ -1,7 +1,6 @@
 """Stick is judged by a part of the spring force: the study counts one spring of four.
 
-The search for the break-away (`kernel.rest`) scales the load with it, so the core of the kernel
-knows the ratio by name.
+The load that a stick takes is compared with mu_s N after it was multiplied by the ratio.
 """
 
 from __future__ import annotations
@@ -39,6 +38,7 @@ EFFECT = Effect(
     switch=("ratio",),
     enters="contact",
     source="a fault of the source study: one spring instead of four in stick",
+    # the search for the break-away (`kernel.rest`) scales the load with it
     core={"ratio": "STICK_RATIO"},
     candidates=candidates,
     case=Case({"ratio": 0.25}),

@@ -1,8 +1,7 @@
 """Friction along the local relative velocity: lateral and spin components.
 
-The contact feels the scaled sliding velocity (U_x, kappa U_y, kappa Omega), see `kernel.friction`.
-Every law of the contact is made of kappa, so the core of the kernel knows it by name, as it knows
-the mass.
+With the ratio kappa the contact feels the scaled sliding velocity (U_x, kappa U_y, kappa Omega) and
+answers it with (F_x, kappa F_y, kappa M).
 """
 
 from __future__ import annotations
@@ -46,6 +45,7 @@ EFFECT = Effect(
     switch=("ratio",),
     enters="friction",
     source="Goyal, Ruina & Papadopoulos, Wear 143 (1991); named as missing by the source study",
+    # every law of the contact is made of kappa (`kernel.friction`)
     core={"ratio": "LATERAL"},
     candidates=candidates,
     case=Case({"ratio": 1.0}, {"initial": {"vx": 0.15, "y": 0.01, "phi": 0.2}}),

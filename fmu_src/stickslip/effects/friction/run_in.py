@@ -4,7 +4,7 @@
 
 n = 1 is a first-order change; below 1 it is fast at first and then long drawn out, as where quick
 smoothing goes before slow wear, above 1 it sets in after a while (stretched exponential). mu_s
-stays, or takes its share (`static_share`).
+stays, or takes its share (static_relative, static_absolute).
 """
 
 from __future__ import annotations

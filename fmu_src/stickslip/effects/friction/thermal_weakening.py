@@ -5,7 +5,7 @@ The lumped thermal state q (J) gains the friction power P and forgets over the t
     q' = P - q / tau,        mu_k (1 + c k q)^(-1/c),
 
 with the loss k per joule; c = -1 is a linear decline, c -> 0 an exponential one. mu_s stays, or
-takes its share (`static_share`).
+takes its share (static_relative, static_absolute).
 
 A body into which heat diffuses forgets like a half-space: a constant power warms its face with the
 root of the time (Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 2.9). Two more such

@@ -1,7 +1,8 @@
 """Asperities that melt in passing limit mu_k: as (T_m - T) / sqrt(v), boundary friction.
 
-Evans, Nye & Cheeseman, Proc. R. Soc. A (1976). Dry and boundary friction blend as in Churchill &
-Usagi, AIChE J. 18 (1972), exponent 2, which is smooth down to v = 0:
+Evans, Nye & Cheeseman, Proc. R. Soc. A (1976): mu_a = C e (T_m - T) / (H sqrt(l v)). Dry and
+boundary friction blend as in Churchill & Usagi, AIChE J. 18 (1972), exponent 2, which is smooth
+down to v = 0:
 1 / mu^2 = 1 / mu_dry^2 + 1 / mu_a^2.
 """
 

@@ -1,8 +1,9 @@
 """Water of the melting face floods part of the contact and is sheared in place of dry friction.
 
-Colbeck, J. Glaciol. 34 (1988). All that holds for the dry contact holds for the rest of it; the
-water, h / w thick where it is, is sheared in Couette flow, eta v w / h on the share w. Water holds
-nothing at rest.
+Colbeck, J. Glaciol. 34 (1988). Water of the mean thickness h floods the share w = f h / (h + s):
+(1 - w) mu + w^2 eta v / (h p), with the mean pressure p of the contact. All that holds for the dry
+contact holds for the rest of it; the water, h / w thick where it is, is sheared in Couette flow,
+eta v w / h on the share w. Water holds nothing at rest.
 """
 
 from __future__ import annotations

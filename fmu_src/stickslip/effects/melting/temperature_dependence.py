@@ -1,6 +1,7 @@
 """Friction falls linearly as the interface warms, up to the melting point.
 
-McCarthy et al. (2017) on ice against rock; mu_k and mu_s each by their own slope.
+McCarthy et al. (2017) on ice against rock; mu_k and mu_s each by their own slope a: times
+1 - a (T - T_0).
 """
 
 from __future__ import annotations

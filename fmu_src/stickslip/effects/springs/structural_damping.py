@@ -1,8 +1,7 @@
 """A force against the frame that grows with the velocity v of the block: d v + q |v| v.
 
 The viscous part is that of materials and slow air, the quadratic one that of fast air (drag of a
-bluff body). Loads, ledger and the velocity of a presliding contact are made of it, so the core of
-the kernel knows the coefficients by name.
+bluff body). A moment r omega stands against the rotation.
 """
 
 from __future__ import annotations
@@ -50,6 +49,7 @@ EFFECT = Effect(
     enters="springs",
     axis="velocity",
     source="damping of a real rig",
+    # loads, ledger and the velocity of a presliding contact are made of it
     core={
         "coefficient": "DAMPING",
         "rotational": "DAMPING_ROTATION",

@@ -1,7 +1,7 @@
 """The surface is a turning slab: its speed varies over the disc and has a lateral part.
 
-With the curvature c = 1/R the surface turns at v c about (0, R), see `kernel.rig.surface`; stick
-and quasi-steady sliding need its accelerations, so the core of the kernel knows c by name.
+With the curvature c = 1/R the surface turns at the rate v c about (0, R), with v at the place of
+installation.
 """
 
 from __future__ import annotations
@@ -41,6 +41,7 @@ EFFECT = Effect(
     switch=("curvature",),
     enters="surface",
     source="the source study's rotating slab, whose turning it leaves out",
+    # stick and quasi-steady sliding need its accelerations (`kernel.rig.surface`)
     core={"curvature": "CURVATURE"},
     candidates=candidates,
     case=Case({"curvature": 4.0}, {"lateral_friction": {"ratio": 1.0}}),

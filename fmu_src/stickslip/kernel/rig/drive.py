@@ -2,6 +2,12 @@
 
 A host gives inputs at its communication points. What they are in between is a matter of the
 parameter `input.hold`, and of the rates that it may give with them: see `lead_inputs`.
+
+An event may end a step before the host's own end of it. Such a point may lie a moment behind the
+last one or before the next, so nothing is divided by its distance from them: slopes are those
+between *regular* points, the ends that a host asks for. Inputs that go on linearly keep to their
+way up to there, whatever the host says at the event: a surface whose acceleration changes just
+where a block breaks away would make it stick again. Inputs that are held jump there as anywhere.
 """
 
 from __future__ import annotations
@@ -9,13 +15,20 @@ from __future__ import annotations
 from .. import Floats
 from ..layout import (
     G_BEFORE,
+    G_CUT,
     G_FIRST,
+    G_GOING,
     G_HAS_RATE,
+    G_LAST,
+    G_LINE,
+    G_POINT,
     G_RATE,
     G_REACHED,
-    G_SPAN,
+    G_SLOPE,
+    G_STEP,
     G_VALUE,
     GIVEN_INPUTS,
+    U_FILM,
     U_FORCE_X,
     U_FORCE_X_RATE,
     U_FORCE_Y,
@@ -25,7 +38,11 @@ from ..layout import (
     U_SINCE,
     U_SPEED,
     U_SPEED_RATE,
+    U_TEMPERATURE,
 )
+
+# Of a step: by how much what is left of it behind an event may miss its end, as a host rounds.
+ROUNDING = 1e-9
 
 
 def driven_speed(u: Floats, t: float) -> float:
@@ -55,56 +72,124 @@ def varies(u: Floats) -> bool:
     return u[U_FORCE_X_RATE] != 0.0 or u[U_FORCE_Y_RATE] != 0.0
 
 
-def end_value(g: Floats, i: int, h: float) -> float:
-    """What input i will have become at the end of a step of size h, as far as anybody knows."""
-    value = g[G_VALUE + i]
+def is_due(g: Floats, end: float) -> bool:
+    """Does a step up to the time `end` reach the next regular point, s?"""
+    return end >= g[G_POINT] + g[G_STEP] * (1.0 - ROUNDING)
+
+
+def is_overdue(g: Floats, end: float) -> bool:
+    """Does it go beyond that?"""
+    return end > g[G_POINT] + g[G_STEP] * (1.0 + ROUNDING)
+
+
+def is_heard(g: Floats, i: int, end: float) -> bool:
+    """Does what the host says of input i count in the step up to the time `end`?
+
+    At a regular point it does: a value that stays is one that does not change. At an event one that
+    has changed does, if it is held, or if the step is more than the rest of the one cut short.
+    """
+    if g[G_CUT] == 0.0 or g[G_HAS_RATE + i] == 1.0:
+        return True
+    if g[G_VALUE + i] == g[G_LAST + i]:
+        return False
+    return g[G_FIRST] == 0.0 or is_overdue(g, end)
+
+
+def slope_of(g: Floats, i: int, t: float) -> float:
+    """Rate with which what the host says of input i goes on from the time t, per s.
+
+    That between the last two regular points, of which this may be one. An event keeps it.
+    """
     if g[G_HAS_RATE + i] == 1.0:
-        return value + g[G_RATE + i] * h
-    if g[G_FIRST] == 1.0 and g[G_SPAN] > 0.0:
-        return value + (value - g[G_BEFORE + i]) / g[G_SPAN] * h
-    return value
+        return g[G_RATE + i]
+    if g[G_CUT] == 1.0:
+        return g[G_SLOPE + i]
+    if g[G_FIRST] == 1.0 and g[G_STEP] > 0.0:
+        return (g[G_VALUE + i] - g[G_BEFORE + i]) / (t - g[G_POINT])
+    return 0.0
 
 
 def goes_on(g: Floats, i: int, sticks: bool) -> bool:
-    """Does input i set out from where the last step has left it, rather than jump?
+    """Does input i, of which something is heard, set out from where the last step has left it,
+    rather than jump?
 
     A surface's speed that is given in steps stands for one that changes between them: a block that
     sticks could not follow a jump, and would seem to slip at every one.
     """
-    if g[G_SPAN] == 0.0:
+    if g[G_STEP] == 0.0:
         return False
     if sticks and i == U_SPEED:
         return True
     return g[G_HAS_RATE + i] == 1.0 or g[G_FIRST] == 1.0
 
 
+def lead_anew(g: Floats, u: Floats, i: int, start: float, line: float, h: float):
+    """Lead input i, in a step of size h, from ``start`` to where the line of what the host says is
+    at its end; from an event on not faster than over a whole step."""
+    span = h
+    if g[G_CUT] == 1.0:
+        span = max(h, g[G_STEP])
+    end = line + g[G_SLOPE + i] * span
+    g[G_GOING + i] = (end - start) / span
+    g[G_REACHED + i] = end
+    if span > h:
+        g[G_REACHED + i] = start + g[G_GOING + i] * h
+    u[i] = start
+    if i == U_TEMPERATURE or i == U_FILM:
+        u[i] = line + 0.5 * g[G_SLOPE + i] * h
+
+
+def keep_on(g: Floats, u: Floats, i: int, h: float):
+    """Let input i go on, in a step of size h, as it has before the event."""
+    if i == U_TEMPERATURE or i == U_FILM:
+        return  # the mean of the whole step, up to its end
+    u[i] = g[G_REACHED + i]
+    g[G_REACHED + i] = u[i] + g[G_GOING + i] * h
+
+
+def lead_input(g: Floats, u: Floats, i: int, sticks: bool, t: float, h: float):
+    """Input i during the step of size h from the time t: where it begins, into ``u``, and its rate,
+    into ``g``."""
+    line = g[G_VALUE + i]
+    passed = g[G_SLOPE + i] * (t - u[U_SINCE])
+    g[G_SLOPE + i] = slope_of(g, i, t)
+    start = g[G_REACHED + i]
+    if is_heard(g, i, t + h):
+        if not goes_on(g, i, sticks):
+            start = line
+        lead_anew(g, u, i, start, line, h)
+        g[G_LAST + i] = line
+    else:
+        line = g[G_LINE + i] + passed
+        if is_overdue(g, t + h):
+            lead_anew(g, u, i, start, line, h)
+        else:
+            keep_on(g, u, i, h)
+    g[G_LINE + i] = line
+
+
 def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
     """Inputs during the step of size ``h`` from the time ``t``, into ``u``, of those in ``g``.
 
     The error of an input that is smooth in time is of the order h where it is held, h^2 where it
-    goes on linearly. Temperature and film are constant in a step: half way to what they become.
+    goes on linearly, whether or not events cut steps. Temperature and film are constant in a step:
+    half way to what they become.
     """
-    u[U_SINCE] = t
     for i in range(GIVEN_INPUTS):
-        start = g[G_VALUE + i]
-        if goes_on(g, i, sticks):
-            start = g[G_REACHED + i]
-        end = end_value(g, i, h)
-        u[i] = start
-        if i == U_SPEED:
-            u[U_SPEED_RATE] = (end - start) / h
-        elif i == U_FORCE_X:
-            u[U_FORCE_X_RATE] = (end - start) / h
-        elif i == U_FORCE_Y:
-            u[U_FORCE_Y_RATE] = (end - start) / h
-        elif i == U_MOMENT:
-            u[U_MOMENT_RATE] = (end - start) / h
-        else:
-            u[i] = 0.5 * (g[G_VALUE + i] + end)
-        g[G_REACHED + i] = end
-        g[G_BEFORE + i] = g[G_VALUE + i]
+        lead_input(g, u, i, sticks, t, h)
+        if g[G_CUT] == 0.0:
+            g[G_BEFORE + i] = g[G_VALUE + i]
         g[G_HAS_RATE + i] = 0.0
-    g[G_SPAN] = h
+    u[U_SINCE] = t
+    u[U_SPEED_RATE] = g[G_GOING + U_SPEED]
+    u[U_FORCE_X_RATE] = g[G_GOING + U_FORCE_X]
+    u[U_FORCE_Y_RATE] = g[G_GOING + U_FORCE_Y]
+    u[U_MOMENT_RATE] = g[G_GOING + U_MOMENT]
+    if g[G_CUT] == 0.0:
+        g[G_POINT] = t
+        g[G_STEP] = h
+    elif is_due(g, t + h):
+        g[G_CUT] = 0.0
 
 
 def cut_inputs(g: Floats, u: Floats, t: float):
@@ -113,4 +198,4 @@ def cut_inputs(g: Floats, u: Floats, t: float):
     g[G_REACHED + U_FORCE_X] = force_along(u, t)
     g[G_REACHED + U_FORCE_Y] = force_across(u, t)
     g[G_REACHED + U_MOMENT] = external_moment(u, t)
-    g[G_SPAN] = t - u[U_SINCE]
+    g[G_CUT] = 1.0

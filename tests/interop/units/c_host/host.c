@@ -5,9 +5,14 @@
    Each of THREADS threads makes INSTANCES instances, sets the real variables named by value
    reference, and steps all in turn. Prints OUTPUT (a value reference) of the first after every step
    as C's exact hexadecimal, with one instance; else the last value of each; and, on stderr, the
-   microseconds of a step. The environment's RESOURCES is the location of the unit's resources. */
+   microseconds of the processor in a step. The environment's RESOURCES is the location of the unit's
+   resources. */
 #define _POSIX_C_SOURCE 200809L
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <dlfcn.h>
+#endif
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -40,9 +45,53 @@ static size_t settings;
 static fmi2ValueReference references[MOST_SETTINGS];
 static fmi2Real values[MOST_SETTINGS];
 
+#ifdef _WIN32
+static void *opened(const char *file)
+{
+    return LoadLibraryA(file);
+}
+
+static void *symbol(void *library, const char *name)
+{
+    return (void *)GetProcAddress(library, name);
+}
+
+static void let_go(void *library)
+{
+    FreeLibrary(library);
+}
+
+static const char *reason(void)
+{
+    static char said[64];
+    snprintf(said, sizeof said, "error %lu of Windows", GetLastError());
+    return said;
+}
+#else
+static void *opened(const char *file)
+{
+    return dlopen(file, RTLD_NOW | RTLD_LOCAL);
+}
+
+static void *symbol(void *library, const char *name)
+{
+    return dlsym(library, name);
+}
+
+static void let_go(void *library)
+{
+    dlclose(library);
+}
+
+static const char *reason(void)
+{
+    return dlerror();
+}
+#endif
+
 static void *function(void *library, const char *name)
 {
-    void *found = dlsym(library, name);
+    void *found = symbol(library, name);
     if (found == NULL) {
         fprintf(stderr, "%s: not in the library\n", name);
         exit(1);
@@ -145,10 +194,10 @@ static void run_threads(long threads)
     free(running);
 }
 
-static double now(void)
+static double busy(void)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
@@ -157,9 +206,9 @@ int main(int count, char *arguments[])
     if (count < 8) {
         return 2;
     }
-    void *library = dlopen(arguments[1], RTLD_NOW | RTLD_LOCAL);
+    void *library = opened(arguments[1]);
     if (library == NULL) {
-        fprintf(stderr, "%s\n", dlerror());
+        fprintf(stderr, "%s: %s\n", arguments[1], reason());
         return 1;
     }
 #define LOAD(name) *(void **)&name = function(library, "fmi2" #name)
@@ -185,14 +234,14 @@ int main(int count, char *arguments[])
         values[settings] = atof(strchr(arguments[i], '=') + 1);
     }
     long threads = atol(arguments[7]);
-    double start = now();
+    double start = busy();
     if (threads == 1 && instances == 1) {
         run(NULL);
     } else {
         run_threads(threads);
     }
-    double each = (now() - start) / (double)(steps * instances * threads);
+    double each = (busy() - start) / (double)(steps * instances * threads);
     fprintf(stderr, "%.3f us a step\n", 1e6 * each);
-    dlclose(library);
+    let_go(library);
     return 0;
 }

@@ -6,8 +6,7 @@ import sys
 from ctypes import byref, c_void_p
 from pathlib import Path
 
-import pytest
-from native_unit import ERROR, OK, Instance, Unit
+from native_unit import ERROR, OK, Instance
 
 SETS, TIMES, AHEAD = 20, 50, 3  # 1000 states in all
 #: Blocks of which each run has some at random, with the least and the largest of each parameter.
@@ -27,11 +26,6 @@ BLOCKS = [
     {"imperfections.spring_stiffness": (0.01, 0.1), "imperfections.seed": (1, 1000)},
     {"rig.mass": (0.3, 2.0), "springs.stiffness": (10.0, 60.0)},
 ]
-
-
-@pytest.fixture(scope="module")
-def unit(fmu, tmp_path_factory):
-    return Unit(fmu, tmp_path_factory.mktemp("unit"))
 
 
 def drawn(numbers: random.Random) -> dict[str, float]:
@@ -99,6 +93,19 @@ def test_a_state_that_is_overwritten_is_the_later_one(unit):
         block.forget(state)
 
 
+def test_what_stands_where_a_state_is_put_need_not_be_one(unit):
+    """Deserialising makes a state; a host in C need not have cleared the pointer before."""
+    with unit.instance().begin() as block:
+        state = block.save()
+        content = block.as_bytes(state)
+        made = c_void_p(1)
+        block.done("DeSerializeFMUstate", content, len(content), byref(made))
+        assert made.value not in {None, 1, state.value}
+        block.restore(made)
+        block.forget(made)
+        block.forget(state)
+
+
 def test_a_state_brings_its_phase_along(unit):
     """Back before the initialisation, and back into a run that was ended or has failed."""
     with unit.instance() as block:
@@ -154,7 +161,7 @@ def test_states_go_on_alike_in_another_process(fmu, unit, tmp_path):
         capture_output=True,
         text=True,
         check=False,
-        cwd=Path(__file__).parents[2] / "helpers",
+        cwd=Path(__file__).parents[3] / "helpers",
     )
     assert done.returncode == 0, done.stderr
     assert [line.split() for line in done.stdout.splitlines()] == expected

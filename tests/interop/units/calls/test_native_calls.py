@@ -17,6 +17,7 @@ from hypothesis.stateful import (
     run_state_machine_as_test,
 )
 from native_unit import ARGUMENTS, CO_SIMULATION, DISCARD, ERROR, OK, Unit
+from phases import CO_SIMULATION_2, ENDED, FAILED, INITIALISING, NEW, STEPPING
 from stickslip import Parameters
 from stickslip.contradictions import contradiction
 
@@ -24,28 +25,8 @@ NAN, INF = math.nan, math.inf
 NO_KIND = 7
 UNKNOWN = 9999  # a value reference
 
-# Phases of an instance in co-simulation, and which calls each takes: table of section 4.2.4 of the
-# standard, 2.0.4. What can be called at any time stands for itself below.
-NEW, INITIALISING, RUNNING, ENDED, FAILED = "new", "initialising", "running", "ended", "failed"
-TAKEN = {
-    "SetupExperiment": {NEW},
-    "EnterInitializationMode": {NEW},
-    "ExitInitializationMode": {INITIALISING},
-    "Terminate": {RUNNING},
-    "DoStep": {RUNNING},
-    "CancelStep": set(),
-    "GetReal": {INITIALISING, RUNNING, ENDED, FAILED},
-    "GetInteger": {INITIALISING, RUNNING, ENDED, FAILED},
-    "SetReal": {NEW, INITIALISING, RUNNING},
-    "SetInteger": {NEW, INITIALISING},
-    "Reset": {NEW, INITIALISING, RUNNING, ENDED, FAILED},
-    "SetDebugLogging": {NEW, INITIALISING, RUNNING, ENDED, FAILED},
-}
-
-
-@pytest.fixture(scope="module")
-def unit(fmu, tmp_path_factory):
-    return Unit(fmu, tmp_path_factory.mktemp("unit"))
+# What can be called at any time stands for itself below.
+TAKEN = CO_SIMULATION_2.taken
 
 
 @pytest.fixture
@@ -202,6 +183,7 @@ REFUSED = {
     "step back": (call("DoStep", 0.5, -0.1, 1), "step size is -0.1 s"),
     "step of NaN": (call("DoStep", 0.5, NAN, 1), "of size nan: must be finite numbers"),
     "endless step": (call("DoStep", 0.5, INF, 1), "of size inf: must be finite numbers"),
+    "step of no length": (call("DoStep", 0.5, 1e-17, 1), "step size is 1e-17 s, lost in the round"),
     "step too long": (
         call("DoStep", 0.5, 1e4, 1),
         "step size is 10000 s; must be at most 1000 s, as a step cannot be interrupted",
@@ -316,6 +298,34 @@ def test_a_parameter_out_of_range_is_refused_at_once(block, name, value, said):
 )
 def test_an_experiment_that_cannot_be_is_refused(block, arguments, said):
     assert said in block.reason("SetupExperiment", *arguments)
+
+
+def test_a_step_past_the_stop_time_is_refused(block):
+    """Section 2.1.6 of the standard; but a stop time that is missed by rounding is none."""
+    block.done("SetupExperiment", 0, 0.0, 0.0, 1, 0.3)
+    block.done("EnterInitializationMode")
+    block.done("ExitInitializationMode")
+    block.march(range(3), 0.1)  # 0.2 + 0.1 is more than 0.3
+    state = block.save()
+    said = block.reason("DoStep", 0.3, 1e-3, 1)
+    assert said == "step to t = 0.301 s goes past the stop time that was set up, 0.3 s"
+    block.restore(state)
+    assert "past the stop time" in block.reason("DoStep", 0.3, 1e-3, 1)
+    block.forget(state)
+    block.done("Reset")
+    block.begin().march(range(4), 0.1)
+
+
+def test_a_start_so_far_off_that_steps_are_lost_is_refused(block):
+    block.begin(1e16)
+    assert "lost in the rounding of the time" in block.reason("DoStep", 1e16, 0.01, 1)
+
+
+def test_a_step_that_nobody_would_wait_for_is_refused(block):
+    """Damping that brakes the block within a microsecond, for a quarter of an hour."""
+    block.begin(**{"structural_damping.coefficient": 1e6})
+    block.march([0], 0.1)
+    assert "shorter communication steps" in block.reason("DoStep", 0.1, 900.0, 1)
 
 
 def test_what_is_not_meant_is_not_looked_at(block):
@@ -491,7 +501,7 @@ class Calls(RuleBasedStateMachine):
     @rule()
     def exit(self):
         if self.tries("ExitInitializationMode"):
-            self.phase = RUNNING
+            self.phase = STEPPING
 
     @in_turn("DoStep")
     @rule(size=st.sampled_from([1e-6, 0.001, 0.01, 0.3]), times=st.integers(1, 20))

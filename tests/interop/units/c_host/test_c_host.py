@@ -16,7 +16,7 @@ from stickslip import Parameters, simulate
 
 from cosim.fmu.native import NAME, built_guid, native_folder
 
-HOST = Path(__file__).with_name("c_host") / "host.c"
+HOST = Path(__file__).with_name("host.c")
 # exact in binary, so that host and simulation speak of the same instants
 STEP = 0.0078125
 PLANAR = {"lateral_friction.ratio": 1.0, "initial.phi": 0.05}

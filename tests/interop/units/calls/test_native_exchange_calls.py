@@ -14,36 +14,10 @@ from hypothesis.stateful import (
     run_state_machine_as_test,
 )
 from native_unit import ERROR, MODEL_EXCHANGE, OK, EventInfo, Unit
+from phases import CONTINUOUS, ENDED, EVENT, EXCHANGE_2, FAILED, INITIALISING, NEW
 
 NAN, INF = math.nan, math.inf
-NEW, INITIALISING, EVENT, CONTINUOUS = "new", "initialising", "event", "continuous"
-ENDED, FAILED = "ended", "failed"
-INFORMING = {INITIALISING, EVENT, CONTINUOUS, ENDED}
-# Which phases take a call: table of section 3.2.3 of the standard, 2.0.4. Of a failed instance the
-# unit gives variables and no derivatives, which the standard leaves to it.
-TAKEN = {
-    "EnterInitializationMode": {NEW},
-    "ExitInitializationMode": {INITIALISING},
-    "EnterEventMode": {EVENT, CONTINUOUS},
-    "NewDiscreteStates": {EVENT},
-    "EnterContinuousTimeMode": {EVENT},
-    "CompletedIntegratorStep": {CONTINUOUS},
-    "SetTime": {EVENT, CONTINUOUS},
-    "SetContinuousStates": {CONTINUOUS},
-    "GetContinuousStates": INFORMING,
-    "GetDerivatives": INFORMING,
-    "GetEventIndicators": INFORMING,
-    "GetNominalsOfContinuousStates": INFORMING | {NEW},
-    "Terminate": {EVENT, CONTINUOUS},
-    "DoStep": set(),
-    "GetReal": INFORMING | {FAILED},
-    "Reset": INFORMING | {NEW, FAILED},
-}
-
-
-@pytest.fixture(scope="module")
-def unit(fmu, tmp_path_factory):
-    return Unit(fmu, tmp_path_factory.mktemp("unit"))
+TAKEN = EXCHANGE_2.taken
 
 
 @pytest.fixture(scope="module")
@@ -92,6 +66,7 @@ def test_a_wrong_number_of_numbers_is_refused(continuous, counts, function, whic
         ("SetTime", (NAN,)),
         ("SetTime", (INF,)),
         ("DoStep", (0.0, 0.01, 1)),
+        ("SetRealInputDerivatives", (byref(c_uint(0)), 1, byref(c_int(1)), byref(c_double(1.0)))),
         ("EnterContinuousTimeMode", ()),
         ("EnterInitializationMode", ()),
     ],
@@ -101,6 +76,26 @@ def test_a_refused_call_is_an_error(continuous, function, arguments):
     assert "has failed before" in continuous.reason("EnterEventMode")
     continuous.done("Reset")
     continuous.begin()
+
+
+@pytest.mark.parametrize("seed", [NAN, INF])
+def test_a_direction_that_is_no_number_is_refused(continuous, seed):
+    vx, out = byref(c_uint(continuous.unit.references["vx"])), c_double()
+    said = continuous.reason(
+        "GetDirectionalDerivative", vx, 1, vx, 1, byref(c_double(seed)), byref(out)
+    )
+    assert f"the direction along vx is {seed:g}; must be a finite number" in said
+
+
+def test_along_next_to_nothing_nothing_changes(continuous):
+    """A seed so small that a difference along it would be beyond all numbers."""
+    force, vx = (
+        byref(c_uint(continuous.unit.references[name])) for name in ("friction_force_x", "vx")
+    )
+    out = c_double(NAN)
+    seed = byref(c_double(1e-320))
+    continuous.done("GetDirectionalDerivative", force, 1, vx, 1, seed, byref(out))
+    assert abs(out.value) <= 1e-320
 
 
 def test_states_that_are_no_numbers_do_not_pass_an_integrator_s_step(continuous, counts):

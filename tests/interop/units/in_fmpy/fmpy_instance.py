@@ -1,0 +1,91 @@
+"""A unit in fmpy, its variables addressed by their names."""
+
+from contextlib import contextmanager
+
+import fmpy
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2Error
+
+from cosim.coupling.fmu.log import FmuLog
+
+SPEED = 0.15
+SLIDING = {"surface_speed": SPEED}
+CREEPING = {"surface_speed": 0.03, "initial.vx": 0.03, "friction.stick_creep": 4e-3}
+SHEARED = {
+    "surface_speed": 0.03,
+    "initial.vx": 0.03,
+    "friction.transition_speed": 5e-3,
+    "friction.presliding_distance": 1e-4,
+}
+
+
+class Instance:
+    """One FMU instance, addressed by variable names."""
+
+    def __init__(self, description, slave, log):
+        self.description, self.slave, self.log = description, slave, log
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.is_python = "pythonfmu" in description.generationTool
+
+    def get(self, name):
+        variable = self.variables[name]
+        get = getattr(self.slave, f"get{variable.type}")
+        return get([variable.valueReference])[0]
+
+    def set(self, name, value):
+        variable = self.variables[name]
+        call = getattr(self.slave, f"set{variable.type}")
+        call([variable.valueReference], [value])
+
+    def initialise(self, start=0.0, tolerance=None, **values):
+        for name, value in {**SLIDING, **values}.items():
+            self.set(name, value)
+        self.slave.setupExperiment(startTime=start, tolerance=tolerance)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+
+    def march(self, first, steps, size):
+        for n in range(first, first + steps):
+            self.slave.doStep(n * size, size)
+
+    def everything(self):
+        return [float(self.get(name)).hex() for name in self.variables]
+
+    def refuses(self, call, *arguments, **values):
+        """The call is refused; the reason, from the log.
+
+        Of the Python unit's calls only a step returns an error. What another failed in, the next
+        step says.
+        """
+        if self.is_python and call != self.slave.doStep:
+            call(*arguments, **values)
+        else:
+            refused(call, *arguments, **values)
+        return self.log.take_errors()
+
+
+@contextmanager
+def instance(fmu, directory, logging=True):
+    directory.mkdir(exist_ok=True)
+    description = fmpy.read_model_description(fmu)
+    folder = fmpy.extract(fmu, unzipdir=directory)
+    log = FmuLog()
+    slave = FMU2Slave(
+        guid=description.guid,
+        unzipDirectory=str(folder),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )
+    slave.instantiate(callbacks=log.callbacks, loggingOn=logging)
+    try:
+        yield Instance(description, slave, log)
+    finally:
+        slave.freeInstance()
+        log.close()
+
+
+def refused(call, *arguments, **values):
+    """The call must return fmi2Error."""
+    with pytest.raises(FMICallException) as caught:
+        call(*arguments, **values)
+    assert caught.value.status == fmi2Error

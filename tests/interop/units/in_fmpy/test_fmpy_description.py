@@ -1,0 +1,42 @@
+"""What the units say of themselves, read by fmpy."""
+
+import subprocess
+import sys
+
+import fmpy
+from fmpy.validation import validate_fmu
+
+
+def test_validation_finds_nothing(unit):
+    assert validate_fmu(str(unit)) == []
+    command = [sys.executable, "-m", "fmpy", "validate", str(unit)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stderr == "" and "No problems found" in done.stdout
+
+
+def test_every_variable_says_what_it_is(unit):
+    description = fmpy.read_model_description(unit, validate_model_structure=True)
+    units = {each.name for each in description.unitDefinitions}
+    for variable in description.modelVariables:
+        assert variable.description, variable.name
+        if variable.type == "Real":
+            assert variable.unit in units, variable.name
+        if variable.causality == "parameter":
+            tunable = variable.name in ("friction.mu_s", "friction.mu_k")
+            assert variable.variability == ("tunable" if tunable else "fixed")
+            assert variable.initial == "exact"
+            assert variable.start is not None and "." in variable.name
+    assert description.coSimulation.canGetAndSetFMUstate
+    assert description.coSimulation.canSerializeFMUstate
+
+
+def test_every_output_is_in_the_model_structure(unit):
+    description = fmpy.read_model_description(unit)
+    outputs = {v.name for v in description.modelVariables if v.causality == "output"}
+    assert {unknown.variable.name for unknown in description.outputs} == outputs
+    assert {unknown.variable.name for unknown in description.initialUnknowns} >= outputs
+
+
+def test_of_a_unit_for_co_simulation_no_output_depends_directly_on_an_input(python_fmu):
+    description = fmpy.read_model_description(python_fmu)
+    assert all(unknown.dependencies == [] for unknown in description.outputs)

@@ -1,0 +1,181 @@
+"""What the units refuse in fmpy.
+
+fmi2Error with a message, the process lives on, a state or a reset recovers.
+"""
+
+import math
+import os
+import signal
+import sys
+import threading
+import time
+import traceback
+
+import pytest
+from fmpy_instance import SPEED, instance, refused
+
+
+@pytest.mark.parametrize(
+    "time, size, message",
+    [
+        (0.5, -0.01, "step size is -0.01 s; must be greater than 0"),
+        (0.5, 0.0, "step size is 0 s"),
+        (0.5, 1e-17, "step size is 1e-17 s, lost in the rounding of the time"),
+        (0.5, 1e4, "step size is 10000 s; must be at most 1000 s, as a step cannot be interrupted"),
+        (0.5, math.nan, "of size nan: must be finite"),
+        (math.inf, 0.01, "from t = inf"),
+        (0.4, 0.01, "begins at t = 0.4 s, the last one ended at t = 0.5 s"),
+        (0.6, 0.01, "begins at t = 0.6 s"),
+    ],
+)
+def test_a_step_that_cannot_be_is_an_error(block, time, size, message):
+    block.initialise()
+    block.march(0, 50, 0.01)
+    state, x = block.slave.getFMUState(), block.get("x")
+    refused(block.slave.doStep, time, size)
+    assert message in block.log.take_errors()
+    assert block.get("x") == x
+    refused(block.slave.doStep, 0.5, 0.01)
+    assert "failed before" in block.log.take_errors()
+    block.slave.setFMUState(state)
+    block.slave.doStep(0.5, 0.01)
+    assert block.log.take_errors() == ""
+    block.slave.freeFMUState(state)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_an_input_that_is_no_number_is_refused(block, value):
+    block.initialise()
+    block.march(0, 10, 0.01)
+    said = block.refuses(block.set, "surface_speed", value)
+    assert said == f"surface_speed = {value}: must be a finite number"
+    assert block.get("surface_speed") == SPEED
+    refused(block.slave.doStep, 0.1, 0.01)
+
+
+def test_an_input_out_of_range_is_refused(block):
+    block.initialise()
+    said = block.refuses(block.set, "interface_temperature", -300.0)
+    assert said == "interface_temperature = -300: must lie in [-273.15, inf]"
+
+
+def test_a_fixed_parameter_stays_after_initialisation(block):
+    block.initialise()
+    mass = block.get("rig.mass")
+    said = block.refuses(block.set, "rig.mass", 2.0)
+    assert said == "rig.mass is fixed and cannot be set after initialisation"
+    assert block.get("rig.mass") == mass
+    refused(block.slave.doStep, 0.0, 0.01)
+
+
+def test_an_output_cannot_be_set(block):
+    block.initialise()
+    assert block.refuses(block.set, "x", 1.0) == "x is an output and cannot be set"
+
+
+def test_half_a_state_is_refused(block):
+    block.initialise()
+    whole = block.slave.serializeFMUState(block.slave.getFMUState())
+    half = whole[: len(whole) // 2]
+    said = block.refuses(lambda: block.slave.setFMUState(block.slave.deserializeFMUState(half)))
+    assert said == "the state is damaged, or was taken from another build of this unit"
+
+
+def test_an_error_is_logged_where_the_host_wants_no_log(unit, tmp_path):
+    with instance(unit, tmp_path / "silent", logging=False) as block:
+        block.slave.fmi2SetDebugLogging(block.slave.component, False, 0, None)
+        said = block.refuses(block.initialise, **{"rig.spring_natural_length": 1.0})
+        assert said.startswith("rig.spring_natural_length = 1 m is more than twice")
+        refused(block.slave.doStep, 0.0, 0.01)
+        assert block.log.take_errors().startswith("fmi2DoStep: the instance has failed before")
+
+
+def test_one_reason_is_told_once(python_block):
+    """A host that sets a hundred parameters more does not hear of it a hundred times."""
+    python_block.set("rig.mass", -1.0)
+    python_block.initialise()
+    assert math.isnan(python_block.get("x"))
+    assert python_block.log.take_errors() == "rig.mass = -1: must lie in (0, inf]"
+    refused(python_block.slave.doStep, 0.0, 0.01)
+    assert "(rig.mass = -1: must lie in (0, inf])" in python_block.log.take_errors()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "range"),
+    [("rig.mass", 0.0, "(0, inf]"), ("rig.mass", -1.0, "(0, inf]"), ("rig.free_y", 2, "[0, 1]")],
+)
+def test_a_parameter_out_of_range_is_refused(block, name, value, range):
+    assert block.refuses(block.set, name, value) == f"{name} = {value:g}: must lie in {range}"
+
+
+@pytest.mark.parametrize(
+    ("values", "says"),
+    [
+        (
+            {"friction.stick_creep": 1e-3, "rate_and_state.direct": 0.01},
+            "friction.stick_creep = 0.001 m/s beside rate_and_state",
+        ),
+        (
+            {
+                "friction.table_speed[2]": 0.1,
+                "friction.table_mu[1]": 0.2,
+                "velocity_weakening.linear": 0.1,
+            },
+            "friction.table_speed beside an effect",
+        ),
+        (
+            {"rig.free_y": 0, "initial.vy": 0.1},
+            "initial.vy = 0.1 m/s in a rig that is guided in y (rig.free_y = 0)",
+        ),
+        (
+            {"rig.free_phi": 0, "initial.omega": 1.0},
+            "initial.omega = 1 rad/s in a rig that is guided in phi (rig.free_phi = 0)",
+        ),
+    ],
+)
+def test_parameters_that_cannot_stand_side_by_side_are_refused(block, values, says):
+    said = block.refuses(block.initialise, **values)
+    assert said.startswith(says)
+    refused(block.slave.doStep, 0.0, 0.01)
+
+
+def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(python_block, ctrl_c):
+    """In a Python host the signal arrives in the slave's own code; there it may not escape."""
+    block = python_block
+    block.initialise()
+    block.march(0, 10, 0.01)
+    x = block.get("x")
+    host = threading.get_ident()
+
+    def interrupt():
+        """Once the host is in the slave: before, it would be the host's own."""
+        while "do_step" not in {
+            frame.f_code.co_name for frame, _ in traceback.walk_stack(sys._current_frames()[host])
+        }:
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt).start()
+    refused(block.slave.doStep, 0.1, 1e3)
+    assert "KeyboardInterrupt" in block.log.take_errors()
+    assert block.get("x") == x
+
+
+def test_a_reset_starts_all_over(block):
+    block.initialise()
+    block.march(0, 50, 0.01)
+    once = block.everything()
+    refused(block.slave.doStep, 0.0, 0.01)
+    block.slave.reset()
+    block.initialise()
+    block.march(0, 50, 0.01)
+    assert block.everything() == once
+
+
+def test_a_damaged_state_is_refused(block):
+    block.initialise()
+    damaged = block.refuses(
+        lambda: block.slave.setFMUState(block.slave.deserializeFMUState(b"{not a state"))
+    )
+    assert damaged == "the state is damaged, or was taken from another build of this unit"
+    refused(block.slave.doStep, 0.0, 0.01)

@@ -1,0 +1,302 @@
+"""Inputs that a host gives step by step: the motion converges to that under the same drive inside.
+
+The surface's speed is a sine of the size of a ripple. Inside, it is the effect `speed_ripple`; from
+outside it comes in steps of h: held, going on as between the last two values, or with its rate.
+What decides when a stick ends is the surface's acceleration, which is right to the order h in all
+three, so the order of the motion is 1 in all; with a rate its error is several times smaller.
+
+Events that end a step early (FMI 3) leave that as it is, wherever in the step they fall.
+"""
+
+import ctypes
+import math
+import random
+
+import fmpy
+import numpy as np
+import pytest
+from fmi3_unit import Unit
+from fmpy.fmi2 import FMU2Slave
+from fmpy_instance import instance
+
+AMPLITUDE, FREQUENCY, SPEED, STOP, SHOWN = 0.3, 1.0, 0.15, 8.0, 0.04
+STEPS = (0.02, 0.01, 0.005, 0.0025, 0.00125)
+
+
+class Block:
+    """The unit on a belt whose speed is given from outside, or ripples by itself."""
+
+    def __init__(self, fmu, folder):
+        self.description = fmpy.read_model_description(fmu)
+        self.folder = folder
+        fmpy.extract(fmu, unzipdir=folder)
+        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
+
+    def motion(self, size, hold=0, with_rate=False, inside=False):
+        """x every SHOWN seconds, the number of slips and the energy residual."""
+        slave = FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=str(self.folder),
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+        )
+        slave.instantiate()
+        at = self.references
+        if inside:
+            names = [at["speed_ripple.amplitude"], at["speed_ripple.frequency"]]
+            slave.setReal(names, [AMPLITUDE, FREQUENCY])
+        slave.setInteger([at["input.hold"]], [hold])
+        slave.setReal([at["surface_speed"]], [SPEED])
+        slave.setupExperiment()
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+        x, each = [], round(SHOWN / size)
+        for n in range(round(STOP / size)):
+            turn = 2.0 * math.pi * FREQUENCY * n * size
+            if not inside:
+                slave.setReal([at["surface_speed"]], [SPEED * (1 + AMPLITUDE * math.sin(turn))])
+            if with_rate:
+                rate = SPEED * AMPLITUDE * 2.0 * math.pi * FREQUENCY * math.cos(turn)
+                slave.setRealInputDerivatives([at["surface_speed"]], [1], [rate])
+            slave.doStep(n * size, size)
+            if (n + 1) % each == 0:
+                x += slave.getReal([at["x"]])
+        (slips,) = slave.getInteger([at["slip_count"]])
+        (residual,) = slave.getReal([at["energy_residual"]])
+        slave.terminate()
+        slave.freeInstance()
+        return np.array(x), slips, residual
+
+
+@pytest.fixture(scope="module")
+def block(fmu, tmp_path_factory):
+    return Block(fmu, tmp_path_factory.mktemp("drive"))
+
+
+@pytest.fixture(scope="module")
+def exact(block):
+    return block.motion(SHOWN, inside=True)
+
+
+@pytest.mark.parametrize(
+    ("given", "finest"),
+    [({"hold": 0}, 6e-5), ({"hold": 1}, 1e-5), ({"with_rate": True}, 1e-5)],
+)
+def test_the_motion_converges_to_that_of_the_ripple_inside(block, exact, given, finest):
+    errors = []
+    for size in STEPS:
+        x, slips, residual = block.motion(size, **given)
+        errors.append(np.abs(x - exact[0]).max())
+        assert abs(residual) < 1e-11
+        if size <= 0.01:
+            assert slips == exact[1]
+    order = np.polyfit(np.log(STEPS), np.log(errors), 1)[0]
+    # The error of an event is that of where it falls between two steps: the order scatters.
+    assert 0.8 < order < 1.8
+    assert errors[-1] < finest
+
+
+def test_a_derivative_of_another_order_is_refused(block):
+    slave = FMU2Slave(
+        guid=block.description.guid,
+        unzipDirectory=str(block.folder),
+        modelIdentifier=block.description.coSimulation.modelIdentifier,
+    )
+    slave.instantiate()
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        slave.setRealInputDerivatives([block.references["surface_speed"]], [2], [0.0])
+    slave.freeInstance()
+
+
+@pytest.mark.parametrize("hold", [0, 1])
+def test_the_unit_in_python_takes_them_the_same_way(block, python_fmu, tmp_path, hold):
+    x, slips, _ = block.motion(0.02, hold=hold)
+    again, slips_again, _ = Block(python_fmu, tmp_path).motion(0.02, hold=hold)
+    assert slips == slips_again
+    np.testing.assert_array_equal(x, again)
+
+
+def test_outputs_have_first_derivatives(fmu, tmp_path):
+    """For who interpolates them between the steps: exact of what the model integrates."""
+    with instance(fmu, tmp_path) as block:
+        block.initialise(surface_speed=SPEED, **{"lateral_friction.ratio": 1.0, "initial.y": 0.01})
+        block.march(0, 300, 0.01)
+        at = {name: each.valueReference for name, each in block.variables.items()}
+
+        def rate(name, order=1):
+            value = ctypes.c_double()
+            block.slave.fmi2GetRealOutputDerivatives(
+                block.slave.component,
+                ctypes.byref(ctypes.c_uint(at[name])),
+                1,
+                ctypes.byref(ctypes.c_int(order)),
+                ctypes.byref(value),
+            )
+            return value.value
+
+        for place, velocity in (("x", "vx"), ("y", "vy"), ("phi", "omega")):
+            assert rate(place) == block.get(velocity)
+        assert rate("surface_travel") == pytest.approx(SPEED)
+        power = block.get("friction_force_x") * (SPEED - block.get("vx"))
+        power -= block.get("friction_force_y") * block.get("vy")
+        power -= block.get("friction_moment") * block.get("omega")
+        assert rate("heat") == pytest.approx(power, rel=1e-9)
+        with pytest.raises(fmpy.fmi1.FMICallException):
+            rate("x", order=2)
+
+
+# --- events that end a step ---
+
+CASES = {
+    "line": {},
+    "transition": {"friction.transition_speed": 5e-3},
+    "bristles": {"friction.transition_speed": 5e-3, "friction.presliding_distance": 1e-4},
+    "plane": {"lateral_friction.ratio": 1.0, "initial.phi": 0.05, "initial.y": 0.005},
+}
+#: Hosts, by where they set inputs: at the ends of their steps, at events too, or in event mode.
+HOSTS = ("steps", "events", "event mode")
+
+
+def rippling(time):
+    turn = 2.0 * math.pi * FREQUENCY * time
+    return {"surface_speed": SPEED * (1.0 + AMPLITUDE * math.sin(turn))}
+
+
+@pytest.fixture(scope="module")
+def unit(fmu3, tmp_path_factory):
+    return Unit(fmu3, tmp_path_factory.mktemp("events"))
+
+
+def motion(unit, drive, size, stop, host=None, **values):
+    """x every SHOWN seconds, the number of slips, and times of events; without a host, of a unit
+    that does not return early."""
+    x, events, each = [], [], round(SHOWN / size)
+    with unit.instance(events=True, early=host is not None) as block:
+        block.begin(**drive(0.0), **values)
+        block.done("EnterStepMode")
+        for n in range(round(stop / size)):
+            end = (n + 1) * size
+            put(block, drive)
+            while block.step(end - block.time)[1]:
+                events.append(block.time)
+                block.done("EnterEventMode")
+                if host == "event mode":
+                    put(block, drive)
+                block.update()
+                block.done("EnterStepMode")
+                if host == "events":
+                    put(block, drive)
+            if (n + 1) % each == 0:
+                x.append(block.get("x"))
+        assert abs(block.get("energy_residual")) < 1e-11
+        return np.array(x), block.get("slip_count"), events
+
+
+def put(block, drive):
+    for name, value in drive(block.time).items():
+        block.set(name, value)
+
+
+def drives(seed):
+    """A rippling speed and a swinging force, and a step."""
+    draw = random.Random(seed)
+    speed, part, frequency = draw.uniform(0.03, 0.2), draw.uniform(0.05, 0.3), draw.uniform(0.3, 2)
+    force, size = draw.uniform(0.0, 0.1), draw.choice([0.005, 0.01, 0.02])
+
+    def drive(time):
+        turn = 2.0 * math.pi * frequency * time
+        return {
+            "surface_speed": speed * (1.0 + part * math.sin(turn)),
+            "external_force_x": force * math.sin(5.0 * time),
+        }
+
+    return drive, size
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("host", HOSTS)
+def test_inputs_that_go_on_are_the_same_with_and_without_early_return(unit, case, host):
+    """Of the integration of bristles a restart at an event is to be seen, at the tolerance 1e-9 of
+    a motion of some 0.1 m; of all else, rounding."""
+    found = 0
+    for seed in range(8):
+        drive, size = drives(seed)
+        given = CASES[case] | {"input.hold": 1}
+        plain = motion(unit, drive, size, 6.0, **given)
+        early = motion(unit, drive, size, 6.0, host, **given)
+        np.testing.assert_allclose(
+            early[0], plain[0], rtol=0, atol=1e-7 if case == "bristles" else 1e-12
+        )
+        assert early[1] == plain[1] and len(set(early[2])) == len(early[2])
+        found += len(early[2])
+    assert found > 50
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_inputs_that_are_held_are_not_taken_for_others_at_an_event(unit, case):
+    """Also not on its way to where the surface's speed gets under a block that sticks."""
+    for seed in range(8):
+        drive, size = drives(seed)
+        plain = motion(unit, drive, size, 6.0, **CASES[case])
+        early = motion(unit, drive, size, 6.0, "steps", **CASES[case])
+        assert early[1] == plain[1]
+        np.testing.assert_allclose(
+            early[0], plain[0], rtol=0, atol=1e-7 if case == "bristles" else 1e-12
+        )
+
+
+@pytest.mark.parametrize("host", HOSTS)
+@pytest.mark.parametrize(("hold", "finest"), [(0, 6e-5), (1, 1e-5)])
+def test_with_early_return_the_motion_converges_to_that_of_the_ripple_inside(
+    unit, host, hold, finest
+):
+    inside = {"speed_ripple.amplitude": AMPLITUDE, "speed_ripple.frequency": FREQUENCY}
+    exact = motion(unit, lambda _: {"surface_speed": SPEED}, SHOWN, STOP, **inside)
+    errors = []
+    for size in STEPS:
+        x, slips, _ = motion(unit, rippling, size, STOP, host, **{"input.hold": hold})
+        errors.append(np.abs(x - exact[0]).max())
+        if size <= 0.01:
+            assert slips == exact[1]
+    assert 0.8 < np.polyfit(np.log(STEPS), np.log(errors), 1)[0] < 1.8  # as above
+    assert errors[-1] < finest
+
+
+@pytest.mark.parametrize("hold", [0, 1])
+def test_a_host_that_asks_for_a_whole_step_behind_an_event_is_heard_there(unit, hold):
+    """What it sets at the event is then all that is known of the step."""
+    errors = []
+    inside = {"speed_ripple.amplitude": AMPLITUDE, "speed_ripple.frequency": FREQUENCY}
+    for size in STEPS:
+        ends = []
+        for drive, given in ((rippling, {"input.hold": hold}), (lambda _: {}, inside)):
+            with unit.instance(events=True, early=True) as block:
+                block.begin(surface_speed=SPEED, **given)
+                block.done("EnterStepMode")
+                while block.time < (ends[0][0] if ends else STOP / 2):
+                    put(block, drive)
+                    last = ends[0][0] - block.time if ends else size
+                    if block.step(min(size, last))[0]:
+                        block.handle_event()
+                ends.append((block.time, block.get("x"), block.get("slip_count")))
+        errors.append(abs(ends[0][1] - ends[1][1]))
+        if size <= 0.01:
+            assert ends[0][2] == ends[1][2]
+    assert max(errors[3:]) < 1e-4 and max(errors[3:]) < 0.5 * max(errors[:2])
+
+
+def test_what_is_set_at_an_event_counts_at_once_where_inputs_are_held(unit):
+    """And from the end of the step on where they go on."""
+    pulls = {}
+    for hold in (0, 1):
+        with unit.instance(events=True, early=True) as block:
+            block.begin(surface_speed=SPEED, **{"input.hold": hold})
+            block.done("EnterStepMode")
+            while block.step(1.0)[1] and block.get("mode") == 0:
+                block.handle_event()
+            assert block.get("mode") == 1  # just broken away
+            block.handle_event()
+            block.set("external_force_x", -0.3)  # the way it slides
+            before = block.get("vx")
+            block.step(1e-5)
+            pulls[hold] = (block.get("vx") - before) / 1e-5 * block.get("rig.mass")
+    assert pulls[0] == pytest.approx(pulls[1] - 0.3, abs=1e-3)

@@ -1,0 +1,144 @@
+"""`stickslip couple` on our own pair: as an SSP, as a TOML of the same, beside another master."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+import zipfile
+
+import numpy as np
+import pytest
+import xarray as xr
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import read_ssv
+
+from cosim import read_scenario, run_scenario
+from cosim.cli import main
+from cosim.coupling.record import CheckpointError, RunFolder
+from cosim.fmu.build import SYSTEM, build_fmu
+from cosim.fmu.platforms import this_platform
+from cosim.fmu.thermal import structure
+from cosim.systems import read_system, run_system
+
+STEP, STOP = 0.01, 6.0
+TEMPERATURE = "thermal.interface_temperature"
+
+
+@pytest.fixture(scope="module")
+def ssp(tmp_path_factory):
+    return build_fmu(tmp_path_factory.mktemp("system"), SYSTEM, [this_platform()])
+
+
+def result_of(path, **changes):
+    changes = {"coupling.macro_step": STEP, "run.stop": STOP} | changes
+    with read_system(path, changes) as specification:
+        done = run_system(specification)
+    assert done.result.status == "complete", done.result.reason
+    return done.result
+
+
+@pytest.fixture(scope="module")
+def in_turn(ssp):
+    return result_of(ssp)
+
+
+def test_it_is_the_coupled_case(in_turn):
+    """To what the reduced heat model is off by, a part of the rise; see the units' own tests."""
+    expected = run_scenario(read_scenario("reference").changed({"run.duration": STOP})).result
+    np.testing.assert_allclose(in_turn["mechanics.x"], expected["mechanics.x"], rtol=0, atol=1e-10)
+    rise = np.ptp(expected[TEMPERATURE])
+    np.testing.assert_allclose(
+        in_turn[TEMPERATURE], expected[TEMPERATURE], rtol=0, atol=5e-3 * rise
+    )
+
+
+def test_a_toml_file_of_the_pair_gives_the_same_numbers(ssp, in_turn, tmp_path):
+    """To the last bit: the same units, values, connections and steps."""
+    with zipfile.ZipFile(ssp) as archive:
+        archive.extractall(tmp_path)
+    with read_system(ssp, {"run.stop": STOP}) as system:
+        lines = ['name = "the same"', f"coupling.macro_step = {STEP}", f"run.stop = {STOP}"]
+        lines += [f'units.{unit.name}.file = "resources/{unit.file.name}"' for unit in system.units]
+        lines += [
+            f'units.{unit.name}.parameters."{key}" = {start.value!r}'
+            for unit in system.units
+            for key, start in unit.given.items()
+        ]
+        for link in system.links:
+            lines += ["[[connections]]", f'from = "{link.source}"', f'to = "{link.sink}"']
+    (tmp_path / "pair.toml").write_text("\n".join(lines), encoding="utf-8")
+    again = result_of(tmp_path / "pair.toml")
+    assert in_turn.values.keys() == again.values.keys()
+    for name, values in in_turn.values.items():
+        np.testing.assert_array_equal(again[name], values, err_msg=name)
+
+
+def test_jacobi_is_what_the_other_masters_do(ssp):
+    """fmpy's steps are Jacobi's, and its rows a step early."""
+    ours = result_of(ssp, **{"coupling.scheme": "jacobi"})
+    chosen = read_ssv(ssp, resource=structure.SET_FILE)
+    theirs = simulate_ssp(ssp, stop_time=STOP - STEP / 2, step_size=STEP, parameter_set=chosen)
+    rows = len(theirs["time"])
+    np.testing.assert_allclose(
+        ours["mechanics.x"][1 : rows + 1], theirs["mechanics.x"], rtol=0, atol=1e-12
+    )
+    # the speed that the heat model is told in the first step is not theirs: they start all at zero
+    np.testing.assert_allclose(ours[TEMPERATURE][1 : rows + 1], theirs[TEMPERATURE], atol=1e-5)
+
+
+def test_power_that_crosses_is_in_the_ledger(ssp, tmp_path):
+    arguments = ["--set", f"coupling.macro_step={STEP}", "--set", f"run.stop={STOP}"]
+    assert main(["couple", str(ssp), *arguments, "-o", str(tmp_path)]) == 0
+    (power,) = json.loads((tmp_path / "summary.json").read_text())["ledger"]["powers"]
+    with_heat = result_of(ssp)["mechanics.heat"][-1]
+    # heat_flow is the mean over the step that has ended: held over it, all of the heat is given
+    assert power["given"] == pytest.approx(with_heat, rel=1e-12)
+    outputs = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["outputs"]
+    # as the unit's description has it; rounding beside it is 0 on the page
+    assert outputs["mechanics.x"]["nominal"] == 0.1
+
+
+def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(ssp, in_turn, tmp_path):
+    def stop(reached):
+        if reached > 2.0:
+            raise KeyboardInterrupt
+
+    changes = {"coupling.macro_step": STEP, "run.stop": STOP, "run.checkpoint_steps": 70}
+    with read_system(ssp, changes) as specification:
+        folder = RunFolder.begun(tmp_path, {}, {})
+        cut = run_system(specification, stop, folder)
+        folder.release()
+        assert cut.result.status == "interrupted" and 2.0 < cut.result.time[-1] < 2.1
+        again = run_system(specification, folder=RunFolder.found(tmp_path))
+    assert again.result.status == "complete" and again.steps.count == in_turn.steps
+    np.testing.assert_array_equal(again.result.time, in_turn.time)
+    for name, values in in_turn.values.items():
+        np.testing.assert_array_equal(again.result[name], values, err_msg=name)
+    with (
+        read_system(ssp, changes | {"run.stop": 2.0 * STOP}) as other,
+        pytest.raises(CheckpointError),
+    ):
+        run_system(other, folder=RunFolder.found(tmp_path))
+
+
+def test_the_command_goes_on_with_what_was_killed(ssp, tmp_path, capsys):
+    """Killed as by kill -9, in the middle of the run; the rows are those of one that was not."""
+    place = tmp_path / "killed"
+    settings = {"coupling.macro_step": 0.001, "run.stop": 20, "run.checkpoint_steps": 50}
+    arguments = [part for item in settings.items() for part in ("--set", "{}={}".format(*item))]
+    command = [sys.executable, "-m", "cosim", "couple", str(ssp), *arguments, "-o", str(place)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE) as process:
+        while not (place / "unfinished" / "checkpoint.zip").is_file() and process.poll() is None:
+            time.sleep(0.01)
+        process.kill()
+    assert process.returncode == -signal.SIGKILL
+    assert main(["couple", "--resume", str(place)]) == 0
+    assert "20 s in" in capsys.readouterr().out
+    whole = result_of(ssp, **{"coupling.macro_step": 0.001, "run.stop": 20})
+    with xr.open_dataset(place / "result.nc", engine="h5netcdf") as dataset:
+        np.testing.assert_array_equal(dataset["mechanics.x"], whole["mechanics.x"])
+        assert dataset["step_time"][-1] == 20.0
+    assert not (place / "unfinished").exists()
+    assert main(["couple", "--resume", str(place)]) == 2
+    assert "holds no unfinished run" in capsys.readouterr().err
