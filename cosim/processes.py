@@ -7,7 +7,10 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
@@ -21,7 +24,16 @@ from joblib.externals.loky import BrokenProcessPool, ProcessPoolExecutor
 
 from cosim.interrupts import REQUESTS, held_interrupts, unheard_by_children
 
-__all__ = ["BrokenProcessPool", "Map", "as_finished", "is_stopped", "map_here", "pool", "processes"]
+__all__ = [
+    "BrokenProcessPool",
+    "Map",
+    "apart",
+    "as_finished",
+    "is_stopped",
+    "map_here",
+    "pool",
+    "processes",
+]
 
 #: A process that has not stopped after this time (s) is killed; one that was just started imports.
 STOP_SECONDS = 10.0
@@ -129,6 +141,61 @@ def pool(jobs: int) -> Iterator[Callable[..., Future[Any]]]:
             _forget_waiting(executor)
             executor.shutdown(kill_workers=bool(late))
             heard.close()
+
+
+def apart(function: Callable[..., Result], *arguments: Any) -> Result:
+    """What function(*arguments) returns or raises, from a process of its own.
+
+    For one long call of a library, for whose end Ctrl-C would wait: here it ends the wait, and the
+    process with it. ``function`` is one of a module, and all that is handed over can be pickled.
+    RuntimeError where the process ended without an answer.
+    """
+    with held_interrupts(), unheard_by_children():
+        process = subprocess.Popen(
+            [sys.executable, "-c", f"from {__name__} import _answer; _answer()"],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **ONE_THREAD,
+            "PYTHONPATH": os.pathsep.join(sys.path)},
+        )  # fmt: skip
+    with process:
+        assert process.stdin is not None and process.stdout is not None  # they are pipes
+        try:
+            pickle.dump((function, arguments), process.stdin)
+            process.stdin.flush()  # and stays open: its end is that of whoever waits
+            done, answer = pickle.load(process.stdout)
+        except (EOFError, BrokenPipeError, pickle.UnpicklingError):
+            ended = process.wait()
+            raise RuntimeError(
+                f"the process of {function.__name__} ended without an answer (status {ended}): was "
+                "there not enough memory?"
+            ) from None
+        finally:
+            process.kill()
+    if not done:
+        raise answer
+    result: Result = answer
+    return result
+
+
+def _answer() -> None:
+    """The whole life of the process of `apart`."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    for number in REQUESTS:
+        signal.signal(number, signal.SIG_IGN)
+    function, arguments = pickle.load(sys.stdin.buffer)
+
+    def listen() -> None:
+        os.read(0, 1)  # nothing more is said
+        os._exit(1)
+
+    threading.Thread(target=listen, daemon=True).start()
+    try:
+        answer = True, function(*arguments)
+    except Exception as error:  # noqa: BLE001 - raised again where it is waited for
+        answer = False, error
+    pickle.dump(answer, answers, protocol=pickle.HIGHEST_PROTOCOL)
+    answers.close()
+    os._exit(0)
 
 
 def _forget_waiting(executor: ProcessPoolExecutor) -> None:

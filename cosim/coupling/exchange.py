@@ -1,18 +1,47 @@
-"""The values at the ports: before the first step, and while a run goes on."""
+"""The values at the ports: carried along the connections, and taken back with a step."""
+
+from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+import sys
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
 
-from cosim.coupling.participant import CouplingError, ParticipantError
-from cosim.coupling.system import Connection, CoupledSystem
+from cosim.coupling.conversion import converted
+from cosim.coupling.history import MOST_POINTS, History, Point
+from cosim.coupling.messages import WARNING
+from cosim.coupling.participant import CouplingError, ParticipantError, capabilities
+from cosim.coupling.statistics import Statistics
+from cosim.coupling.system import ENERGY_UNIT, Address, Connection, CoupledSystem
+from cosim.coupling.waveform import Waveform
+
+#: Times that differ by less than this part of themselves are the same.
+SAME_TIME = 8 * sys.float_info.epsilon
+#: The source of a connection -> what it gives over the step under way.
+Course = Callable[[Address], Waveform]
+
+
+@dataclass(frozen=True)
+class Mark:
+    """Where a coupled system stood: states of the participants, values, time."""
+
+    states: Mapping[str, Any]
+    outputs: Mapping[str, dict[str, float]]
+    inputs: Mapping[str, dict[str, float]]
+    time: float | None
+    history: tuple[Point, ...]
 
 
 class Exchange:
     """Carries values along the connections and keeps the newest of every port.
 
     outputs, inputs: participant -> port -> value; of the inputs only the connected ones.
-    time: start of the macro step under way in s, None during initialisation.
+    time: start of the step under way in s, None during initialisation.
+    history: outputs at the communication points that were accepted. statistics: who did how much.
     """
 
     def __init__(self, system: CoupledSystem):
@@ -20,9 +49,31 @@ class Exchange:
         self.outputs: dict[str, dict[str, float]] = {name: {} for name in system.participants}
         self.inputs: dict[str, dict[str, float]] = {name: {} for name in system.participants}
         self.time: float | None = None
-        self._feeds: dict[str, list[Connection]] = {
-            name: [c for c in system.connections if c.sink.participant == name]
+        self.history = History()
+        self.statistics = Statistics(system.participants)
+        self.feeds: dict[str, tuple[Connection, ...]] = {
+            name: tuple(c for c in system.connections if c.sink.participant == name)
             for name in system.participants
+        }
+        self._converted = {
+            name: tuple((feed, system.conversions[feed]) for feed in feeds)
+            for name, feeds in self.feeds.items()
+        }
+        self._follows = {
+            name: capabilities(participant).waveforms
+            for name, participant in system.participants.items()
+        }
+        self._sources = {
+            name: tuple({c.source.port for c in system.connections if c.source.participant == name})
+            for name in system.participants
+        }
+        self._totals = {
+            name: {
+                feed.sink.port
+                for feed in feeds
+                if system.participants[name].ports[feed.sink.port].unit == ENERGY_UNIT
+            }
+            for name, feeds in self.feeds.items()
         }
 
     @contextmanager
@@ -33,81 +84,145 @@ class Exchange:
         except ParticipantError:
             raise
         except Exception as error:
-            raise ParticipantError(name, self.time, _one_line(error)) from error
+            raise self._blame(name, error) from error
+
+    def _blame(self, name: str, error: Exception) -> ParticipantError:
+        return ParticipantError(name, self.time, _one_line(error))
 
     def collect(self, name: str) -> None:
         """Read all outputs of a participant; every connected one must be a finite number."""
-        with self.blaming(name):
-            self.outputs[name] = self.system.participants[name].read()
-        for connection in self.system.connections:
-            source = connection.source
-            if source.participant == name and not math.isfinite(self.outputs[name][source.port]):
-                value = self.outputs[name][source.port]
-                raise ParticipantError(name, self.time, f"output {source.port} is {value}")
+        try:
+            found = self.system.participants[name].read()
+        except Exception as error:
+            raise self._blame(name, error) from error
+        self.outputs[name] = found
+        for port in self._sources[name]:
+            if not math.isfinite(found[port]):
+                raise ParticipantError(name, self.time, f"output {port} is {found[port]}")
 
     def deliver(self, name: str) -> None:
         """Write the newest values of the connected sources to the inputs of a participant."""
-        values = {
-            feed.sink.port: self.outputs[feed.source.participant][feed.source.port]
-            for feed in self._feeds[name]
-        }
+        outputs = self.outputs
+        self.write(
+            name,
+            {
+                feed.sink.port: convert(outputs[feed.source.participant][feed.source.port])
+                for feed, convert in self._converted[name]
+            },
+        )
+
+    def refresh(self, name: str) -> None:
+        """Let the outputs of a participant follow from the newest values of its sources.
+
+        What it stepped with stays on record.
+        """
+        stepped_with = self.inputs[name]
+        self.deliver(name)
+        self.inputs[name] = stepped_with
+        self.collect(name)
+
+    def write(self, name: str, values: dict[str, float]) -> None:
+        """Write values, in the units of the participant, to its inputs."""
         if values:
-            with self.blaming(name):
+            try:
                 self.system.participants[name].write(values)
+            except Exception as error:
+                raise self._blame(name, error) from error
         self.inputs[name] = values
 
-    def step(self, name: str, size: float) -> None:
-        """Let one participant make the macro step that starts at `time`."""
+    def extrapolated(self, source: Address, degree: int, size: float) -> Waveform:
+        """What a connected output may be over the step that begins, from the points before it.
+
+        Joules handed over since the start are held: what has not been made cannot be handed over,
+        and what was handed over in advance would have to be taken back.
+        """
+        port = self.system.participants[source.participant].ports[source.port]
+        return self.history.extrapolated(source, 0 if port.unit == ENERGY_UNIT else degree, size)
+
+    def deliver_over_step(self, name: str, course: Course) -> None:
+        """Let the inputs of a participant follow their sources over the step under way.
+
+        Who cannot follow a waveform gets its mean, and of joules handed over since the start, of
+        which a step takes what was added, the value at the end.
+        """
+        waves = {
+            feed.sink.port: converted(convert, course(feed.source))
+            for feed, convert in self._converted[name]
+        }
+        if not self._follows[name]:
+            totals = self._totals[name]
+            held = {port: w.end if port in totals else w.mean for port, w in waves.items()}
+            self.write(name, held)
+            return
+        if waves:
+            try:
+                # the protocol is asked for by `capabilities`
+                self.system.participants[name].write_waveforms(waves)  # type: ignore[attr-defined]
+            except Exception as error:
+                raise self._blame(name, error) from error
+        self.inputs[name] = {port: wave.end for port, wave in waves.items()}
+
+    def step(self, name: str, size: float) -> float:
+        """Let one participant make the step that starts at `time`; the size that it made, s.
+
+        It is smaller than asked for where an event of the participant ended the step.
+        """
         if self.time is None:
             raise CouplingError(f"{name}: asked for a step before its initialisation is done")
-        with self.blaming(name):
-            self.system.participants[name].step(self.time, size)
+        began = perf_counter()
+        try:
+            reached = self.system.participants[name].step(self.time, size)
+        except Exception as error:
+            raise self._blame(name, error) from error
+        self.statistics.stepped(name, perf_counter() - began)
+        end = self.time + size
+        if reached is None or reached >= end - SAME_TIME * abs(end):
+            return size
+        if reached <= self.time:
+            raise ParticipantError(name, self.time, f"has not advanced: it is at {reached:.9g} s")
+        return reached - self.time
 
+    def remark(self, text: str, time: float | None) -> None:
+        """Something that the user of the results should know of the step from a time (s)."""
+        self.system.messages.time = time
+        self.system.messages.add(WARNING, "steps", text)
 
-def initial_exchange(
-    exchange: Exchange, order: Sequence[str], tolerance: float, max_sweeps: int
-) -> int:
-    """Sweep over the participants in order until no connected output changes any more.
+    def mark(self) -> Mark:
+        """Remember where everything stands; asks every participant for its state."""
+        # a marked step is common, and a context for each call costs more than many a call
+        states = {}
+        for name, participant in self.system.participants.items():
+            try:
+                states[name] = participant.get_state()  # type: ignore[attr-defined]
+            except Exception as error:
+                raise self._blame(name, error) from error
+        return Mark(
+            states, dict(self.outputs), dict(self.inputs), self.time, tuple(self.history.points)
+        )
 
-    One sweep carries a value one participant further, so a chain of n settles in n sweeps; a
-    loop with direct feedthrough is iterated to a fixed point. `tolerance` is relative to the
-    value itself and only there because such an iteration ends in a flicker of the last bits.
-    Returns the number of sweeps; raises CouplingError with what still changes after
-    `max_sweeps`.
-    """
-    for name in order:
-        exchange.collect(name)
-    changes: dict[str, float] = {}
-    for sweep in range(1, max_sweeps + 1):
-        before = _connected_outputs(exchange)
-        for name in order:
-            exchange.deliver(name)
-            exchange.collect(name)
-        changes = _changes(before, _connected_outputs(exchange), tolerance)
-        if not changes:
-            return sweep
-    worst = max(changes, key=changes.__getitem__)
-    raise CouplingError(
-        f"the initial exchange has not settled after {max_sweeps} sweeps: {worst} still changes "
-        f"by {changes[worst]:.3g}; the loop through it amplifies, so break it or start from "
-        "consistent values"
-    )
+    def back(self, mark: Mark) -> None:
+        """Go back to a mark, which stays good."""
+        for name, participant in self.system.participants.items():
+            try:
+                participant.set_state(mark.states[name])  # type: ignore[attr-defined]
+            except Exception as error:
+                raise self._blame(name, error) from error
+        self.outputs, self.inputs = dict(mark.outputs), dict(mark.inputs)
+        self.time = mark.time
+        self.history.points = deque(mark.history, maxlen=MOST_POINTS)
 
+    def forget(self, mark: Mark) -> None:
+        """A mark is no longer needed."""
+        for name, participant in self.system.participants.items():
+            try:
+                participant.free_state(mark.states[name])  # type: ignore[attr-defined]
+            except Exception as error:
+                raise self._blame(name, error) from error
 
-def _connected_outputs(exchange: Exchange) -> dict[str, float]:
-    sources = [connection.source for connection in exchange.system.connections]
-    return {str(source): exchange.outputs[source.participant][source.port] for source in sources}
-
-
-def _changes(
-    before: dict[str, float], after: dict[str, float], tolerance: float
-) -> dict[str, float]:
-    """`participant.port` -> size of the change, of every output that changed."""
-    return {
-        port: abs(new - before[port])
-        for port, new in after.items()
-        if abs(new - before[port]) > tolerance * max(abs(new), abs(before[port]))
-    }
+    def accept(self, time: float) -> None:
+        """The step is done and will not be taken back; it has come to a time (s)."""
+        self.time = time
+        self.history.add(time, self.outputs)
 
 
 def _one_line(error: Exception) -> str:

@@ -3,11 +3,16 @@
 A port is all that the master knows of what a participant takes in or gives out.
 """
 
+from __future__ import annotations
+
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol
+
+from cosim.coupling.waveform import Waveform
 
 
 class CouplingError(ValueError):
@@ -35,15 +40,34 @@ class Causality(StrEnum):
 
 
 @dataclass(frozen=True)
+class UnitDefinition:
+    """A unit by the base units of the SI: value in them = factor * value + offset.
+
+    exponents: of kg, m, s, A, K, mol, cd, rad.
+    """
+
+    exponents: tuple[int, int, int, int, int, int, int, int]
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
 class Port:
     """A scalar that crosses the border of a participant.
 
     name: unique within the participant; unit: its FMI 2 spelling, "1" for a plain number.
+    nominal: a size that is typical of it, in its unit; what it changes by less than a small part of
+    that is no change. definition: what its unit is made of, where the participant says so.
+    least, most: what it may be, in its unit; a master that guesses values stays within.
     """
 
     name: str
     unit: str
     causality: Causality
+    nominal: float = 1.0
+    definition: UnitDefinition | None = None
+    least: float = -math.inf
+    most: float = math.inf
 
 
 def inputs(**units: str) -> tuple[Port, ...]:
@@ -71,7 +95,8 @@ class Participant(Protocol):
 
     Calls come in this order: `enter_initialisation`; any number of `write` and `read`;
     `exit_initialisation`; then for each macro step `write`, `step`, `read`; at last `close`,
-    also after a failure. A failure is an exception with one clear line.
+    also after a failure. A failure is an exception with one clear line. What else one can do it
+    says by its `Capabilities`.
     """
 
     @property
@@ -94,19 +119,26 @@ class Participant(Protocol):
     def read(self) -> dict[str, float]:
         """All outputs, as they follow from the state and the inputs now."""
 
-    def step(self, time: float, size: float) -> None:
-        """Advance from time to time + size (s), inputs held."""
+    def step(self, time: float, size: float) -> float | None:
+        """Advance from time to time + size (s).
+
+        Returns the time that it has come to (s) where it ended the step early, at an event of its
+        own; else None.
+        """
 
     def close(self) -> None:
         """Let go of files, libraries and memory; may be called twice."""
 
 
-@runtime_checkable
-class Restorable(Protocol):
-    """A participant that can be put back to where it was.
+class TakesWaveforms(Protocol):
+    """A participant that can follow its inputs through a step."""
 
-    For masters that repeat a step, smaller or iterated: the schemes here do not.
-    """
+    def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:
+        """Take some inputs over the next step as functions of time; instead of `write`."""
+
+
+class Restorable(Protocol):
+    """A participant that can be put back to where it was, for a step that is repeated."""
 
     def get_state(self) -> Any:
         """Everything that the future depends on, as an opaque object."""
@@ -116,3 +148,39 @@ class Restorable(Protocol):
 
     def free_state(self, state: Any) -> None:
         """The state is no longer needed."""
+
+
+class Saved(Protocol):
+    """A participant whose state can be written to disk and read by another process."""
+
+    def save_state(self) -> bytes:
+        """Everything that the future depends on."""
+
+    def load_state(self, saved: bytes) -> None:
+        """Go on from what `save_state` gave; after `exit_initialisation`."""
+
+
+@dataclass(frozen=True)
+class Capabilities:
+    """What a participant can do beyond the least; a participant may say so as `capabilities`.
+
+    waveforms: it is one that `TakesWaveforms`; restores: it is `Restorable`; saves: it is `Saved`;
+    ends_early: its `step` may end before the end that it was asked for.
+    """
+
+    waveforms: bool = False
+    restores: bool = False
+    saves: bool = False
+    ends_early: bool = False
+
+
+def capabilities(participant: Participant) -> Capabilities:
+    """What a participant says that it can do; where it says nothing, what it has methods for."""
+    said = getattr(participant, "capabilities", None)
+    if isinstance(said, Capabilities):
+        return said
+    return Capabilities(
+        waveforms=hasattr(participant, "write_waveforms"),
+        restores=hasattr(participant, "get_state") and hasattr(participant, "set_state"),
+        saves=hasattr(participant, "save_state") and hasattr(participant, "load_state"),
+    )

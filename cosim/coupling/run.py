@@ -1,17 +1,34 @@
 """A coupled run: initial exchange, macro steps, result."""
 
+from __future__ import annotations
+
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
 
-from cosim.coupling.exchange import Exchange, initial_exchange
-from cosim.coupling.participant import CouplingError, ParticipantError
+from cosim.coupling.exchange import Exchange
+from cosim.coupling.initial import initial_exchange
+from cosim.coupling.participant import CouplingError, ParticipantError, capabilities
+from cosim.coupling.record.keeper import Keep, Keeper
 from cosim.coupling.result import CoupledResult, Recording, Status, ledger_of
-from cosim.coupling.scheme import Scheme, macro_grid
+from cosim.coupling.schemes.scheme import Scheme, ending_early_first
+from cosim.coupling.step_control.control import HALVE, STOP, ConvergenceError, StepControl, Stepper
+from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.step_control.restore_check import restores_exactly
 from cosim.coupling.system import CoupledSystem
+from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt
 
 Progress = Callable[[float], None]
+
+
+class _March(NamedTuple):
+    """How the steps ended: status, the failure if there was one, time reached in s."""
+
+    status: Status
+    error: Exception | None
+    reached: float
 
 
 def run(
@@ -19,47 +36,127 @@ def run(
     scheme: Scheme,
     *,
     stop: float,
-    macro_step: float,
+    macro_step: float | None = None,
+    control: StepControl | None = None,
     start: float = 0.0,
+    events: Iterable[float] = (),
+    on_divergence: str = STOP,
+    smallest_step: float = 0.0,
     record_every: int = 1,
+    keep: Keep | None = None,
+    observe: Progress | None = None,
     progress: Progress | None = None,
     exchange_tolerance: float = 4 * math.ulp(1.0),
     exchange_sweeps: int = 100,
 ) -> CoupledResult:
-    """Run a coupled system from start to stop (s) in macro steps of macro_step (s).
+    """Run a coupled system from start to stop (s).
 
+    macro_step: size of the steps, s; or control: says how long they are.
+    events: known times (s) at which something jumps or bends; each is a communication point.
+    on_divergence: what is done where an iteration does not converge: "stop", "halve" the step down
+    to smallest_step (s), or "accept" it and say so in the statistics.
     record_every: keep every n-th communication point (and always the first and the last).
+    keep: what to leave on disk meanwhile; where that holds a checkpoint, the run goes on from it,
+    with the same result as one that was never cut off.
+    observe: called with the time (s) of every state that stands: of the start, or of where the run
+    goes on, and after each step that is accepted. An OutputError that it raises ends the run.
     progress: called with the time reached (s) after each macro step.
     exchange_tolerance, exchange_sweeps: see `initial_exchange`.
-    An interrupt or a participant that fails in a step ends the run; the result then holds
-    everything recorded up to the last whole macro step, and says so. Raises CouplingError when
-    the run as asked for makes no sense or the initial exchange does not settle,
-    ParticipantError when a participant fails before the first step. Closing the participants
-    is left to the caller, who may want to ask them for more.
+    An interrupt, a participant that fails in a step, or an iteration that does not converge ends
+    the run, as does a disk that takes no more; the result then holds everything recorded up to the
+    last step accepted, and says so.
+    Raises CouplingError when the run as asked for makes no sense or the initial exchange does not
+    settle, ParticipantError when a participant fails before the first step, CheckpointError when
+    what there is to go on from is damaged or of another case, OutputError when the disk refuses
+    before the first step. Closing the participants is left to the caller, who may want to ask them
+    for more.
     """
     if record_every < 1:
         raise CouplingError(f"record_every = {record_every}: must be at least 1")
-    times = macro_grid(start, stop, macro_step)
+    control = _control(control, macro_step)
+    control.begin(start, stop, scheme)
     scheme.check(system)
+    marks = _check_restore(system, scheme, control, on_divergence)
     exchange = Exchange(system)
     sweeps = _initialise(exchange, scheme.order, start, stop, exchange_tolerance, exchange_sweeps)
-    recording = Recording(system, rows=2 + (len(times) - 1) // record_every)
-    recording.add(start, exchange)
-    began = clock.perf_counter()
-    status, error, steps = _march(exchange, scheme, times, recording, record_every, progress)
+    if scheme.needs_restore or control.needs_restore or marks:
+        _try_restore(exchange, start, min(control.first_size, stop - start))
+    exchange.accept(start)
+    goals = sorted({*(event for event in events if start < event < stop), stop})
+    details = {"start": start, "goals": goals, "record_every": record_every}
+    keeper = None if keep is None else Keeper(keep, exchange, scheme, control, details)
+    passed = None if keeper is None else keeper.passed()
+    recording = Recording(
+        system, None if keep is None else keep.folder, None if passed is None else passed.place
+    )
+    if passed is None:
+        recording.add(start, exchange)
+    stepper = Stepper(
+        exchange, scheme, on_divergence=on_divergence, smallest=smallest_step, marks=marks
+    )
+    began = clock.perf_counter() - (passed.seconds if passed else 0.0)
+    rows = _Rows(recording, keeper, record_every, began, observe, passed.rows if passed else 0)
+    march = _march(stepper, control, goals, rows, progress)
     values = recording.values()
     return CoupledResult(
         time=recording.time,
         values=values,
         units=recording.units,
         ledger=ledger_of(system, values),
-        status=status,
-        reason=_reason(status, error, times[steps]),
-        error=error,
+        status=march.status,
+        reason=_reason(march),
+        error=march.error,
         wall_time=clock.perf_counter() - began,
         sweeps=sweeps,
-        steps=steps,
+        steps=exchange.statistics.steps,
+        statistics=exchange.statistics,
     )
+
+
+def _control(control: StepControl | None, macro_step: float | None) -> StepControl:
+    if control is not None and macro_step is None:
+        return control
+    if control is None and macro_step is not None:
+        return FixedStep(macro_step)
+    raise CouplingError("name either macro_step or control, which says how long the steps are")
+
+
+def _check_restore(
+    system: CoupledSystem, scheme: Scheme, control: StepControl, on_divergence: str
+) -> bool:
+    """Whether steps are marked to be taken back; CouplingError where they must and cannot."""
+    able = {name: capabilities(each) for name, each in system.participants.items()}
+    cannot = [name for name, can in able.items() if not can.restores]
+    early = [name for name, can in able.items() if can.ends_early]
+    order = ending_early_first(system, scheme.order) if scheme.free_order else scheme.order
+    late = [name for name in early if name != order[0]]
+    reasons = {
+        f"the scheme {type(scheme).__name__}": scheme.needs_restore,
+        f"the step control {type(control).__name__}": control.needs_restore,
+        f"on_divergence = {on_divergence!r}": on_divergence == HALVE,
+        f"{', '.join(late)}, which may end a step that others have made,": bool(late),
+    }
+    for reason, needs in reasons.items():
+        if needs and cannot:
+            raise CouplingError(
+                f"{', '.join(cannot)}: cannot go back to an earlier state, and {reason} takes steps"
+                " back; allowed are Jacobi and GaussSeidel with fixed steps"
+            )
+    taken_back = bool(late) or (scheme.needs_restore and bool(early))
+    return taken_back or on_divergence == HALVE
+
+
+def _try_restore(exchange: Exchange, start: float, size: float) -> None:
+    """Refuse a participant that says that it can go back, and does not bit for bit."""
+    for name, participant in exchange.system.participants.items():
+        with exchange.blaming(name):
+            exact = restores_exactly(participant, start, size)
+        if not exact:
+            raise CouplingError(
+                f"{name}: says that it can go back to an earlier state, and tried with a step of "
+                f"{size:g} s it does not come back exactly; allowed are Jacobi and GaussSeidel "
+                "with fixed steps"
+            )
 
 
 def _initialise(
@@ -82,35 +179,83 @@ def _initialise(
     return sweeps
 
 
+class _Rows:
+    """What becomes of the communication points: rows, thinned out, and now and then a checkpoint.
+
+    began: when the run did, s, on a clock that stood still while it was cut off; observe: called
+    with each time; counted: of the points that count for `every`, those before.
+    """
+
+    def __init__(
+        self,
+        recording: Recording,
+        keeper: Keeper | None,
+        every: int,
+        began: float,
+        observe: Progress | None,
+        counted: int,
+    ):
+        self._recording, self._keeper, self._observe = recording, keeper, observe
+        self._every, self._began, self._counted = every, began, counted
+
+    def begin(self, time: float) -> None:
+        """The run stands where it starts from, or goes on from (s); that has a row."""
+        if self._observe is not None:
+            self._observe(time)
+
+    def add(self, time: float, exchange: Exchange, is_row: bool) -> None:
+        """A step was accepted and has come to a time (s)."""
+        self._counted += is_row
+        keep = is_row and self._counted % self._every == 0
+        self._recording.add(time, exchange, keep=keep)
+        if self._observe is not None:
+            self._observe(time)
+        if self._keeper is not None:
+            self._keeper.look(self._recording.table, self._counted, self._seconds())
+
+    def save(self) -> None:
+        """The run ends here for now."""
+        if self._keeper is not None:
+            self._keeper.save(self._recording.table, self._counted, self._seconds())
+
+    def _seconds(self) -> float:
+        return clock.perf_counter() - self._began
+
+
 def _march(
-    exchange: Exchange,
-    scheme: Scheme,
-    times: list[float],
-    recording: Recording,
-    record_every: int,
+    stepper: Stepper,
+    control: StepControl,
+    goals: list[float],
+    rows: _Rows,
     progress: Progress | None,
-) -> tuple[Status, ParticipantError | None, int]:
-    """Make the macro steps; status, the failure if there was one, whole steps made."""
-    last = len(times) - 1
-    done = 0
+) -> _March:
+    """Make the macro steps, to one goal (s) after the other."""
+    exchange = stepper.exchange
+    reached = float(exchange.time or 0.0)
     with deferred_interrupt() as interrupt:
         try:
-            while done < last and not interrupt.requested:
-                exchange.time = times[done]
-                scheme.step(exchange, times[done + 1] - times[done])
-                done += 1
-                recording.add(times[done], exchange, keep=done % record_every == 0)
-                if progress is not None:
-                    progress(times[done])
-        except ParticipantError as error:
+            rows.begin(reached)
+            # a run that goes on at a goal has the end of that still to come
+            for goal in (each for each in goals if each >= reached):
+                while reached < goal:
+                    if interrupt.requested:
+                        rows.save()
+                        return _March("interrupted", None, reached)
+                    reached = control.step(stepper, goal)
+                    exchange.statistics.steps += 1
+                    rows.add(reached, exchange, control.is_row())
+                    if progress is not None:
+                        progress(reached)
+                exchange.history.forget_past()
+        except (ParticipantError, ConvergenceError, OutputError) as error:
             # A second Ctrl-C in the middle of a step reaches us as that participant's failure.
-            return ("interrupted" if interrupt.requested else "failed"), error, done
+            return _March("interrupted" if interrupt.requested else "failed", error, reached)
         except KeyboardInterrupt:
-            return "interrupted", None, done
-    return ("complete" if done == last else "interrupted"), None, done
+            return _March("interrupted", None, reached)
+    return _March("complete", None, reached)
 
 
-def _reason(status: Status, error: ParticipantError | None, reached: float) -> str:
-    if status == "interrupted":
-        return f"interrupted at t = {reached:.9g} s"
-    return "" if error is None else str(error)
+def _reason(march: _March) -> str:
+    if march.status == "interrupted":
+        return f"interrupted at t = {march.reached:.9g} s"
+    return "" if march.error is None else str(march.error)

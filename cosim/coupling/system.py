@@ -1,13 +1,17 @@
 """The coupled system: participants, what connects them, and whether that makes sense."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from cosim.coupling.conversion import IDENTITY, Affine, conversion
+from cosim.coupling.messages import Message, Messages
 from cosim.coupling.participant import Causality, CouplingError, Participant, Port
 from cosim.names import unknown_name
 
 ENERGY_UNIT = "J"
+#: Whose remarks those of the master are.
+MASTER = "(master)"
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,8 @@ class Connection:
     Energy crosses as the joules handed over since the start. Such a connection names in `taken`
     the output of the sink's participant (J) that says how many of them it has taken up, so that
     the ledger can compare both sides.
+    transformation: of the value in the sink's unit, before the sink gets it. converts: whether
+    the units are compared and the value converted; without, the transformation is all.
 
     >>> Connection("brake.heat", "disc.heat", taken="heat_received").source.port
     'heat'
@@ -43,12 +49,24 @@ class Connection:
     source: Address
     sink: Address
     taken: Address | None
+    transformation: Affine
+    converts: bool
 
-    def __init__(self, source: str, sink: str, taken: str | None = None):
+    def __init__(
+        self,
+        source: str,
+        sink: str,
+        taken: str | None = None,
+        *,
+        transformation: Affine = IDENTITY,
+        converts: bool = True,
+    ):
         object.__setattr__(self, "source", Address.parse(source))
         object.__setattr__(self, "sink", Address.parse(sink))
         receipt = None if taken is None else Address(self.sink.participant, taken)
         object.__setattr__(self, "taken", receipt)
+        object.__setattr__(self, "transformation", transformation)
+        object.__setattr__(self, "converts", converts)
 
     def __str__(self) -> str:
         return f"{self.source} -> {self.sink}"
@@ -74,13 +92,18 @@ def output_in_joule(participants: Mapping[str, Participant], address: Address, r
 
 
 def check_connections(
-    participants: Mapping[str, Participant], connections: Iterable[Connection]
+    participants: Mapping[str, Participant],
+    connections: Iterable[Connection],
+    receipts: bool = True,
 ) -> None:
-    """Both ends exist, an output feeds an input, units agree, and no input is fed twice."""
+    """Both ends exist, an output feeds an input, and no input is fed twice.
+
+    receipts: also that every connection in J names what says how many were taken up.
+    """
     fed: dict[Address, Connection] = {}
     for connection in connections:
         _check_ends(participants, connection)
-        _check_receipt(participants, connection)
+        _check_receipt(participants, connection, receipts)
         if connection.sink in fed:
             raise CouplingError(
                 f"{connection.sink} is fed twice: by {fed[connection.sink].source} "
@@ -100,18 +123,36 @@ def _check_ends(participants: Mapping[str, Participant], connection: Connection)
         raise CouplingError(
             f"{connection}: {connection.sink} is an output; a connection ends at an input"
         )
-    if source.unit != sink.unit:
-        raise CouplingError(
-            f"{connection}: {connection.source} is in {source.unit}, "
-            f"{connection.sink} in {sink.unit}; the units must be the same"
-        )
     if connection.source.participant == connection.sink.participant:
         raise CouplingError(f"{connection}: a participant is not connected to itself")
 
 
-def _check_receipt(participants: Mapping[str, Participant], connection: Connection) -> None:
+def conversions_of(
+    participants: Mapping[str, Participant], connections: Iterable[Connection]
+) -> tuple[dict[Connection, Affine], list[str]]:
+    """What each connection does to its value, and where units could not be compared."""
+    found, remarks = {}, []
+    for connection in connections:
+        unit, remark = IDENTITY, "units are not compared, as the system says"
+        if connection.converts:
+            try:
+                unit, remark = conversion(
+                    find_port(participants, connection.source),
+                    find_port(participants, connection.sink),
+                )
+            except CouplingError as error:
+                raise CouplingError(f"{connection}: {error}") from None
+        found[connection] = unit.then(connection.transformation)
+        if remark:
+            remarks.append(f"{connection}: {remark}")
+    return found, remarks
+
+
+def _check_receipt(
+    participants: Mapping[str, Participant], connection: Connection, receipts: bool
+) -> None:
     carries_energy = find_port(participants, connection.source).unit == ENERGY_UNIT
-    if carries_energy and connection.taken is None:
+    if carries_energy and connection.taken is None and receipts:
         raise CouplingError(
             f"{connection} carries energy; name in taken= the output of "
             f"{connection.sink.participant} that says how many joules it has taken up"
@@ -129,6 +170,10 @@ class CoupledSystem:
     participants: each with a name of its own, without a dot.
     residuals: outputs in J, `participant.port`, that should stay 0: the participant's own
     ledger, which the master adds to what is lost on the connections.
+    receipts: refuse a connection in J of which nobody says how many were taken up; without, it is
+    left out of the ledger.
+    `messages`: what the master has to remark on a run. `conversions`: what each connection does to
+    its value. `remarks`: what could not be checked, a line each.
     Raises CouplingError when anything does not fit.
     """
 
@@ -137,11 +182,17 @@ class CoupledSystem:
         participants: Sequence[Participant],
         connections: Iterable[Connection],
         residuals: Iterable[str] = (),
+        *,
+        receipts: bool = True,
     ):
         self.participants = MappingProxyType(_by_name(participants))
         self.connections = tuple(connections)
         self.residuals = tuple(Address.parse(text) for text in residuals)
-        check_connections(self.participants, self.connections)
+        check_connections(self.participants, self.connections, receipts)
+        conversions, remarks = conversions_of(self.participants, self.connections)
+        self.conversions: Mapping[Connection, Affine] = MappingProxyType(conversions)
+        self.remarks = tuple(remarks)
+        self.messages = Messages(MASTER)
         for address in self.residuals:
             output_in_joule(self.participants, address, "an energy residual")
 
@@ -156,6 +207,18 @@ class CoupledSystem:
         missing = [name for name in self.participants if name not in order]
         if missing:
             raise CouplingError(f"the order leaves out {', '.join(missing)}")
+
+    def listen(self, heard: Callable[[Message], object]) -> None:
+        """Hand over what participants and master say, as it comes, until they are gone.
+
+        heard: is given each message, first those that are there already; it raises nothing.
+        """
+        sources = [getattr(each, "messages", None) for each in self.participants.values()]
+        for messages in (*sources, self.messages):
+            if isinstance(messages, Messages):
+                for message in messages:
+                    heard(message)
+                messages.listeners.append(heard)
 
     def close(self) -> None:
         """Close every participant."""

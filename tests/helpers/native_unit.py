@@ -63,6 +63,12 @@ ARGUMENTS = {
     "DeSerializeFMUstate": (c_char_p, c_size_t, POINTER(c_void_p)),
     "DoStep": (c_double, c_double, c_int),
     "CancelStep": (),
+    "SetRealInputDerivatives": (POINTER(c_uint), c_size_t, POINTER(c_int), POINTER(c_double)),
+    "GetDirectionalDerivative": (
+        *(POINTER(c_uint), c_size_t),
+        *(POINTER(c_uint), c_size_t),
+        *(POINTER(c_double), POINTER(c_double)),
+    ),
     "GetStatus": (c_int, POINTER(c_int)),
     "GetRealStatus": (c_int, POINTER(c_double)),
     "GetIntegerStatus": (c_int, POINTER(c_int)),

@@ -17,7 +17,7 @@ from cosim.coupling import (
     ParticipantError,
     run,
 )
-from cosim.coupling.fmu_participant import FmuCallError
+from cosim.coupling.fmu.errors import FmuCallError
 
 HELD = {"surface_speed": 0.15}
 

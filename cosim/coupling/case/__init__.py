@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from hashlib import sha256
+from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from stickslip import EFFECTS
 
@@ -13,12 +16,18 @@ from cosim.coupling import (
     CoupledResult,
     CoupledSystem,
     FmuParticipant,
-    GaussSeidel,
+    Message,
     run,
 )
-from cosim.coupling.case.thermal_participant import Snapshots, ThermalParticipant
+from cosim.coupling.case.prepared_block import prepared_block
+from cosim.coupling.case.snapshots import Snapshots
+from cosim.coupling.case.thermal_participant import ThermalParticipant
+from cosim.coupling.methods import control_of, scheme_of, smallest_step
+from cosim.coupling.record import Keep, RunFolder
+from cosim.files import OutputError
 from cosim.fmu.build import own_fmu
-from cosim.scenario import Scenario, read_scenario
+from cosim.scenario import Scenario, check_work, read_scenario
+from cosim.scenario.scenario import FILE_KEYS
 from thermal import BeltIceModel
 
 MECHANICS, THERMAL = "mechanics", "thermal"
@@ -53,20 +62,25 @@ def run_scenario(
     fmu: str | Path | None = None,
     fields: str | Path | None = None,
     views: bool = False,
+    folder: RunFolder | None = None,
     progress: Callable[[float], None] | None = None,
+    heard: Callable[[Message], object] | None = None,
+    debug: bool = False,
 ) -> CoupledRun:
     """Run a scenario, the name of a packaged one, or a TOML file, coupled.
 
     fmu: the mechanical FMU; left out, it is that of `cosim.fmu.build.own_fmu`, built when it is
     missing or stale. fields: a folder that exists, for the temperature fields (`temperature.pvd`
-    opens in ParaView). views: keep what belt and ice look like, as `snapshots.views`. progress:
-    called with the time reached (s) after each macro step.
+    opens in ParaView). views: keep what belt and ice look like, as `snapshots.views`. folder:
+    for rows, pictures and checkpoints while the run goes; one with a checkpoint is gone on from.
+    progress: called with the time reached (s) after each macro step. heard: called with what unit
+    and master say, as it comes. debug: ask the unit for more of it.
 
     A run that is interrupted (Ctrl-C) or fails returns what it had; `result.status` says so. Ice
     that melts beside friction that does not feel it is such a failure.
-    Raises ScenarioError, FmuError, FmuBuildError, CouplingError or thermal.ParameterError (all
-    ValueErrors of one line) for input that cannot be, ParticipantError when a model fails before
-    the first step.
+    Raises ScenarioError, FmuError, FmuBuildError, CouplingError, CheckpointError or
+    thermal.ParameterError (all ValueErrors of one line) for input that cannot be, ParticipantError
+    when a model fails before the first step.
 
     >>> run = run_scenario(read_scenario("reference").changed({"run.duration": 0.5}))
     >>> run.result.status, run.result["thermal.interface_temperature"].shape
@@ -75,27 +89,59 @@ def run_scenario(
     if not isinstance(scenario, Scenario):
         scenario = read_scenario(scenario)
     record_every = scenario.record_every
-    snapshots = Snapshots(scenario.run.snapshot_interval, fields, views)
+    check_work(scenario, coupled=True)
+    store = None if folder is None else folder.path
+    snapshots = Snapshots(scenario.run.snapshot_interval, fields, views, store)
     mechanics = FmuParticipant(
         fmu or own_fmu(),
         MECHANICS,
         parameters=scenario.mechanics.flat(),
         inputs={"surface_speed": scenario.surface.speed},
+        debug=debug,
     )
-    heat = ThermalParticipant(
-        BeltIceModel(scenario.thermal), THERMAL, observer=snapshots, melts=feels_melting(scenario)
-    )
+    model = BeltIceModel(scenario.thermal, prepared_block(scenario.thermal))
+    heat = ThermalParticipant(model, THERMAL, observer=snapshots, melts=feels_melting(scenario))
+
     with CoupledSystem([mechanics, heat], CONNECTIONS, RESIDUALS) as system:
+        if heard is not None:
+            system.listen(heard)
         result = run(
             system,
-            GaussSeidel((MECHANICS, THERMAL)),
+            scheme_of(scenario.coupling, (MECHANICS, THERMAL)),
+            control=control_of(scenario.coupling, scenario.coupling.macro_step),
             stop=scenario.run.duration,
-            macro_step=scenario.coupling.macro_step,
+            events=[scenario.surface.run_up_time],
+            on_divergence=scenario.coupling.on_divergence,
+            smallest_step=smallest_step(scenario.coupling, scenario.coupling.macro_step),
             record_every=record_every,
+            keep=None if folder is None else _keep(folder, scenario, mechanics, snapshots),
+            observe=lambda time: heat.observe(),
             progress=progress,
         )
         result = _with_last_picture(result, snapshots, heat.model)
     return CoupledRun(scenario, result, snapshots)
+
+
+def _keep(
+    folder: RunFolder, scenario: Scenario, mechanics: FmuParticipant, snapshots: Snapshots
+) -> Keep:
+    """What the run leaves on disk, and what of it tells it from another."""
+    tables = scenario.model_dump(mode="json")
+    setup: dict[str, Any] = {
+        "stickslip": version("stickslip"),
+        "GUID of mechanics": mechanics.description.guid,
+    }
+    for table, entries in tables.items():
+        if isinstance(entries, dict):
+            setup |= {f"{table}.{key}": value for key, value in entries.items()}
+        else:
+            setup[table] = entries
+    for table, key in FILE_KEYS:
+        if name := setup.get(f"{table}.{key}"):
+            setup[f"contents of {name}"] = sha256(Path(name).read_bytes()).hexdigest()
+    how_often = {"seconds": setup.pop("run.checkpoint_seconds")}
+    how_often["steps"] = setup.pop("run.checkpoint_steps")
+    return Keep(folder, setup=setup, also={"pictures": snapshots}, **how_often)
 
 
 def feels_melting(scenario: Scenario) -> bool:
@@ -113,6 +159,6 @@ def _with_last_picture(
     """Also when the disk refuses the picture, the numbers are not lost."""
     try:
         snapshots.take(float(result.time[-1]), model)
-    except OSError as error:
-        return replace(result, status="failed", reason=f"temperature fields: {error}", error=error)
+    except OutputError as error:
+        return replace(result, status="failed", reason=str(error), error=error)
     return result

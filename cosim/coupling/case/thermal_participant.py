@@ -1,25 +1,22 @@
-"""Belt and ice as a participant of a coupled run, and pictures of their temperature on the way."""
+"""Belt and ice as a participant of a coupled run."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
-from pathlib import Path
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosim.coupling import inputs, outputs, port_table
-from thermal import BeltIceModel, FieldSeries, RigView, rig_view
+from cosim.coupling import Waveform, inputs, outputs, port_table
+from thermal import BeltIceModel
 
 #: Change of a total that is rounding, as a part of the total: it was added up from 1e4 steps.
 ROUNDING = 1e-12
-#: Times closer than this part of the interval are the same: 3 macro steps of 0.1 s make 0.3 s.
-SAME_TIME = 1e-6
-
-#: Most views that are kept; then every other one is dropped, and from there on not taken.
-MOST_VIEWS = 400
+#: Heat (J) that may have been handed over in advance: an iteration ends where a step's total is as
+#: good as that of the mechanical side. The next steps make up for it.
+ADVANCE = 1e-6
 
 PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     interface_temperature="degC",
@@ -42,6 +39,8 @@ PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
     meltwater_heat="J",
     heat_residual="J",
 )
+#: Sizes that are typical, where 1 in the unit is not: a film of a metre would hide one of microns.
+NOMINAL = {"film_thickness": 1e-6}
 
 Observer = Callable[[float, BeltIceModel], None]
 
@@ -68,6 +67,10 @@ class State(NamedTuple):
     time: float
 
 
+#: Numbers of a state in front of those of the model.
+_SIZES = (len(Handed._fields), len(Handed._fields), 2)
+
+
 class ThermalParticipant:
     """`BeltIceModel` with the ports of a coupled run.
 
@@ -76,8 +79,8 @@ class ThermalParticipant:
     what the surface has travelled more than the block; its travel over the railing is all of it,
     for it goes on where the block sticks.
 
-    observer: called as observer(time, model) with every state that a step starts from, so never
-    with one that a coupling scheme takes back; `observe` does the same for the last one.
+    observer: called as observer(time, model) by `observe`, which is for states that stand: a
+    coupling scheme may take a step back.
     melts: whether the ice may; a step in which it does is else refused by UnfeltMelting.
     """
 
@@ -91,7 +94,9 @@ class ThermalParticipant:
         self.name = name
         self._melts = melts
         self.model = model
-        self.ports = port_table(PORTS)
+        self.ports = port_table(
+            replace(port, nominal=NOMINAL.get(port.name, port.nominal)) for port in PORTS
+        )
         self._observer = observer
         self._time = 0.0
         self._now = self._taken = Handed()
@@ -114,18 +119,20 @@ class ThermalParticipant:
         """New totals: heat in J, surface_travel and x in m."""
         self._now = self._now._replace(**values)
 
+    def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:
+        """New totals by their courses over a step, which takes what is added until its end."""
+        self.write({name: wave.end for name, wave in waveforms.items()})
+
     def read(self) -> dict[str, float]:
         """All outputs of the model."""
         return self.model.outputs()
 
     def step(self, time: float, size: float) -> None:
         """Advance from time by size (s) with the heat and the travel added since the last step."""
-        self._time = time
-        self.observe()
         now, taken = self._now, self._taken
         travelled = now.surface_travel
         heat = now.heat - taken.heat
-        if -ROUNDING * abs(now.heat) <= heat < 0.0:
+        if -ROUNDING * abs(now.heat) - ADVANCE <= heat < 0.0:
             # not taken yet: the total stays that of the mechanical side
             heat, now = 0.0, now._replace(heat=taken.heat)
         slid = (now.surface_travel - taken.surface_travel) - (now.x - taken.x)
@@ -165,75 +172,24 @@ class ThermalParticipant:
     def free_state(self, state: State) -> None:
         """States are plain arrays; nothing to free."""
 
+    def save_state(self) -> bytes:
+        """The same as doubles, least significant byte first: what has crossed, then the model's."""
+        model, taken, now, railed, time = self.get_state()
+        return np.concatenate((taken, now, (railed, time), model)).astype("<f8").tobytes()
+
+    def load_state(self, saved: bytes) -> None:
+        """Go on from what `save_state` gave; ValueError when it is of another mesh."""
+        numbers = np.frombuffer(saved, "<f8").astype(np.float64)
+        taken, now, (railed, time), model = np.split(numbers, np.cumsum(_SIZES))
+        self.set_state(
+            State(
+                model,
+                Handed(*taken.tolist()),
+                Handed(*now.tolist()),
+                float(railed),
+                float(time),
+            )
+        )
+
     def close(self) -> None:
         """Nothing is held open."""
-
-
-class Snapshots:
-    """Keeps the belt's contact face and, when a folder is given, writes the fields there.
-
-    interval: s; a picture is taken of the first state shown at or after each multiple of it.
-    folder: must exist; None writes no files. views: also keep the fields of belt and ice, as
-    `views` (time in s, what is seen), evenly spread over the run, for an animation.
-    `contact_length`: along the belt, m.
-    """
-
-    def __init__(self, interval: float, folder: str | Path | None = None, views: bool = False):
-        self._interval = interval
-        self._folder = folder
-        self._number = -1
-        self._series: FieldSeries | None = None
-        self._taken: list[tuple[float, np.ndarray, float]] = []
-        self._view_every = 1 if views else 0
-        self.views: list[tuple[float, RigView]] = []
-        self.position = np.empty(0)
-        self.contact_length = float("nan")
-
-    def __call__(self, time: float, model: BeltIceModel) -> None:
-        """Take a picture when one is due."""
-        number = math.floor(time / self._interval + SAME_TIME)
-        if number > self._number:
-            self._number = number
-            self.take(time, model)
-
-    def take(self, time: float, model: BeltIceModel) -> None:
-        """Take a picture now, unless the last one is of now."""
-        if self._taken and time <= self._taken[-1][0]:
-            return
-        if self._folder is not None:
-            self._series = self._series or FieldSeries(self._folder, model)
-            self._series.write(time)
-        if self._view_every and len(self._taken) % self._view_every == 0:
-            self._keep_view(time, model)
-        self.position, temperature = model.belt_profile()
-        self.contact_length = model.footprint.length
-        self._taken.append((time, temperature, model.contact_position))
-
-    def _keep_view(self, time: float, model: BeltIceModel) -> None:
-        # half the memory, and more digits than a picture shows
-        view = RigView(*(np.float32(part) for part in rig_view(model)))  # type: ignore[arg-type]
-        self.views.append((time, view))
-        if len(self.views) > MOST_VIEWS:
-            del self.views[1::2]
-            self._view_every *= 2
-
-    @property
-    def file(self) -> Path | None:
-        """The collection of the written fields, None when none were written."""
-        return self._series.path if self._series else None
-
-    @property
-    def time(self) -> np.ndarray:
-        """Times of the pictures, s, (k,)."""
-        return np.array([time for time, _, _ in self._taken])
-
-    @property
-    def temperature(self) -> np.ndarray:
-        """Contact face of the belt at the `position`s of its material (n,) m: degC, (k, n)."""
-        profiles = [profile for _, profile, _ in self._taken]
-        return np.array(profiles).reshape(len(profiles), self.position.size)
-
-    @property
-    def contact(self) -> np.ndarray:
-        """Material position under the contact's centre, m, (k,)."""
-        return np.array([contact for _, _, contact in self._taken])

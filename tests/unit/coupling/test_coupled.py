@@ -8,7 +8,8 @@ from ledgers import exchanged, largest_residual
 
 from cosim import Scenario, run_scenario
 from cosim.coupling import FmuError
-from cosim.coupling.case.thermal_participant import Snapshots, ThermalParticipant
+from cosim.coupling.case.snapshots import Snapshots
+from cosim.coupling.case.thermal_participant import ThermalParticipant
 from cosim.scenario.faults import ScenarioError
 from thermal import BeltIceModel
 
@@ -213,16 +214,89 @@ def test_a_participant_goes_back_and_on_bit_for_bit():
     assert part.read()["heat_received"] == 0.0
 
 
+def started(model):
+    part = ThermalParticipant(model)
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    return part
+
+
+@pytest.mark.parametrize("warm", [False, True], ids=["cold", "melting"])
+def test_a_participant_saved_goes_on_in_another_bit_for_bit(warm):
+    """Each step heats more; where it melts, the block has lost height when it is saved."""
+    air = {"ambient.temperature_degC": -0.5, "mixed_lubrication.share": 0.5} if warm else {}
+    parameters = case().changed(air).thermal
+    part, other = (started(BeltIceModel(parameters)) for _ in range(2))
+
+    def step(participant, n):
+        heat = (40.0 if warm else 0.4) * n
+        participant.write({"heat": heat, "surface_travel": 0.02 * n, "x": 0.001 * (n % 3)})
+        participant.step(0.1 * (n - 1), 0.1)
+
+    for n in range(1, 30):
+        step(part, n)
+    assert (part.read()["melted_mass"] > 0.0) == warm
+    saved = part.save_state()
+    other.load_state(saved)
+    assert other.read() == part.read() and other.save_state() == saved
+    for n in range(30, 60):
+        step(part, n)
+        step(other, n)
+        assert other.read() == part.read()
+    assert other.save_state() == part.save_state()
+
+
+def test_a_state_of_another_mesh_is_refused():
+    saved = started(model()).save_state()
+    finer = BeltIceModel(case(belt__cell_length=4e-3).thermal)
+    with pytest.raises(ValueError, match="saved with another mesh"):
+        started(finer).load_state(saved)
+
+
 def test_a_state_that_is_taken_back_is_in_no_picture():
     pictures = Snapshots(0.1)
     part = ThermalParticipant(model(), observer=pictures)
     part.enter_initialisation(0.0, 1.0)
     part.exit_initialisation()
+    part.observe()
     start = part.get_state()
     for heat in (9.0, 0.1):  # a first try, and the step that counts
         part.set_state(start)
         part.write({"heat": heat})
         part.step(0.0, 0.1)
-    part.step(0.1, 0.1)
+    part.observe()
     assert pictures.time.tolist() == [0.0, 0.1]
     assert pictures.temperature.max() < -7.9
+
+
+def test_pictures_are_of_communication_points_that_stand(fmu):
+    steps = {"coupling__step_control": "doubling", "coupling__macro_step": 0.05}
+    run = run_scenario(case(run__duration=0.6, run__snapshot_interval=1e-6, **steps), fmu=fmu)
+    assert run.result.statistics.steps < run.result.statistics.participants["thermal"].steps
+    np.testing.assert_array_equal(run.snapshots.time, run.result.time)
+
+
+@pytest.mark.parametrize(
+    "method",
+    [
+        {"scheme": "jacobi", "extrapolation": "linear"},
+        {"scheme": "gauss_seidel", "extrapolation": "quadratic"},
+        {"scheme": "iterated", "sweep": "jacobi"},
+        {"scheme": "iterated", "acceleration": "aitken"},
+        {"step_control": "defect", "extrapolation": "linear"},
+        {"step_control": "doubling"},
+    ],
+    ids=lambda method: " ".join(method.values()),
+)
+def test_every_method_couples_the_case(method, fmu):
+    """Joules are handed over when they are there: none is made or lost whatever the method."""
+    warm = case(temperature_dependence__sensitivity=0.05)
+    changes = {f"coupling.{key}": value for key, value in method.items()}
+    result = run_scenario(warm.changed(changes), fmu=fmu).result
+    assert result.status == "complete", result.reason
+    (flow,) = result.ledger.flows
+    # Jacobi hands over a step late; an iteration is as exact as its tolerance of a microjoule
+    late = np.max(np.diff(flow.handed)) if "jacobi" == method.get("scheme") else 0.0
+    assert np.abs(flow.in_transit).max() <= late + 1e-6
+    rise = last(run_scenario(warm, fmu=fmu), "thermal.interface_temperature") + 8.0
+    assert result["thermal.interface_temperature"][-1] + 8.0 == pytest.approx(rise, rel=0.1)

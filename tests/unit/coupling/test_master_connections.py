@@ -38,7 +38,7 @@ HEAT = Connection("mechanics.heat", "thermal.heat", taken="heat_received")
         (("mechanic.heat", "thermal.x"), r"no participant is named 'mechanic'; nearest: 'mech"),
         (
             ("thermal.temperature", "mechanics.temperature"),
-            r"thermal.temperature is in K, mechanics.temperature in degC; the units must",
+            r"thermal.temperature -> mechanics.temperature: K does not fit degC: the units must",
         ),
         (("thermal.x", "thermal.x"), r"thermal.x is an input; a connection starts at an output"),
         (("mechanics.x", "thermal.y"), r"thermal.y is an output; a connection ends at an input"),

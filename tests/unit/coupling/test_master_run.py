@@ -9,6 +9,7 @@ import pytest
 from ledgers import exchanged, largest_residual
 
 from cosim.coupling import (
+    Affine,
     Connection,
     CoupledSystem,
     CouplingError,
@@ -19,7 +20,7 @@ from cosim.coupling import (
     port_table,
     run,
 )
-from cosim.coupling.scheme import macro_grid
+from cosim.coupling.step_control.fixed import Grid
 
 
 class Model:
@@ -136,14 +137,20 @@ def test_initial_exchange_settles_a_loop_with_feedthrough():
     assert result["a.shown"][0] == pytest.approx(2.0, rel=1e-14)
 
 
-def test_a_loop_that_amplifies_is_reported_with_what_changes_and_the_remedy():
-    with pytest.raises(CouplingError, match=r"not settled after 100 sweeps: [ab]\.shown.*break it"):
-        run(loop(1.5), GaussSeidel(("a", "b")), stop=1.0, macro_step=1.0)
+def test_initial_exchange_solves_a_loop_that_amplifies():
+    """x = 1.5 (1 + x): plain sweeps run away from the solution."""
+    result = run(loop(1.5), GaussSeidel(("a", "b")), stop=1.0, macro_step=1.0)
+    assert result["a.shown"][0] == pytest.approx(-2.0, rel=1e-11)
+
+
+def test_a_loop_without_a_solution_is_reported_with_what_changes_and_the_remedy():
+    with pytest.raises(CouplingError, match=r"not settled after \d+ sweeps: [ab]\.shown.*break it"):
+        run(loop(1.0), GaussSeidel(("a", "b")), stop=1.0, macro_step=1.0)
 
 
 @pytest.mark.parametrize("stop, macro_step", [(30.0, 0.01), (1.0, 0.3), (0.7, 0.1), (1e3, 1 / 3)])
 def test_grid_hits_the_end_exactly_and_does_not_drift(stop, macro_step):
-    times = macro_grid(0.0, stop, macro_step)
+    times = list(Grid(0.0, stop, macro_step))
     assert times[-1] == stop
     assert times[:-1] == [n * macro_step for n in range(len(times) - 1)]
     assert len(times) - 1 == math.ceil(round(stop / macro_step, 6))
@@ -204,6 +211,19 @@ def test_ledger_shows_the_joules_in_transit_when_the_sink_steps_first():
     np.testing.assert_allclose(result.ledger.flows[0].in_transit[1:], 0.3, rtol=1e-12)
 
 
+def test_ledger_hands_over_what_a_factor_leaves():
+    """Of the 6 J that a brake makes a third goes over: that is handed, and nothing is missing."""
+    links = [
+        Connection(
+            "brake.heat", "disc.heat", taken="heat_received", transformation=Affine(1.0 / 3.0)
+        )
+    ]
+    system = CoupledSystem([Brake(), Disc(1.0)], links)
+    result = run(system, GaussSeidel(("brake", "disc")), stop=2.0, macro_step=0.1)
+    assert exchanged(result.ledger) == pytest.approx(2.0, rel=1e-12)
+    assert largest_residual(result.ledger) < 1e-12
+
+
 def test_ledger_shows_what_a_sink_loses_and_what_a_participant_is_off_by():
     system = braked(keeps=0.9)
     system.participants["brake"].leak = 0.25
@@ -246,6 +266,17 @@ def test_an_interrupt_inside_a_participant_keeps_the_steps_before():
     result = run(system, GaussSeidel(("failing",)), stop=1.0, macro_step=0.125)
     assert result.status == "interrupted" and result.time[-1] == 0.5
     assert result.reason == "interrupted at t = 0.5 s"
+
+
+@pytest.mark.parametrize("event", [0.6, 0.3, math.nextafter(0.2, 1.0), 0.25])
+def test_an_event_that_is_a_communication_point_but_for_rounding_makes_no_sliver(event):
+    """6 steps of 0.1 s end at 0.6000000000000001 s; a step of 1e-16 s would be no step."""
+    system = clock_and_follower()
+    result = run(system, GaussSeidel(("clock", "mirror")), stop=1.0, macro_step=0.1, events=[event])
+    sizes = [size for _, size in system.participants["clock"].steps]
+    assert min(sizes) > 0.04 and len(sizes) == (11 if event == 0.25 else 10)
+    # between two points of the grid it makes no row
+    assert (event in result.time) == (event != 0.25) and result.time[-1] == 1.0
 
 
 def test_ctrl_c_waits_for_the_end_of_the_macro_step(ctrl_c):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from cosim.coupling.case.thermal_participant import MOST_VIEWS, Snapshots
+from cosim.coupling.case.snapshots import MOST_VIEWS, Snapshots
 from cosim.report.figures.animation import LASTS, animation
 from thermal import Belt, BeltIceModel, ThermalParameters
 
@@ -42,6 +42,57 @@ def test_a_long_run_keeps_views_evenly_spread(model):
     assert MOST_VIEWS // 3 < times.size <= MOST_VIEWS
     assert np.ptp(np.diff(times)) < 1e-9
     assert times[-1] > 0.99 * 0.1 * (3 * MOST_VIEWS - 8)
+
+
+def same(found, expected):
+    for name in ("time", "temperature", "contact", "position"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(expected, name))
+    assert found.contact_length == expected.contact_length
+    assert [time for time, _ in found.views] == [time for time, _ in expected.views]
+    for (_, one), (_, other) in zip(found.views, expected.views, strict=True):
+        for part, its in zip(one, other, strict=True):
+            np.testing.assert_array_equal(part, its)
+
+
+@pytest.mark.parametrize("cut", [0, 3, 17, 29])
+def test_pictures_go_on_where_they_were_saved(tmp_path, monkeypatch, cut):
+    """Saved after `cut` states, cut off at 30 and gone on with from there, as if nothing was."""
+    monkeypatch.setattr("cosim.coupling.case.snapshots.MOST_VIEWS", 8)
+    parameters = ThermalParameters(belt=Belt(cell_length=0.02, elements=2))
+    outcomes = {}
+    for name in ("whole", "cut off"):
+        store, fields = tmp_path / name, tmp_path / name / "fields"
+        fields.mkdir(parents=True)
+        model = BeltIceModel(parameters)
+        snapshots = Snapshots(0.2, fields, views=True, store=store)
+        for n in range(40):
+            if name == "cut off" and n == cut:
+                saved, state = snapshots.save_state(), model.state()
+            if name == "cut off" and n == 30:
+                break
+            snapshots(0.1 * n, model)
+            model.step(0.1, 0.1, 0.03)
+        outcomes[name] = snapshots
+    model, n = BeltIceModel(parameters), cut
+    model.restore(state)
+    again = Snapshots(0.2, fields, views=True, store=store)
+    again.load_state(saved)
+    for n in range(cut, 40):
+        again(0.1 * n, model)
+        model.step(0.1, 0.1, 0.03)
+    same(again, outcomes["whole"])
+    whole, cut_off = tmp_path / "whole" / "fields", tmp_path / "cut off" / "fields"
+    assert sorted(p.name for p in whole.iterdir()) == sorted(p.name for p in cut_off.iterdir())
+    for file in whole.iterdir():
+        assert file.read_bytes() == (cut_off / file.name).read_bytes()
+
+
+def test_pictures_are_on_disk_as_they_are_taken(tmp_path, model):
+    snapshots = Snapshots(0.1, store=tmp_path)
+    run(model, snapshots, 5)
+    found = np.load(tmp_path / "pictures.npy", mmap_mode="r")
+    assert found.shape == (5, 2 + snapshots.position.size)
+    np.testing.assert_array_equal(found[:, 2:], snapshots.temperature)
 
 
 def frames(data):

@@ -1,0 +1,122 @@
+"""What a connection does to a value on its way: from the source's unit to the sink's, and scaled.
+
+Units are compared by what their participants say that they are made of (FMI: value in SI base
+units = factor * value + offset), never by a table of spellings here.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from cosim.coupling.participant import CouplingError, Port, UnitDefinition
+from cosim.coupling.waveform import Waveform
+
+NO_UNIT = "1"
+BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+# Definitions are written with some 15 digits, and a conversion that is none by these is none.
+SAME = 1e-12
+
+
+@dataclass(frozen=True)
+class Affine:
+    """value -> factor * value + offset.
+
+    >>> Affine(2.0, 1.0).then(Affine(10.0))(3.0)
+    70.0
+    """
+
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def __call__(self, value: float) -> float:
+        """The value on the other side."""
+        return self.factor * value + self.offset
+
+    def rate(self, value: float) -> float:
+        """A derivative on the other side, of any order."""
+        return self.factor * value
+
+    def then(self, after: Affine) -> Affine:
+        """This, and `after` on what it gives."""
+        return Affine(after.factor * self.factor, after.factor * self.offset + after.offset)
+
+    @property
+    def is_identity(self) -> bool:
+        """Whether every value stays as it is."""
+        return self.factor == 1.0 and self.offset == 0.0
+
+    def __str__(self) -> str:
+        parts = ["" if self.factor == 1.0 else f"times {self.factor:.6g}"]
+        if self.offset:
+            parts.append(f"{'plus' if self.offset > 0 else 'less'} {abs(self.offset):.6g}")
+        return ", ".join(filter(None, parts)) or "as it is"
+
+
+IDENTITY = Affine()
+
+
+def conversion(source: Port, sink: Port) -> tuple[Affine, str]:
+    """From the unit of an output to that of an input, and a remark where nothing could be compared.
+
+    Units of one dimension are converted by their definitions; a side without a unit takes that of
+    the other, and the remark says so. Raises CouplingError when the units are of different
+    dimensions, when one spelling stands for two units, and when two spellings differ and
+    nobody says what they mean.
+    """
+    if source.definition is not None and sink.definition is not None:
+        return _by_definition(source, sink), ""
+    if source.unit == sink.unit:
+        return IDENTITY, ""
+    if NO_UNIT in (source.unit, sink.unit):
+        return IDENTITY, f"{_told(source)} to {_told(sink)} is not checked"
+    raise CouplingError(
+        f"{_told(source)} does not fit {_told(sink)}: the units must be the same, or be defined by"
+        " both (UnitDefinitions of an FMU)"
+    )
+
+
+def _by_definition(source: Port, sink: Port) -> Affine:
+    start, end = source.definition, sink.definition
+    assert start is not None and end is not None
+    if start.exponents != end.exponents:
+        raise CouplingError(
+            f"{_told(source)} ({_dimension(start)}) does not fit {_told(sink)} ({_dimension(end)})"
+        )
+    if start.factor == 0.0 or end.factor == 0.0:
+        raise CouplingError(f"{_told(source)} to {_told(sink)}: a unit is defined by the factor 0")
+    found = _rounded(Affine(start.factor / end.factor, (start.offset - end.offset) / end.factor))
+    if source.unit == sink.unit and not found.is_identity:
+        raise CouplingError(
+            f"both are in {source.unit}, which they define differently: the one's value is the"
+            f" other's {found}"
+        )
+    return found
+
+
+def _rounded(found: Affine) -> Affine:
+    """Without what is only the rounding of the definitions."""
+    factor = 1.0 if math.isclose(found.factor, 1.0, rel_tol=SAME) else found.factor
+    return Affine(factor, 0.0 if abs(found.offset) <= SAME else found.offset)
+
+
+def _told(port: Port) -> str:
+    return "no unit" if port.unit == NO_UNIT else port.unit
+
+
+def _dimension(unit: UnitDefinition) -> str:
+    """In base units: kg.m2/s2 is `kg m^2 s^-2`."""
+    parts = [
+        name if exponent == 1 else f"{name}^{exponent}"
+        for name, exponent in zip(BASE_UNITS, unit.exponents, strict=True)
+        if exponent
+    ]
+    return " ".join(parts) or "a plain number"
+
+
+def converted(affine: Affine, waveform: Waveform) -> Waveform:
+    """An input over a step, on the other side of a connection."""
+    if affine.is_identity:
+        return waveform
+    start, *rates = waveform.coefficients
+    return Waveform((affine(start), *map(affine.rate, rates)), waveform.size)

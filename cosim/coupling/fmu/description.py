@@ -1,0 +1,91 @@
+"""What a unit declares about itself, and whether it is one that can be coupled here."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import fmpy
+from fmpy.model_description import ModelDescription, ValidationError
+from lxml.etree import XMLSyntaxError
+
+from cosim.coupling.fmu.archive import DESCRIPTION, read_xml
+from cosim.coupling.fmu.errors import FmuError, one_line
+
+#: Of the faults that fmpy finds.
+HARMLESS = re.compile(
+    r'The (display )?unit ".*" of (the )?variable.* is not defined\.'
+    r'|.* must have variability != "continuous"\.'
+    r'|The variable name ".*" \(line \d+\) is not unique\.'
+)
+
+
+def describe(path: Path) -> ModelDescription:
+    """What an FMI 2.0 or 3.0 co-simulation FMU declares; FmuError in one line when it is none."""
+    if read_xml(path, DESCRIPTION) is None:
+        raise FmuError(f"{path}: not an FMU: holds no {DESCRIPTION}")
+    read_xml(path, "sources/buildDescription.xml")  # which fmpy parses, too
+    try:
+        description = fmpy.read_model_description(path, validate=not faults_of(path))
+    except (XMLSyntaxError, ValidationError) as error:
+        raise FmuError(f"{path}: its {DESCRIPTION} is not valid: {one_line(error)}") from error
+    # fmpy raises whatever comes of a reference to nothing, an unknown version, a missing attribute
+    except Exception as error:
+        raise FmuError(
+            f"{path}: its {DESCRIPTION} does not make sense: {one_line(error)}"
+        ) from error
+    _check(path, description)
+    return description
+
+
+def faults_of(path: Path) -> list[str]:
+    """What is wrong with a description and does no harm here; [] as well where more is wrong.
+
+    Units of well-known tools lack the definition of a unit, call a whole number continuous, or give
+    two inner variables one name.
+    """
+    try:
+        fmpy.read_model_description(path)
+    except ValidationError as error:
+        problems = [one_line(ValueError(problem)) for problem in error.problems]
+        if all(HARMLESS.fullmatch(problem) for problem in problems):
+            return problems
+    except Exception:
+        return []  # for whoever reads it
+    return []
+
+
+def is_fmi3(description: ModelDescription) -> bool:
+    """Whether it is FMI 3, not 2."""
+    return description.fmiVersion.startswith("3.")
+
+
+def _check(path: Path, description: ModelDescription) -> None:
+    version = description.fmiVersion
+    if version != "2.0" and not re.fullmatch(r"3\.\d+(\.\d+)?", version):
+        raise FmuError(
+            f"{path}: is FMI {version}; what is coupled here is FMI 2.0 and 3.0, for co-simulation"
+        )
+    if description.coSimulation is None:
+        raise FmuError(f"{path}: is for model exchange only; a co-simulation FMU is needed")
+    identifier = description.coSimulation.modelIdentifier
+    if not re.fullmatch(r"[\w.+ -]+", identifier) or identifier.startswith("."):
+        raise FmuError(
+            f"{path}: its model identifier {identifier!r} is no name of a library: letters, "
+            "digits and underscores"
+        )
+
+
+def library_of(path: Path, folder: Path, description: ModelDescription) -> Path:
+    """The library for this machine in the folder that a unit is unpacked in; FmuError for none."""
+    platform = fmpy.platform_tuple if is_fmi3(description) else fmpy.platform
+    file = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
+    library = folder / "binaries" / platform / file
+    if not library.is_file():
+        binaries = folder / "binaries"
+        there = sorted(each.name for each in binaries.iterdir()) if binaries.is_dir() else []
+        raise FmuError(
+            f"{path}: holds no library for this machine, binaries/{platform}/{file}; it is for "
+            f"{', '.join(there) or 'none'}"
+        )
+    return library

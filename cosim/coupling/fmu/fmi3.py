@@ -1,0 +1,179 @@
+"""An instance of FMI 3.0: its steps may end early, its events are handled where it has any."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from ctypes import byref, c_bool, c_char_p, c_double, c_float, c_int64
+from typing import Any
+
+from fmpy.fmi3 import FMU3Slave
+from fmpy.model_description import ModelDescription
+
+from cosim.coupling.fmu.calls import How
+from cosim.coupling.fmu.errors import FmuCallError
+from cosim.coupling.fmu.values import Group, Kind, encoded, truth, whole
+from cosim.coupling.fmu.variables import INTEGERS
+
+_MEMORY = {name: getattr(ctypes, f"c_{name.lower()}") for name in INTEGERS}
+KINDS = {
+    "Float64": Kind(c_double, "Float64", float),
+    "Float32": Kind(c_float, "Float32", float),
+    **{name: Kind(memory, name, whole(memory)) for name, memory in _MEMORY.items()},
+    "Enumeration": Kind(c_int64, "Int64", whole(c_int64)),
+    "Boolean": Kind(c_bool, "Boolean", truth),
+    "String": Kind(c_char_p, "String", encoded),
+}
+#: Rounds in which the discrete states of a unit settle at an event, and events at one time.
+MOST_ROUNDS = 100
+#: Parts of a step that are rounding.
+SLIVER = 1e-12
+
+
+def may_end_early(description: ModelDescription) -> bool:
+    """Whether it can end a step before its end."""
+    interface = description.coSimulation
+    return bool(interface.mightReturnEarlyFromDoStep or interface.hasEventMode)
+
+
+class Fmi3:
+    """See `cosim.coupling.fmu.calls.Calls`.
+
+    memory: `next_event`, s, that the unit has announced, None for none; `discrete`, the newest
+    values of discrete inputs.
+    """
+
+    def __init__(self, how: How) -> None:
+        self.memory: dict[str, Any] = {"next_event": None, "discrete": {}}
+        self._stepping = False
+        self._events = how.early and bool(how.description.coSimulation.hasEventMode)
+        self._early = how.early and may_end_early(how.description)
+        self._fmu = FMU3Slave(**how.arguments())
+        try:
+            self._instantiate(how)
+        except Exception:  # fmpy's
+            if not self._events:
+                raise
+            # there are units that declare an event mode and have none (Roberts, of the
+            # Reference-FMUs)
+            self._events = False
+            how.log.take_errors()
+            self._instantiate(how)
+        self._component = self._fmu.component
+        functions = {kind.function for kind in KINDS.values()}
+        self._set = {name: getattr(self._fmu, f"fmi3Set{name}") for name in functions}
+        self._get = {name: getattr(self._fmu, f"fmi3Get{name}") for name in functions}
+        self._flags = c_bool(), c_bool(), c_bool()
+        self._last = c_double()
+        self._told = (*map(byref, self._flags), byref(self._last))
+
+    def _instantiate(self, how: How) -> None:
+        self._fmu.instantiate(
+            loggingOn=True,
+            eventModeUsed=self._events,
+            earlyReturnAllowed=self._early,
+            logMessage=how.log.log_message,
+        )
+
+    def enter_initialisation(self, start: float, stop: float, tolerance: float | None) -> None:
+        self._fmu.enterInitializationMode(tolerance=tolerance, startTime=start, stopTime=stop)
+
+    def exit_initialisation(self) -> None:
+        self._fmu.exitInitializationMode()
+        self._stepping = True
+        if self._events:  # which the unit then is at
+            self._update()
+            self._fmu.enterStepMode()
+
+    def write(self, groups: Sequence[Group]) -> None:
+        if not (self._stepping and self._events):
+            for group in groups:
+                self._put(group)
+            return
+        changed = []
+        for group in groups:
+            if not group.discrete:
+                self._put(group)
+            elif any(self.memory["discrete"].get(k) != v for k, v in group.got().items()):
+                changed.append(group)
+        if changed:  # discrete inputs may change at an event only: that is one
+            self._fmu.enterEventMode()
+            for group in changed:
+                self._put(group)
+            self._update()
+            self._fmu.enterStepMode()
+
+    def _put(self, group: Group) -> None:
+        self._set[group.kind.function](
+            self._component, group.references, group.count, group.values, group.size
+        )
+        if group.discrete and self._events:
+            self.memory["discrete"].update(group.got())
+
+    def read(self, group: Group) -> None:
+        self._get[group.kind.function](
+            self._component, group.references, group.count, group.values, group.size
+        )
+
+    def write_rates(self, rates: Mapping[int, Sequence[float]]) -> None:
+        raise FmuCallError("FMI 3.0 has no derivatives of inputs")
+
+    def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        end = time + size
+        for _ in range(MOST_ROUNDS):
+            reached = self._once(time, size, may_go_back)
+            if abs(reached - end) <= SLIVER * max(abs(end), size):
+                return None
+            if reached > time:
+                return reached
+        raise FmuCallError(f"does not come beyond t = {time:.9g} s: {MOST_ROUNDS} events there")
+
+    def _once(self, time: float, size: float, may_go_back: bool) -> float:
+        """One call, no further than the event that the unit has announced; time reached."""
+        event_at = self.memory["next_event"]
+        if event_at is not None and time < event_at < time + size:
+            size = event_at - time
+        self._fmu.fmi3DoStep(self._component, time, size, not may_go_back, *self._told)
+        event, ends, early = (flag.value for flag in self._flags)
+        reached = self._last.value if early else time + size
+        if early and not self._early:
+            raise FmuCallError(f"ended its step early at t = {reached:.9g} s, which it may not")
+        if ends:
+            raise FmuCallError(f"wants to end the simulation, at t = {reached:.9g} s")
+        if self._events and (event or (event_at is not None and reached >= event_at)):
+            self._fmu.enterEventMode()
+            self._update()
+            self._fmu.enterStepMode()
+        return reached
+
+    def _update(self) -> None:
+        """Let the discrete states settle."""
+        for _ in range(MOST_ROUNDS):
+            more, ends, _, _, announced, event_at = self._fmu.updateDiscreteStates()
+            if ends:
+                raise FmuCallError("wants to end the simulation, at an event")
+            if not more:
+                self.memory["next_event"] = event_at if announced else None
+                return
+        raise FmuCallError(f"its discrete states do not settle in {MOST_ROUNDS} rounds")
+
+    def get_state(self) -> Any:
+        return self._fmu.getFMUState()
+
+    def set_state(self, handle: Any) -> None:
+        self._fmu.setFMUState(handle)
+
+    def free_state(self, handle: Any) -> None:
+        self._fmu.freeFMUState(handle)
+
+    def as_bytes(self, handle: Any) -> bytes:
+        return self._fmu.serializeFMUState(handle)
+
+    def from_bytes(self, saved: bytes) -> Any:
+        return self._fmu.deserializeFMUState(saved)
+
+    def terminate(self) -> None:
+        self._fmu.terminate()
+
+    def free(self) -> None:
+        self._fmu.freeInstance()

@@ -1,0 +1,367 @@
+"""An FMI 2.0 or 3.0 co-simulation FMU as a participant, through fmpy."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from fmpy.fmi1 import FMICallException
+
+from cosim.coupling.fmu import fmi2, fmi3
+from cosim.coupling.fmu.archive import unpack
+from cosim.coupling.fmu.calls import Calls, How
+from cosim.coupling.fmu.description import describe, is_fmi3, library_of
+from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
+from cosim.coupling.fmu.log import STATUSES, FmuLog
+from cosim.coupling.fmu.process_wide import claim_modules, claim_place, leave_place
+from cosim.coupling.fmu.values import Group, Values
+from cosim.coupling.fmu.variables import (
+    REALS,
+    Setting,
+    check_settings,
+    check_starts,
+    ports_of,
+    scalars,
+)
+from cosim.coupling.messages import Messages
+from cosim.coupling.participant import Capabilities, Causality, port_table
+from cosim.coupling.waveform import Waveform
+
+Result = TypeVar("Result")
+FATAL = STATUSES.index("fatal")
+
+
+@dataclass(eq=False)
+class State:
+    """A state of an instance, with what its host knew then."""
+
+    handle: Any
+    known: dict[str, Any]
+    memory: dict[str, Any]
+
+
+class FmuParticipant:
+    """Ports, units and causalities come from the FMU's modelDescription.xml.
+
+    path: the FMU. name: its name in the coupled system, the model's name when left out.
+    parameters: name -> value, set before initialisation. inputs: name -> value of inputs that
+    are held over the run (a connection to the same input overrides it). starts: name -> value from
+    which other variables start, where the FMU lets them be set. Elements of an array are ports and
+    parameters `name[1]`, `name[1,2]`.
+    tolerance: handed to the FMU when given; what it means is up to the FMU.
+    early_return: whether it may end steps early, where it can (FMI 3.0).
+    input_order: highest derivative of its inputs that it is given, where it takes them (FMI 2.0
+    has no place to say which it takes; one that it does not take is a failure).
+    debug: whether messages of status "ok" are kept, too.
+    messages: what it has logged, whatever its `loggingOn`.
+    Raises FmuError when the file is no FMI 2.0 or 3.0 co-simulation FMU or a setting does not fit.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        name: str | None = None,
+        *,
+        parameters: Mapping[str, Setting] | None = None,
+        inputs: Mapping[str, Setting] | None = None,
+        starts: Mapping[str, Setting] | None = None,
+        tolerance: float | None = None,
+        early_return: bool = True,
+        input_order: int = 1,
+        debug: bool = False,
+    ):
+        self.path = Path(path)
+        self.description = describe(self.path)
+        self.name = name or self.description.modelName
+        self._table = scalars(self.description)
+        self.ports = port_table(ports_of(self.description, self._table))
+        self._parameters = dict(parameters or {})
+        self._inputs = dict(inputs or {})
+        check_settings(self.name, self._table, self._parameters, "parameter")
+        check_settings(self.name, self._table, self._inputs, "input")
+        check_starts(self.name, self._table, starts or {})
+        self._parameters |= starts or {}
+        self._tolerance = tolerance
+        self._early = early_return
+        self._input_order = input_order
+        self._debug = debug
+        self.capabilities = self._capabilities()
+        self.messages = Messages(self.name)
+        #: Inputs that derivatives can be given of -> reference.
+        self._smooth = {
+            name: each.variable.valueReference
+            for name, each in self._table.items()
+            if each.variable.type in REALS and each.variable.variability == "continuous"
+        }
+        self._outputs = [p.name for p in self.ports.values() if p.causality is Causality.OUTPUT]
+        self._directory: tempfile.TemporaryDirectory[str] | None = None
+        self._calls: Calls | None = None
+        self._begin_anew()
+
+    def _begin_anew(self) -> None:
+        self._values = Values(self._table, fmi3.KINDS if is_fmi3(self.description) else fmi2.KINDS)
+        self._readers: list[Group] = self._values.groups(self._outputs)
+        self._states: set[State] = set()
+        self._sloped: set[str] = set()
+        self._running = self._dead = self._has_place = False
+        self.messages.time = None
+
+    def _capabilities(self) -> Capabilities:
+        declared, new = self.description.coSimulation, is_fmi3(self.description)
+        restores = bool(declared.canGetAndSetFMUstate)
+        return Capabilities(
+            waveforms=not new and fmi2.takes_waveforms(self.description),
+            restores=restores,
+            saves=restores and bool(declared.canSerializeFMUstate),
+            ends_early=new and self._early and fmi3.may_end_early(self.description),
+        )
+
+    # --- initialisation ---
+
+    def enter_initialisation(self, start: float, stop: float) -> None:
+        """Start a fresh instance with the parameters and held inputs set."""
+        self._free_instance()
+        calls = self._instantiate()
+        self._call(calls.write, self._values.filled(self._parameters))
+        self._call(calls.enter_initialisation, start, stop, self._tolerance)
+        self._call(calls.write, self._values.filled(self._inputs))
+
+    def exit_initialisation(self) -> None:
+        """The FMU checks its parameters here; a combination that cannot be is refused."""
+        self._call(self._instance().exit_initialisation)
+        self._running = True
+
+    def _instantiate(self) -> Calls:
+        folder = self._unpacked()
+        claim_modules(self.path, folder)
+        claim_place(self.path, self.description)
+        self._has_place = True
+        self._log = FmuLog(self.messages, self._debug)
+        how = How(self.description, folder, self.name, self._log, self._early)
+        home = os.getcwd()
+        try:
+            self._calls = fmi3.Fmi3(how) if is_fmi3(self.description) else fmi2.Fmi2(how)
+        # fmpy raises bare Exception for a library that does not load or refuses.
+        except Exception as error:
+            os.chdir(home)  # which fmpy has left then
+            said = self._log.take_errors()
+            self._log.close()
+            self._free_instance()
+            raise FmuCallError(f"{one_line(error)} {said}".strip()) from error
+        return self._calls
+
+    def _unpacked(self) -> Path:
+        """The folder of this participant; unpacked anew where somebody has removed it."""
+        if self._directory is not None:
+            folder = Path(self._directory.name)
+            with suppress(FmuError):
+                library_of(self.path, folder, self.description)
+                return folder
+            self._remove_folder()
+        self._directory = unpack(self.path)
+        folder = Path(self._directory.name)
+        library_of(self.path, folder, self.description)
+        return folder
+
+    # --- values ---
+
+    def write(self, values: Mapping[str, float]) -> None:
+        """Set inputs by name."""
+        calls = self._instance()
+        self._call(calls.write, self._values.filled(values))
+        if self._sloped and (held := self._sloped.intersection(values)):
+            level = (0.0,) * self._input_order
+            self._call(calls.write_rates, {self._smooth[name]: level for name in held})
+
+    def read(self) -> dict[str, float]:
+        """All outputs by name."""
+        calls, found = self._instance(), {}
+        for group in self._readers:
+            self._call(calls.read, group)
+            found.update(group.got())
+        return found
+
+    def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:
+        """Set inputs as functions of time over the next step, where `capabilities` says so.
+
+        By value and derivatives at its start; what is of a higher degree than `input_order` goes
+        straight from the value at its start to that at its end. What is no real number, or
+        changes at events only, gets the mean.
+        """
+        if not self.capabilities.waveforms:
+            raise FmuError(f"{self.path}: takes no derivatives of inputs")
+        starts: dict[str, float] = {}
+        rates: dict[int, tuple[float, ...]] = {}
+        for name, wave in waveforms.items():
+            if name in self._smooth:
+                starts[name], rates[self._smooth[name]] = wave.start, self._rates(wave)
+                self._sloped.add(name)
+            else:
+                starts[name] = wave.mean
+        calls = self._instance()
+        self._call(calls.write, self._values.filled(starts))
+        self._call(calls.write_rates, rates)
+
+    def _rates(self, waveform: Waveform) -> tuple[float, ...]:
+        rates = waveform.rates
+        missing = self._input_order - len(rates)
+        if missing >= 0:
+            return rates + (0.0,) * missing
+        slope = (waveform.end - waveform.start) / waveform.size
+        return (slope,) + (0.0,) * (self._input_order - 1)
+
+    def step(self, time: float, size: float) -> float | None:
+        """One communication step from time, of length size (s); see `Participant.step`."""
+        self.messages.time = time
+        return self._call(self._instance().step, time, size, bool(self._states))
+
+    # --- states ---
+
+    @property
+    def can_restore(self) -> bool:
+        """Whether the FMU declares that its state can be taken and set."""
+        return self.capabilities.restores
+
+    def get_state(self) -> State:
+        """The FMU's state in its own memory; to be given back with `free_state`."""
+        self._require(self.can_restore, "canGetAndSetFMUstate")
+        return self._kept(self._call(self._instance().get_state))
+
+    def set_state(self, state: State) -> None:
+        """Go back to a state of this instance."""
+        self._check_own(state)
+        calls = self._instance()
+        self._call(calls.set_state, state.handle)
+        self._values.known = dict(state.known)
+        calls.memory = _copied(state.memory)
+
+    def free_state(self, state: State) -> None:
+        """Release a state."""
+        self._check_own(state)
+        self._states.remove(state)
+        if not self._dead:  # else it is gone, and why has been said
+            self._call(self._instance().free_state, state.handle)
+
+    def save_state(self) -> bytes:
+        """The FMU's state as bytes, behind a line that says whose it is."""
+        self._require(self.capabilities.saves, "canSerializeFMUstate")
+        state = self.get_state()
+        try:
+            content = self._call(self._instance().as_bytes, state.handle)
+        finally:
+            self.free_state(state)
+        head = {"unit": self._identity(), "known": state.known, "memory": state.memory}
+        return json.dumps(head).encode() + b"\n" + content
+
+    def load_state(self, saved: bytes) -> None:
+        """Go on from what `save_state` gave; FmuError where that was another unit's."""
+        self._require(self.capabilities.saves, "canSerializeFMUstate")
+        line, _, content = saved.partition(b"\n")
+        try:
+            head = json.loads(line)
+            unit, known, memory = head["unit"], head["known"], head["memory"]
+        except (ValueError, KeyError, TypeError) as error:
+            raise FmuError(f"{self.name}: what is to be its state is none, or damaged") from error
+        if unit != self._identity():
+            raise FmuError(f"{self.path}: the state is that of {unit}, not of {self._identity()}")
+        state = self._kept(self._call(self._instance().from_bytes, content))
+        state.known, state.memory = known, memory
+        try:
+            self.set_state(state)
+        finally:
+            self.free_state(state)
+
+    def _identity(self) -> str:
+        return f"{self.description.modelName} {self.description.guid}"
+
+    def _kept(self, handle: Any) -> State:
+        state = State(handle, dict(self._values.known), _copied(self._instance().memory))
+        self._states.add(state)
+        return state
+
+    def _check_own(self, state: State) -> None:
+        """C is given only what it has made and not yet freed: else it crashes."""
+        if state not in self._states:
+            raise FmuCallError("is given a state that is not its own, or not any more")
+
+    def _require(self, able: bool, key: str) -> None:
+        if not able:
+            raise FmuError(f"{self.path}: declares {key} = false")
+
+    # --- the instance ---
+
+    def _instance(self) -> Calls:
+        if self._calls is None:
+            raise FmuCallError("is not initialised")
+        return self._calls
+
+    def _call(self, function: Callable[..., Result], *arguments: Any) -> Result:
+        """Call; a bad status, or an error that is logged, becomes an exception.
+
+        Some FMUs (pythonfmu's among them) cannot return an error from a setter or from the end
+        of initialisation and only log it; to go on would give numbers from refused values.
+        """
+        if self._dead:
+            raise FmuCallError("has reported a fatal error and cannot be called any more")
+        try:
+            result = function(*arguments)
+        except (FMICallException, FmuCallError) as error:
+            self._dead = getattr(error, "status", None) == FATAL
+            said = self._log.take_errors()
+            text = f"{said} [{error}]" if said else str(error)
+            raise FmuCallError(text + self._if_removed()) from error
+        if self._log.failures:
+            raise FmuCallError(self._log.take_errors() + self._if_removed())
+        return result
+
+    def _if_removed(self) -> str:
+        """What explains a good many failures."""
+        if self._directory is not None and not os.path.isdir(self._directory.name):
+            return f"; the folder that it was unpacked in has been removed: {self._directory.name}"
+        return ""
+
+    def _free_instance(self) -> None:
+        calls, self._calls = self._calls, None
+        if calls is not None and not self._dead:
+            # after a fatal error no function may be called any more
+            with suppress(FMICallException, FmuCallError):
+                for state in self._states:
+                    calls.free_state(state.handle)
+            if self._running:
+                # an instance that has failed before refuses to terminate; it is freed all the same
+                with suppress(FMICallException):
+                    calls.terminate()
+            calls.free()
+        if calls is not None:
+            self._log.close()
+        if self._has_place:
+            leave_place(self.path, self.description)
+        self._begin_anew()
+
+    def close(self) -> None:
+        """End the instance, unload the library, remove the unpacked files."""
+        self._free_instance()
+        self._remove_folder()
+
+    def _remove_folder(self) -> None:
+        if self._directory is not None:
+            self._directory.cleanup()
+            self._directory = None
+
+    def __enter__(self) -> FmuParticipant:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+def _copied(memory: dict[str, Any]) -> dict[str, Any]:
+    """Of FMI 2.0 there is nothing, and a deep copy of that is not free."""
+    return copy.deepcopy(memory) if memory else {}

@@ -1,0 +1,222 @@
+"""A participant that lives in a process of its own, and looks from here as if it did not."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import pickle
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from cosim.coupling.isolated.line import START, packed
+from cosim.coupling.isolated.process import IsolatedError, Process
+from cosim.coupling.messages import Messages
+from cosim.coupling.participant import CouplingError, port_table
+from cosim.coupling.waveform import Waveform
+
+#: Calls without an answer that wait for the next with one; no more than these.
+MOST_TOLD = 64
+_numbers = itertools.count(1)
+
+
+@dataclass(frozen=True)
+class State:
+    """A state that lies in the process that it was made in, under a number."""
+
+    number: int
+
+
+class IsolatedParticipant:
+    """Any participant, made and run in a process of its own.
+
+    factory: what makes it there, of `arguments` and `named`: a class or function that can be
+    imported. time_limit: for every call, s; a call that takes longer has failed.
+    messages: what the participant said, if it keeps `messages`, and what its process wrote to the
+    terminal (status "output").
+
+    What fails is one call, with IsolatedError: nothing of this process is harmed.
+    `enter_initialisation` starts afresh after it, in a new process.
+
+    Inputs, and what is to be done with states, are handed over with the next call that has an
+    answer, and are refused there if at all; outputs come with the answer to a step. So a macro
+    step is one round trip.
+
+    A unit: `IsolatedParticipant(FmuParticipant, "motor.fmu", "motor", time_limit=5.0)`.
+    """
+
+    def __init__(
+        self,
+        factory: Callable[..., Any],
+        *arguments: Any,
+        time_limit: float = 60.0,
+        **named: Any,
+    ):
+        if not (math.isfinite(time_limit) and time_limit > 0.0):
+            raise CouplingError(f"time_limit = {time_limit:g} s: must be greater than 0, finite")
+        self._made_by = _checked(factory, arguments, named)
+        self._limit = time_limit
+        self._told: list[tuple[str, tuple]] = []
+        self._states: set[State] = set()
+        self._gives_states = False
+        self._outputs: dict[str, float] | None = None
+        self.messages = Messages("")
+        self._process: Process | None = None
+        self.name, ports, self.capabilities = self._begin()
+        self.messages.source = self.name
+        self.ports = port_table(ports)
+
+    @property
+    def pid(self) -> int | None:
+        """Number of the process; None where there is none."""
+        return None if self._process is None or self._process.is_over else self._process.pid
+
+    def enter_initialisation(self, start: float, stop: float) -> None:
+        """As the participant does it; in a new process where there is none any more."""
+        self._forget()
+        self.messages.time = None
+        if self.pid is None:
+            self._begin()
+        self._ask("enter_initialisation", start, stop)
+
+    def exit_initialisation(self) -> None:
+        """As the participant does it."""
+        _, self._outputs = self._ask("exit_initialisation")
+
+    def write(self, values: Mapping[str, float]) -> None:
+        """Hand over inputs, with the next call that has an answer."""
+        self._tell("write", dict(values))
+
+    def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:
+        """Hand over inputs over the next step."""
+        self._tell("write_waveforms", dict(waveforms))
+
+    def read(self) -> dict[str, float]:
+        """All outputs."""
+        if self._outputs is None:
+            self._outputs = self._ask("read")
+        return dict(self._outputs)
+
+    def step(self, time: float, size: float) -> float | None:
+        """One step from time, of length size (s)."""
+        self.messages.time = time
+        self._outputs = None
+        reached, self._outputs = self._ask("step", time, size)
+        return reached
+
+    def get_state(self) -> State:
+        """A state; it stays in the process, which takes it before it does anything else.
+
+        The first of a run has an answer, so that who cannot take one says so here.
+        """
+        self._alive()
+        state = State(next(_numbers))
+        if self._gives_states:
+            self._told.append(("get_state", (state.number,)))
+        else:
+            self._ask("get_state", state.number)
+            self._gives_states = True
+        self._states.add(state)
+        return state
+
+    def set_state(self, state: State) -> None:
+        """Go back to a state."""
+        self._check_own(state)
+        self._tell("set_state", state.number)
+
+    def free_state(self, state: State) -> None:
+        """Release a state."""
+        self._check_own(state)
+        self._states.remove(state)
+        self._told.append(("free_state", (state.number,)))
+        if len(self._told) > MOST_TOLD:
+            self._outputs = self._ask("read")
+
+    def save_state(self) -> bytes:
+        """Everything that the future depends on."""
+        return self._ask("save_state")
+
+    def load_state(self, saved: bytes) -> None:
+        """Go on from what `save_state` gave."""
+        self._outputs = None
+        self._ask("load_state", saved)
+
+    def close(self) -> None:
+        """Close the participant and end its process; never raises."""
+        if self._process is not None:
+            self._process.close()
+            self._take_lines()
+            self._process = None
+        self._forget()
+
+    def __enter__(self) -> IsolatedParticipant:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+    def _forget(self) -> None:
+        """What belongs to a run that is over."""
+        self._told.clear()
+        self._states.clear()
+        self._gives_states = False
+        self._outputs = None
+
+    def _begin(self) -> Any:
+        """A new process with the participant in it."""
+        self.close()
+        self._process = Process(self._limit, self.messages.keep)
+        try:
+            return self._ask(START, *self._made_by)
+        except BaseException:
+            self.close()
+            raise
+
+    def _tell(self, call: str, *arguments: Any) -> None:
+        self._alive()
+        self._told.append((call, arguments))
+        self._outputs = None
+
+    def _ask(self, call: str, *arguments: Any) -> Any:
+        process = self._alive()
+        told, self._told = self._told, []
+        try:
+            return process.ask(told, call, arguments)
+        finally:
+            if process.lines.newest:
+                self._take_lines()
+
+    def _alive(self) -> Process:
+        if self._process is None or self._process.is_over:
+            raise IsolatedError("its process has ended")
+        return self._process
+
+    def _check_own(self, state: State) -> None:
+        if state not in self._states:
+            raise IsolatedError("is given a state that is not its own, or not any more")
+
+    def _take_lines(self) -> None:
+        """What the process has written becomes messages."""
+        if self._process is None:
+            return
+        lines = self._process.lines
+        for _ in range(len(lines.newest)):  # more may come meanwhile
+            if line := lines.newest.popleft():
+                self.messages.add("output", "", line)
+        self.messages.dropped += lines.dropped
+        lines.dropped = 0
+
+
+def _checked(factory: Callable[..., Any], given: tuple, named: dict[str, Any]) -> tuple:
+    """What another process is to make a participant of; CouplingError where it cannot cross."""
+    label = getattr(factory, "__qualname__", repr(factory))
+    if getattr(factory, "__module__", None) == "__main__":
+        raise CouplingError(
+            f"{label}: is defined in the script that runs; what makes a participant in a process "
+            "of its own must be importable from a module"
+        )
+    try:
+        packed((factory, given, named))
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise CouplingError(f"{label}: cannot be handed to another process: {error}") from error
+    return factory, given, named

@@ -1,0 +1,115 @@
+"""Scheme and step control from what a table [coupling] says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+from cosim.coupling.schemes.acceleration import Acceleration, Aitken, QuasiNewton, Relaxation
+from cosim.coupling.schemes.gauss_seidel import GaussSeidel
+from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.schemes.jacobi import Jacobi
+from cosim.coupling.schemes.scheme import Scheme
+from cosim.coupling.step_control.adaptive import AdaptiveStep
+from cosim.coupling.step_control.control import StepControl
+from cosim.coupling.step_control.estimates import (
+    Defect,
+    Doubling,
+    EnergyResidual,
+    Estimate,
+    PowerBond,
+)
+from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.tolerance import Tolerance
+
+#: Parts and multiples of macro_step that a step control keeps to where nothing is said.
+SMALLEST, LARGEST = 1e-3, 100.0
+
+
+class Settings(Protocol):
+    """The keys of a table [coupling]; `cosim.scenario.method` says what they mean."""
+
+    @property
+    def scheme(self) -> str: ...
+    @property
+    def extrapolation(self) -> str: ...
+    @property
+    def waveform(self) -> str: ...
+    @property
+    def sweep(self) -> str: ...
+    @property
+    def acceleration(self) -> str: ...
+    @property
+    def relaxation(self) -> float: ...
+    @property
+    def relative_tolerance(self) -> float: ...
+    @property
+    def absolute_tolerances(self) -> Mapping[str, float]: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @property
+    def step_control(self) -> str: ...
+    @property
+    def smallest_step(self) -> float: ...
+    @property
+    def largest_step(self) -> float: ...
+    @property
+    def step_tolerance(self) -> float: ...
+    @property
+    def safety(self) -> float: ...
+
+
+def scheme_of(settings: Settings, order: tuple[str, ...]) -> Scheme:
+    """The scheme; order: participant names, each once."""
+    if settings.scheme == "gauss_seidel":
+        return GaussSeidel(order, settings.extrapolation)
+    if settings.scheme == "jacobi":
+        return Jacobi(order, settings.extrapolation)
+    return Iterated(
+        order,
+        waveform=settings.waveform,
+        sweep=settings.sweep,
+        acceleration=_acceleration(settings),
+        tolerance=Tolerance(settings.relative_tolerance, settings.absolute_tolerances),
+        most_iterations=settings.max_iterations,
+    )
+
+
+def control_of(
+    settings: Settings, macro_step: float, bonds: Sequence[tuple[str, str]] = ()
+) -> StepControl:
+    """The step control; macro_step: of fixed steps, else the first one, s.
+
+    bonds: pairs of outputs whose product is a power, for control by energy.
+    """
+    if settings.step_control == "fixed":
+        return FixedStep(macro_step)
+    return AdaptiveStep(
+        _estimate(settings, bonds),
+        first=macro_step,
+        smallest=smallest_step(settings, macro_step),
+        largest=settings.largest_step or LARGEST * macro_step,
+        safety=settings.safety,
+    )
+
+
+def smallest_step(settings: Settings, macro_step: float) -> float:
+    """The shortest step, s, of a control or of halving."""
+    return settings.smallest_step or SMALLEST * macro_step
+
+
+def _acceleration(settings: Settings) -> Acceleration:
+    if settings.acceleration == "none":
+        return Relaxation()
+    kinds = {"constant": Relaxation, "aitken": Aitken, "iqn_ils": QuasiNewton}
+    return kinds[settings.acceleration](settings.relaxation)
+
+
+def _estimate(settings: Settings, bonds: Sequence[tuple[str, str]]) -> Estimate:
+    tolerance = Tolerance(settings.step_tolerance, settings.absolute_tolerances)
+    if settings.step_control == "doubling":
+        return Doubling(tolerance)
+    if settings.step_control == "defect":
+        return Defect(tolerance)
+    pairs = [PowerBond(effort, flow) for effort, flow in bonds]
+    return EnergyResidual(pairs, relative=settings.step_tolerance)

@@ -1,0 +1,206 @@
+"""Saves a coupled run while it goes, and puts one back to where it was saved."""
+
+from __future__ import annotations
+
+import time as clock
+import warnings
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any, NamedTuple
+
+from cosim.coupling.exchange import Exchange
+from cosim.coupling.history import MOST_POINTS
+from cosim.coupling.participant import Saved, capabilities
+from cosim.coupling.record.checkpoint import (
+    Checkpoint,
+    CheckpointError,
+    load_checkpoint,
+    require_same_setup,
+    save_checkpoint,
+)
+from cosim.coupling.record.folder import RunFolder
+from cosim.coupling.record.table import GrowingTable, Place
+from cosim.coupling.schemes.scheme import Scheme
+from cosim.coupling.statistics import Effort
+from cosim.coupling.step_control.control import StepControl
+from cosim.coupling.system import CoupledSystem
+from cosim.files import OutputError
+
+
+@dataclass(frozen=True)
+class Keep:
+    """What a run leaves on disk while it goes.
+
+    folder: for rows and checkpoints; where it holds a checkpoint, the run goes on from that.
+    seconds: of wall time from one checkpoint to the next; steps: the same in accepted macro steps;
+    0 of either: not by that. setup: key -> text or number, what makes the case, so that no other
+    one goes on from its checkpoint. also: what goes on beside the participants, by names that none
+    of them has.
+    """
+
+    folder: RunFolder
+    seconds: float = 30.0
+    steps: int = 0
+    setup: Mapping[str, Any] = field(default_factory=dict)
+    also: Mapping[str, Saved] = field(default_factory=dict)
+
+
+class Passed(NamedTuple):
+    """What a run had behind it: its time in s, rows counted, wall time in s, rows on disk."""
+
+    time: float
+    rows: int
+    seconds: float
+    place: Place
+
+
+class Keeper:
+    """Saves a run every so often.
+
+    control: as it has begun; details: of the run, to tell it from another, beside `keep.setup`.
+    """
+
+    def __init__(
+        self,
+        keep: Keep,
+        exchange: Exchange,
+        scheme: Scheme,
+        control: StepControl,
+        details: Mapping[str, Any],
+    ):
+        self._keep, self._exchange, self._scheme, self._control = keep, exchange, scheme, control
+        self._path = keep.folder.checkpoint
+        how = {"scheme": _spelled(scheme), "control": _spelled(control)}
+        self._setup = dict(keep.setup) | _made_of(exchange.system) | how | dict(details)
+        self._steps, self._saved_at = 0, clock.monotonic()
+        self._able = bool(keep.steps or keep.seconds) and _can_be_saved(exchange.system)
+
+    def passed(self) -> Passed | None:
+        """Put all back to the newest checkpoint, after initialisation; None where there is none.
+
+        Raises CheckpointError when it is damaged or of another case.
+        """
+        if not self._path.is_file():
+            return None
+        checkpoint = load_checkpoint(self._path)
+        require_same_setup(self._path, checkpoint, self._setup)
+        try:
+            for name, state in checkpoint.states.items():
+                self._whose(name).load_state(state)
+        except Exception as error:
+            raise CheckpointError(
+                f"{self._path}: {name} does not go on from it: {error}"
+            ) from error
+        master = checkpoint.master
+        _restore_exchange(self._exchange, master["exchange"])
+        self._control.restore(master["control"])
+        if master["scheme"] is not None:
+            self._scheme.restore(master["scheme"])  # type: ignore[attr-defined]
+        rows, kept, last = checkpoint.record["place"]
+        return Passed(
+            checkpoint.time, master["rows"], master["seconds"], Place(rows, kept, tuple(last))
+        )
+
+    def look(self, table: GrowingTable, rows: int, seconds: float) -> None:
+        """A step was accepted: save the run where it is time."""
+        self._steps += 1
+        keep = self._keep
+        due = keep.steps and self._steps >= keep.steps
+        if due or (keep.seconds and clock.monotonic() - self._saved_at >= keep.seconds):
+            self.save(table, rows, seconds)
+
+    def save(self, table: GrowingTable, rows: int, seconds: float) -> None:
+        """Save the run as it stands, at an accepted communication point.
+
+        rows, seconds: as `Passed` has them. Raises OutputError when the rows cannot come to the
+        disk. A checkpoint that cannot be made is a warning: the run does without.
+        """
+        self._steps, self._saved_at = 0, clock.monotonic()
+        if not self._able:
+            return
+        table.sync()
+        name = ""
+        try:
+            states = {}
+            for name in (*self._exchange.system.participants, *self._keep.also):
+                states[name] = self._whose(name).save_state()
+            save_checkpoint(self._path, self._checkpoint(states, table, rows, seconds))
+        except OutputError as error:
+            warnings.warn(f"no checkpoint: {error}; the run goes on", UserWarning, stacklevel=2)
+        except Exception as error:
+            self._able = False
+            said = f"no more checkpoints: {name} cannot be saved: {error}; the run goes on"
+            warnings.warn(said, UserWarning, stacklevel=2)
+
+    def _whose(self, name: str) -> Saved:
+        participant: Any = self._exchange.system.participants.get(name)
+        return self._keep.also[name] if participant is None else participant
+
+    def _checkpoint(
+        self, states: Mapping[str, bytes], table: GrowingTable, rows: int, seconds: float
+    ) -> Checkpoint:
+        exchange, remember = self._exchange, getattr(self._scheme, "state", None)
+        return Checkpoint(
+            time=float(exchange.time or 0.0),
+            setup=self._setup,
+            master={
+                "rows": rows,
+                "seconds": seconds,
+                "exchange": _state_of(exchange),
+                "control": self._control.state(),
+                "scheme": None if remember is None else remember(),
+            },
+            states=states,
+            record={"file": table.path and table.path.name, "place": table.place},
+        )
+
+
+def _can_be_saved(system: CoupledSystem) -> bool:
+    cannot = [name for name, each in system.participants.items() if not capabilities(each).saves]
+    if cannot:
+        warnings.warn(
+            f"no checkpoints: {', '.join(cannot)} cannot be saved; should this run be cut off, its "
+            "rows are on disk, and it can only be begun anew",
+            UserWarning,
+            stacklevel=2,
+        )
+    return not cannot
+
+
+def _made_of(system: CoupledSystem) -> dict[str, Any]:
+    """What tells a coupled system from another one."""
+    ports = {
+        f"ports of {name}": [f"{p.name} [{p.unit}] {p.causality}" for p in each.ports.values()]
+        for name, each in system.participants.items()
+    }
+    return ports | {"connections": [str(connection) for connection in system.connections]}
+
+
+def _spelled(thing: object) -> str:
+    """A scheme or a step control by its settings; what it remembers is not for others to see."""
+    if not hasattr(thing, "__dict__"):
+        return repr(thing)
+    settings = {key: value for key, value in vars(thing).items() if not key.startswith("_")}
+    told = ", ".join(f"{key}={_spelled(value)}" for key, value in settings.items())
+    return f"{type(thing).__name__}({told})"
+
+
+def _state_of(exchange: Exchange) -> dict[str, Any]:
+    return {
+        "time": exchange.time,
+        "outputs": exchange.outputs,
+        "inputs": exchange.inputs,
+        "history": list(exchange.history.points),
+        "statistics": asdict(exchange.statistics),
+    }
+
+
+def _restore_exchange(exchange: Exchange, state: Mapping[str, Any]) -> None:
+    exchange.time = state["time"]
+    exchange.outputs, exchange.inputs = state["outputs"], state["inputs"]
+    points = [(time, outputs) for time, outputs in state["history"]]
+    exchange.history.points = deque(points, maxlen=MOST_POINTS)
+    efforts = {name: Effort(**each) for name, each in state["statistics"]["participants"].items()}
+    for key, value in (state["statistics"] | {"participants": efforts}).items():
+        setattr(exchange.statistics, key, value)

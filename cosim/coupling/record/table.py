@@ -1,0 +1,239 @@
+"""A table on disk that grows row by row and can be read by others at any moment.
+
+The file is an array as numpy saves it, (rows, columns): a header of fixed length, then the rows.
+A row is written behind the end first, and only then counted in the header, in place; so whoever
+opens the file with `numpy.load(path, mmap_mode="r")`, while it grows or after a kill, finds whole
+rows. Names and units of the columns stand in a JSON file beside it: the header of an array with
+named fields outgrows, at some 250 names, what numpy.load reads without being told to.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import struct
+import tempfile
+import time
+import weakref
+from collections.abc import Mapping, Sequence
+from io import FileIO
+from pathlib import Path
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from cosim.files import OutputError, write_text
+
+#: Digits of the row count. They lie in two machine words, and the upper one does not change before
+#: 1e8 rows: a reader never sees half of a new count.
+DIGITS = 16
+_HEADER = 128
+_COUNT_AT = 64
+#: A write that stays within a page of memory is not torn by a kill; one across two can be.
+_PAGE = 4096
+#: How often to see whether the file is still there, s of wall time.
+LOOK_EVERY = 1.0
+
+
+class Place(NamedTuple):
+    """Where a table has come to, for one that goes on from there.
+
+    rows: how many there are; kept: of them those that stay; last: the values of one that does not,
+    and may have been replaced on disk since.
+    """
+
+    rows: int
+    kept: int
+    last: tuple[float, ...]
+
+
+class GrowingTable:
+    """A table of floats in a file, of which nothing is kept in memory but a row that may not stay.
+
+    columns: how many; path: of the file, which replaces an earlier one; None: a file without a
+    name that is gone when it is closed. single: four bytes a number instead of eight.
+    Raises OutputError, in one line, where the disk refuses; what was there stays readable.
+    """
+
+    def __init__(self, columns: int, path: Path | None = None, single: bool = False):
+        self._set_up(columns, path, single)
+        with self._refusing():
+            self._hold(_new_file(path))
+        self._write(header(columns, single), 0)
+        self._rows = 0
+
+    def _set_up(self, columns: int, path: Path | None, single: bool) -> None:
+        self.columns, self.path = columns, path
+        self._kind = np.dtype("<f4" if single else "<f8")
+        self._pack = struct.Struct(f"<{columns}{'f' if single else 'd'}").pack
+        self._size = columns * self._kind.itemsize
+        self._kept, self._rows = 0, -1
+        self._last = b""
+        self._looked = time.monotonic()
+
+    def _hold(self, file: FileIO) -> None:
+        self._file, self._number = file, file.fileno()
+        weakref.finalize(self, file.close)
+
+    @classmethod
+    def resumed(cls, columns: int, path: Path, place: Place, single: bool = False) -> Self:
+        """Open a table of an earlier process and go on at a place that it has passed.
+
+        Raises OutputError where the file is not that table, or ends before the place.
+        """
+        table = cls.__new__(cls)
+        table._set_up(columns, path, single)
+        with table._refusing():
+            table._hold(path.open("r+b", buffering=0))
+        found = table._file.read(_HEADER)
+        enough = os.fstat(table._number).st_size >= _HEADER + place.kept * table._size
+        if _without_count(found) != _without_count(header(columns, single)) or not enough:
+            table.close()
+            raise OutputError(
+                f"{path}: is not the table of {columns} columns and at least {place.kept} rows "
+                "that was begun here"
+            )
+        table._go_to(place)
+        return table
+
+    def _go_to(self, place: Place) -> None:
+        # shorter before anything is written: at no time is there a row that was not computed
+        self._count(place.kept)
+        self._kept = place.kept
+        with self._refusing():
+            self._file.truncate(_HEADER + place.kept * self._size)
+        if place.rows > place.kept:
+            self.append(place.last, keep=False)
+
+    @property
+    def place(self) -> Place:
+        """Where the table has come to."""
+        last = np.frombuffer(self._last, self._kind)
+        return Place(self._rows, self._kept, tuple(last.tolist()))
+
+    def append(self, values: Sequence[float] | np.ndarray, keep: bool = True) -> None:
+        """Write a row of (columns,) values; the last one gives way to it where it was not kept.
+
+        The row is with the operating system when this returns: it outlives the process.
+        """
+        row, kept = self._packed(values), self._kept
+        at = _HEADER + kept * self._size
+        if self._rows > kept and at // _PAGE != (at + self._size - 1) // _PAGE:
+            self._count(kept)  # else a kill could leave half of the one, half of the other
+        self._write(row, at)
+        self._last = b"" if keep else row
+        self._count(kept + 1)
+        if keep:
+            self._kept = kept + 1
+        if time.monotonic() - self._looked > LOOK_EVERY:
+            self._look()
+
+    def _packed(self, values: Sequence[float] | np.ndarray) -> bytes:
+        if isinstance(values, np.ndarray):
+            return np.ascontiguousarray(values.reshape(self.columns), self._kind).tobytes()
+        return self._pack(*values)
+
+    def _count(self, rows: int) -> None:
+        if rows != self._rows:
+            self._write(b"%*d" % (DIGITS, rows), _COUNT_AT)
+            self._rows = rows
+
+    def _write(self, data: bytes, at: int) -> None:
+        try:
+            written = _write_at(self._number, data, at)
+            while written < len(data):  # a disk that fills up takes a part, then says so
+                written += _write_at(self._number, data[written:], at + written)
+        except OSError as error:
+            raise self._refused(error) from error
+
+    def sync(self) -> None:
+        """Bring all rows to the disk: they outlive the machine."""
+        self._look()
+        with self._refusing():
+            os.fsync(self._number)
+
+    def _look(self) -> None:
+        """A file that was removed takes rows for ever, and nobody will find them."""
+        self._looked = time.monotonic()
+        if self.path is not None and not self.path.exists():
+            raise self._refused(OSError(errno.ENOENT, "it was removed while it was written"))
+
+    def rows(self) -> np.ndarray:
+        """All rows (n, columns), read-only, as the file has them: read when they are looked at."""
+        if not self._rows:
+            return np.empty((0, self.columns), self._kind)
+        shape = (self._rows, self.columns)
+        return np.asarray(np.memmap(self._file, self._kind, "r", _HEADER, shape))
+
+    def __len__(self) -> int:
+        return self._rows
+
+    def close(self) -> None:
+        """Let go of the file; arrays that `rows` gave stay good. May be called twice."""
+        self._file.close()
+
+    def _refusing(self) -> _Refusing:
+        return _Refusing(self)
+
+    def _refused(self, error: OSError) -> OutputError:
+        what = self.path or "a temporary file"
+        return OutputError(f"{what}: cannot be written: {error.strerror or error}")
+
+
+class _Refusing:
+    """Turns an OSError into an OutputError that names the table's file."""
+
+    def __init__(self, table: GrowingTable):
+        self._table = table
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, OSError):
+            raise self._table._refused(error) from error
+
+
+def header(columns: int, single: bool = False) -> bytes:
+    """What numpy puts in front of an array (0, columns), the row count at a place of its own."""
+    kind = "<f4" if single else "<f8"
+    front = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': (".encode()
+    prefix = b"\x93NUMPY\x01\x00" + struct.pack("<H", _HEADER - 10)
+    count = b"%*d" % (DIGITS, 0)
+    text = (prefix + front).ljust(_COUNT_AT) + count + b", %d), }" % columns
+    return text.ljust(_HEADER - 1) + b"\n"
+
+
+def _without_count(head: bytes) -> bytes:
+    return head[:_COUNT_AT] + head[_COUNT_AT + DIGITS :]
+
+
+def _new_file(path: Path | None) -> FileIO:
+    if path is None:
+        # numpy maps it, and wants a file that is one itself
+        file: Any = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115  closed with the table
+        return file
+    path.unlink(missing_ok=True)  # who has the earlier one open keeps it
+    return path.open("x+b", buffering=0)
+
+
+def _seek_and_write(file: int, data: bytes, at: int) -> int:
+    os.lseek(file, at, os.SEEK_SET)
+    return os.write(file, data)
+
+
+#: What writes at a place of a file; Windows has no single call for it.
+_write_at = getattr(os, "pwrite", _seek_and_write)
+
+
+def write_columns(path: Path, units: Mapping[str, str]) -> Path:
+    """The JSON file that says what the columns of a table are: name -> unit, in their order."""
+    columns = [{"name": name, "unit": unit} for name, unit in units.items()]
+    return write_text(json.dumps({"columns": columns}, indent=1) + "\n", path)
+
+
+def read_columns(path: Path) -> dict[str, str]:
+    """Name -> unit of a table's columns, in their order, from what `write_columns` wrote."""
+    content = json.loads(path.read_text(encoding="utf-8"))
+    return {column["name"]: column["unit"] for column in content["columns"]}

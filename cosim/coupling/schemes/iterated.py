@@ -1,0 +1,164 @@
+"""An iterated (implicit) step: made again until what is handed over at its end is consistent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from cosim.coupling.exchange import Exchange
+from cosim.coupling.participant import CouplingError, ParticipantError
+from cosim.coupling.schemes.acceleration import Acceleration, QuasiNewton, Vector
+from cosim.coupling.schemes.scheme import EndedEarly, StepDone, against, degree_of, sources
+from cosim.coupling.system import Address, CoupledSystem
+from cosim.coupling.tolerance import Tolerance, bounds, nominals
+from cosim.coupling.waveform import Waveform
+
+SWEEPS = ("gauss_seidel", "jacobi")
+
+
+class _Plan(NamedTuple):
+    """What of a step's iteration depends on the system alone: found once.
+
+    guessed: outputs; least, scale, bounds: absolute tolerances, nominal values, and what they
+    may be, (n,) each.
+    """
+
+    system: CoupledSystem
+    guessed: tuple[Address, ...]
+    least: Vector
+    scale: Vector
+    bounds: tuple[Vector, Vector]
+
+
+@dataclass
+class Iterated:
+    """Participants go back and repeat the step until its end values change no more than allowed.
+
+    An input over the step is the value at its end ("held"), or runs "linear" from start to end, or
+    "quadratic" through the point before: of order 1, 2 and 3 where the participants follow it.
+    order : participant names, each once; sweep : "gauss_seidel", in which later ones of the order
+    have what the earlier ones have just come to, and only what goes against the order is guessed,
+    or "jacobi", in which all is guessed; acceleration : makes the next guess.
+    """
+
+    order: tuple[str, ...]
+    waveform: str = "linear"
+    sweep: str = "gauss_seidel"
+    acceleration: Acceleration = field(default_factory=QuasiNewton)
+    tolerance: Tolerance = field(default_factory=Tolerance)
+    most_iterations: int = 20
+    _plan: _Plan | None = field(default=None, init=False, repr=False, compare=False)
+
+    needs_restore = True
+    free_order = False
+
+    @property
+    def accuracy(self) -> int:
+        """Order of the error in the step's size."""
+        return degree_of(self.waveform) + 1
+
+    def check(self, system: CoupledSystem) -> None:
+        """Refuse a system that this order does not fit, and settings that cannot be."""
+        system.check_order(self.order)
+        degree_of(self.waveform)
+        self.tolerance.check(system)
+        if self.sweep not in SWEEPS:
+            raise CouplingError(f"sweep = {self.sweep!r}: must be one of {', '.join(SWEEPS)}")
+        if self.most_iterations < 1:
+            raise CouplingError(f"max_iterations = {self.most_iterations}: must be at least 1")
+
+    def step(self, exchange: Exchange, size: float) -> StepDone:
+        """One macro step of the whole system, of length size (s)."""
+        plan = self._planned(exchange.system)
+        guessed, least, scale = plan.guessed, plan.least, plan.scale
+        degree = degree_of(self.waveform)
+        guess = np.array(
+            [exchange.extrapolated(source, degree, size).end for source in guessed]
+        ).clip(*plan.bounds)
+        mark = exchange.mark()
+        plain = None
+        try:
+            self.acceleration.begin()
+            for iteration in range(1, self.most_iterations + 1):
+                if iteration > 1:
+                    exchange.back(mark)
+                try:
+                    found = self._sweep(exchange, guessed, guess, degree, size)
+                except ParticipantError:
+                    if plain is None:
+                        raise
+                    # an accelerated guess may be what cannot be: joules handed over and taken back
+                    exchange.back(mark)
+                    guess = plain
+                    found = self._sweep(exchange, guessed, guess, degree, size)
+                allowed = self.tolerance.allowed(least, found)
+                changes = np.abs(found - guess) / allowed
+                if not guessed or changes.max() <= 1.0:
+                    return _done(size, iteration, changes, guessed, True)
+                if iteration < self.most_iterations:
+                    plain = found
+                    guess = scale * self.acceleration.next(guess / scale, found / scale)
+                    guess = guess.clip(*plan.bounds)
+        finally:
+            exchange.forget(mark)
+        return _done(size, self.most_iterations, changes, guessed, False)
+
+    def state(self) -> list[Any]:
+        """What is remembered from step to step, as nested lists of numbers."""
+        return self.acceleration.state()
+
+    def restore(self, state: list[Any]) -> None:
+        """Go on from what `state` gave."""
+        self.acceleration.restore(state)
+
+    def _planned(self, system: CoupledSystem) -> _Plan:
+        if self._plan is None or self._plan.system is not system:
+            guessed = self.unknown(system)
+            self._plan = _Plan(
+                system,
+                guessed,
+                self.tolerance.least(system, guessed),
+                nominals(system, guessed),
+                bounds(system, guessed),
+            )
+        return self._plan
+
+    def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
+        """What is guessed: all connected outputs, or those that go against the order."""
+        return sources(system) if self.sweep == "jacobi" else against(system, self.order)
+
+    def _sweep(
+        self,
+        exchange: Exchange,
+        guessed: tuple[Address, ...],
+        guess: Vector,
+        degree: int,
+        size: float,
+    ) -> Vector:
+        """Let everybody make the step; what then comes of the guessed values."""
+        ends = dict(zip(guessed, guess.tolist(), strict=True))
+
+        def course(source: Address) -> Waveform:
+            end = ends.get(source)
+            if end is None:
+                end = exchange.outputs[source.participant][source.port]
+            return exchange.history.interpolated(source, degree, size, end)
+
+        for name in self.order:
+            exchange.deliver_over_step(name, course)
+            made = exchange.step(name, size)
+            if made < size:
+                raise EndedEarly(name, made)
+            exchange.collect(name)
+        return np.array([exchange.outputs[s.participant][s.port] for s in guessed])
+
+
+def _done(
+    size: float, iterations: int, changes: Vector, guessed: tuple[Address, ...], converged: bool
+) -> StepDone:
+    if not guessed:
+        return StepDone(size)
+    worst = int(changes.argmax())
+    return StepDone(size, iterations, float(changes[worst]), str(guessed[worst]), converged)

@@ -1,0 +1,1 @@
+"""How long the macro steps are, and which of them are taken back."""

@@ -1,0 +1,232 @@
+"""Estimates of a step's error, as a part of what is allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cosim.coupling.exchange import Exchange
+from cosim.coupling.participant import CouplingError
+from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.schemes.scheme import Scheme, sources
+from cosim.coupling.step_control.control import Stepper
+from cosim.coupling.system import Address
+from cosim.coupling.tolerance import Tolerance
+
+
+class Estimate(Protocol):
+    """Makes a step and says how large its error is."""
+
+    @property
+    def exponent(self) -> float:
+        """Power of the step's size that the error goes with."""
+
+    def begin(self, scheme: Scheme) -> None:
+        """A run with a scheme begins."""
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """Step to an end (s) or less far: the time reached, s, and error / allowed."""
+
+    def state(self) -> Any:
+        """What is remembered, as numbers."""
+
+    def restore(self, state: Any) -> None:
+        """Go on from what `state` gave."""
+
+
+class Forgetful:
+    """Remembers nothing from step to step."""
+
+    def state(self) -> Any:
+        """Nothing."""
+        return None
+
+    def restore(self, state: Any) -> None:
+        """Nothing to go on from."""
+
+
+@dataclass
+class Doubling(Forgetful):
+    """The step is made once whole and once in two halves, which stand.
+
+    Their difference over 2^p - 1, p the scheme's order, is the error of the halves (Richardson).
+    Three steps for two; of all connected outputs.
+    """
+
+    tolerance: Tolerance = field(default_factory=Tolerance)
+
+    def begin(self, scheme: Scheme) -> None:
+        """The scheme's order is that of the estimate."""
+        self._order = scheme.accuracy
+
+    @property
+    def exponent(self) -> float:
+        """Of one step, which is one more than over a run."""
+        return self._order + 1.0
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """Whole, back, and in halves."""
+        exchange = stepper.exchange
+        began = exchange.time
+        assert began is not None
+        which = sources(exchange.system)
+        mark = exchange.mark()
+        try:
+            end = stepper.make(end)
+            whole = values(exchange, which)
+            exchange.back(mark)
+        finally:
+            exchange.forget(mark)
+        middle = began + (end - began) / 2.0
+        reached = stepper.make(middle)
+        if reached < middle:
+            return reached, 0.0  # an event came first: a step of less than half the size
+        reached = stepper.make(end)
+        if reached < end:
+            return reached, 0.0
+        halves = values(exchange, which)
+        difference = np.abs(whole - halves) / (2.0**self._order - 1.0)
+        return reached, _largest(exchange, which, difference, halves, self.tolerance)
+
+
+@dataclass
+class Defect(Forgetful):
+    """What inputs were extrapolated to at the step's end, against what has come of them.
+
+    Costs no further step. Of the outputs that the scheme needs before they are there.
+    """
+
+    tolerance: Tolerance = field(default_factory=Tolerance)
+
+    def begin(self, scheme: Scheme) -> None:
+        """The scheme's polynomial is the one that is compared."""
+        self._degree = scheme.accuracy - 1
+
+    @property
+    def exponent(self) -> float:
+        """Of the first power that the polynomial lacks."""
+        return self._degree + 1.0
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """One step."""
+        exchange = stepper.exchange
+        began = exchange.time
+        assert began is not None
+        which = stepper.scheme.unknown(exchange.system)
+        history = exchange.history
+        courses = [history.extrapolated(source, self._degree, end - began) for source in which]
+        reached = stepper.make(end)
+        expected = np.array([course.at(reached - began) for course in courses])
+        found = values(exchange, which)
+        return reached, _largest(exchange, which, np.abs(found - expected), found, self.tolerance)
+
+
+@dataclass(frozen=True)
+class PowerBond:
+    """A pair of connections whose product is a power.
+
+    effort, flow : outputs (`participant.port`) that feed each other's participants: force and
+    velocity, moment and rate of turn. What one side gives in a step the other has to take: with
+    inputs that are extrapolated, their difference is energy that comes from nowhere.
+    """
+
+    effort: Address
+    flow: Address
+
+    def __init__(self, effort: str, flow: str):
+        object.__setattr__(self, "effort", Address.parse(effort))
+        object.__setattr__(self, "flow", Address.parse(flow))
+
+
+@dataclass
+class EnergyResidual:
+    """Energy that a step makes or loses on power bonds, against what has crossed them.
+
+    dE = h (effort given x flow got - effort got x flow given) at the step's end: Sadjina and
+    others, "Energy conservation and power bonds in co-simulations", Engineering with Computers 33
+    (2017). Allowed is `absolute` (J) + `relative` of the largest energy that had crossed a bond,
+    summed over the steps as a magnitude.
+    """
+
+    bonds: Sequence[PowerBond]
+    relative: float = 1e-3
+    absolute: float = 1e-9
+    _crossed: float = 0.0
+
+    def begin(self, scheme: Scheme) -> None:
+        """Nothing has crossed yet."""
+        if not self.bonds:
+            raise CouplingError("step_control = 'energy': needs at least one power bond")
+        if isinstance(scheme, Iterated):
+            # both ends agree there, however long the step: nothing would hold it back
+            raise CouplingError(
+                "step_control = 'energy': measures what extrapolated inputs are off by, and "
+                "scheme = 'iterated' has none; allowed are gauss_seidel and jacobi"
+            )
+        self._crossed, self._degree = 0.0, scheme.accuracy - 1
+
+    @property
+    def exponent(self) -> float:
+        """A step's length times the first power that the polynomial lacks."""
+        return self._degree + 2.0
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """One step."""
+        exchange = stepper.exchange
+        began = exchange.time
+        assert began is not None
+        reached = stepper.make(end)
+        lost, crossed = 0.0, 0.0
+        for bond in self.bonds:
+            effort, effort_got = _both_ends(exchange, bond.effort, bond.flow.participant)
+            flow, flow_got = _both_ends(exchange, bond.flow, bond.effort.participant)
+            lost += (reached - began) * abs(effort * flow_got - effort_got * flow)
+            crossed += (reached - began) * abs(effort * flow)
+        error = lost / (self.absolute + self.relative * max(self._crossed, crossed))
+        if error <= 1.0:
+            self._crossed = max(self._crossed, crossed)
+        return reached, error
+
+    def state(self) -> Any:
+        """Energy that has crossed, J."""
+        return self._crossed
+
+    def restore(self, state: Any) -> None:
+        """Go on with it."""
+        self._crossed = float(state)
+
+
+def _both_ends(exchange: Exchange, source: Address, sink: str) -> tuple[float, float]:
+    """Value that a source gives, and what the participant at the other end stepped with.
+
+    Both as the source counts: a force that is turned round on its way is the same force.
+    """
+    for feed in exchange.feeds[sink]:
+        if feed.source == source:
+            got = exchange.inputs[sink][feed.sink.port]
+            way = exchange.system.conversions[feed]
+            given = exchange.outputs[source.participant][source.port]
+            return given, (got - way.offset) / way.factor
+    raise CouplingError(f"power bond: {source} does not feed {sink}")
+
+
+def values(exchange: Exchange, which: Sequence[Address]) -> NDArray[np.float64]:
+    """Newest values of some outputs, (n,)."""
+    return np.array([exchange.outputs[each.participant][each.port] for each in which])
+
+
+def _largest(
+    exchange: Exchange,
+    which: Sequence[Address],
+    differences: NDArray[np.float64],
+    found: NDArray[np.float64],
+    tolerance: Tolerance,
+) -> float:
+    if not which:
+        return 0.0
+    least = tolerance.least(exchange.system, tuple(which))
+    return float((differences / tolerance.allowed(least, found)).max())

@@ -1,0 +1,88 @@
+"""A participant that makes several steps of its own in each macro step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from cosim.coupling.participant import (
+    Capabilities,
+    CouplingError,
+    Participant,
+    Port,
+    capabilities,
+)
+from cosim.coupling.system import ENERGY_UNIT
+from cosim.coupling.waveform import Waveform
+
+
+class Subcycled:
+    """Steps a participant `substeps` times in each macro step, along the waveforms of its inputs.
+
+    Who cannot follow a waveform gets its mean over each substep, and joules handed over since the
+    start as they stand at its end: with many substeps it is as if it could. What it gives out is
+    seen at the communication points alone.
+    """
+
+    def __init__(self, participant: Participant, substeps: int):
+        if substeps < 1:
+            raise CouplingError(f"{participant.name}: substeps = {substeps}: must be at least 1")
+        self._inner: Any = participant
+        self.substeps = substeps
+        self._waves: dict[str, Waveform] = {}
+
+    @property
+    def name(self) -> str:
+        """That of the participant."""
+        return self._inner.name
+
+    @property
+    def ports(self) -> Mapping[str, Port]:
+        """Those of the participant."""
+        return self._inner.ports
+
+    @property
+    def capabilities(self) -> Capabilities:
+        """Those of the participant, and it follows waveforms."""
+        return replace(capabilities(self._inner), waveforms=True)
+
+    def write(self, values: Mapping[str, float]) -> None:
+        """Values that are held over the macro step."""
+        for port in values:
+            self._waves.pop(port, None)
+        self._inner.write(values)
+
+    def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:
+        """Inputs over the macro step as functions of time."""
+        self._waves.update(waveforms)
+
+    def step(self, time: float, size: float) -> float | None:
+        """The macro step, in parts; ends with the part that ends early."""
+        for n in range(self.substeps):
+            began, ended = (size * k / self.substeps for k in (n, n + 1))
+            self._follow(began, ended - began)
+            reached = self._inner.step(time + began, ended - began)
+            if reached is not None:
+                return reached
+        return None
+
+    def _follow(self, began: float, size: float) -> None:
+        """Inputs for the part of the macro step that begins at a time since its start (s)."""
+        parts = {port: wave.after(began, size) for port, wave in self._waves.items()}
+        if not parts:
+            return
+        if capabilities(self._inner).waveforms:
+            self._inner.write_waveforms(parts)
+            return
+        ports = self._inner.ports
+        self._inner.write(
+            {
+                port: part.end if ports[port].unit == ENERGY_UNIT else part.mean
+                for port, part in parts.items()
+            }
+        )
+
+    def __getattr__(self, name: str) -> Any:
+        """All else is the participant's."""
+        return getattr(self._inner, name)

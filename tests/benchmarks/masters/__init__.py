@@ -1,0 +1,1 @@
+"""Co-simulation masters side by side on a pair of small units."""

@@ -1,0 +1,211 @@
+"""Units that would do harm, and places that units cannot be unpacked in: one line, nothing else."""
+
+import os
+import re
+import shutil
+import stat
+import tempfile
+import zipfile
+from pathlib import Path
+
+import pytest
+from c_units import made
+
+from cosim.coupling import CoupledSystem, FmuError, FmuParticipant, GaussSeidel, run
+from cosim.coupling.fmu import archive
+from cosim.coupling.fmu.errors import FmuCallError
+
+
+@pytest.fixture
+def unit(tmp_path):
+    return made("faulty", tmp_path)
+
+
+def refused(path, message, **settings):
+    """A participant says so, in one line, and leaves nothing behind."""
+    with pytest.raises(FmuError, match=message) as caught:
+        with FmuParticipant(path, **settings) as participant:
+            participant.enter_initialisation(0.0, 1.0)
+    assert "\n" not in str(caught.value) and str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "name", ["../x", "a/../../x", "/etc/x", "C:/x", "c:x", "..\\x", "\\\\host\\x", ".."]
+)
+def test_a_member_that_points_outside_is_refused(unit, name):
+    with zipfile.ZipFile(unit, "a") as file:
+        file.writestr(name, "x")
+    refused(unit, re.escape(f"its member {name!r} points outside the folder"))
+
+
+def test_a_member_that_is_a_link_is_refused(unit):
+    link = zipfile.ZipInfo("resources/link")
+    link.external_attr = (stat.S_IFLNK | 0o777) << 16
+    with zipfile.ZipFile(unit, "a") as file:
+        file.writestr(link, "/etc/passwd")
+    refused(unit, "its member 'resources/link' is a symbolic link")
+
+
+def test_a_backslash_in_a_name_is_refused(unit):
+    with zipfile.ZipFile(unit, "a") as file:
+        file.writestr("resources\\x", "x")
+    refused(unit, "has a name that no FMU may hold")
+
+
+def test_a_zip_bomb_is_refused(unit, monkeypatch):
+    with zipfile.ZipFile(unit, "a", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("resources/zeros", bytes(archive.FEW_BYTES + 1))
+    refused(unit, r"would be \d+ times as large unpacked \(64 MiB\), allowed is 200 times")
+    monkeypatch.setattr(archive, "MOST_BYTES", 2**20)
+    refused(unit, "would take 0.0625 GiB unpacked, allowed are 0.000976562 GiB")
+    monkeypatch.setattr(archive, "MOST_MEMBERS", 2)
+    refused(unit, "holds 3 files, allowed are 2")
+
+
+def test_a_size_that_is_a_lie_does_not_fill_the_disk(unit, tmp_path):
+    """What is unpacked is never more than what was added up."""
+    with zipfile.ZipFile(unit, "a", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("resources/zeros", bytes(10**6))
+    size = (10**6).to_bytes(4, "little")
+    content = unit.read_bytes()
+    assert content.count(size) == 2
+    unit.write_bytes(content.replace(size, (10).to_bytes(4, "little")))
+    refused(unit, r"damaged \(.*resources/zeros")
+
+
+@pytest.mark.parametrize(
+    "entities",
+    [
+        '<!DOCTYPE d [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>',
+        '<!DOCTYPE d [<!ENTITY x SYSTEM "file:///etc/passwd">]>',
+        '<!DOCTYPE fmiModelDescription SYSTEM "http://localhost:1/fmi.dtd">',
+    ],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_entities_are_refused_before_they_are_read(tmp_path, entities, encoding):
+    path = tmp_path / "unit.fmu"
+    text = f'<?xml version="1.0" encoding="{encoding}"?>{entities}<fmiModelDescription/>'
+    with zipfile.ZipFile(path, "w") as file:
+        file.writestr("modelDescription.xml", text.encode(encoding))
+    refused(path, "its modelDescription.xml has a document type")
+
+
+def test_entities_in_what_else_is_parsed_are_refused(tmp_path):
+    path = made("events", tmp_path)
+    with zipfile.ZipFile(path, "a") as file:
+        file.writestr("sources/buildDescription.xml", '<!DOCTYPE d [<!ENTITY a "b">]><d/>')
+    refused(path, "its sources/buildDescription.xml has a document type")
+
+
+@pytest.mark.parametrize(
+    "changes, message",
+    [
+        ({'fmiVersion="2.0"': 'fmiVersion="1.7"'}, "does not make sense: Unsupported FMI version"),
+        ({'fmiVersion="2.0"': ""}, "does not make sense"),
+        ({'declaredType="Heat"': 'declaredType="Cold"'}, "does not make sense"),
+        ({'<Unknown index="4"/>': '<Unknown index="400"/>'}, "does not make sense"),
+        (
+            {
+                "CoSimulation": "ModelExchange",
+                'canHandleVariableCommunicationStepSize="true"': "",
+                'canInterpolateInputs="true"': "",
+            },
+            "is for model exchange only",
+        ),
+        ({'Identifier="faulty"': 'Identifier="../../faulty"'}, "is no name of a library"),
+    ],
+)
+def test_a_description_without_sense_is_refused(tmp_path, changes, message):
+    refused(made("faulty", tmp_path, **changes), message)
+
+
+def test_a_unit_for_other_machines_says_for_which(unit, tmp_path):
+    path = tmp_path / "other.fmu"
+    with zipfile.ZipFile(unit) as old, zipfile.ZipFile(path, "w") as file:
+        file.writestr("modelDescription.xml", old.read("modelDescription.xml"))
+        file.writestr("binaries/amiga/faulty.library", "x")
+    refused(path, r"holds no library for this machine, binaries/.*; it is for amiga")
+
+
+def test_a_library_that_does_not_load_leaves_all_as_it_was(unit, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with zipfile.ZipFile(unit) as old:
+        (library,) = [name for name in old.namelist() if name.startswith("binaries")]
+        description = old.read("modelDescription.xml")
+    with zipfile.ZipFile(unit, "w") as file:
+        file.writestr("modelDescription.xml", description)
+        file.writestr(library, "no library")
+    with FmuParticipant(unit) as participant:
+        with pytest.raises(FmuCallError, match="Failed to load shared library"):
+            participant.enter_initialisation(0.0, 1.0)
+    assert Path.cwd() == tmp_path
+
+
+# --- places ---
+
+
+def test_no_room_is_said_before_and_while_unpacking(unit, tmp_path, monkeypatch, full_disk):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with monkeypatch.context() as patch:
+        usage = shutil.disk_usage(tmp_path)
+        patch.setattr(shutil, "disk_usage", lambda folder: usage._replace(free=10))
+        refused(unit, rf"unpacked in {tmp_path}/fmu-\w+: takes 0 MiB, there are 0 MiB; .*TMPDIR")
+    with monkeypatch.context() as patch:
+        patch.setattr(zipfile.ZipFile, "extract", full_disk)
+        refused(unit, rf"unpacked in {tmp_path}/fmu-\w+: No space left on device; .*TMPDIR")
+    assert list(tmp_path.iterdir()) == [unit]
+
+
+def test_no_folder_to_unpack_in_is_said(unit, monkeypatch, full_disk):
+    monkeypatch.setattr(tempfile, "mkdtemp", full_disk)
+    refused(unit, "there is no folder to unpack it in")
+
+
+def test_what_an_earlier_run_left_is_not_used(unit, tmp_path, monkeypatch):
+    stale = tmp_path / "fmu-stale"
+    (stale / "binaries" / "linux64").mkdir(parents=True)
+    (stale / "binaries" / "linux64" / "faulty.so").write_text("rubbish")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with FmuParticipant(unit) as participant:
+        participant.enter_initialisation(0.0, 1.0)
+        participant.exit_initialisation()
+    assert sorted(tmp_path.iterdir()) == [unit, stale]
+
+
+def folder_of(tmp_path):
+    (folder,) = tmp_path.glob("fmu-*")
+    return folder
+
+
+def test_a_folder_removed_in_mid_run_harms_nothing(unit, tmp_path, monkeypatch):
+    """A unit that needs it fails by itself; its next run unpacks anew."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    participant = FmuParticipant(unit, "unit", parameters={"fault": 8, "at": 0.5})
+    step = participant.step
+
+    def removing(time, size):
+        if time == 0.25:
+            shutil.rmtree(folder_of(tmp_path))
+        return step(time, size)
+
+    participant.step = removing
+    with CoupledSystem([participant], []) as system:
+        for _ in range(2):
+            result = run(system, GaussSeidel(("unit",)), stop=1.0, macro_step=0.25)
+            assert result.status == "failed" and result.time[-1] == 0.5
+            assert "too hot; the folder that it was unpacked in has been removed" in result.reason
+    assert list(tmp_path.iterdir()) == [unit]
+
+
+@pytest.mark.parametrize("name", ["a b", "ü", "a#b", "50%25", "(old) [1]", "R&D", "%s%n", "日本"])
+@pytest.mark.parametrize("version", ["faulty", "events"])
+def test_awkward_names_of_file_and_folder(tmp_path, monkeypatch, name, version):
+    folder = tmp_path / name
+    folder.mkdir()
+    path = made(version, folder).rename(folder / f"{name}.fmu")
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    with FmuParticipant(path) as participant:
+        participant.enter_initialisation(0.0, 1.0)
+        participant.exit_initialisation()
+        participant.step(0.0, 0.1)
+    assert os.listdir(folder) == [f"{name}.fmu"]

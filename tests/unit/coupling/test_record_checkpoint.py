@@ -1,0 +1,218 @@
+"""Checkpoints: exact, whole or refused; the folder of a run that is not complete."""
+
+import json
+import multiprocessing
+import os
+import zipfile
+
+import numpy as np
+import pytest
+
+from cosim.coupling.record import (
+    Checkpoint,
+    CheckpointError,
+    RunFolder,
+    differences,
+    load_checkpoint,
+    require_same_setup,
+    save_checkpoint,
+)
+from cosim.files import OutputError, OutputRefused
+
+EXAMPLE = Checkpoint(
+    time=0.1 + 0.2,
+    setup={"rig.mass": 0.67, "unit": "{1234}", "order": ["a", "b"]},
+    master={"outputs": {"a": {"x": 1 / 3, "n": 3, "on": True}}, "past": [[0.1, None], []]},
+    states={"a": bytes(range(256)) * 5, "b/../ü": b"", "c": b"c"},
+    record={"rows": 7, "kept": 6, "last": [5e-324, -0.0, 1.7976931348623157e308]},
+)
+
+
+@pytest.fixture
+def saved(tmp_path):
+    return save_checkpoint(tmp_path / "checkpoint.zip", EXAMPLE)
+
+
+def test_comes_back_as_it_was(saved):
+    found = load_checkpoint(saved)
+    assert found == EXAMPLE
+    assert np.array(found.record["last"]).tobytes() == np.array(EXAMPLE.record["last"]).tobytes()
+    assert type(found.master["outputs"]["a"]["n"]) is int
+    assert type(found.master["outputs"]["a"]["on"]) is bool
+
+
+def test_numbers_that_are_none_come_back(tmp_path):
+    odd = {"values": [float("nan"), float("inf"), -float("inf")]}
+    path = save_checkpoint(tmp_path / "c.zip", Checkpoint(0.0, master=odd))
+    nan, *infinite = load_checkpoint(path).master["values"]
+    assert nan != nan and infinite == [float("inf"), -float("inf")]
+
+
+def test_arrays_and_numbers_of_numpy_are_taken(tmp_path):
+    master = {"matrix": np.arange(4.0).reshape(2, 2) / 3, "count": np.int64(3)}
+    found = load_checkpoint(save_checkpoint(tmp_path / "c.zip", Checkpoint(0.0, master=master)))
+    assert found.master["matrix"] == (np.arange(4.0).reshape(2, 2) / 3).tolist()
+    assert found.master["count"] == 3
+
+
+def test_it_is_a_plain_zip(saved):
+    with zipfile.ZipFile(saved) as archive:
+        assert archive.testzip() is None
+        assert json.loads(archive.read("manifest.json"))["states"] == list(EXAMPLE.states)
+
+
+def test_any_damage_is_seen(saved):
+    whole = saved.read_bytes()
+    random = np.random.default_rng(3)
+    for _ in range(300):
+        damaged = bytearray(whole)
+        damaged[random.integers(len(whole))] ^= 1 << int(random.integers(8))
+        saved.write_bytes(damaged)
+        with pytest.raises(CheckpointError, match=r"checkpoint\.zip: is damaged"):
+            load_checkpoint(saved)
+    for size in (0, 1, 63, 64, 65, len(whole) // 2, len(whole) - 1):
+        saved.write_bytes(whole[:size])
+        with pytest.raises(CheckpointError, match=r"checkpoint\.zip: is damaged"):
+            load_checkpoint(saved)
+    saved.write_bytes(whole)
+    assert load_checkpoint(saved) == EXAMPLE
+
+
+def test_no_file_is_one_line(tmp_path):
+    with pytest.raises(CheckpointError, match=r"c\.zip: cannot be read: No such file"):
+        load_checkpoint(tmp_path / "c.zip")
+
+
+def test_another_format_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("cosim.coupling.record.checkpoint.FORMAT", 99)
+    path = save_checkpoint(tmp_path / "c.zip", EXAMPLE)
+    monkeypatch.undo()
+    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 1"):
+        load_checkpoint(path)
+
+
+def test_an_earlier_one_stays_until_the_next_is_whole(saved, monkeypatch):
+    def refuse(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", refuse)
+    with pytest.raises(OutputError, match="No space left on device"):
+        save_checkpoint(saved, Checkpoint(9.0))
+    assert load_checkpoint(saved) == EXAMPLE
+    assert [entry.name for entry in saved.parent.iterdir()] == ["checkpoint.zip"]
+
+
+def test_another_case_is_refused_and_what_differs_named(saved):
+    checkpoint = load_checkpoint(saved)
+    require_same_setup(saved, checkpoint, EXAMPLE.setup)
+    other = dict(EXAMPLE.setup) | {"rig.mass": 0.7, "unit": "{5678}"}
+    with pytest.raises(CheckpointError) as refused:
+        require_same_setup(saved, checkpoint, other)
+    assert 'rig.mass: was 0.67, is 0.7, unit: was "{1234}", is "{5678}"' in str(refused.value)
+
+
+def test_many_differences_are_counted(saved):
+    now = {str(n): n for n in range(10)}
+    with pytest.raises(CheckpointError, match="rig.mass: was 0.67, is not there.*, and 10 more"):
+        require_same_setup(saved, load_checkpoint(saved), now)
+    assert differences(now, now) == []
+    assert differences({"x": (1, 2)}, {"x": [1, 2]}) == [], "as a file holds it"
+    assert differences({"x": None}, {}) == ["x: was null, is not there"]
+
+
+@pytest.mark.parametrize(
+    "was, new, said",
+    [
+        ("a = 1\nb = 2\n", "a = 1\nb = 3\nc\n", r's, line 2: was "b = 2\n", is "b = 3\n"'),
+        ("a\n", "a\nb\n", r's, line 2: was not there, is "b\n"'),
+        ("a\n", "a\r\n", r's, line 1: was "a\n", is "a\r\n"'),
+        ("a\n", "a", r's, line 1: was "a\n", is "a"'),
+        ("", "a", 's: was not there, is "a"'),
+    ],
+)
+def test_of_a_whole_file_the_first_line_that_differs_is_shown(was, new, said):
+    (line,) = differences({"s": was}, {"s": new})
+    assert line == said
+
+
+def test_of_a_long_line_what_is_around_the_difference_is_shown():
+    (line,) = differences({"s": "<x>" * 999 + "1" * 999}, {"s": "<x>" * 999 + "2" * 999})
+    assert line.startswith('s: was ..."') and "<x>11" in line and "<x>22" in line
+    assert len(line) < 220
+
+
+ASKED = {"command": "run", "resume": "stickslip run --resume results"}
+
+
+def test_a_folder_says_that_its_run_is_not_complete(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {"scenario.toml": "name = 'ü'\n"})
+    said = (tmp_path / "unfinished" / "README.txt").read_text()
+    assert "not complete" in said and "stickslip run --resume results" in said
+    assert folder.asked == ASKED
+    assert (folder.path / "scenario.toml").read_text(encoding="utf-8") == "name = 'ü'\n"
+    folder.finished()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_was_cut_off_is_found_again(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    save_checkpoint(folder.checkpoint, EXAMPLE)
+    (folder.path / ".checkpoint.zip.1234.partial").write_text("cut off in the middle")
+    folder.release()
+    again = RunFolder.found(tmp_path)
+    assert again.asked == ASKED and load_checkpoint(again.checkpoint) == EXAMPLE
+    assert not list(again.path.glob(".*"))
+
+
+def test_what_there_is_not_to_go_on_from_is_one_line(tmp_path):
+    with pytest.raises(CheckpointError, match="no such folder"):
+        RunFolder.found(tmp_path / "none")
+    with pytest.raises(CheckpointError, match="holds no unfinished run: it is complete"):
+        RunFolder.found(tmp_path)
+    RunFolder.begun(tmp_path, ASKED, {}).release()
+    with pytest.raises(CheckpointError, match="no checkpoint yet"):
+        RunFolder.found(tmp_path)
+    (tmp_path / "unfinished" / "run.json").write_text("{")
+    with pytest.raises(CheckpointError, match=r"run\.json: cannot be read"):
+        _ = RunFolder(tmp_path).asked
+
+
+def test_a_new_run_clears_what_an_earlier_one_left_and_nothing_else(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    save_checkpoint(folder.checkpoint, EXAMPLE)
+    folder.release()
+    with pytest.raises(OutputRefused, match=r"allowed is to go on with it: .*; or --force"):
+        RunFolder.begun(tmp_path, ASKED, {})
+    assert folder.checkpoint.exists()
+    folder = RunFolder.begun(tmp_path, ASKED, {}, force=True)
+    assert not folder.checkpoint.exists()
+    folder.finished()
+    own = tmp_path / "unfinished" / "thesis.docx"
+    own.parent.mkdir()
+    own.write_text("my own")
+    with pytest.raises(OutputRefused, match="holds files that are not of a run"):
+        RunFolder.begun(tmp_path, ASKED, {})
+    assert own.read_text() == "my own"
+
+
+def _try(results, answers):
+    for attempt in (lambda: RunFolder.begun(results, ASKED, {}), lambda: RunFolder.found(results)):
+        try:
+            attempt()
+            answers.put("went in")
+        except OutputRefused as refused:
+            answers.put(str(refused))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no such locks there")
+def test_two_processes_do_not_write_into_one_folder(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    save_checkpoint(folder.checkpoint, EXAMPLE)
+    spawn = multiprocessing.get_context("spawn")
+    answers = spawn.Queue()
+    other = spawn.Process(target=_try, args=(tmp_path, answers))
+    other.start()
+    said = [answers.get(timeout=60), answers.get(timeout=60)]
+    other.join()
+    assert all("another process is at work" in line for line in said)
+    assert folder.checkpoint.exists()

@@ -1,0 +1,292 @@
+"""A run that is cut off and gone on with is the run that was not, to the last bit."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from dataclasses import asdict
+
+import numpy as np
+import pytest
+from saved_pendulums import ORDER, pendulums
+
+from cosim.coupling import GaussSeidel, run
+from cosim.coupling.record import CheckpointError, Keep, RunFolder, load_checkpoint, read_columns
+from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
+from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.schemes.jacobi import Jacobi
+from cosim.coupling.step_control.adaptive import AdaptiveStep
+from cosim.coupling.step_control.estimates import Defect, Doubling
+from cosim.coupling.tolerance import Tolerance
+from cosim.files import OutputError
+
+ASKED = {"resume": "stickslip run --resume DIR"}
+
+
+@pytest.fixture(autouse=True)
+def no_waiting_for_the_disk(monkeypatch):
+    """What it is for, a power cut, is not what is tried here; a busy disk takes long over it."""
+    monkeypatch.setattr("os.fsync", lambda file: None)
+
+
+class CutOff(BaseException):
+    """As much as a kill is within one process: nobody is told."""
+
+
+def cut_off_after(steps):
+    done = iter(range(steps))
+
+    def progress(_):
+        if next(done, None) is None:
+            raise CutOff
+
+    return progress
+
+
+def adaptive(estimate):
+    return AdaptiveStep(estimate(Tolerance(1e-4)), first=0.01, smallest=2e-3, largest=0.5)
+
+
+#: What is remembered from step to step: nothing, points, differences, sizes.
+HOW = {
+    "held": lambda: {"scheme": GaussSeidel(ORDER), "macro_step": 0.03},
+    "linear": lambda: {"scheme": Jacobi(ORDER, "linear"), "macro_step": 0.03},
+    "quadratic": lambda: {"scheme": GaussSeidel(ORDER, "quadratic"), "macro_step": 0.03},
+    "Aitken": lambda: {"scheme": Iterated(ORDER, acceleration=Aitken()), "macro_step": 0.1},
+    "quasi-Newton": lambda: {
+        "scheme": Iterated(ORDER, acceleration=QuasiNewton(reused=3)),
+        "macro_step": 0.1,
+    },
+    "doubling": lambda: {"scheme": GaussSeidel(ORDER, "linear"), "control": adaptive(Doubling)},
+    "defect": lambda: {
+        "scheme": Iterated(ORDER, acceleration=QuasiNewton(reused=2)),
+        "control": adaptive(Defect),
+    },
+}
+#: Known events fall on steps of the grid and between them.
+SPAN = {"stop": 4.0, "events": (0.65, 1.25, 3.0), "record_every": 3}
+
+
+def go(how, keep=None, progress=None, **further):
+    return run(pendulums(), **(HOW[how]() | SPAN | further), keep=keep, progress=progress)
+
+
+def kept(folder, **further):
+    return Keep(folder, **({"seconds": 0.0, "steps": 7} | further))
+
+
+def same(found, expected):
+    assert found.status == expected.status == "complete"
+    np.testing.assert_array_equal(found.time, expected.time)
+    assert list(found.values) == list(expected.values)
+    for name, values in expected.values.items():
+        np.testing.assert_array_equal(found[name], values)
+    assert found.steps == expected.steps
+    assert counts(found.statistics) == counts(expected.statistics)
+
+
+def counts(statistics):
+    """All but the seconds."""
+    found = asdict(statistics)
+    for effort in found["participants"].values():
+        del effort["seconds"]
+    return found
+
+
+@pytest.mark.parametrize("how", HOW)
+def test_goes_on_as_if_it_had_never_been_cut_off(tmp_path, how):
+    whole = go(how)
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    random = np.random.default_rng(11)
+    for _ in range(3):  # cut off again and again, each time further on
+        with pytest.raises(CutOff):
+            go(how, kept(folder), cut_off_after(int(random.integers(8, 12))))
+        folder.release()
+        folder = RunFolder.found(tmp_path)
+    same(go(how, kept(folder)), whole)
+    np.testing.assert_array_equal(np.load(folder.record)[:, 0], whole.time)
+
+
+@pytest.mark.parametrize("how", ["quadratic", "doubling"])
+def test_from_many_steps(tmp_path, how):
+    """Whatever row, event or rejected step comes next; every one of the first, some of the rest."""
+    whole = go(how, stop=1.5)
+    results = tmp_path / "whole"
+    results.mkdir()
+    folder = RunFolder.begun(results, ASKED, {})
+    copies = [tmp_path / str(n) for n in range(whole.steps)]
+    chosen = {*copies[:6], *copies[6 :: max(1, whole.steps // 12)], copies[-1]}
+    to_come = iter(copies)
+
+    def keep_a_copy(_):
+        if (copy := next(to_come)) in chosen:
+            shutil.copytree(folder.results, copy)
+
+    go(how, kept(folder, steps=1), keep_a_copy, stop=1.5)
+    assert next(to_come, None) is None
+    for copy in chosen:
+        same(go(how, kept(RunFolder.found(copy), steps=0), stop=1.5), whole)
+
+
+def test_every_accepted_step_is_on_disk_at_once(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    seen = []
+
+    def look(reached):
+        table = np.load(folder.record, mmap_mode="r")
+        assert table[-1, 0] == reached
+        seen.append(len(table))
+
+    result = go("held", Keep(folder), look)
+    assert seen[-1] == len(result.time) and len(seen) == result.steps
+    columns = read_columns(folder.columns)
+    assert list(columns) == ["time", *result.values]
+    assert columns["spring.on_one"] == "N.m"
+    np.testing.assert_array_equal(np.load(folder.record)[:, 1:].T, list(result.values.values()))
+
+
+def test_ctrl_c_leaves_a_checkpoint_of_the_last_step(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+
+    def interrupt(reached):
+        if reached > 2.0:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    cut = go("linear", Keep(folder), interrupt)
+    assert cut.status == "interrupted"
+    assert load_checkpoint(folder.checkpoint).time == cut.time[-1] > 2.0
+    same(go("linear", Keep(folder)), go("linear"))
+
+
+def test_wall_time_decides_too(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    times = []
+
+    def look(_):
+        if folder.checkpoint.exists():
+            times.append(load_checkpoint(folder.checkpoint).time)
+
+    go("held", kept(folder, steps=0, seconds=1e-9), look)
+    assert len(times) == len(set(times)) > 100, "after each step"
+    folder = RunFolder.begun(tmp_path, ASKED, {}, force=True)
+    go("held", Keep(folder, seconds=3600.0))
+    go("held", Keep(RunFolder.begun(tmp_path, ASKED, {}), seconds=0.0, steps=0))
+    assert not folder.checkpoint.exists()
+
+
+def begun_and_cut_off(tmp_path, **further):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    with pytest.raises(CutOff):
+        go("linear", kept(folder, **further), cut_off_after(20))
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"stop": 5.0}, "goals: was"),
+        ({"record_every": 2}, "record_every: was 3, is 2"),
+        ({"events": ()}, "goals: was"),
+        ({"scheme": Jacobi(ORDER)}, "scheme: was"),
+        ({"macro_step": 0.02}, "control: was"),
+    ],
+    ids=str,
+)
+def test_another_run_is_refused(tmp_path, changes, said):
+    folder = begun_and_cut_off(tmp_path)
+    with pytest.raises(CheckpointError, match=said):
+        go("linear", kept(folder), **changes)
+
+
+def test_another_set_up_is_refused(tmp_path):
+    folder = begun_and_cut_off(tmp_path, setup={"rig.mass": 0.67})
+    with pytest.raises(CheckpointError, match=r"rig.mass: was 0.67, is 0.7;"):
+        go("linear", kept(folder, setup={"rig.mass": 0.7}))
+    go("linear", kept(folder, setup={"rig.mass": 0.67}))
+
+
+def test_a_state_that_a_participant_refuses_is_one_line(tmp_path, monkeypatch):
+    folder = begun_and_cut_off(tmp_path)
+
+    def refuse(self, saved):
+        raise ValueError("of another mesh")
+
+    monkeypatch.setattr("saved_pendulums.Spring.load_state", refuse)
+    with pytest.raises(CheckpointError, match="spring does not go on from it: of another mesh"):
+        go("linear", kept(folder))
+
+
+def test_who_cannot_be_saved_is_named_and_the_run_goes_on(tmp_path, monkeypatch):
+    monkeypatch.delattr("saved_pendulums.Spring.save_state")
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+    with pytest.warns(UserWarning, match="no checkpoints: spring cannot be saved"):
+        result = go("held", kept(folder))
+    assert result.status == "complete" and not folder.checkpoint.exists()
+    np.testing.assert_array_equal(np.load(folder.record)[:, 0], result.time)
+
+
+def test_who_fails_to_be_saved_is_named_and_the_run_goes_on(tmp_path, monkeypatch):
+    def fail(self):
+        raise RuntimeError("out of memory")
+
+    monkeypatch.setattr("saved_pendulums.Spring.save_state", fail)
+    with pytest.warns(UserWarning, match="no more checkpoints: spring cannot be saved: out of m"):
+        result = go("held", kept(RunFolder.begun(tmp_path, ASKED, {})))
+    assert result.status == "complete"
+
+
+def test_a_checkpoint_that_the_disk_refuses_is_said_and_the_run_goes_on(tmp_path, monkeypatch):
+    def refuse(*_):
+        raise OutputError("checkpoint.zip: cannot be written: No space left on device")
+
+    monkeypatch.setattr("cosim.coupling.record.keeper.save_checkpoint", refuse)
+    with pytest.warns(UserWarning, match="no checkpoint: .*No space left on device; the run goes"):
+        result = go("held", kept(RunFolder.begun(tmp_path, ASKED, {})))
+    same(result, go("held"))
+
+
+def test_a_folder_that_is_removed_ends_the_run_with_all_that_it_had(tmp_path):
+    folder = RunFolder.begun(tmp_path, ASKED, {})
+
+    def remove(reached):
+        if reached > 2.0:
+            shutil.rmtree(folder.path, ignore_errors=True)
+
+    result = go("held", kept(folder), remove)
+    assert result.status == "failed" and "removed while it was written" in result.reason
+    assert result.time[-1] > 2.0
+    whole = go("held")
+    kept_rows = len(result.time) - 1  # the last may be one that is thinned out later
+    np.testing.assert_array_equal(result.time[:kept_rows], whole.time[:kept_rows])
+
+
+LONG = """
+import resource, sys
+from pathlib import Path
+from saved_pendulums import ORDER, pendulums
+from cosim.coupling import GaussSeidel, run
+from cosim.coupling.record import Keep, RunFolder
+peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+seen = []
+def progress(time):
+    if int(time) % 100 == 0:
+        seen.append(peak())
+run(pendulums(), GaussSeidel(ORDER, "quadratic"), stop=3600.0, macro_step=0.1, progress=progress,
+    keep=Keep(RunFolder.begun(Path(sys.argv[1]), {}, {}), steps=1000))
+print(seen[0], seen[len(seen) // 10], seen[-1])
+"""
+
+
+def test_memory_is_flat_over_an_hour(tmp_path):
+    """36 000 steps of 11 columns, 3 MB on disk; what Python itself moves is below 1 MB."""
+    done = subprocess.run(
+        [sys.executable, "-c", LONG, str(tmp_path)],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+    )
+    _, early, late = map(int, done.stdout.split())
+    assert late - early < 1024  # kB
+    assert (tmp_path / "unfinished" / "record.npy").stat().st_size > 3e6

@@ -1,0 +1,279 @@
+"""The table on disk: read by plain numpy at any moment, whatever becomes of the writer."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.coupling.record import GrowingTable, Place, read_columns, write_columns
+from cosim.files import OutputError
+
+#: Writes rows of (n, n, ...) for ever; every third stays. argv: path, columns.
+WRITER = """
+import sys
+from pathlib import Path
+from cosim.coupling.record import GrowingTable
+columns = int(sys.argv[2])
+table = GrowingTable(columns, Path(sys.argv[1]))
+n = 0
+while True:
+    table.append([float(n)] * columns, keep=n % 3 == 0)
+    n += 1
+    if n == 3:
+        print("begun", flush=True)
+"""
+
+
+def loaded(path):
+    return np.load(path, mmap_mode="r")
+
+
+def test_numpy_reads_it_after_every_row(tmp_path):
+    table = GrowingTable(3, tmp_path / "t.npy")
+    assert loaded(table.path).shape == (0, 3)
+    for n in range(20):
+        table.append([n, 0.1 * n, -1.0])
+        found = loaded(table.path)
+        assert found.shape == (n + 1, 3)
+        assert found[-1].tolist() == [n, 0.1 * n, -1.0]
+    assert table.path.stat().st_size % 8 == 0
+    np.testing.assert_array_equal(np.load(table.path), table.rows())
+
+
+def test_a_row_that_is_not_kept_gives_way_to_the_next(tmp_path):
+    table = GrowingTable(1, tmp_path / "t.npy")
+    seen = []
+    for n in range(8):
+        table.append([n], keep=n % 3 == 0)
+        seen.append(loaded(table.path)[:, 0].tolist())
+    assert seen[-4:] == [[0, 3, 4], [0, 3, 5], [0, 3, 6], [0, 3, 6, 7]]
+    assert len(table) == 4 and table.rows()[:, 0].tolist() == [0, 3, 6, 7]
+
+
+@pytest.mark.parametrize("columns", [1, 12, 1000, 5000])
+def test_any_number_of_columns(tmp_path, columns):
+    """An array with named fields is refused by numpy.load from some 250 names on."""
+    table = GrowingTable(columns, tmp_path / "t.npy")
+    rows = np.random.default_rng(1).normal(size=(7, columns))
+    for row in rows:
+        table.append(row.tolist(), keep=True)
+        table.append(row, keep=False)
+    np.testing.assert_array_equal(loaded(table.path)[:-1], rows)
+
+
+def test_every_number_comes_back_as_it_was(tmp_path):
+    odd = [np.nan, np.inf, -np.inf, -0.0, 5e-324, 1.7976931348623157e308, 0.1]
+    table = GrowingTable(len(odd), tmp_path / "t.npy")
+    table.append(odd)
+    assert loaded(table.path).tobytes() == np.array([odd]).tobytes()
+
+
+def test_single_precision(tmp_path):
+    table = GrowingTable(2, tmp_path / "t.npy", single=True)
+    table.append(np.array([0.1, 2.0]))
+    assert loaded(table.path).dtype == np.float32 and loaded(table.path)[0, 1] == 2.0
+
+
+def test_without_a_path_there_is_no_file_and_the_rows_are_there(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    table = GrowingTable(2)
+    assert table.rows().shape == (0, 2)
+    table.append([1.0, 2.0])
+    rows = table.rows()
+    assert list(tmp_path.iterdir()) == []
+    table.close()
+    assert rows.tolist() == [[1.0, 2.0]], "what was given stays good"
+    assert not rows.flags.writeable
+
+
+def test_goes_on_at_a_place_that_it_has_passed(tmp_path):
+    whole, cut = (GrowingTable(2, tmp_path / name) for name in ("whole.npy", "cut.npy"))
+    for n in range(20):
+        whole.append([n, 0.1 * n], keep=n % 4 == 0)
+    for n in range(17):
+        cut.append([n, 0.1 * n], keep=n % 4 == 0)
+        if n == 10:
+            place = cut.place
+    assert place == Place(4, 3, (10.0, 1.0))
+    cut.close()
+    cut = GrowingTable.resumed(2, tmp_path / "cut.npy", place)
+    assert loaded(cut.path)[:, 0].tolist() == [0, 4, 8, 10], "later rows are gone"
+    for n in range(11, 20):
+        cut.append([n, 0.1 * n], keep=n % 4 == 0)
+    assert cut.path.read_bytes() == whole.path.read_bytes()
+    assert cut.place == whole.place
+
+
+@pytest.mark.parametrize("keep", [True, False])
+def test_goes_on_where_it_was(tmp_path, keep):
+    table = GrowingTable(1, tmp_path / "t.npy")
+    table.append([1.0])
+    table.append([2.0], keep=keep)
+    place = table.place
+    table.close()
+    again = GrowingTable.resumed(1, table.path, place)
+    assert again.place == place
+    again.append([3.0])
+    assert again.rows()[:, 0].tolist() == ([1.0, 2.0, 3.0] if keep else [1.0, 3.0])
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda path: path.write_bytes(b"no table"),
+        lambda path: path.write_bytes(path.read_bytes()[:-9]),
+        lambda path: np.save(path, np.zeros((9, 3))),
+        lambda path: path.unlink(),
+    ],
+    ids=["other file", "too short", "other columns", "gone"],
+)
+def test_another_file_is_refused(tmp_path, spoil):
+    table = GrowingTable(2, tmp_path / "t.npy")
+    for n in range(3):
+        table.append([n, n])
+    place = table.place
+    table.close()
+    spoil(table.path)
+    with pytest.raises(OutputError, match=r"t\.npy: ") as refused:
+        GrowingTable.resumed(2, table.path, place)
+    assert "\n" not in str(refused.value)
+
+
+def test_an_earlier_table_is_replaced_and_stays_with_who_reads_it(tmp_path):
+    table = GrowingTable(1, tmp_path / "t.npy")
+    table.append([1.0])
+    before = loaded(table.path)
+    table.close()
+    again = GrowingTable(2, table.path)
+    again.append([5.0, 6.0])
+    assert before.tolist() == [[1.0]] and loaded(again.path).tolist() == [[5.0, 6.0]]
+
+
+def start(path, columns):
+    writer = subprocess.Popen(
+        [sys.executable, "-c", WRITER, str(path), str(columns)], stdout=subprocess.PIPE, text=True
+    )
+    assert writer.stdout.readline() == "begun\n"
+    return writer
+
+
+def check_rows(found):
+    """0, 3, 6, ..., and a last one that may be any that follows; each row of one value."""
+    rows = np.array(found)
+    assert (rows == rows[:, :1]).all(), "a torn row"
+    first = rows[:, 0]
+    assert (first[:-1] == 3 * np.arange(first.size - 1)).all()
+    assert 3 * (first.size - 2) < first[-1] <= 3 * (first.size - 1)
+
+
+@pytest.mark.parametrize("columns", [3, 1000])
+def test_whole_rows_whenever_it_is_killed(tmp_path, columns):
+    random = np.random.default_rng(7)
+    for number in range(8):
+        path = tmp_path / f"{number}.npy"
+        writer = start(path, columns)
+        time.sleep(random.uniform(0.0, 0.1))
+        os.kill(writer.pid, signal.SIGKILL)
+        writer.communicate()
+        check_rows(loaded(path))
+
+
+def test_whole_rows_while_it_grows(tmp_path):
+    """The last row may be replaced under the reader's eyes; those before it stay."""
+    path = tmp_path / "t.npy"
+    writer = start(path, 3)
+    try:
+        sizes = set()
+        for _ in range(2000):
+            found = loaded(path)
+            first = np.array(found[:-1, 0])
+            sizes.add(first.size)
+            assert (first == 3 * np.arange(first.size)).all()
+    finally:
+        writer.kill()
+        writer.communicate()
+    assert len(sizes) > 100, "the file did not grow while it was read"
+
+
+FULL = """
+import resource, signal, sys
+from pathlib import Path
+import numpy as np
+from cosim.coupling.record import GrowingTable
+from cosim.files import OutputError
+table = GrowingTable(100, Path(sys.argv[1]))
+resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
+try:
+    for n in range(100):
+        table.append(np.full(100, n))
+except OutputError as error:
+    print(error)
+print(len(table), table.rows()[-1, 0])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a limit of the operating system")
+def test_no_room_is_said_and_what_is_there_stays_readable(tmp_path):
+    path = tmp_path / "t.npy"
+    done = subprocess.run(
+        [sys.executable, "-c", FULL, str(path)], capture_output=True, text=True, check=True
+    )
+    said, rows = done.stdout.splitlines()
+    assert said == f"{path}: cannot be written: File too large"
+    assert rows == "12 11.0"  # 128 bytes and 12 rows of 800 fit into 10000
+    assert loaded(path).shape == (12, 100) and loaded(path)[-1, 0] == 11.0
+
+
+def test_a_file_that_is_removed_is_missed(tmp_path, monkeypatch):
+    folder = tmp_path / "results"
+    folder.mkdir()
+    table = GrowingTable(1, folder / "t.npy")
+    table.append([1.0])
+    table.path.unlink()
+    folder.rmdir()
+    with pytest.raises(OutputError, match="removed while it was written"):
+        table.sync()
+    monkeypatch.setattr("cosim.coupling.record.table.LOOK_EVERY", -1.0)
+    with pytest.raises(OutputError, match="removed while it was written"):
+        table.append([2.0])
+    assert table.rows()[:, 0].tolist() == [1.0, 2.0], "nothing is lost before it is closed"
+
+
+def test_a_folder_that_is_not_there(tmp_path):
+    with pytest.raises(OutputError, match="No such file or directory"):
+        GrowingTable(1, tmp_path / "none" / "t.npy")
+
+
+def test_columns_have_names_and_units(tmp_path):
+    units = {"time": "s", "ice.heat": "J", 'a name with ü and "': "1"}
+    assert read_columns(write_columns(tmp_path / "t.json", units)) == units
+
+
+def test_memory_is_flat(tmp_path):
+    """200 000 rows of 88 bytes, in kB; Python's own bookkeeping moves by some 100 kB."""
+    done = subprocess.run(
+        [sys.executable, "-c", GROWTH, str(tmp_path / "t.npy")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert Path(tmp_path / "t.npy").stat().st_size > 17e6
+    assert int(done.stdout) < 1024
+
+
+GROWTH = """
+import resource, sys
+from pathlib import Path
+from cosim.coupling.record import GrowingTable
+table = GrowingTable(11, Path(sys.argv[1]))
+row = [0.1] * 11
+for n in range(1000): table.append(row)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+for n in range(200_000): table.append(row)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+"""

@@ -1,0 +1,347 @@
+"""Schemes and step control on small participants: events, what is taken back, what is refused."""
+
+import math
+import re
+from itertools import count
+
+import numpy as np
+import pytest
+from linear_participant import Linear
+
+from cosim.coupling import (
+    AdaptiveStep,
+    Aitken,
+    Capabilities,
+    Connection,
+    CoupledSystem,
+    CouplingError,
+    Defect,
+    Doubling,
+    GaussSeidel,
+    Iterated,
+    Jacobi,
+    QuasiNewton,
+    Relaxation,
+    Subcycled,
+    Tolerance,
+    Waveform,
+    inputs,
+    outputs,
+    port_table,
+    run,
+)
+from cosim.coupling.waveform import through
+
+
+class Bouncer:
+    """Ends a step at each of its events; gives how many there were."""
+
+    ports = port_table(inputs(seen="1") + outputs(count="1"))
+
+    def __init__(self, events, name="bouncer", early=True):
+        self.name, self.events, self.time, self.given = name, events, 0.0, 0.0
+        self.capabilities = Capabilities(restores=True, ends_early=early)
+
+    def enter_initialisation(self, start, stop):
+        self.time = start
+
+    def exit_initialisation(self):
+        pass
+
+    def write(self, values):
+        self.given = values["seen"]
+
+    def read(self):
+        return {"count": float(sum(event <= self.time for event in self.events))}
+
+    def step(self, time, size):
+        inside = [event for event in self.events if time < event < time + size]
+        self.time = min(inside, default=time + size)
+        return self.time
+
+    def get_state(self):
+        return self.time
+
+    def set_state(self, state):
+        self.time = state
+
+    def free_state(self, state):
+        pass
+
+    def close(self):
+        pass
+
+
+class Plain:
+    """Can do no more than it must: follows a mean, integrates it."""
+
+    ports = port_table(inputs(u="m/s") + outputs(x="m"))
+
+    def __init__(self, name="plain"):
+        self.name, self.x, self.u, self.steps = name, 0.0, 0.0, []
+
+    def enter_initialisation(self, start, stop):
+        pass
+
+    exit_initialisation = close = lambda self: None
+
+    def write(self, values):
+        self.u = values["u"]
+
+    def read(self):
+        return {"x": self.x}
+
+    def step(self, time, size):
+        self.steps.append((time, size))
+        self.x += self.u * size
+
+
+def decay(name="decay", start=1.0):
+    """x' = u - x."""
+    return Linear(name, [[-1.0]], [[1.0]], [[1.0]], ins={"u": "1"}, outs={"x": "1"}, x=[start])
+
+
+def bouncing(order, scheme=GaussSeidel, early=True):
+    pair = [Bouncer([0.13, 0.57], early=early), decay()]
+    links = [Connection("bouncer.count", "decay.u"), Connection("decay.x", "bouncer.seen")]
+    return run(CoupledSystem(pair, links), scheme(order), stop=1.0, macro_step=0.25)
+
+
+@pytest.mark.parametrize("order", [("bouncer", "decay"), ("decay", "bouncer")])
+@pytest.mark.parametrize("scheme", [GaussSeidel, Jacobi, Iterated])
+def test_a_step_that_one_ends_early_ends_for_all(order, scheme):
+    result = bouncing(order, scheme)
+    assert result.status == "complete", result.reason
+    np.testing.assert_allclose(result.time, [0, 0.25, 0.5, 0.75, 1.0], atol=1e-15)
+    # 4 steps of the grid, two of them in two parts
+    assert result.steps == 6
+    assert result["bouncer.count"].tolist() == [0, 1, 1, 2, 2]
+
+
+def test_the_others_make_the_part_that_was_made():
+    class Watched(Linear):
+        def step(self, time, size):
+            sizes.append(size)
+            super().step(time, size)
+
+    sizes = []
+    pair = [Bouncer([0.13]), decay()]
+    pair[1].__class__ = Watched
+    links = [Connection("bouncer.count", "decay.u")]
+    run(CoupledSystem(pair, links), GaussSeidel(("bouncer", "decay")), stop=0.25, macro_step=0.25)
+    np.testing.assert_allclose(sizes, [0.13, 0.12])
+
+
+def test_who_may_end_a_step_that_others_made_is_refused_where_those_cannot_go_back():
+    pair = [Plain(), Bouncer([0.1])]
+    system = CoupledSystem(pair, [])
+    says = r"plain: cannot go back .* bouncer, which may end a step .* Jacobi and GaussSeidel"
+    with pytest.raises(CouplingError, match=says):
+        run(system, GaussSeidel(("plain", "bouncer")), stop=1.0, macro_step=0.25)
+    # first it may, and Jacobi lets it be first
+    assert run(system, GaussSeidel(("bouncer", "plain")), stop=1.0, macro_step=0.25).steps == 5
+    assert run(system, Jacobi(("plain", "bouncer")), stop=1.0, macro_step=0.25).steps == 5
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"scheme": Iterated(("plain",)), "macro_step": 0.1},
+        {"scheme": Jacobi(("plain",)), "control": AdaptiveStep(Defect(), 0.1, 0.01, 1.0)},
+        {"scheme": Jacobi(("plain",)), "macro_step": 0.1, "on_divergence": "halve"},
+    ],
+)
+def test_what_takes_steps_back_needs_participants_that_can(how):
+    with pytest.raises(CouplingError, match="plain: cannot go back to an earlier state, and"):
+        run(CoupledSystem([Plain()], []), stop=1.0, **how)
+
+
+def test_a_participant_that_does_not_come_back_as_it_says_is_refused():
+    class Forgetful(Bouncer):
+        def set_state(self, state):
+            self.time = state + 1e-9
+
+        def read(self):
+            return {"count": self.time}
+
+    with pytest.raises(CouplingError, match="bouncer: says that it can go back .* not .* exactly"):
+        run(CoupledSystem([Forgetful([])], []), Iterated(("bouncer",)), stop=1.0, macro_step=0.1)
+
+
+def loop(gain):
+    """Two that pass on at once, gain between them, with a state each."""
+    pair = [
+        Linear(name, [[0.0]], [[1.0]], [[1.0]], [[gain]], ins={"u": "1"}, outs={"x": "1"}, x=[1.0])
+        for name in ("a", "b")
+    ]
+    return CoupledSystem(pair, [Connection("a.x", "b.u"), Connection("b.x", "a.u")])
+
+
+def test_an_iteration_that_does_not_converge_follows_the_policy():
+    scheme = Iterated(("a", "b"), acceleration=Relaxation(), most_iterations=5)
+
+    remarks = []
+
+    def divergent(**how):
+        system = loop(1.02)
+        system.listen(remarks.append)
+        return run(system, scheme, stop=1.0, macro_step=0.5, **how)
+
+    stopped = divergent()
+    assert stopped.status == "failed" and stopped.time.tolist() == [0.0]
+    says = "step from t = 0 s of 0.5 s has not converged in 5 iterations: [ab].x still changes by"
+    assert re.search(says, stopped.reason) and "acceleration" in stopped.reason
+    accepted = divergent(on_divergence="accept")
+    assert accepted.status == "complete" and accepted.statistics.unconverged == [0.0, 0.5]
+    assert [remark.time for remark in remarks] == [0.0, 0.5]
+    says = r"^\(master\): t = 0 s: warning \[steps\]: a step of 0.5 s has not converged in 5 iter"
+    assert re.search(says, str(remarks[0])) and "and is accepted" in remarks[0].text
+    halved = divergent(on_divergence="halve", smallest_step=0.2)
+    assert halved.status == "failed" and "0.25 s has not converged" in halved.reason
+    assert halved.statistics.rejected == 1
+
+
+def test_halving_makes_what_converges_for_short_steps():
+    """The change from one plain iteration to the next goes with the square of the step here."""
+    links = [Connection("a.x", "b.u"), Connection("b.x", "a.u")]
+    pair = CoupledSystem([decay("a"), decay("b", 0.0)], links)
+    scheme = Iterated(("a", "b"), acceleration=Relaxation(), most_iterations=4)
+    result = run(pair, scheme, stop=1.0, macro_step=1.0, on_divergence="halve", smallest_step=1e-6)
+    assert result.status == "complete" and result.statistics.rejected > 0
+    # the sum stays, the difference decays twice as fast; second order in steps of a quarter or less
+    assert result["a.x"][-1] + result["b.x"][-1] == pytest.approx(1.0, abs=1e-4)
+    assert result["a.x"][-1] - result["b.x"][-1] == pytest.approx(math.exp(-2.0), abs=5e-3)
+
+
+def test_steps_that_are_made_again_and_again_are_worth_a_remark():
+    links = [Connection("a.x", "b.u"), Connection("b.x", "a.u")]
+    remarks, calls = [], count(1)
+
+    def end_after_three(_):
+        if next(calls) % 3 == 0:
+            raise KeyboardInterrupt
+
+    def remarked(scheme, **how):
+        system = CoupledSystem([decay("a"), decay("b", 0.0)], links)
+        system.listen(remarks.append)
+        result = run(system, scheme, stop=1.0, progress=end_after_three, **how)
+        assert result.status == "interrupted" and result.steps == 3
+        found = [(remark.time, remark.text) for remark in remarks]
+        remarks.clear()
+        return found
+
+    # held inputs: a step of h is off by about h^2, which at 1e-6 is a thousand times too much
+    control = AdaptiveStep(Doubling(Tolerance(1e-15)), 0.5, 1e-6, 1.0)
+    first, again, *rest = remarked(Jacobi(("a", "b")), control=control)
+    assert first[0] == again[0] == 0.0 and first[1].startswith("a step of 1e-06 s, the smallest, ")
+    assert re.fullmatch(r"was taken back \d+ times, to be of 1e-06 s", again[1])
+    assert not any("was taken back" in text for _, text in rest)
+    control = AdaptiveStep(Doubling(Tolerance(1e-3)), 0.01, 1e-8, 1.0)
+    assert remarked(Jacobi(("a", "b")), control=control) == []
+
+    tight = Iterated(
+        ("a", "b"), acceleration=Relaxation(), most_iterations=2, tolerance=Tolerance(1e-9)
+    )
+    said = remarked(tight, macro_step=0.5, on_divergence="halve", smallest_step=1e-12)
+    assert said[0][0] == 0.0
+    assert re.fullmatch(r"did not converge until it was halved \d+ times", said[0][1])
+
+
+def test_known_events_are_communication_points_off_the_grid():
+    plain = Plain()
+    run(
+        CoupledSystem([plain], []),
+        GaussSeidel(("plain",)),
+        stop=1.0,
+        macro_step=0.5,
+        events=[0.3, 0.5, 7.0],
+    )
+    starts = [time for time, _ in plain.steps]
+    np.testing.assert_allclose(starts, [0.0, 0.3, 0.5])
+    assert plain.steps[-1][0] + plain.steps[-1][1] == 1.0
+
+
+def test_who_cannot_follow_a_waveform_gets_its_mean():
+    """x' = u of u' = -u: of second order with linear inputs, in spite of held ones."""
+
+    def error(macro_step):
+        source = Linear(
+            "source", [[-1.0]], np.zeros((1, 0)), [[1.0]], ins={}, outs={"x": "m/s"}, x=[1.0]
+        )
+        links = [Connection("source.x", "plain.u")]
+        system = CoupledSystem([source, Plain()], links)
+        result = run(system, Jacobi(system_order, "linear"), stop=1.0, macro_step=macro_step)
+        return abs(result["plain.x"][-1] - (1.0 - math.exp(-1.0)))
+
+    system_order = ("source", "plain")
+    assert math.log2(error(0.02) / error(0.01)) == pytest.approx(2.0, abs=0.1)
+
+
+def test_substeps_follow_the_inputs():
+    """x' = -100 x + u by explicit steps that need a tenth of the macro step."""
+
+    class Euler(Plain):
+        def step(self, time, size):
+            self.x += size * (self.u - 100.0 * self.x)
+
+    source = Linear(
+        "source", [[-1.0]], np.zeros((1, 0)), [[1.0]], ins={}, outs={"x": "m/s"}, x=[1.0]
+    )
+    fast = Subcycled(Euler(), 100)
+    assert fast.name == "plain" and fast.capabilities == Capabilities(waveforms=True)
+    links = [Connection("source.x", "plain.u")]
+    system = CoupledSystem([source, fast], links)
+    result = run(system, GaussSeidel(("source", "plain"), "linear"), stop=1.0, macro_step=0.1)
+    exact = (np.exp(-result.time) - np.exp(-100.0 * result.time)) / 99.0
+    # the first order of Euler with steps of 1 ms, of a value of 0.01
+    assert result["plain.x"][1:] == pytest.approx(exact[1:], rel=2e-3)
+    with pytest.raises(CouplingError, match="plain: substeps = 0: must be at least 1"):
+        Subcycled(Plain(), 0)
+
+
+def test_a_waveform_s_parts_are_the_waveform():
+    wave = through([(-1.0, 2.0), (0.0, 1.0), (0.5, 3.0)], 0.5)
+    assert [wave.at(t) for t in (-1.0, 0.0, 0.5)] == pytest.approx([2.0, 1.0, 3.0])
+    part = wave.after(0.2, 0.3)
+    assert part.end == pytest.approx(wave.end) and part.start == pytest.approx(wave.at(0.2))
+    halves = (wave.after(0.0, 0.25).mean + wave.after(0.25, 0.25).mean) / 2
+    assert halves == pytest.approx(wave.mean)
+    assert Waveform((1.0, 2.0, 3.0), 1.0).rates == (2.0, 6.0)
+
+
+@pytest.mark.parametrize("acceleration", [Aitken(), QuasiNewton(), QuasiNewton(reused=3)])
+def test_an_acceleration_solves_what_plain_iteration_runs_away_from(acceleration):
+    """x = A x + b with eigenvalues beyond 1; scalar steps of Aitken need one value."""
+    many = isinstance(acceleration, QuasiNewton)
+    a = np.array([[2.0, 1.0], [-1.0, -3.0]]) if many else np.array([[-3.0]])
+    b = np.ones(len(a))
+    x = np.zeros(len(a))
+    acceleration.begin()
+    for _ in range(2 * len(a) + 1):
+        x = acceleration.next(x, a @ x + b)
+    assert x == pytest.approx(np.linalg.solve(np.eye(len(a)) - a, b), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "make, says",
+    [
+        (lambda: Relaxation(0.0), "relaxation = 0: must be above 0"),
+        (lambda: Tolerance(0.0), "relative_tolerance = 0: must be"),
+        (lambda: Tolerance(1e-3, {"a.x": -1.0}), "absolute tolerance of a.x = -1"),
+        (lambda: AdaptiveStep(Defect(), 1.0, 2.0, 3.0), "macro_step = 1 s: must lie between"),
+        (lambda: AdaptiveStep(Defect(), 1.0, 0.1, 3.0, 1.0), "safety = 1: must lie"),
+        (lambda: QuasiNewton(reused=-1), "reused_steps = -1"),
+        (lambda: Jacobi(("a", "b"), "cubic").check(loop(0.1)), "extrapolation = 'cubic'"),
+        (lambda: Iterated(("a", "b"), sweep="both").check(loop(0.1)), "sweep = 'both'"),
+        (lambda: run(loop(0.1), Jacobi(("a", "b")), stop=1.0), "either macro_step or control"),
+        (
+            lambda: run(
+                loop(0.1), Jacobi(("a", "b")), stop=1.0, macro_step=0.1, on_divergence="pray"
+            ),
+            "on_divergence = 'pray'",
+        ),
+    ],
+)
+def test_settings_that_cannot_be_are_refused(make, says):
+    with pytest.raises(CouplingError, match=says):
+        make()
