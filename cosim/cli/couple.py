@@ -1,0 +1,263 @@
+"""`stickslip couple`: any system of units, from an SSP or a TOML file."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from cosim.cli import DONE, FAILED, BadInput
+from cosim.cli.arguments import add_force, add_json, add_output, add_verbose
+from cosim.interrupts import Patience, patient_interrupts
+
+if TYPE_CHECKING:
+    from cosim.coupling.record import MessageLog, RunFolder
+    from cosim.systems import SystemRun
+    from cosim.systems.specification import SystemSpecification
+
+EXAMPLE = "stickslip couple StickSlipThermal.ssp --set coupling.macro_step=0.01 -o results/pair"
+RESULTS = "results"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "system",
+        metavar="SYSTEM",
+        nargs="?",
+        help="an SSP file (1.0 or 2.0), or a TOML file of units, connections, scheme and steps",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        dest="changes",
+        help="a key of [coupling] or [run] in place of the file's, as run.stop=10; may come again",
+    )
+    parser.add_argument(
+        "--resume",
+        metavar="DIR",
+        help="go on with the run in DIR that was cut off, from its newest checkpoint"
+        " (run.checkpoint_seconds says how often there is one)",
+    )
+    add_verbose(parser)
+    add_json(parser)
+    add_output(parser, "folder of the results; made when missing (default: results/NAME)")
+    add_force(parser, ", and begin anew where an unfinished run could be gone on with")
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input, as opposed to a run that fails."""
+    import cosim.cli.running
+    import cosim.systems.show  # noqa: F401  imported where Ctrl-C waits
+    from cosim.coupling import CouplingError, FmuError
+    from cosim.coupling.record import CheckpointError
+    from cosim.files import OutputRefused
+    from cosim.systems import SystemFault
+
+    return (SystemFault, OutputRefused, CouplingError, FmuError, CheckpointError)
+
+
+class Job(NamedTuple):
+    """What is to be run, and where; resume: the command that goes on with it."""
+
+    specification: SystemSpecification
+    results: Path
+    folder: RunFolder
+    command: str
+    force: bool
+
+    @property
+    def resume(self) -> str:
+        """What goes on with it once it is cut off."""
+        return shlex.join(["stickslip", "couple", "--resume", str(self.results)])
+
+
+def execute(arguments: Namespace) -> int:
+    """Run, write, report; the exit status."""
+    from cosim.cli.running import log_files, message_log
+    from cosim.manifest import made_by, results_in
+
+    began = time.perf_counter()
+    job = _begun(arguments) if arguments.resume is None else _found(arguments)
+    logging = message_log(job.folder, arguments.verbose)
+    with job.specification, patient_interrupts() as patience, logging as log:
+        with units_speak_aside():
+            done = _run(job, patience, heard=log.add, debug=arguments.verbose)
+        patience.hold()
+        goes_on = done.result.status != "complete" and job.folder.checkpoint.is_file()
+        made = made_by(job.command, system=job.folder.asked.get("system"))
+        with results_in(job.results, made, force=job.force) as results:
+            for name in log_files(log):
+                results.add(job.results / name)
+            status = _finish(job, done, began, patience, arguments.json, goes_on, log)
+            results.complete = status == DONE
+    # only now: had the results not come to the disk, there would still be what they are made of
+    job.folder.release() if goes_on else job.folder.finished()
+    return status
+
+
+def _begun(arguments: Namespace) -> Job:
+    """A run from its start."""
+    from cosim.cli.running import own_folder
+    from cosim.coupling.record import RunFolder
+    from cosim.systems import read_system
+    from cosim.systems.run import changes_of, check_system
+    from cosim.systems.show.files import FILES
+
+    if arguments.system is None:
+        raise BadInput("SYSTEM: missing, needed is an SSP or a TOML file, or --resume DIR")
+    changes = changes_of(arguments.changes)
+    specification = read_system(arguments.system, changes)
+    results = Path(arguments.output or Path(RESULTS) / _folder_name(specification.name))
+    command = shlex.join(["stickslip", *sys.argv[1:]])
+    asked = {
+        "system": str(Path(arguments.system).resolve()),
+        "changes": changes,
+        "command": command,
+        "resume": shlex.join(["stickslip", "couple", "--resume", str(results)]),
+    }
+    with closed_if_refused(specification):
+        check_system(specification)  # before what an earlier run left in the folder is gone
+        own_folder(results, FILES, arguments.force)
+        folder = RunFolder.begun(results, asked, {}, force=arguments.force)
+    return Job(specification, results, folder, command, arguments.force)
+
+
+def _found(arguments: Namespace) -> Job:
+    """A run that was cut off, as it was begun."""
+    from cosim.coupling.record import RunFolder
+    from cosim.systems import read_system
+
+    given = {
+        "a system": arguments.system,
+        "-o": arguments.output,
+        "--set": arguments.changes,
+        "--force": arguments.force,
+    }
+    for what, value in given.items():
+        if value:
+            raise BadInput(
+                f"--resume: goes on with a run as it was begun, so {what} cannot be given"
+            )
+    folder = RunFolder.found(Path(arguments.resume))
+    asked = folder.asked
+    system, changes = asked.get("system"), asked.get("changes", {})
+    if not isinstance(system, str) or not isinstance(changes, dict):
+        raise BadInput(f"{arguments.resume}: its run is none of couple's; see {folder.path}")
+    specification = read_system(system, changes)
+    command = f"{asked.get('command', '')} (cut off, and gone on with)"
+    return Job(specification, folder.results, folder, command, force=False)
+
+
+@contextmanager
+def units_speak_aside() -> Iterator[None]:
+    """What units write to the terminal goes to stderr: stdout is for what is asked for."""
+    sys.stdout.flush()
+    try:
+        ours = os.dup(1)
+    except OSError:  # there is no stdout
+        yield
+        return
+    try:
+        os.dup2(2, 1)
+        yield
+    finally:
+        sys.stdout.flush()
+        os.dup2(ours, 1)
+        os.close(ours)
+
+
+@contextmanager
+def closed_if_refused(specification: SystemSpecification) -> Iterator[None]:
+    """Where nothing comes of a system, what was unpacked of it goes."""
+    try:
+        yield
+    except BaseException:
+        specification.close()
+        raise
+
+
+def _folder_name(name: str) -> str:
+    """A system's name as every file system takes it for a folder."""
+    kept = "".join(letter if letter.isalnum() or letter in "-_ ." else "_" for letter in name)
+    return kept.strip(" .")[:100] or "system"
+
+
+def _run(job: Job, patience: Patience, **said: Any) -> SystemRun:
+    """Run with a bar; one that does not come to its first step leaves nothing to go on from."""
+    begun = not job.folder.checkpoint.is_file()
+    try:
+        return _with_bar(job, patience, **said)
+    except BaseException:
+        if begun:
+            job.folder.finished()
+        raise
+
+
+def _with_bar(job: Job, patience: Patience, **said: Any) -> SystemRun:
+    """Run; a unit's contents are only unpacked, and refused, when it starts."""
+    from cosim.cli import running
+    from cosim.coupling import ParticipantError
+    from cosim.systems import run_system
+
+    start, stop = job.specification.run.start, job.specification.run.stop
+    with running.progress_over(stop - start) as show:
+
+        def progress(reached: float) -> None:
+            patience.hold()
+            show(reached - start)
+
+        try:
+            return run_system(job.specification, progress, job.folder, **said)
+        except ParticipantError as error:
+            if isinstance(error.__cause__, refused()):
+                raise BadInput(" ".join(str(error.__cause__).split())) from error
+            raise
+
+
+def _finish(
+    job: Job,
+    done: SystemRun,
+    began: float,
+    patience: Patience,
+    as_json: bool,
+    goes_on: bool,
+    log: MessageLog,
+) -> int:
+    """Write all and say what came out; 0 when the run is complete, else 1."""
+    from cosim.cli.running import log_files, say_how_it_ended
+    from cosim.report.files import json_text
+    from cosim.systems.show import write_system
+    from cosim.systems.show.summary import closing_lines
+
+    def written(name: str) -> None:
+        if name == "summary.json":
+            patience.release()
+
+    folder = job.results
+    further = f", and this goes on from there: {job.resume}" if goes_on else ""
+    try:
+        numbers: dict[str, Any] = write_system(
+            done, folder, command=job.command, files=log_files(log), progress=written
+        )
+    except KeyboardInterrupt:
+        print(
+            f"error: interrupted while drawing; the data are in {folder}{further}", file=sys.stderr
+        )
+        return FAILED
+    if as_json:
+        print(json_text(numbers), end="")
+    if say_how_it_ended(numbers, folder, job.resume if goes_on else "", log) == FAILED:
+        return FAILED
+    if not as_json:
+        page = str(folder / "report.html")
+        print("\n".join(closing_lines(numbers, page, time.perf_counter() - began)))
+    return DONE

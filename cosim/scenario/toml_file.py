@@ -1,0 +1,45 @@
+"""A TOML file as tables, and what is wrong with one that cannot be read, in one line."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from cosim.scenario.faults import ScenarioError
+
+
+def parsed(text: str, source: str | Path) -> dict[str, Any]:
+    """The tables of a text; ScenarioError with line and column where it is no TOML."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(f"{source}: not TOML: {_with_line(str(error), text)}") from None
+    except (ValueError, RecursionError) as error:
+        # tomllib lets through what Python itself refuses: a number of 5000 digits, a date of
+        # month 13, a thousand nested brackets
+        raise ScenarioError(f"{source}: not TOML that can be used: {error}") from None
+
+
+def text_of(source: str | Path) -> str:
+    """The text of a file that exists; ScenarioError when it is none, or not in UTF-8."""
+    path = Path(source)
+    if path.is_dir():
+        raise ScenarioError(f"{source}: is a folder, allowed is a TOML file")
+    if not (path.is_file() or path.is_fifo()):  # a device may never end
+        raise ScenarioError(f"{source}: is not a file, allowed is a TOML file")
+    try:
+        return path.read_text(encoding="utf-8-sig")  # editors on Windows put a mark in front
+    except UnicodeDecodeError as error:
+        raise ScenarioError(
+            f"{source}: byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"
+        ) from None
+    except OSError as error:
+        raise ScenarioError(f"{source}: cannot be read: {error.strerror}") from None
+
+
+def _with_line(message: str, text: str) -> str:
+    """tomllib's message; it names no line when the fault is only seen at the end."""
+    last = f"at line {len(text.splitlines())}, end of document"
+    message = message.replace("at end of document", last)
+    return message[:1].lower() + message[1:]

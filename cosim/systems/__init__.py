@@ -1,0 +1,9 @@
+"""Systems of units from files: SSP, or TOML; knows of a unit its file and its ports, no model.
+
+>>> from cosim.systems import read_system, run_system
+"""
+
+from cosim.systems.faults import SystemFault
+from cosim.systems.run import SystemRun, read_system, run_system
+
+__all__ = ["SystemFault", "SystemRun", "read_system", "run_system"]

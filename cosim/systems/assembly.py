@@ -1,0 +1,262 @@
+"""A system as its file has it, put together: participants, connections, scheme, steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from fmpy.model_description import ModelDescription, ModelVariable
+
+from cosim.coupling import (
+    Affine,
+    Connection,
+    CoupledSystem,
+    CouplingError,
+    FmuParticipant,
+    IsolatedParticipant,
+    Participant,
+    Port,
+    Subcycled,
+    UnitDefinition,
+)
+from cosim.coupling.conversion import BASE_UNITS, IDENTITY, NO_UNIT, conversion
+from cosim.coupling.fmu.description import describe, faults_of
+from cosim.coupling.fmu.variables import scalars, unit_of
+from cosim.coupling.participant import Causality
+from cosim.coupling.system import Address, find_port
+from cosim.names import unknown_name
+from cosim.systems.faults import SystemFault
+from cosim.systems.settings import NOT_GIVEN, unused
+from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
+
+#: More macro steps than this are a slip of the unit, and have no end.
+MOST_STEPS = 1_000_000_000
+#: Of a run where nobody names a step.
+STEPS_OF_A_RUN = 1000
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A system that can be run. remarks: what was assumed or could not be checked, a line each.
+
+    To be closed when the run is over.
+    """
+
+    system: CoupledSystem
+    order: tuple[str, ...]
+    macro_step: float
+    remarks: tuple[str, ...]
+
+
+def assemble(specification: SystemSpecification, debug: bool = False) -> Assembly:
+    """Read the units and connect them.
+
+    debug: keep also what units log where all is well.
+
+    Raises SystemFault, FmuError or CouplingError in one line for what does not fit.
+    """
+    descriptions = {unit.name: describe(unit.file) for unit in specification.units}
+    participants: list[Participant] = [
+        _participant(unit, descriptions[unit.name], debug) for unit in specification.units
+    ]
+    remarks = [
+        *specification.remarks,
+        *unused(specification.coupling, specification.run),
+        *_faults(specification),
+    ]
+    by_name = {each.name: each for each in participants}
+    connections = []
+    for link in specification.links:
+        affine, remark = _conversion(specification, by_name, link)
+        connections.append(
+            Connection(link.source, link.sink, link.taken, transformation=affine, converts=False)
+        )
+        if remark:
+            remarks.append(f"{link}: {remark}")
+    system = CoupledSystem(participants, connections, specification.residuals, receipts=False)
+    step, remark = _step(specification, descriptions)
+    order = specification.coupling.order or tuple(by_name)
+    system.check_order(order)
+    return Assembly(system, order, step, (*remarks, *filter(None, [remark])))
+
+
+def _faults(specification: SystemSpecification) -> list[str]:
+    """What is wrong with the units and does no harm, a line for each."""
+    found = []
+    for unit in specification.units:
+        if faults := faults_of(unit.file):
+            others = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+            found.append(f"{unit.name}: {faults[0].removeprefix('- ')}{others}")
+    return found
+
+
+def _participant(unit: UnitEntry, description: ModelDescription, debug: bool) -> Participant:
+    """A unit with what it is set to, in as many steps a macro step as the file says."""
+    options: dict[str, Any] = _settings(unit, description) | {"tolerance": unit.tolerance}
+    participant = _unit(unit, options | {"debug": debug})
+    return participant if unit.substeps == 1 else Subcycled(participant, unit.substeps)
+
+
+def _unit(unit: UnitEntry, options: dict[str, Any]) -> Participant:
+    if not unit.isolate:
+        return FmuParticipant(unit.file, unit.name, **options)
+    if unit.time_limit != NOT_GIVEN:
+        options["time_limit"] = unit.time_limit
+    return IsolatedParticipant(FmuParticipant, str(unit.file), unit.name, **options)
+
+
+def _settings(unit: UnitEntry, description: ModelDescription) -> dict[str, dict[str, Value]]:
+    """What its variables, and elements of arrays, start from: by what a participant takes."""
+    variables = {name: each.variable for name, each in scalars(description).items()}
+    definitions = definitions_of(description)
+    tables: dict[str, dict[str, Value]] = {"parameters": {}, "inputs": {}, "starts": {}}
+    for name, start in unit.given.items():
+        variable = variables.get(name)
+        if variable is None:
+            raise SystemFault(unknown_name(f"variable of {unit.name}", name, variables))
+        kind = {"parameter": "parameters", "input": "inputs"}.get(variable.causality, "starts")
+        tables[kind][name] = _value(f"{unit.name}.{name}", variable, start, definitions)
+    return {key: table for key, table in tables.items() if table}
+
+
+def _value(
+    label: str,
+    variable: ModelVariable,
+    start: Start,
+    definitions: Mapping[str, UnitDefinition],
+) -> Value:
+    """What a variable is set to, in its own unit."""
+    value = start.value
+    if variable.type == "Enumeration" and isinstance(value, str):
+        items = variable.declaredType.items if variable.declaredType else []
+        numbers = {item.name: int(item.value) for item in items}
+        if value not in numbers:
+            raise SystemFault(f"{label}: {unknown_name('item', value, numbers)}")
+        return numbers[value]
+    affine = start.transformation
+    if start.unit is not None and start.converts:
+        affine = _to_own_unit(label, variable, start, definitions).then(affine)
+    if affine.is_identity or isinstance(value, (bool, str)):
+        return value
+    return affine(value)
+
+
+def _to_own_unit(
+    label: str, variable: ModelVariable, start: Start, definitions: Mapping[str, UnitDefinition]
+) -> Affine:
+    unit = unit_of(variable)
+    given = Port(label, start.unit or NO_UNIT, Causality.OUTPUT, definition=start.definition)
+    own = Port(label, unit, Causality.INPUT, definition=definitions.get(unit))
+    try:
+        return conversion(given, own)[0]
+    except CouplingError as error:
+        raise SystemFault(f"{label}: {error}") from None
+
+
+def definitions_of(description: ModelDescription) -> dict[str, UnitDefinition]:
+    """Unit -> what it is made of, of those that an FMU defines."""
+    found = {}
+    for unit in description.unitDefinitions:
+        base = unit.baseUnit
+        if base is not None:
+            first, *others = (int(getattr(base, name)) for name in BASE_UNITS)
+            found[unit.name] = UnitDefinition(
+                (first, *others),  # type: ignore[arg-type]  # eight of them
+                float(base.factor),
+                float(base.offset),
+            )
+    return found
+
+
+def _conversion(
+    specification: SystemSpecification, participants: Mapping[str, Participant], link: Link
+) -> tuple[Affine, str]:
+    """All that happens to a value on its way, border after border, and what was not checked.
+
+    At each border the unit is converted, then the transformation is applied (SSP, common content,
+    LinearTransformation).
+    """
+    here = _end(specification, participants, link.source)
+    affine, remarks = IDENTITY, []
+    for number, hop in enumerate(link.hops, 1):
+        if number == len(link.hops):
+            there = _end(specification, participants, link.sink)
+        elif hop.unit is not None:
+            there = Port(link.sink, hop.unit, Causality.INPUT, definition=hop.definition)
+        else:
+            there = here
+        if hop.converts:
+            try:
+                step, remark = conversion(here, there)
+            except CouplingError as error:
+                raise CouplingError(f"{link}: {error}") from None
+            affine = affine.then(step)
+            remarks.append(remark)
+        affine = affine.then(hop.transformation)
+        here = there
+    return affine, "; ".join(dict.fromkeys(filter(None, remarks)))
+
+
+def _end(
+    specification: SystemSpecification, participants: Mapping[str, Participant], text: str
+) -> Port:
+    """A port; where its unit says nothing of a unit, with what the system's file says."""
+    address = Address.parse(text)
+    port = find_port(participants, address)
+    stated = {unit.name: unit.ports for unit in specification.units}[address.participant]
+    unit, definition = stated.get(address.port, (NO_UNIT, None))
+    if port.unit == NO_UNIT and port.definition is None:
+        return Port(port.name, unit, port.causality, port.nominal, definition)
+    if port.definition is None and port.unit == unit:
+        return Port(port.name, unit, port.causality, port.nominal, definition)
+    return port
+
+
+def _step(
+    specification: SystemSpecification, descriptions: Mapping[str, ModelDescription]
+) -> tuple[float, str]:
+    """The macro step, s, and how it came about where the file names none."""
+    run, chosen = specification.run, specification.coupling.macro_step
+    if run.stop == NOT_GIVEN:
+        raise SystemFault(
+            f"{specification.source}: run.stop: missing, needed is the time (s) at which the run"
+            " ends, for instance by --set run.stop=10"
+        )
+    if chosen != NOT_GIVEN:
+        if (run.stop - run.start) / chosen > MOST_STEPS:
+            raise SystemFault(
+                f"{specification.source}: coupling.macro_step: {chosen:g} s cuts the run into more"
+                f" than {MOST_STEPS} steps, allowed is at least"
+                f" {(run.stop - run.start) / MOST_STEPS:g} s"
+            )
+        return chosen, ""
+    stated = [_stated_step(each) for each in descriptions.values()]
+    steps = [step for step in stated if step is not None]
+    if steps:
+        return min(steps), f"coupling.macro_step is not given: {min(steps):g} s, as a unit advises"
+    step = (run.stop - run.start) / STEPS_OF_A_RUN
+    return step, f"coupling.macro_step is not given: {step:g} s, a thousandth of the run"
+
+
+def _stated_step(description: ModelDescription) -> float | None:
+    experiment = description.defaultExperiment
+    if experiment is None or experiment.stepSize is None:
+        return None
+    step = float(experiment.stepSize)
+    return step if math.isfinite(step) and step > 0.0 else None
+
+
+def record_every(specification: SystemSpecification, macro_step: float) -> int:
+    """Macro steps from one row of the results to the next; SystemFault where rows fall between."""
+    interval = specification.run.output_interval
+    if interval == NOT_GIVEN or specification.coupling.step_control != "fixed":
+        return 1
+    ratio = interval / macro_step
+    if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+        raise SystemFault(
+            f"{specification.source}: run.output_interval: {interval:g} s does not fall on the"
+            f" macro steps, allowed is a multiple of coupling.macro_step = {macro_step:g} s"
+        )
+    return round(ratio)

@@ -1,0 +1,132 @@
+"""A system from its file to its results."""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from cosim.coupling import CoupledResult, Message, run
+from cosim.coupling.methods import control_of, scheme_of, smallest_step
+from cosim.coupling.record import Keep, RunFolder
+from cosim.systems.assembly import Assembly, assemble, record_every
+from cosim.systems.faults import SystemFault
+from cosim.systems.specification import SystemSpecification
+from cosim.systems.ssp.reader import read_ssp
+from cosim.systems.steps import StepLog
+from cosim.systems.toml_file import read_toml
+
+#: What a checkpoint has the log of the steps as; no unit has a name with a dot.
+STEPS = "steps.log"
+
+
+@dataclass(frozen=True)
+class SystemRun:
+    """What was run, and what came out.
+
+    assembly: its participants are closed, their ports can be asked for. steps: their sizes.
+    """
+
+    specification: SystemSpecification
+    assembly: Assembly
+    result: CoupledResult
+    steps: StepLog
+
+
+def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> SystemSpecification:
+    """The system in an SSP file (.ssp, or .ssd and folder of the same contents) or a TOML file.
+
+    changes: `coupling.key` or `run.key` -> value, in place of what the file has. Raises SystemFault
+    in one line. To be closed: the units of an archive are unpacked for as long.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise SystemFault(f"{path}: no such file, allowed is an SSP or a TOML file")
+    archive = path.is_dir() or path.suffix.lower() in (".ssp", ".ssd") or _is_zip(path)
+    return (read_ssp if archive else read_toml)(path, changes or {})
+
+
+def run_system(
+    specification: SystemSpecification,
+    progress: Callable[[float], None] | None = None,
+    folder: RunFolder | None = None,
+    *,
+    heard: Callable[[Message], object] | None = None,
+    debug: bool = False,
+) -> SystemRun:
+    """Run a system.
+
+    progress: called with the time reached (s) after each macro step. folder: for rows and
+    checkpoints while the run goes; where it holds a checkpoint, the run goes on from that.
+    heard: called with what units and master say, as it comes. debug: ask units for more of it.
+    A run that is interrupted or fails returns what it had; `result.status` says so. Raises
+    SystemFault, FmuError, CouplingError or CheckpointError for input that cannot be,
+    ParticipantError when a unit fails before the first step.
+    """
+    assembly = assemble(specification, debug)
+    settings = specification.coupling
+    steps = StepLog(specification.run.start)
+    with assembly.system as system:
+        if heard is not None:
+            system.listen(heard)
+        result = run(
+            system,
+            scheme_of(settings, assembly.order),
+            start=specification.run.start,
+            stop=specification.run.stop,
+            control=control_of(settings, assembly.macro_step, settings.power_bonds),
+            on_divergence=settings.on_divergence,
+            smallest_step=smallest_step(settings, assembly.macro_step),
+            record_every=record_every(specification, assembly.macro_step),
+            keep=_kept(specification, folder, steps),
+            observe=steps.add,
+            progress=progress,
+        )
+    return SystemRun(specification, assembly, result, steps)
+
+
+def check_system(specification: SystemSpecification) -> None:
+    """Refuse, as `run_system` does, what can be seen without a unit's library being loaded."""
+    units = [replace(unit, isolate=False) for unit in specification.units]
+    with assemble(replace(specification, units=units)).system:
+        pass
+
+
+def _kept(
+    specification: SystemSpecification, folder: RunFolder | None, steps: StepLog
+) -> Keep | None:
+    """What is on disk meanwhile; a checkpoint is of the same system with the same units."""
+    if folder is None:
+        return None
+    setup = {"system": specification.text} | {
+        f"unit {unit.name}": hashlib.sha256(unit.file.read_bytes()).hexdigest()
+        for unit in specification.units
+    }
+    run = specification.run
+    how_often = {"seconds": run.checkpoint_seconds, "steps": run.checkpoint_steps}
+    return Keep(folder, setup=setup, also={STEPS: steps}, **how_often)  # type: ignore[arg-type]
+
+
+def changes_of(settings: Iterable[str]) -> dict[str, Any]:
+    """`key=value` texts as changes; a value is as TOML has it, or a text without quotes."""
+    found: dict[str, Any] = {}
+    for setting in settings:
+        key, equals, text = setting.partition("=")
+        if not equals or not key.strip():
+            raise SystemFault(f"--set {setting}: allowed is KEY=VALUE, as run.stop=10")
+        try:
+            found[key.strip()] = tomllib.loads(f"value = {text}")["value"]
+        except (tomllib.TOMLDecodeError, ValueError):
+            found[key.strip()] = text.strip()
+    return found
+
+
+def _is_zip(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            return file.read(2) == b"PK"
+    except OSError:
+        return False

@@ -1,0 +1,239 @@
+"""The numbers of a system's run: what `summary.json` and the page show."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.coupling import Connection, CoupledSystem, Port
+from cosim.coupling.system import find_port
+from cosim.report.coupling import efforts, step_numbers
+from cosim.report.page import number
+from cosim.systems.run import SystemRun
+
+#: Remarks that the terminal shows.
+MOST_NOTES = 4
+#: kg m^2 s^-3.
+POWER = (1, 2, -3, 0, 0, 0, 0, 0)
+
+
+def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
+    """Status, steps, participants, connections, ledger, outputs, remarks, versions, the system.
+
+    Times are in s, energies in J, outputs in their own units, which stand beside them; a number
+    that a run does not have is None.
+    """
+    result, system = run.result, run.assembly.system
+    time = result.time
+    return {
+        "name": dataset.attrs["title"],
+        "case": dataset.attrs["case"],
+        "status": result.status,
+        "reason": result.reason,
+        "time_reached": float(time[-1]) if time.size else None,
+        "rows": int(time.size),
+        "wall_time": float(result.wall_time),
+        "coupling": _coupling(run),
+        "participants": {name: _participant(run, name) for name in system.participants},
+        "connections": [_connection(system, each) for each in system.connections],
+        "ledger": ledger(run),
+        "outputs": _outputs(run, dataset),
+        "remarks": list(run.assembly.remarks),
+        "created": dataset.attrs["created"],
+        "versions": json.loads(dataset.attrs["versions"]),
+        "source": run.specification.source,
+        "system": run.specification.text,
+    }
+
+
+def ledger(run: SystemRun) -> dict[str, Any]:
+    """Energy that has crossed: connections in J by their receipts, those in W by their integrals.
+
+    Of a power the one integral is that of what the sink was given, held over each row, the other
+    that under the source's curve by trapezoids; they differ by what the coupling has added.
+    """
+    result = run.result
+    energies = [
+        {
+            "connection": str(flow.connection),
+            "handed": _last(flow.handed),
+            "taken": _last(flow.taken),
+            "in_transit": _last(flow.in_transit),
+            "most_in_transit": _largest(flow.in_transit),
+        }
+        for flow in result.ledger.flows
+    ]
+    residuals = [
+        {"output": name, "end": _last(values), "largest": _largest(values)}
+        for name, values in result.ledger.residuals.items()
+    ]
+    powers = []
+    for connection in run.assembly.system.connections:
+        given, curve = _integrals(run, connection)
+        if given is not None and curve is not None:
+            powers.append(
+                {
+                    "connection": str(connection),
+                    "given": given,
+                    "under_the_curve": curve,
+                    "added": given - curve,
+                }
+            )
+    return {"energies": energies, "powers": powers, "residuals": residuals}
+
+
+def carries_power(port: Port) -> float | None:
+    """W in the port's unit; None where it is no power."""
+    if port.definition is not None:
+        same = port.definition.exponents == POWER and port.definition.offset == 0.0
+        return port.definition.factor if same else None
+    return 1.0 if port.unit == "W" else None
+
+
+def _integrals(run: SystemRun, connection: Connection) -> tuple[float | None, float | None]:
+    """J given to the sink, and J under the source's curve; None for what is no power."""
+    participants, result = run.assembly.system.participants, run.result
+    source = carries_power(find_port(participants, connection.source))
+    sink = carries_power(find_port(participants, connection.sink))
+    if source is None or sink is None or result.time.size < 2:
+        return None, None
+    given = result.values[str(connection.sink)]
+    sent = result.values[str(connection.source)]
+    steps = np.diff(result.time)
+    return (
+        _number(sink * float(np.sum(given[1:] * steps))),
+        _number(source * float(np.trapezoid(sent, result.time))),
+    )
+
+
+def _coupling(run: SystemRun) -> dict[str, Any]:
+    settings, steps = run.specification.coupling, run.steps
+    return {
+        "scheme": settings.scheme,
+        "order": list(run.assembly.order),
+        "step_control": settings.step_control,
+        "macro_step": run.assembly.macro_step,
+        **step_numbers(run.result),
+        "shortest_step": _number(float(steps.shortest.min())) if steps.count else None,
+        "longest_step": _number(float(steps.longest.max())) if steps.count else None,
+    }
+
+
+def _participant(run: SystemRun, name: str) -> dict[str, Any]:
+    entry = next(unit for unit in run.specification.units if unit.name == name)
+    participant: Any = run.assembly.system.participants[name]
+    ports = participant.ports.values()
+    return {
+        "file": entry.file.name,
+        "isolated": entry.isolate,
+        "substeps": entry.substeps,
+        "inputs": sum(port.causality == "input" for port in ports),
+        "outputs": sum(port.causality == "output" for port in ports),
+        **efforts(run.result)[name],
+        "messages": participant.messages.said,
+        "set": {key: start.value for key, start in entry.given.items()},
+    }
+
+
+def _connection(system: CoupledSystem, connection: Connection) -> dict[str, Any]:
+    affine = system.conversions[connection]
+    return {
+        "from": str(connection.source),
+        "to": str(connection.sink),
+        "unit": find_port(system.participants, connection.source).unit,
+        "to_unit": find_port(system.participants, connection.sink).unit,
+        "factor": affine.factor,
+        "offset": affine.offset,
+    }
+
+
+def _outputs(run: SystemRun, dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
+    found = {}
+    for name, variable in dataset.data_vars.items():
+        if variable.attrs.get("causality") == "output":
+            values = variable.values
+            found[str(name)] = {
+                "unit": variable.attrs["units"],
+                "nominal": _nominal(run, variable),
+                "start": _number(float(values[0])) if values.size else None,
+                "end": _last(values),
+                "lowest": _number(float(np.min(values))) if values.size else None,
+                "highest": _number(float(np.max(values))) if values.size else None,
+            }
+    return found
+
+
+def _nominal(run: SystemRun, variable: xr.DataArray) -> float:
+    """Size that is typical of an output, in its units, as whoever made it states it."""
+    participant, _, port = variable.attrs["long_name"].partition(".")
+    return run.assembly.system.participants[participant].ports[port].nominal
+
+
+def _last(values: np.ndarray) -> float | None:
+    return _number(float(values[-1])) if values.size else None
+
+
+def _largest(values: np.ndarray) -> float | None:
+    return _number(float(np.max(np.abs(values)))) if values.size else None
+
+
+def _number(value: float) -> float | None:
+    return value + 0.0 if math.isfinite(value) else None  # no negative zero
+
+
+def closing_lines(numbers: Mapping[str, Any], page: str, wall_time: float) -> list[str]:
+    """What whoever waited for the run is told."""
+    coupling = numbers["coupling"]
+    lines = [
+        f"{numbers['name']}: {numbers['time_reached']:g} s in {wall_time:.1f} s of wall time, "
+        f"{numbers['wall_time']:.2g} s of them in the units",
+        f"  units        {len(numbers['participants'])}, {len(numbers['connections'])} connections",
+        f"  steps        {coupling['steps']} by {coupling['scheme']}, "
+        f"{_range(coupling['shortest_step'], coupling['longest_step'])}{_repeated(coupling)}",
+    ]
+    lines += [f"  energy       {line}" for line in ledger_lines(numbers["ledger"])]
+    remarks = numbers["remarks"]
+    lines += [f"  note         {remark}" for remark in remarks[:MOST_NOTES]]
+    if len(remarks) > MOST_NOTES:
+        lines.append(f"  note         {len(remarks) - MOST_NOTES} more on the page")
+    return [*lines, f"  results      {page} and beside it"]
+
+
+def ledger_lines(found: Mapping[str, Any]) -> list[str]:
+    """A line for every connection that carries energy."""
+    lines = [
+        f"{flow['connection']}: {number(flow['handed'])} J handed over, "
+        f"{number(flow['in_transit'], 2, largest=flow['handed'] or 0.0)} J of them not taken up"
+        for flow in found["energies"]
+    ]
+    return lines + [
+        f"{flow['connection']}: {number(flow['given'])} J given, "
+        f"{number(flow['under_the_curve'])} J under the output's curve"
+        for flow in found["powers"]
+    ]
+
+
+def _repeated(coupling: Mapping[str, Any]) -> str:
+    """What was made more than once, and what stands although it should not."""
+    parts = []
+    if coupling["rejected"]:
+        parts.append(f"{coupling['rejected']} taken back")
+    if coupling["most_iterations"] > 1:
+        parts.append(f"at most {coupling['most_iterations']} iterations a step")
+    for key, words in (("unconverged", "not converged"), ("above_tolerance", "above tolerance")):
+        if coupling[key]:
+            parts.append(f"{coupling[key]} {words}")
+    return "".join(f", {part}" for part in parts)
+
+
+def _range(shortest: float | None, longest: float | None) -> str:
+    if shortest is None or longest is None:
+        return "none made"
+    if longest - shortest <= 1e-6 * longest:
+        return f"{longest:.4g} s each"
+    return f"{shortest:.3g} to {longest:.3g} s"

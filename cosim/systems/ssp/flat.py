@@ -1,0 +1,237 @@
+"""Nested systems as one: which unit's output comes to which unit's input, and what starts where.
+
+A connector of a system only passes on: a value on its way through it is followed to where it comes
+from, and what a parameter set gives to it goes to what it feeds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from cosim.coupling import UnitDefinition
+from cosim.names import unknown_name
+from cosim.systems.faults import SystemFault
+from cosim.systems.specification import Hop, Link, Start, UnitEntry
+from cosim.systems.ssp.package import Package
+from cosim.systems.ssp.structure import NUMBERS, Component, Connector, Ends, Structure, System
+from cosim.systems.ssp.values import bound_values
+
+#: Names of the elements from the outermost system's to this one, without the outermost's.
+Path = tuple[str, ...]
+#: A connector: of what, and its name.
+Node = tuple[Path, str]
+#: Kinds that give a value to what they are connected with, seen from inside their element.
+GIVES, TAKES = ("output", "calculatedParameter"), ("input", "parameter", "structuralParameter")
+
+
+@dataclass(frozen=True)
+class Feed:
+    """What comes to a connector: from where, and the connection that it comes by."""
+
+    source: Node
+    ends: Ends
+
+
+class Flat:
+    """The units and links of a structure."""
+
+    def __init__(self, structure: Structure, package: Package):
+        self._structure, self._package = structure, package
+        self._components: dict[Path, Component] = {}
+        self._systems: dict[Path, System] = {}
+        self._feeds: dict[Node, Feed] = {}
+        self._given: dict[Path, dict[str, Start]] = {}
+        self.remarks: list[str] = []
+        self._walk((), structure.system)
+        self._names = _names(self._components)
+
+    def units(self) -> list[UnitEntry]:
+        """All components, with what they start from."""
+        given = self._all_given()
+        return [
+            UnitEntry(
+                name=self._names[path],
+                file=self._package.file(component.source),
+                given=given[path],
+                ports={
+                    connector.name: (connector.unit, self._definition(connector.unit))
+                    for connector in component.connectors.values()
+                    if connector.unit is not None
+                },
+            )
+            for path, component in self._components.items()
+        ]
+
+    def links(self) -> list[Link]:
+        """What comes to the inputs of components from outputs of components."""
+        found = []
+        for node, feed in self._feeds.items():
+            if node[0] not in self._components or self._connector(node).kind != "input":
+                continue
+            hops, source = self._followed(node, feed)
+            if source[0] in self._components:
+                for end in (source, node):
+                    self._check_kind(end)
+                found.append(Link(self._address(source), self._address(node), tuple(hops)))
+        return found
+
+    def _walk(self, path: Path, system: System) -> None:
+        self._systems[path] = system
+        for name, element in system.elements.items():
+            if isinstance(element, System):
+                self._walk((*path, name), element)
+            else:
+                self._components[(*path, name)] = element
+        for ends in system.connections:
+            self._add(path, system, ends)
+
+    def _add(self, path: Path, system: System, ends: Ends) -> None:
+        """Note a connection by the end that it feeds, whichever end the file puts first."""
+        nodes = []
+        for element, name in (ends.start, ends.end):
+            owner = system if not element else system.elements.get(element)
+            if owner is None:
+                known = list(system.elements)
+                raise SystemFault(f"connection {ends}: {unknown_name('element', element, known)}")
+            if name not in owner.connectors:
+                known = list(owner.connectors)
+                raise SystemFault(f"connection {ends}: {unknown_name('connector', name, known)}")
+            kind = owner.connectors[name].kind
+            if kind not in GIVES + TAKES:
+                raise SystemFault(
+                    f"connection {ends}: a connector of kind {kind} is not connected here"
+                )
+            # an input of the system gives to what is in it
+            gives = (kind in GIVES) is bool(element)
+            nodes.append((((*path, element) if element else path, name), gives))
+        (start, start_gives), (end, end_gives) = nodes
+        if start_gives == end_gives:
+            raise SystemFault(f"connection {ends}: both ends {'give' if end_gives else 'take'}")
+        source, sink = (start, end) if start_gives else (end, start)
+        if sink in self._feeds:
+            raise SystemFault(f"connection {ends}: {'.'.join((*sink[0], sink[1]))} is fed twice")
+        self._feeds[sink] = Feed(source, ends)
+
+    def _followed(self, node: Node, feed: Feed) -> tuple[list[Hop], Node]:
+        """Back to where a value comes from: the hops in the order in which it makes them."""
+        hops = [self._hop(node, feed)]
+        seen = {node}
+        while (
+            feed.source not in seen
+            and feed.source in self._feeds
+            and feed.source[0] not in (self._components)
+        ):
+            node, feed = feed.source, self._feeds[feed.source]
+            seen.add(node)
+            hops.insert(0, self._hop(node, feed))
+        return hops, feed.source
+
+    def _hop(self, node: Node, feed: Feed) -> Hop:
+        unit = self._connector(node).unit
+        return Hop(feed.ends.transformation, feed.ends.converts, unit, self._definition(unit))
+
+    def _definition(self, unit: str | None) -> UnitDefinition | None:
+        return None if unit is None else self._structure.units.get(unit)
+
+    def _connector(self, node: Node) -> Connector:
+        path, name = node
+        owner = self._components.get(path) or self._systems[path]
+        return owner.connectors[name]
+
+    def _address(self, node: Node) -> str:
+        return f"{self._names[node[0]]}.{node[1]}"
+
+    def _check_kind(self, node: Node) -> None:
+        connector = self._connector(node)
+        where = ".".join((*node[0], node[1]))
+        if connector.type not in NUMBERS:
+            raise SystemFault(f"connector {where} is a {connector.type}, which is not coupled here")
+        if connector.is_array:
+            raise SystemFault(f"connector {where} is an array, which is not coupled here")
+        if connector.kind not in ("input", "output"):
+            raise SystemFault(f"connector {where} is a {connector.kind}, which is not coupled here")
+
+    def _all_given(self) -> dict[Path, dict[str, Start]]:
+        """Component -> variable -> what it starts from; outer bindings count more than inner."""
+        found: dict[Path, dict[str, Start]] = {path: {} for path in self._components}
+        borders: dict[Node, Start] = {}
+        # from the innermost system outwards, so that what comes later counts
+        for path in sorted(self._components, key=len, reverse=True):
+            for bound in self._bound(path):
+                found[path][bound.name] = bound.start
+        for path in sorted(self._systems, key=len, reverse=True):
+            for bound in self._bound(path):
+                targets = list(self._targets(path, bound.name))
+                if not targets:
+                    known = self._known_names(path)
+                    unknown = unknown_name("variable of the system", bound.name, known)
+                    raise SystemFault(f"{bound.place}: {unknown}")
+                for owner, name in targets:
+                    if owner in found:
+                        found[owner][name] = bound.start
+                    else:
+                        borders[owner, name] = bound.start
+        self._pass_on(borders, found)
+        return found
+
+    def _bound(self, path: Path) -> Iterator:
+        owner = self._components.get(path) or self._systems[path]
+        return bound_values(owner.node, self._package, self._structure.units)
+
+    def _targets(self, path: Path, name: str) -> Iterator[Node]:
+        """All connectors and variables that a name means, seen from a system."""
+        system = self._systems[path]
+        if name in system.connectors:
+            yield path, name
+        for element in system.elements:
+            if not name.startswith(element + "."):
+                continue
+            inner, rest = (*path, element), name[len(element) + 1 :]
+            if inner in self._components:
+                yield inner, rest
+            else:
+                yield from self._targets(inner, rest)
+
+    def _known_names(self, path: Path) -> list[str]:
+        system = self._systems[path]
+        known = list(system.connectors)
+        for name, element in system.elements.items():
+            known += [f"{name}.{connector}" for connector in element.connectors]
+        return known
+
+    def _pass_on(self, borders: Mapping[Node, Start], found: dict[Path, dict[str, Start]]) -> None:
+        """What a system's connector starts from, to the inputs and parameters that it feeds."""
+        for node, feed in self._feeds.items():
+            if node[0] not in self._components:
+                continue
+            hops, passed = [self._hop(node, feed)], feed.source
+            while passed not in borders and passed in self._feeds and passed[0] in self._systems:
+                hops.insert(0, self._hop(passed, self._feeds[passed]))
+                passed = self._feeds[passed].source
+            if passed in borders:
+                found[node[0]][node[1]] = _moved(borders[passed], hops)
+            elif passed[0] in self._components and self._connector(node).kind != "input":
+                raise SystemFault(
+                    f"connection {feed.ends}: a parameter that another unit computes is not done"
+                    " here"
+                )
+
+
+def _moved(start: Start, hops: Iterable[Hop]) -> Start:
+    """A value behind some connections that scale it."""
+    affine = start.transformation
+    for hop in hops:
+        affine = affine.then(hop.transformation)
+    return replace(start, transformation=affine)
+
+
+def _names(paths: Iterable[Path]) -> dict[Path, str]:
+    """Component -> its name as a participant: without dots, and no two the same."""
+    found: dict[Path, str] = {}
+    for path in paths:
+        name = "_".join(path).replace(".", "_").replace("/", "_")
+        while name in found.values():
+            name += "_"
+        found[path] = name
+    return found

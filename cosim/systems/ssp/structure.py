@@ -1,0 +1,271 @@
+"""SystemStructure.ssd as nested systems: elements, connectors, connections, bindings.
+
+What is here is read as it stands; what it comes to, with all borders gone, is in `flat`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from lxml import etree
+
+from cosim.coupling import Affine, UnitDefinition
+from cosim.coupling.conversion import BASE_UNITS
+from cosim.systems.faults import SystemFault
+
+_SPACES = {
+    prefix: f"http://ssp-standard.org/SSP1/SystemStructure{name}"
+    for prefix, name in {
+        "ssc": "Common",
+        "ssd": "Description",
+        "ssv": "ParameterValues",
+        "ssm": "ParameterMapping",
+    }.items()
+}
+FMU = "application/x-fmu-sharedlibrary"
+#: Types of a connector or a value that are numbers, in SSP 1.0 and 2.0.
+REALS = ("Real", "Float64", "Float32")
+INTEGERS = ("Integer", *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)))
+NUMBERS = (*REALS, *INTEGERS, "Boolean", "Enumeration")
+TYPES = (*NUMBERS, "String", "Binary", "Clock")
+
+
+@dataclass(frozen=True)
+class Connector:
+    """A connector of a component or a system; kind and type as the file has them."""
+
+    name: str
+    kind: str
+    type: str
+    unit: str | None
+    is_array: bool
+
+
+@dataclass(frozen=True)
+class Ends:
+    """A connection as it stands: element ("" for the system itself) and connector of both ends."""
+
+    start: tuple[str, str]
+    end: tuple[str, str]
+    transformation: Affine
+    converts: bool
+
+    def __str__(self) -> str:
+        return " -> ".join(
+            ".".join(filter(None, end)) or "a nameless end" for end in (self.start, self.end)
+        )
+
+
+@dataclass(frozen=True)
+class Element:
+    """What components and systems have in common. node: the XML, for its parameter bindings."""
+
+    name: str
+    connectors: Mapping[str, Connector]
+    node: etree._Element
+
+
+@dataclass(frozen=True)
+class Component(Element):
+    """A unit; source: its file within the package."""
+
+    source: str
+
+
+@dataclass(frozen=True)
+class System(Element):
+    """A system: its elements by name, and what connects them."""
+
+    elements: Mapping[str, Component | System]
+    connections: tuple[Ends, ...]
+
+
+@dataclass(frozen=True)
+class Structure:
+    """The whole file. start, stop, step: s, None where it names none."""
+
+    name: str
+    version: str
+    system: System
+    units: Mapping[str, UnitDefinition]
+    start: float | None
+    stop: float | None
+    step: float | None
+
+
+def read_structure(root: etree._Element, place: str) -> Structure:
+    """What the root of an SSD says; SystemFault, with the place, by the name of what cannot be."""
+    if root.tag != tag("ssd:SystemStructureDescription"):
+        raise SystemFault(f"{place}: is no SystemStructureDescription of SSP 1.0 or 2.0")
+    top = root.find(tag("ssd:System"))
+    if top is None:
+        raise SystemFault(f"{place}: has no System")
+    experiment = root.find(tag("ssd:DefaultExperiment"))
+    try:
+        return Structure(
+            name=root.get("name") or top.get("name") or "system",
+            version=root.get("version", "1.0"),
+            system=_system(top),
+            units=units_of(root, "ssd"),
+            start=_number(experiment, "startTime"),
+            stop=_number(experiment, "stopTime"),
+            step=_step(root),
+        )
+    except SystemFault as fault:
+        raise SystemFault(f"{place}: {fault}") from None
+
+
+def tag(name: str) -> str:
+    """`ssd:System` as lxml spells it."""
+    prefix, _, local = name.partition(":")
+    return f"{{{_SPACES[prefix]}}}{local}"
+
+
+def below(node: etree._Element, path: str) -> Iterator[etree._Element]:
+    """Elements at a path such as `ssd:Elements/ssd:Component`."""
+    return node.iterfind("/".join(tag(part) for part in path.split("/")))
+
+
+def local(node: etree._Element) -> str:
+    """The name of an element without its namespace; "" for a comment."""
+    return node.tag.rpartition("}")[2] if isinstance(node.tag, str) else ""
+
+
+def units_of(root: etree._Element, space: str) -> dict[str, UnitDefinition]:
+    """Unit -> what it is made of, of the Units of a file."""
+    found = {}
+    for unit in below(root, f"{space}:Units/ssc:Unit"):
+        base = unit.find(tag("ssc:BaseUnit"))
+        if base is not None:
+            exponents = tuple(int(_finite(base, name, 0.0)) for name in BASE_UNITS)
+            factor = _finite(base, "factor", 1.0)
+            if factor == 0.0:
+                raise SystemFault(f"unit {unit.get('name')!r} has factor = 0, allowed is another")
+            found[unit.get("name", "")] = UnitDefinition(
+                exponents,  # type: ignore[arg-type]  # eight of them
+                factor,
+                _finite(base, "offset", 0.0),
+            )
+    return found
+
+
+def unit_of(node: etree._Element) -> str | None:
+    """The unit that a connector or a value names; some tools put it in brackets, or name none."""
+    return node.get("unit", "").strip().removeprefix("[").removesuffix("]").strip() or None
+
+
+def transformation_of(node: etree._Element, what: str) -> Affine:
+    """The linear transformation in a connection or a mapping; others are refused by name."""
+    for child in node:
+        name = local(child)
+        if name == "LinearTransformation":
+            affine = Affine(_finite(child, "factor", 1.0), _finite(child, "offset", 0.0))
+            return affine
+        if name.endswith("Transformation"):
+            raise SystemFault(f"{what}: {name} is not done here, only LinearTransformation is")
+    return Affine()
+
+
+def converts(node: etree._Element) -> bool:
+    """Whether units are to be converted."""
+    return node.get("suppressUnitConversion", "false").strip() not in ("true", "1")
+
+
+def _system(node: etree._Element) -> System:
+    name = node.get("name", "")
+    for word in ("SignalDictionary", "SignalDictionaryReference"):
+        places = ("ssd:SignalDictionaries", "ssd:Elements")
+        for found in (each for place in places for each in below(node, f"{place}/ssd:{word}")):
+            raise SystemFault(
+                f"{word} {found.get('name', '')!r} in system {name!r} is not done here; connect the"
+                " units themselves"
+            )
+    elements: dict[str, Component | System] = {}
+    for child in _children(node, "ssd:Elements"):
+        element = _element(child)
+        if element.name in elements:
+            raise SystemFault(f"system {name!r} has two elements named {element.name!r}")
+        elements[element.name] = element
+    connections = tuple(_ends(child) for child in below(node, "ssd:Connections/ssd:Connection"))
+    return System(name, _connectors(node), node, elements, connections)
+
+
+def _children(node: etree._Element, name: str) -> Iterator[etree._Element]:
+    for parent in below(node, name):
+        yield from (child for child in parent if local(child))
+
+
+def _element(node: etree._Element) -> Component | System:
+    kind, name = local(node), node.get("name", "")
+    if not name:
+        raise SystemFault(f"a {kind} has no name")
+    if kind == "System":
+        return _system(node)
+    if kind != "Component":
+        raise SystemFault(f"{kind} {name!r} is not done here, only Component and System are")
+    form, source = node.get("type", FMU), node.get("source", "")
+    if form != FMU:
+        raise SystemFault(f"component {name!r} is of type {form}, allowed is {FMU}")
+    if node.get("implementation", "any") not in ("any", "CoSimulation"):
+        raise SystemFault(
+            f"component {name!r} asks for {node.get('implementation')}, which is not done here; "
+            "allowed is CoSimulation"
+        )
+    if not source:
+        raise SystemFault(f"component {name!r} has no source")
+    return Component(name, _connectors(node), node, source)
+
+
+def _connectors(node: etree._Element) -> dict[str, Connector]:
+    found = {}
+    for child in below(node, "ssd:Connectors/ssd:Connector"):
+        kinds = [inner for inner in child if local(inner) in TYPES]
+        form = kinds[0] if kinds else None
+        found[child.get("name", "")] = Connector(
+            name=child.get("name", ""),
+            kind=child.get("kind", "unspecified"),
+            type="Real" if form is None else local(form),
+            unit=None if form is None else unit_of(form),
+            is_array=any(local(inner) == "Dimension" for inner in child),
+        )
+    return found
+
+
+def _ends(node: etree._Element) -> Ends:
+    start, end = (
+        (node.get(f"{side}Element", ""), node.get(f"{side}Connector", ""))
+        for side in ("start", "end")
+    )
+    bare = Ends(start, end, Affine(), converts(node))
+    return Ends(start, end, transformation_of(node, f"connection {bare}"), bare.converts)
+
+
+def _number(node: etree._Element | None, key: str) -> float | None:
+    if node is None or node.get(key) is None:
+        return None
+    return _finite(node, key, 0.0)
+
+
+def _finite(node: etree._Element, key: str, default: float) -> float:
+    text = node.get(key)
+    if text is None:
+        return default
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise SystemFault(f"{local(node)} has {key} = {text!r}, allowed is a finite number")
+    return value
+
+
+def _step(root: etree._Element) -> float | None:
+    """The step of a master that the annotations name: OMSimulator's, or that of the OSP tools."""
+    for node in root.iter():
+        for name, key in (("FixedStepMaster", "stepSize"), ("FixedStepAlgorithm", "baseStepSize")):
+            # a prefix that nobody has declared stays part of the name
+            if isinstance(node.tag, str) and local(node).rpartition(":")[2] == name:
+                return _number(node, key)
+    return None

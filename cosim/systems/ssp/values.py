@@ -1,0 +1,147 @@
+"""Parameter bindings: sets of values (ssv), and how their names are mapped (ssm)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from lxml import etree
+
+from cosim.coupling import UnitDefinition
+from cosim.systems.faults import SystemFault
+from cosim.systems.specification import Start
+from cosim.systems.ssp.package import Package
+from cosim.systems.ssp.structure import (
+    INTEGERS,
+    REALS,
+    below,
+    converts,
+    local,
+    tag,
+    transformation_of,
+    unit_of,
+    units_of,
+)
+
+SET, MAPPING = "application/x-ssp-parameter-set", "application/x-ssp-parameter-mapping"
+TRUTH = {"true": True, "1": True, "false": False, "0": False}
+
+
+@dataclass(frozen=True)
+class Bound:
+    """A value that a binding gives to a name, seen from the element that has the binding.
+
+    place: where it stands, for messages.
+    """
+
+    name: str
+    start: Start
+    place: str
+
+
+def bound_values(
+    node: etree._Element, package: Package, units: Mapping[str, UnitDefinition]
+) -> Iterator[Bound]:
+    """All that the bindings of a component or a system give, in their order: later ones count.
+
+    units: of the structure file, for sets that have none of their own.
+    """
+    for binding in below(node, "ssd:ParameterBindings/ssd:ParameterBinding"):
+        given, place = _set(binding, package, units)
+        prefix = binding.get("prefix", "")
+        named = {prefix + name: start for name, start in given.items()}
+        for name, start in _mapped(binding, named, package, place):
+            yield Bound(name, start, place)
+
+
+def _set(
+    binding: etree._Element, package: Package, units: Mapping[str, UnitDefinition]
+) -> tuple[dict[str, Start], str]:
+    """Name -> value of the set of a binding, and where it stands."""
+    _check_form(binding, SET, "parameter set")
+    source = binding.get("source")
+    if source:
+        root, place = package.xml(source), source
+    else:
+        inline = binding.find("/".join((tag("ssd:ParameterValues"), tag("ssv:ParameterSet"))))
+        if inline is None:
+            return {}, "a binding without values"
+        root, place = inline, f"the set {inline.get('name', '')!r}"
+    if root.tag != tag("ssv:ParameterSet"):
+        raise SystemFault(f"{place} is no ParameterSet")
+    known = {**units, **units_of(root, "ssv")}
+    found = {}
+    for parameter in below(root, "ssv:Parameters/ssv:Parameter"):
+        name = parameter.get("name", "")
+        found[name] = _value(parameter, known, f"{name!r} of {place}")
+    return found, place
+
+
+def _mapped(
+    binding: etree._Element, given: Mapping[str, Start], package: Package, place: str
+) -> Iterator[tuple[str, Start]]:
+    """Names and values as the mapping has them; as they are, without one."""
+    mapping = binding.find(tag("ssd:ParameterMapping"))
+    if mapping is None:
+        yield from given.items()
+        return
+    _check_form(mapping, MAPPING, "parameter mapping")
+    source = mapping.get("source")
+    root = package.xml(source) if source else mapping.find(tag("ssm:ParameterMapping"))
+    if root is None or root.tag != tag("ssm:ParameterMapping"):
+        raise SystemFault(f"the mapping {source or 'inside the binding'} is no ParameterMapping")
+    for entry in below(root, "ssm:MappingEntry"):
+        name, target = entry.get("source", ""), entry.get("target", "")
+        if not name:
+            continue  # of a tool that lists all targets, those that get nothing
+        if name not in given:
+            raise SystemFault(f"the mapping of {name!r} to {target!r}: {place} has no such value")
+        affine = transformation_of(entry, f"the mapping of {name!r} to {target!r}")
+        start = given[name]
+        if not affine.is_identity and isinstance(start.value, (bool, str)):
+            raise SystemFault(f"the mapping of {name!r} to {target!r} scales what is no number")
+        yield target, replace(start, transformation=affine, converts=converts(entry))
+
+
+def _check_form(node: etree._Element, form: str, what: str) -> None:
+    if node.get("type", form) != form:
+        raise SystemFault(f"a {what} of type {node.get('type')} is not read, allowed is {form}")
+    if node.get("sourceBase", "SSD") != "SSD":
+        raise SystemFault(
+            f"the {what} {node.get('source', '')!r} is to be found from its "
+            f"{node.get('sourceBase')}, which is not done here; allowed is sourceBase = SSD"
+        )
+
+
+def _value(parameter: etree._Element, units: Mapping[str, UnitDefinition], what: str) -> Start:
+    for child in parameter:
+        form, text = local(child), child.get("value")
+        if not form or form in ("Annotations", "MetaData", "Dimension"):
+            continue
+        if text is None:
+            raise SystemFault(f"{what} has no value")
+        if form in REALS or form in INTEGERS:
+            unit = unit_of(child)
+            definition = None if unit is None else units.get(unit)
+            return Start(_numeric(text, form, what), unit, definition)
+        if form == "Boolean":
+            if text.strip() not in TRUTH:
+                raise SystemFault(f"{what} is {text!r}, allowed is true or false")
+            return Start(TRUTH[text.strip()])
+        if form in ("String", "Enumeration"):
+            return Start(text)
+        raise SystemFault(f"{what} is a {form}, which is not set here")
+    raise SystemFault(f"{what} has no value")
+
+
+def _numeric(text: str, form: str, what: str) -> float | int:
+    if len(text.split()) > 1:
+        raise SystemFault(f"{what} is an array, which is not set here")
+    try:
+        value = int(text) if form in INTEGERS else float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise SystemFault(f"{what} is {text!r}, allowed is a finite number")
+    return value

@@ -1,0 +1,136 @@
+"""What units say in a run of a system: in a file beside the results, on the terminal if asked."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+from c_units import made
+
+from cosim.cli import main
+
+SEGFAULT, PRINTS, LOGS, LOGS_ERROR = 1, 6, 7, 8
+SYSTEM = """
+[units.calm]
+file = "faulty.fmu"
+[units.loud]
+file = "faulty.fmu"
+[units.loud.parameters]
+fault = {fault}
+at = 0.25
+[units.third]
+file = "faulty.fmu"
+[units.third.parameters]
+fault = {other}
+at = 0.5
+[coupling]
+macro_step = 0.25
+[run]
+stop = 1.0
+checkpoint_seconds = 0
+"""
+
+
+@pytest.fixture
+def system(tmp_path):
+    """A file of three units, by the fault of the second from 0.25 s on, of the third from 0.5."""
+    made("faulty", tmp_path)
+
+    def write(fault, other=0, **replaced):
+        text = SYSTEM.format(fault=fault, other=other)
+        for old, new in replaced.values():
+            assert old in text
+            text = text.replace(old, new)
+        (tmp_path / "system.toml").write_text(text)
+        return str(tmp_path / "system.toml")
+
+    return write
+
+
+def rows(folder):
+    lines = (folder / "messages.log").read_text(encoding="utf-8").splitlines()
+    return [tuple(line.split("\t")[1:]) for line in lines if not line.startswith("#")]
+
+
+WARNINGS = [(f"{time}", "loud", "warning", "heat", "warm") for time in (0.25, 0.5, 0.75)]
+
+
+def test_messages_are_in_a_file_and_one_line_says_so(system, tmp_path, capsys):
+    folder = tmp_path / "out"
+    assert main(["couple", system(LOGS), "-o", str(folder)]) == 0
+    assert rows(folder) == WARNINGS
+    said = capsys.readouterr()
+    assert said.err == f"note: 3 messages (3 warnings) in {folder / 'messages.log'}\n"
+    assert "warm" not in said.out
+    numbers = json.loads((folder / "summary.json").read_text())
+    assert [each["messages"] for each in numbers["participants"].values()] == [0, 3, 0]
+    assert 'href="messages.log"' in (folder / "report.html").read_text()
+
+
+def test_verbose_shows_them_and_asks_for_more(system, tmp_path, capsys):
+    assert main(["couple", system(LOGS), "-v", "--json", "-o", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr()
+    assert said.err.splitlines()[:2] == [
+        "loud: t = 0.25 s: ok [debug]: all is well",
+        "loud: t = 0.25 s: warning [heat]: warm",
+    ]
+    assert said.err.splitlines()[6].startswith("note: 6 messages (3 warnings) in ")
+    json.loads(said.out)
+
+
+def test_where_nothing_is_said_there_is_no_file_not_even_an_old_one(system, tmp_path, capsys):
+    folder = tmp_path / "out"
+    assert main(["couple", system(LOGS), "-o", str(folder)]) == 0
+    assert (folder / "messages.log").exists()
+    capsys.readouterr()
+    assert main(["couple", system(0), "-o", str(folder)]) == 0
+    assert not (folder / "messages.log").exists()
+    assert capsys.readouterr().err == ""
+    assert "messages.log" not in (folder / "report.html").read_text()
+
+
+def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / "messages.log").write_text("of somebody else")
+    assert main(["couple", system(0), "-o", str(folder)]) == 2
+    assert "messages.log" in capsys.readouterr().err
+    assert (folder / "messages.log").read_text() == "of somebody else"
+
+
+def test_a_name_that_is_taken_is_refused_first(system, tmp_path, capsys):
+    (tmp_path / "out" / "messages.log").mkdir(parents=True)
+    assert main(["couple", system(0), "-o", str(tmp_path / "out")]) == 2
+    assert "messages.log: is a folder, allowed is a file or nothing" in capsys.readouterr().err
+
+
+def test_what_an_isolated_unit_writes_is_in_it(system, tmp_path, capfd):
+    alone = ("[units.loud]\n", "[units.loud]\nisolate = true\n")
+    folder = tmp_path / "out"
+    assert main(["couple", system(PRINTS, alone=alone), "-o", str(folder)]) == 0
+    assert {row[1:] for row in rows(folder)} == {
+        ("loud", "output", "", "a line of the unit"),
+        ("loud", "output", "", "another"),
+    }
+    assert capfd.readouterr().err == ""  # lines are no warnings
+
+
+def test_messages_of_an_isolated_unit_are_those_of_one_that_is_not(system, tmp_path):
+    alone = ("[units.loud]\n", "[units.loud]\nisolate = true\n")
+    main(["couple", system(LOGS, alone=alone), "-o", str(tmp_path / "out")])
+    assert rows(tmp_path / "out") == WARNINGS
+
+
+def test_a_run_that_fails_says_it_in_its_one_line(system, tmp_path, capsys):
+    folder = tmp_path / "out"
+    assert main(["couple", system(LOGS, LOGS_ERROR), "-o", str(folder)]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("error: third: failed in the step from t = 0.5 s: too hot; what was ")
+    assert line.endswith(f"in {folder}, 3 messages (2 warnings, 1 error) in {folder}/messages.log")
+
+
+def test_after_a_crash_of_the_whole_process_it_is_there(system, tmp_path):
+    command = [sys.executable, "-m", "cosim", "couple", system(LOGS, SEGFAULT)]
+    done = subprocess.run([*command, "-o", str(tmp_path / "out")], capture_output=True)
+    assert done.returncode < 0  # by a signal
+    assert rows(tmp_path / "out") == WARNINGS[:2]

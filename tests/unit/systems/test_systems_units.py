@@ -1,0 +1,112 @@
+"""What a system's file says of a unit: steps of its own, elements of arrays."""
+
+import numpy as np
+import pytest
+from c_units import made
+from lag_unit import lag_unit
+
+from cosim.coupling import FmuError
+from cosim.systems import SystemFault, read_system, run_system
+
+#: y1 = 6 t exactly, which a linear waveform is; y2' = y1 - 2 y2.
+RAMP = """
+[units.ramp]
+file = "lag.fmu"
+parameters = { "part.gain" = 6.0 }
+inputs = { u = 1.0 }
+[units.lag]
+file = "lag.fmu"
+parameters = { "part.rate" = 2.0 }
+EXTRA
+[[connections]]
+from = "ramp.y"
+to = "lag.u"
+[coupling]
+scheme = "iterated"
+macro_step = 0.1
+[run]
+stop = 1.0
+"""
+
+
+@pytest.fixture
+def lag(tmp_path):
+    """What the second unit comes to, by lines of its table."""
+    lag_unit(tmp_path / "lag.fmu")
+
+    def values(extra):
+        path = tmp_path / "ramp.toml"
+        path.write_text(RAMP.replace("EXTRA", extra))
+        with read_system(path) as specification:
+            result = run_system(specification).result
+        assert result.status == "complete", result.reason
+        return result["lag.y"], result.time
+
+    return values
+
+
+def test_substeps_follow_the_waveform_more_closely(lag):
+    """The unit holds the mean over each part, which is of second order in its length."""
+
+    def error(extra):
+        found, time = lag(extra)
+        return np.abs(found - (3.0 * time - 1.5 * (1.0 - np.exp(-2.0 * time)))).max()
+
+    one, ten = error(""), error("substeps = 10")
+    assert one > 1e-4
+    # a hundredth; the whole step of 0.1 is of a rate of 2, and terms of higher order make 2 %
+    assert one / ten == pytest.approx(100.0, rel=0.05)
+
+
+def test_an_isolated_unit_makes_the_same_substeps(lag):
+    np.testing.assert_array_equal(lag("substeps = 10\nisolate = true")[0], lag("substeps = 10")[0])
+
+
+@pytest.mark.parametrize("value", ["0", "2.5", "true", '"ten"', "1e9", "2000000"])
+def test_substeps_that_cannot_be_are_refused(lag, value):
+    with pytest.raises(SystemFault, match=r"ramp.toml: units.lag.substeps: "):
+        lag(f"substeps = {value}")
+
+
+ARRAYS = """
+[units.unit]
+file = "events.fmu"
+[units.unit.parameters]
+"p[1,2]" = 7.0
+[units.unit.inputs]
+"u[2]" = 10.0
+[coupling]
+macro_step = 0.5
+[run]
+stop = 1.0
+"""
+
+
+@pytest.mark.parametrize("isolate", ["", "isolate = true"])
+def test_elements_of_arrays_are_set_by_name(tmp_path, isolate):
+    """y = p u with p = [[1, 7], [3, 4]] and u = [0, 10]."""
+    made("events", tmp_path)
+    (tmp_path / "arrays.toml").write_text(
+        ARRAYS.replace("[units.unit]", f"[units.unit]\n{isolate}")
+    )
+    with read_system(tmp_path / "arrays.toml") as specification:
+        result = run_system(specification).result
+    assert (result["unit.y[1]"][0], result["unit.y[2]"][0]) == (70.0, 40.0)
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("p[1,2]", "p[3,1]", r"no variable of unit is named 'p\[3,1\]'; nearest: 'p\[2,1\]"),
+        ("p[1,2]", "p", "no variable of unit is named 'p'"),
+        ('"p[1,2]" = 7.0', '"p[1,2]" = true', r"unit.p\[1,2\] = True: must be a finite number"),
+    ],
+)
+def test_elements_that_are_not_there_are_refused_by_name(tmp_path, old, new, message):
+    made("events", tmp_path)
+    (tmp_path / "arrays.toml").write_text(ARRAYS.replace(old, new))
+    with (
+        read_system(tmp_path / "arrays.toml") as specification,
+        pytest.raises((SystemFault, FmuError), match=message),
+    ):
+        run_system(specification)
