@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -14,6 +15,20 @@ class OutputRefused(ValueError):
 
 class OutputError(ValueError):
     """A result that was computed cannot be written; one line with the file and the reason."""
+
+
+#: Who is told of every file before it takes its name.
+_watchers: list[Callable[[Path], object]] = []
+
+
+@contextmanager
+def watched(told: Callable[[Path], object]) -> Iterator[None]:
+    """Call ``told`` with the path of every file that this process writes, before it is there."""
+    _watchers.append(told)
+    try:
+        yield
+    finally:
+        _watchers.remove(told)
 
 
 def writable(folder: Path, files: Iterable[str] = ()) -> Path:
@@ -50,6 +65,8 @@ def write_atomically(path: Path, write: Callable[[Path], object]) -> Path:
         write(partial)
         with partial.open("rb+") as file:
             os.fsync(file.fileno())  # else a power cut may leave the name without the contents
+        for told in tuple(_watchers):
+            told(path)
         os.replace(partial, path)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
@@ -67,3 +84,30 @@ def write_text(text: str, path: Path) -> Path:
 def write_bytes(content: bytes, path: Path) -> Path:
     """A binary file."""
     return write_atomically(path, lambda partial: partial.write_bytes(content))
+
+
+def write_unless_owned(texts: Mapping[str, str], folder: Path, force: bool = False) -> None:
+    """Text files into a folder that is made, all or none; nothing that somebody changed is lost.
+
+    texts: name -> text. OutputRefused when a file of such a name is there with other content,
+    unless ``force``; one of the same content is as good as written.
+    """
+    writable(folder, texts)
+    other = [folder / name for name, text in texts.items() if _differs(folder / name, text)]
+    if other and not force:
+        raise OutputRefused(
+            f"{other[0]}: is there with other content, allowed is another folder, or --force to "
+            "overwrite it"
+        )
+    for name, text in texts.items():
+        write_text(text, folder / name)
+
+
+def _differs(path: Path, text: str) -> bool:
+    """Whether a file is there that holds anything else."""
+    try:
+        return path.read_bytes().decode("utf-8").splitlines() != text.splitlines()
+    except FileNotFoundError:
+        return False
+    except (OSError, UnicodeDecodeError):
+        return True

@@ -10,7 +10,7 @@ True
 from .belt.single_pass import SinglePass
 from .ice.mesh_file import MeshError
 from .model import BeltIceModel
-from .output import FieldSeries, RigView, rig_view
+from .output import FieldSeries, RigView, collection, rig_view
 from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
 from .steady_sliding import SlidingState, SteadySliding
 from .steady_state import NoSteadyState, settle
@@ -31,6 +31,7 @@ __all__ = [
     "SlidingState",
     "SteadySliding",
     "ThermalParameters",
+    "collection",
     "rig_view",
     "settle",
 ]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .belt.supported_belt import HeatGiven, SupportedBelt
 from .contact.exchange import Fluxes, IceFace, exchange
-from .ice.block import standing_block
+from .ice.block import StandingBlock, standing_block
 from .ice.meltwater import Meltwater
 from .ledger import HeatLedger
 from .materials import MELTING_POINT_DEGC
@@ -19,26 +19,30 @@ Array = NDArray[np.float64]
 
 #: Longest movement of the patch in one internal step, as a share of the contact's length; longer
 #: macro steps are cut. At 1/16 the temperatures err by 0.1 % of their rise, at 1/8 by 0.3 %.
-_MOVEMENT = 1 / 16
+MOVEMENT = 1 / 16
 
 #: Entry and exit temperatures are read this far outside the contact, as a share of its length:
 #: beyond the travel over which heat of the last internal step is spread.
 _PROBE = 1 / 8
 
 #: Most loops in one step: the internal steps follow the movement, more would seem to hang.
-_MOST_LOOPS = 1000
+MOST_LOOPS = 1000
 
 
 class BeltIceModel:
     """Belt under a standing block of ice, both starting at the temperature of the air.
 
-    parameters: checked numbers. Positions are material coordinates of the belt, m; the ice
-    stands at `contact_position`, which runs backwards along the belt as the belt runs forwards.
+    parameters: checked numbers. block: what `standing_block` makes of them, for whoever has made
+    it elsewhere; the model takes it for itself. Positions are material coordinates of the belt, m;
+    the ice stands at `contact_position`, which runs backwards along the belt as the belt runs
+    forwards.
     """
 
-    def __init__(self, parameters: ThermalParameters | None = None) -> None:
+    def __init__(
+        self, parameters: ThermalParameters | None = None, block: StandingBlock | None = None
+    ) -> None:
         self.parameters = parameters = parameters or ThermalParameters()
-        self.footprint, self.ice = standing_block(parameters)
+        self.footprint, self.ice = standing_block(parameters) if block is None else block
         self.supported_belt = SupportedBelt(parameters.belt, self.footprint)
         self.belt = self.supported_belt.belt
         self.ledger = HeatLedger()
@@ -46,7 +50,7 @@ class BeltIceModel:
         self.meltwater = Meltwater(
             parameters, self.footprint, self.ice, self.belt, MELTING_POINT_DEGC - self._ambient
         )
-        self.longest_movement = _MOVEMENT * self.footprint.length
+        self.longest_movement = MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
         self._probe = 0.5 * min(
             (1.0 + 2.0 * _PROBE) * self.footprint.length, parameters.belt.length
@@ -229,8 +233,8 @@ def _check_step(
         raise ValueError(f"duration = {duration:g} s must be positive")
     if heat < 0.0:
         raise ValueError(f"heat = {heat:g} J must not be negative: friction produces heat")
-    if abs(displacement) > _MOST_LOOPS * length:
+    if abs(displacement) > MOST_LOOPS * length:
         raise ValueError(
-            f"displacement = {displacement:g} m is more than {_MOST_LOOPS} loops of"
+            f"displacement = {displacement:g} m is more than {MOST_LOOPS} loops of"
             f" the {length:g} m belt in one step: take shorter steps"
         )

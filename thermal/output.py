@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
@@ -63,20 +64,32 @@ def rig_view(model: BeltIceModel) -> RigView:
     return RigView(offset, model.belt.depth, belt, x, height, ice, model.footprint.length)
 
 
+def collection(folder: str | Path, name: str = "temperature") -> Path:
+    """The file of a series that names the others."""
+    return Path(folder) / f"{name}.pvd"
+
+
 class FieldSeries:
     """Writes `<name>.pvd` and `<name>_<number>.vtu` into a folder that exists.
 
     Point data `temperature` (degC), cell data `part` (0 belt, 1 ice). An earlier series of that
-    name is replaced from its first file on.
+    name is replaced from its first file on. times: of the fields (s) that an earlier process wrote
+    and this one goes on from; then from the next one on.
     """
 
-    def __init__(self, folder: str | Path, model: BeltIceModel, name: str = "temperature") -> None:
+    def __init__(
+        self,
+        folder: str | Path,
+        model: BeltIceModel,
+        name: str = "temperature",
+        times: Sequence[float] = (),
+    ) -> None:
         self.folder = Path(folder)
         if not self.folder.is_dir():
             raise ValueError(f"{self.folder}: no such folder for the temperature fields")
         self.name = name
         self._model = model
-        self._written: list[tuple[float, str]] = []
+        self._written = [(time, self._file_name(n)) for n, time in enumerate(times)]
         belt, ice = model.belt, model.ice
         self._below = grid_points(seen_belt(model)[0], -belt.depth)
         below = quadrilaterals(belt.cells + 1, belt.depth.size)
@@ -85,10 +98,13 @@ class FieldSeries:
             np.full(len(cells), part, dtype=np.int32) for part, (_, cells) in enumerate(self._cells)
         ]
 
+    def _file_name(self, number: int) -> str:
+        return f"{self.name}_{number:05d}.vtu"
+
     @property
     def path(self) -> Path:
         """The collection, the one file to open."""
-        return self.folder / f"{self.name}.pvd"
+        return collection(self.folder, self.name)
 
     def _temperature(self) -> Array:
         """degC at all points."""
@@ -104,7 +120,7 @@ class FieldSeries:
         if not math.isfinite(time) or (self._written and time <= self._written[-1][0]):
             last = f"{self._written[-1][0]:g} s" if self._written else "none"
             raise ValueError(f"time = {time:g} s of a field must be after the last one ({last})")
-        path = self.folder / f"{self.name}_{len(self._written):05d}.vtu"
+        path = self.folder / self._file_name(len(self._written))
         points = np.concatenate((self._below, self._model.ice.points))
         mesh = meshio.Mesh(
             points,

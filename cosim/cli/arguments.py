@@ -22,7 +22,8 @@ from typing import NoReturn
 COMMANDS = {
     "run": "the coupled case: the mechanical FMU and the heat in belt and ice",
     "simulate": "the mechanics alone, without FMU and heat conduction",
-    "build": "builds the units for any FMI tool: StickSlip3DOF.fmu, and one in Python to read",
+    "build": "builds the units for other tools: the block (FMI 2.0, 3.0), the heat, both as SSP",
+    "couple": "any system of units: an SSP file, or a TOML of units, connections, scheme, steps",
     "belt-length": "how long the belt must be: drift of its temperature, loop after loop",
     "effects": "the catalogue of effects: what each adds, its parameters, and a figure",
     "friction-map": "friction against speed and temperature in steady coupled sliding",
@@ -86,7 +87,6 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "scenario",
         nargs="?",
-        default="reference",
         help="TOML file, or the name of a packaged scenario such as reference (default), slab, "
         "warm_friction",
     )
@@ -94,11 +94,32 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         command,
         "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)",
     )
+    add_force(command, ", and begin anew where an unfinished run could be gone on with")
 
 
 def add_output(command: argparse.ArgumentParser, said: str, default: str | None = None) -> None:
     """`-o`: the folder that a command writes to."""
     command.add_argument("-o", "--output", metavar="DIR", default=default, help=said)
+
+
+def add_force(command: argparse.ArgumentParser, said: str = "") -> None:
+    """`--force`: overwrite what is not known to be an earlier result. said: what else it allows."""
+    command.add_argument(
+        "--force",
+        action="store_true",
+        help=f"overwrite files in the folder that no earlier run of this tool made{said}",
+    )
+
+
+def add_verbose(command: argparse.ArgumentParser) -> None:
+    """`-v`: what is said in a run, as it comes."""
+    command.add_argument(
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="show on stderr what the units say, as it comes, and ask them for more of it;"
+        " messages.log beside the results has it, too",
+    )
 
 
 def add_json(command: argparse.ArgumentParser) -> None:

@@ -15,8 +15,9 @@ from pathlib import Path
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_json, add_output
+from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
+from cosim.manifest import made_by, require_own, results_in
 from cosim.report.page import Picture
 from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
@@ -140,6 +141,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "folder of table, numbers and figures (default: results/belt-length)",
         default="results/belt-length",
     )
+    add_force(parser)
 
 
 def _add_protocol(parser: ArgumentParser) -> None:
@@ -209,6 +211,7 @@ def execute(arguments: Namespace) -> int:
     wanted, options = _asked(arguments)
     folder = Path(arguments.output)
     writable(folder)
+    require_own(folder, (RESULT, TABLE, CHANGES, DOUBT), arguments.force)
     study, status = Study(options), DONE
     grid = empty_map(arguments.map) if arguments.map else None
     try:
@@ -228,9 +231,12 @@ def execute(arguments: Namespace) -> int:
             file=sys.stderr,
         )
         status = FAILED
-    _write(study, grid, folder)
-    if status == DONE:
-        _draw(study, grid, wanted[0], folder)
+    source = arguments.scenario and read_scenario(arguments.scenario).to_toml()
+    with results_in(folder, made_by(scenario=source), force=arguments.force) as results:
+        _write(study, grid, folder)
+        if status == DONE:
+            _draw(study, grid, wanted[0], folder)
+            results.complete = True
     _print(study, arguments.json, folder, time.perf_counter() - began)
     return status
 

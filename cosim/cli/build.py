@@ -10,7 +10,7 @@ from cosim.cli.arguments import add_output
 from cosim.fmu.platforms import PLATFORMS, Platform
 from cosim.names import unknown_name
 
-EXAMPLE = "stickslip build -o fmus"
+EXAMPLE = "stickslip build StickSlip3DOF.fmu -o fmus"
 UNITS = (
     *("StickSlip3DOF.fmu", "StickSlip3DOF-fmi3.fmu", "StickSlip3DOF-python.fmu"),
     *("BeltIceThermal.fmu", "BeltIceThermal-python.fmu"),

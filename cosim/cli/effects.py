@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_json, add_output
+from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
+from cosim.manifest import made_by, results_in
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
@@ -27,6 +28,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("effects", metavar="EFFECT", nargs="*", help="ids (default: all)")
     add_json(parser)
     add_output(parser, f"also write {PAGE}, {RESULT} and the figures there")
+    add_force(parser)
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -41,8 +43,14 @@ def execute(arguments: Namespace) -> int:
     from cosim.studies.effects import chosen, described
 
     entries = [described(entry) for entry in chosen(arguments.effects)]
-    if arguments.output is not None and not _write(entries, Path(arguments.output)):
-        return FAILED
+    if arguments.output is not None:
+        folder = Path(arguments.output)
+        names = (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries))
+        writable(folder, names)
+        with results_in(folder, made_by(), names, arguments.force) as results:
+            results.complete = _write(entries, folder)
+        if not results.complete:
+            return FAILED
     if arguments.json:
         print(json.dumps(entries, indent=1))
     else:
@@ -71,7 +79,6 @@ def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
     with held_interrupts():
         from cosim.studies.effects.page import effect_figure, page
 
-    writable(folder, (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries)))
     pictures: dict[str, Picture] = {}
     try:
         for entry in tqdm(entries, disable=None, unit="figure", leave=False):

@@ -14,8 +14,9 @@ import numpy as np
 from tqdm import tqdm
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_json, add_output
+from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
+from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
     from cosim.studies.friction_map import FrictionMap
@@ -64,6 +65,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "folder of table, numbers and figure (default: results/friction-map)",
         default="results/friction-map",
     )
+    add_force(parser)
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -84,12 +86,16 @@ def execute(arguments: Namespace) -> int:
     scenario = read_scenario(arguments.scenario)
     folder = Path(arguments.output)
     writable(folder)
+    require_own(folder, (RESULT, TABLE, FIGURE), arguments.force)
     total = len(set(arguments.speed)) * len(set(arguments.ambient))
     with tqdm(total=total, disable=None, unit="run", leave=False) as bar:
         found = friction_map(
             scenario, arguments.speed, arguments.ambient, arguments.duration, bar.update
         )
-    _write(found, folder)
+    made = made_by(scenario=scenario.to_toml())
+    with results_in(folder, made, force=arguments.force) as results:
+        _write(found, folder)
+        results.complete = True
     if arguments.json:
         print(json.dumps(found.as_json(), indent=1))
         return DONE

@@ -14,15 +14,18 @@ from typing import TYPE_CHECKING, Any
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_output
+from cosim.cli.arguments import add_force, add_output
 from cosim.files import OutputRefused, writable, write_text
 from cosim.interrupts import held_interrupts
+from cosim.manifest import made_by, require_json, require_own, results_in
 
 if TYPE_CHECKING:
     from cosim.gap import Campaign
 
 EXAMPLE = "stickslip gap cold_room/campaign.toml -o results/cold_room"
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
+#: By which keys RESULT is known.
+KEYS = ("campaign", "verdict", "ranking")
 STDOUT = "-"
 CAMPAIGNS = Path(__file__).parents[1] / "gap" / "campaigns"
 
@@ -40,6 +43,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         f"folder of {PAGE}, figures, {MODEL} and {RESULT} (default: results/NAME OF THE "
         "CAMPAIGN-gap)",
     )
+    add_force(parser, ", or what is there of the example with other content")
     parser.add_argument(
         "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
     )
@@ -74,7 +78,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.gap.example import write_example
 
     if arguments.write_example is not None:
-        print(write_example(Path(arguments.write_example)))
+        print(write_example(Path(arguments.write_example), force=arguments.force))
         return DONE
     if arguments.campaign is None:
         raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
@@ -83,21 +87,27 @@ def execute(arguments: Namespace) -> int:
     campaign = read_campaign(_source(arguments.campaign))
     folder = Path(arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap")
     writable(folder, (RESULT, MODEL, PAGE))
+    require_own(folder, (RESULT, MODEL, PAGE), arguments.force)
     copy = Path(arguments.json) if arguments.json not in (None, STDOUT) else None
     if copy is not None:
         writable(copy.parent, (copy.name,))
+        require_json(copy, KEYS, arguments.force)
     for remark in campaign.remarks:
         print(f"note: {remark}", file=sys.stderr)
     with _bar() as step:
         gap = _find(campaign, arguments.seed, arguments.jobs, step)
-    with held_interrupts():
-        text = files.write_data(gap, folder / RESULT, folder / MODEL)
-        if copy is not None:
-            write_text(text, copy)
-        corrected = files.write_corrected_data(gap, folder)
-    if arguments.json == STDOUT:
-        print(text, end="")
-    return _shown(files, gap, folder, corrected[:1], arguments)
+    made = made_by(campaign=str(_source(arguments.campaign).resolve()))
+    with results_in(folder, made, force=arguments.force) as results:
+        with held_interrupts():
+            text = files.write_data(gap, folder / RESULT, folder / MODEL)
+            if copy is not None:
+                write_text(text, copy)
+            corrected = files.write_corrected_data(gap, folder)
+        if arguments.json == STDOUT:
+            print(text, end="")
+        status = _shown(files, gap, folder, corrected[:1], arguments)
+        results.complete = status == DONE
+    return status
 
 
 def _shown(

@@ -11,13 +11,16 @@ from typing import Any
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_output
+from cosim.cli.arguments import add_force, add_output
 from cosim.cli.gap import STDOUT, count
 from cosim.files import OutputRefused, writable, write_text
 from cosim.interrupts import held_interrupts
+from cosim.manifest import made_by, require_json, require_own, results_in
 
 EXAMPLE = "stickslip plan cold_room/campaign.toml -o results/cold_room-plan"
 RESULT, PAGE = "plan.json", "report.html"
+#: By which keys RESULT is known.
+KEYS = ("campaign", "smallest", "next_runs")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -29,6 +32,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "needs no file: `duration` (s, default 20) and `rate` (Hz, default 100) take its place",
     )
     add_output(parser, f"folder of {PAGE}, figures and {RESULT} (default: results/NAME-plan)")
+    add_force(parser, ", or what is there of the example with other content")
     parser.add_argument(
         "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
     )
@@ -67,7 +71,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.gap.example import write_planned_example
 
     if arguments.write_example is not None:
-        print(write_planned_example(Path(arguments.write_example)))
+        print(write_planned_example(Path(arguments.write_example), force=arguments.force))
         return DONE
     if arguments.campaign is None:
         raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
@@ -77,9 +81,11 @@ def execute(arguments: Namespace) -> int:
     planned = plan.read_plan(arguments.campaign)
     folder = Path(arguments.output or Path("results") / f"{safe_name(planned.campaign.name)}-plan")
     writable(folder, (RESULT, PAGE))
+    require_own(folder, (RESULT, PAGE), arguments.force)
     copy = Path(arguments.json) if arguments.json not in (None, STDOUT) else None
     if copy is not None:
         writable(copy.parent, (copy.name,))
+        require_json(copy, KEYS, arguments.force)
     for remark in planned.campaign.remarks:
         print(f"note: {remark}", file=sys.stderr)
     with tqdm(disable=None, unit="step", leave=False) as bar:
@@ -88,13 +94,17 @@ def execute(arguments: Namespace) -> int:
             progress=bar.update,
         )  # fmt: skip
     text = data.as_json(answer)
-    with held_interrupts():
-        write_text(text, folder / RESULT)
-        if copy is not None:
-            write_text(text, copy)
-    if arguments.json == STDOUT:
-        print(text, end="")
-    return _shown(answer, data.closing_lines(answer), folder, arguments)
+    made = made_by(campaign=str(Path(arguments.campaign).resolve()))
+    with results_in(folder, made, force=arguments.force) as results:
+        with held_interrupts():
+            write_text(text, folder / RESULT)
+            if copy is not None:
+                write_text(text, copy)
+        if arguments.json == STDOUT:
+            print(text, end="")
+        status = _shown(answer, data.closing_lines(answer), folder, arguments)
+        results.complete = status == DONE
+    return status
 
 
 def _shown(answer: Any, lines: list[str], folder: Path, arguments: Namespace) -> int:

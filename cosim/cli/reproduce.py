@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_output
+from cosim.cli.arguments import add_force, add_output
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
+from cosim.manifest import made_by, require_json, require_own, results_in
 
 if TYPE_CHECKING:
     from cosim.studies.reproduction import Claim
@@ -34,6 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "folder of report, figures and numbers (default: results/reproduction)",
         default="results/reproduction",
     )
+    add_force(parser)
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -54,16 +56,22 @@ def execute(arguments: Namespace) -> int:
     result = Path(arguments.json) if arguments.json else folder / RESULT
     writable(folder, (PAGE,))
     writable(result.parent, (result.name,))
+    require_own(folder, (PAGE,) if arguments.json else (PAGE, RESULT), arguments.force)
+    if arguments.json:
+        require_json(result, ("referee", "claims"), arguments.force)
+    made = made_by(claims=wanted)
     claims: list[Claim] = []
     try:
         for one in tqdm(wanted, disable=None, unit="claim", leave=False):
             claims += reproduce([one])
         found = _datasets(wanted)
-        _write(claims, folder, result, time.perf_counter() - began, found)
+        with results_in(folder, made, force=arguments.force) as results:
+            _write(claims, folder, result, time.perf_counter() - began, found)
+            results.complete = True
     except KeyboardInterrupt:
         if not claims:
             raise
-        with held_interrupts():
+        with held_interrupts(), results_in(folder, made, force=arguments.force):
             _write(claims, folder, result, time.perf_counter() - began)
         print(
             f"error: interrupted; {len(claims)} of {len(wanted)} claims are in {folder / PAGE}",

@@ -1,26 +1,30 @@
-"""`stickslip run`: the coupled case."""
+"""`stickslip run`: the coupled case, begun or gone on with."""
 
 from __future__ import annotations
 
+import shlex
+import sys
 import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cosim.cli import BadInput
-from cosim.cli.arguments import add_run_arguments
+from cosim.cli import DONE, BadInput
+from cosim.cli.arguments import add_run_arguments, add_verbose
 
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun
+    from cosim.coupling.record import RunFolder
     from cosim.scenario import Scenario
 
 EXAMPLE = "stickslip run my_case.toml -o results/first"
-FIELDS = "fields"
+SCENARIO = "scenario.toml"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     add_run_arguments(parser)
+    add_verbose(parser)
     parser.add_argument(
         "--fmu",
         metavar="FILE",
@@ -32,6 +36,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="store_true",
         help="also write temperature.gif: belt and ice, a frame every run.snapshot_interval",
     )
+    parser.add_argument(
+        "--resume",
+        metavar="DIR",
+        help="go on with the run in DIR that was cut off, from its newest checkpoint"
+        " (run.checkpoint_seconds says how often there is one); as it was begun, so nothing else"
+        " but -v is given",
+    )
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -39,11 +50,27 @@ def refused() -> tuple[type[Exception], ...]:
     import cosim.cli.running
     import cosim.coupling.case  # noqa: F401  the models, imported where Ctrl-C waits
     from cosim.coupling import CouplingError, FmuError
+    from cosim.coupling.record import CheckpointError
     from cosim.files import OutputRefused
     from cosim.scenario import ScenarioError
     from thermal import ParameterError
 
-    return (ScenarioError, OutputRefused, CouplingError, FmuError, ParameterError)
+    return (
+        *(ScenarioError, OutputRefused, CouplingError, FmuError, ParameterError),
+        CheckpointError,
+    )
+
+
+class Job(NamedTuple):
+    """What is to be run, and where."""
+
+    scenario: Scenario
+    results: Path
+    folder: RunFolder
+    fmu: str | None
+    views: bool
+    command: str
+    force: bool
 
 
 def execute(arguments: Namespace) -> int:
@@ -51,33 +78,106 @@ def execute(arguments: Namespace) -> int:
     from cosim.cli import running
     from cosim.files import writable
     from cosim.interrupts import patient_interrupts
+    from cosim.manifest import made_by, results_in
     from cosim.report import run_dataset
 
     began = time.perf_counter()
-    scenario = running.scenario_to_run(arguments.scenario, coupled=True)
-    folder = running.results_folder(arguments.output, scenario)
-    fields = writable(folder / FIELDS)
+    job = _begun(arguments) if arguments.resume is None else _found(arguments)
+    fields = writable(job.results / running.FIELDS)
     running.compile_model()
-    with patient_interrupts() as patience:
-        with running.progress_over(scenario.run.duration) as show:
+    logging = running.message_log(job.folder, arguments.verbose)
+    with patient_interrupts() as patience, logging as log:
+        with running.progress_over(job.scenario.run.duration) as show:
 
             def progress(reached: float) -> None:
                 patience.hold()
                 show(reached)
 
-            done = _coupled(
-                scenario,
-                fmu=arguments.fmu,
-                fields=fields,
-                progress=progress,
-                views=arguments.animation,
-            )
+            said = {"heard": log.add, "debug": arguments.verbose}
+            done = _run(job, fields=fields, progress=progress, **said)
         patience.hold()
-        dataset = run_dataset(done.result, scenario, scenario.to_toml(), snapshots=done.snapshots)
-        running.assess_motion(dataset, scenario, patience)
-        return running.finish(
-            dataset, folder, began, patience, _field_files(done, folder), views=done.snapshots.views
+        dataset = run_dataset(
+            done.result, job.scenario, job.scenario.to_toml(), snapshots=done.snapshots
         )
+        running.assess_motion(dataset, job.scenario, patience)
+        goes_on = done.result.status != running.COMPLETE and job.folder.checkpoint.is_file()
+        made = made_by(job.command, scenario=job.scenario.to_toml())
+        with results_in(job.results, made, force=job.force) as results:
+            taken = running.field_files(job.results) if done.snapshots.file else []
+            for name in (*running.log_files(log), *taken):
+                results.add(job.results / name)
+            status = running.finish(
+                dataset,
+                job.results,
+                began,
+                patience,
+                _field_files(done, job.results),
+                views=done.snapshots.views,
+                command=job.command,
+                resume=_resume(job.results) if goes_on else "",
+                log=log,
+            )
+            results.complete = status == DONE
+    # only now: had the results not come to the disk, there would still be what they are made of
+    job.folder.release() if goes_on else job.folder.finished()
+    return status
+
+
+def _begun(arguments: Namespace) -> Job:
+    """A run from its start."""
+    from cosim.cli import running
+    from cosim.coupling.record import RunFolder
+    from cosim.manifest import require_own
+
+    scenario = running.scenario_to_run(arguments.scenario, coupled=True)
+    results = running.results_folder(arguments.output, scenario, arguments.force)
+    require_own(results, [running.COLLECTION], arguments.force)
+    command = shlex.join(["stickslip", *sys.argv[1:]])
+    fmu = None if arguments.fmu is None else str(Path(arguments.fmu).resolve())
+    asked = {
+        "resume": _resume(results),
+        "command": command,
+        "fmu": fmu,
+        "views": arguments.animation,
+    }
+    folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
+    views, force = arguments.animation, arguments.force
+    return Job(scenario, results, folder, arguments.fmu, views, command, force)
+
+
+def _found(arguments: Namespace) -> Job:
+    """A run that was cut off, as it was begun."""
+    from cosim.cli import running
+    from cosim.coupling.record import RunFolder
+
+    given = {
+        "a scenario": arguments.scenario,
+        "-o": arguments.output,
+        "--fmu": arguments.fmu,
+        "--animation": arguments.animation,
+        "--force": arguments.force,
+    }
+    for what, value in given.items():
+        if value:
+            raise BadInput(
+                f"--resume: goes on with a run as it was begun, so {what} cannot be given"
+            )
+    results = Path(arguments.resume)
+    folder = RunFolder.found(results)
+    asked = folder.asked
+    if not (folder.path / SCENARIO).is_file():
+        raise BadInput(
+            f"{results}: its run is none of run's; {folder.path / 'README.txt'} says what goes on"
+            " with it"
+        )
+    scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
+    command = f"{asked.get('command', '')} (cut off, and gone on with)"
+    views = bool(asked.get("views"))
+    return Job(scenario, results, folder, asked.get("fmu"), views, command, force=False)
+
+
+def _resume(results: Path) -> str:
+    return shlex.join(["stickslip", "run", "--resume", str(results)])
 
 
 def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
@@ -86,6 +186,17 @@ def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
         return {}
     name = done.snapshots.file.relative_to(folder).as_posix()
     return {name: "temperature fields of belt and ice; opens in ParaView"}
+
+
+def _run(job: Job, **further: Any) -> CoupledRun:
+    """The coupled run; one that does not come to its first step leaves nothing to go on from."""
+    begun = not job.folder.checkpoint.is_file()
+    try:
+        return _coupled(job.scenario, fmu=job.fmu, folder=job.folder, views=job.views, **further)
+    except BaseException:
+        if begun:
+            job.folder.finished()
+        raise
 
 
 def _coupled(scenario: Scenario, **arguments: Any) -> CoupledRun:

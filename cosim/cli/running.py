@@ -5,10 +5,11 @@ from __future__ import annotations
 import shlex
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import xarray as xr
 from stickslip import Parameters, simulate
@@ -20,35 +21,108 @@ from stickslip.steady_motion.stability import UNSTABLE
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
+from cosim.coupling.record import LOG, MessageLog, RunFolder
 from cosim.files import writable
 from cosim.interrupts import Patience
+from cosim.manifest import claim, require_own
 from cosim.report import Views, summary, write_results
+from cosim.report.bounds import bounds_sentences
 from cosim.report.contents import attach_assessment, ramp_sentence, regime_sentence, unstable_line
-from cosim.scenario import Scenario, ScenarioError, read_scenario
+from cosim.report.quantities import ROUNDING
+from cosim.scenario import Scenario, ScenarioError, check_work, read_scenario
+from cosim.scenario.work import WORTH_SAYING, in_words
 
 RESULTS = "results"
-RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html")
+FIELDS = "fields"
+COLLECTION = f"{FIELDS}/temperature.pvd"
+RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)
 COMPLETE = "complete"
 #: Written after all other data and before the figures.
 LAST_OF_DATA = "summary.json"
 
 
-def scenario_to_run(source: str, *, coupled: bool) -> Scenario:
-    """The scenario; ScenarioError when it is none or does not fit a coupled run."""
+def scenario_to_run(source: str | None, *, coupled: bool) -> Scenario:
+    """The scenario, without a source the reference case.
+
+    ScenarioError when it is none or does not fit a coupled run, or would not end.
+    """
+    source = source or "reference"
     scenario = read_scenario(source)
-    if coupled:
-        try:
+    try:
+        if coupled:
             _ = scenario.record_every  # raises when rows would fall between macro steps
-        except ScenarioError as fault:
-            raise ScenarioError(f"{source}: {fault}") from None
+        seconds = check_work(scenario, coupled=coupled)
+    except ScenarioError as fault:
+        raise ScenarioError(f"{source}: {fault}") from None
+    if seconds > WORTH_SAYING:
+        print(f"note: this run takes some {in_words(seconds)}", file=sys.stderr)
     return scenario
 
 
-def results_folder(given: str | None, scenario: Scenario) -> Path:
-    """The folder of the results, made and found writable; else OutputRefused."""
-    return writable(
-        Path(given) if given is not None else Path(RESULTS) / scenario.name, RESULT_FILES
-    )
+def results_folder(given: str | None, scenario: Scenario, force: bool = False) -> Path:
+    """The folder of the results, made, found writable and without others' files; OutputRefused."""
+    folder = Path(given) if given is not None else Path(RESULTS) / scenario.name
+    return own_folder(folder, RESULT_FILES, force)
+
+
+def own_folder(folder: Path, files: Iterable[str], force: bool) -> Path:
+    """A folder that is made, found writable, and has no file of these that is somebody else's.
+
+    What lies beside a run that was cut off is that run's: it had no time to list it.
+    """
+    writable(folder, files)
+    if RunFolder(folder).is_left:
+        claim(folder, (*files, *field_files(folder)))
+    require_own(folder, files, force)
+    return folder
+
+
+def field_files(folder: Path) -> list[str]:
+    """The collection of the temperature fields, and what it names; none where there is none."""
+    file = folder / COLLECTION
+    try:
+        named = [entry.get("file", "") for entry in ElementTree.parse(file).iter("DataSet")]
+    except (OSError, ElementTree.ParseError):
+        return []
+    return [f"{FIELDS}/{name}" for name in (file.name, *named)]
+
+
+def message_log(folder: RunFolder, verbose: bool) -> MessageLog:
+    """The log of a run beside its results, behind what the run had said before it was cut off.
+
+    verbose: shown on stderr, too.
+    """
+    resumed = folder.checkpoint.is_file()
+    return MessageLog(folder.results / LOG, resumed, _show_line if verbose else None)
+
+
+def _show_line(line: str) -> None:
+    """On stderr, above the bar where there is one."""
+    tqdm.write(line, file=sys.stderr)
+
+
+def log_files(log: MessageLog) -> dict[str, str]:
+    """The log as the page lists it; it is there where something was said."""
+    return {LOG: "what units and master said, a line each"} if log.path.is_file() else {}
+
+
+def say_how_it_ended(
+    numbers: Mapping[str, Any], folder: Path, resume: str, log: MessageLog | None
+) -> int:
+    """What became of the run, unless that is all well: one line on stderr; the exit status.
+
+    numbers: of its summary. resume: what goes on with it, "" where nothing does. log: of what was
+    said, which is told of where there are warnings or errors.
+    """
+    said = "" if log is None else log.told()
+    if numbers["status"] == COMPLETE:
+        if said:
+            print(f"note: {said}", file=sys.stderr)
+        return DONE
+    goes_on = f", and this goes on from there: {resume}" if resume else ""
+    where = f"{folder}, {said}" if said else str(folder)
+    print(f"error: {numbers['reason']}; what was computed is in {where}{goes_on}", file=sys.stderr)
+    return FAILED
 
 
 def compile_model() -> None:
@@ -117,28 +191,34 @@ def finish(
     patience: Patience,
     files: Mapping[str, str] | None = None,
     views: Views = (),
+    command: str | None = None,
+    resume: str = "",
+    log: MessageLog | None = None,
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
     began: of the command, on time.perf_counter, s. patience: released when the data are on
     disk; a Ctrl-C then ends the drawing. files: further ones to list on the page. views:
-    of belt and ice, for an animation.
+    of belt and ice, for an animation. command: as the run was asked for; None: this one.
+    resume: what goes on with a run that is not complete. log: of what was said in it.
     """
+    command = shlex.join(["stickslip", *sys.argv[1:]]) if command is None else command
     try:
-        _write(dataset, folder, patience, files=files or {}, views=views)
+        files = dict(files or {}) | (log_files(log) if log else {})
+        _write(dataset, folder, patience, files=files, views=views, command=command)
     except KeyboardInterrupt:
         print(f"error: interrupted while drawing; the data are in {folder}", file=sys.stderr)
         return FAILED
     numbers = summary(dataset)
-    if numbers["status"] != COMPLETE:
-        print(f"error: {numbers['reason']}; what was computed is in {folder}", file=sys.stderr)
+    for said in bounds_sentences(numbers):
+        print(f"warning: {said}", file=sys.stderr)
+    if say_how_it_ended(numbers, folder, resume, log) == FAILED:
         return FAILED
     print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
     return DONE
 
 
 def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any) -> None:
-    command = shlex.join(["stickslip", *sys.argv[1:]])
     with progress_over_files() as show:
 
         def written(name: str) -> None:
@@ -146,7 +226,7 @@ def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any
             if name == LAST_OF_DATA:
                 patience.release()
 
-        write_results(dataset, folder, command=command, progress=written, **further)
+        write_results(dataset, folder, progress=written, **further)
 
 
 def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:
@@ -160,11 +240,11 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
     if "temperatures" in numbers:
         interface, shares = numbers["temperatures"]["interface"], numbers["heat_shares"]
         lines += [
-            f"  interface    {interface['end_degC']:.4f} degC at the end, "
-            f"{interface['end_rise']:+.4f} K over the air",
-            f"  heat         {ledgers['heat']['received']:.4g} J, in "
+            f"  interface    {interface['end_degC']:z.4f} degC at the end, "
+            f"{interface['end_rise']:+z.4f} K over the air",
+            f"  heat         {_heat(ledgers['heat']['received'])} J, in "
             + ", ".join(
-                f"{sink} {_number(shares[sink], '.3f')}"
+                f"{sink} {_number(shares[sink], 'z.3f')}"
                 for sink in ("belt", "ice", "air", "melting")
                 if sink != "melting" or shares.get(sink)
             ),
@@ -219,6 +299,11 @@ def _ledger_line(ledgers: Mapping[str, Any]) -> str:
             f"coupling {_number(ledgers['coupling']['relative_difference'], '.1e')} of the heat",
         ]
     return ", ".join(parts)
+
+
+def _heat(joules: float) -> str:
+    """Joules, none of them where there is but rounding."""
+    return f"{0.0 if abs(joules) < ROUNDING['J'] else joules:z.4g}"
 
 
 def _number(value: float | None, form: str) -> str:

@@ -6,8 +6,10 @@ import time
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
+from cosim.cli import DONE
 from cosim.cli.arguments import add_run_arguments
 from cosim.interrupts import Patience, patient_interrupts
+from cosim.manifest import made_by, results_in
 
 if TYPE_CHECKING:
     from stickslip import Trajectory
@@ -34,11 +36,15 @@ def refused() -> tuple[type[Exception], ...]:
 def execute(arguments: Namespace) -> int:
     """Simulate, write, report; the exit status."""
     from cosim.cli import running
+    from cosim.coupling.record import RunFolder
     from cosim.report import trajectory_dataset
 
     began = time.perf_counter()
     scenario = running.scenario_to_run(arguments.scenario, coupled=False)
-    folder = running.results_folder(arguments.output, scenario)
+    folder = running.results_folder(arguments.output, scenario, arguments.force)
+    asked = {"resume": ""}
+    # also where a coupled run was cut off: its folder is no place for another run's results
+    RunFolder.begun(folder, asked, {}, force=arguments.force).finished()
     running.compile_model()
     with patient_interrupts() as patience:
         start = time.perf_counter()
@@ -46,7 +52,11 @@ def execute(arguments: Namespace) -> int:
         stepped = time.perf_counter() - start
         dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
         running.assess_motion(dataset, scenario, patience)
-        return running.finish(dataset, folder, began, patience)
+        made = made_by(scenario=scenario.to_toml())
+        with results_in(folder, made, force=arguments.force) as results:
+            status = running.finish(dataset, folder, began, patience)
+            results.complete = status == DONE
+        return status
 
 
 def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:

@@ -13,8 +13,9 @@ import numpy as np
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_json, add_output
+from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.files import OutputRefused, writable, write_bytes, write_text
+from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
@@ -48,6 +49,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "folder of page, numbers and figures (default: results/stability)",
         default="results/stability",
     )
+    add_force(parser)
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -71,6 +73,7 @@ def execute(arguments: Namespace) -> int:
     scenario = read_scenario(arguments.scenario)
     folder = Path(arguments.output)
     writable(folder, (RESULT, PAGE))
+    require_own(folder, (RESULT, PAGE), arguments.force)
     case, status = case_of(scenario), DONE
     maps: dict[str, Any] = {}
     try:
@@ -81,7 +84,10 @@ def execute(arguments: Namespace) -> int:
         status = FAILED
     numbers = as_json(case, maps.get("pretension"), maps.get("regimes"))
     sentences = [stability_sentence(numbers), regime_sentence(numbers)]
-    _write(numbers, sentences, _pictures(maps, case), folder)
+    made = made_by(scenario=scenario.to_toml())
+    with results_in(folder, made, force=arguments.force) as results:
+        _write(numbers, sentences, _pictures(maps, case), folder)
+        results.complete = status == DONE
     if arguments.json:
         print(json.dumps(numbers, indent=1))
     else:

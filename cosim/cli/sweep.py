@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_output
+from cosim.cli.arguments import add_force, add_output
 from cosim.files import OutputRefused, not_taken, write_bytes
+from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,6 +57,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "folder of the results (default: results/NAME OF THE SCENARIO-sweep); combinations "
         "that are finished there are not run again",
     )
+    add_force(parser)
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -78,6 +80,7 @@ def execute(arguments: Namespace) -> int:
     run = Run(scenario.run.duration, scenario.run.output_interval)
     folder = Path(arguments.output or Path("results") / f"{scenario.name}-sweep")
     not_taken(folder, (RESULT, FIGURE))
+    require_own(folder, (RESULT, FIGURE), arguments.force)
     datasets = {}
     try:
         for group, grid in grids.items():
@@ -98,7 +101,11 @@ def execute(arguments: Namespace) -> int:
             file=sys.stderr,
         )
         return FAILED
-    _write(datasets, folder)
+    # the finished combinations beside the results are kept from sweep to sweep
+    made = made_by(scenario=scenario.to_toml())
+    with results_in(folder, made, force=arguments.force) as results:
+        _write(datasets, folder)
+        results.complete = True
     return _report(datasets, folder, time.perf_counter() - began)
 
 

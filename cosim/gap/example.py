@@ -9,7 +9,7 @@ import numpy as np
 import tomli_w
 from stickslip import Parameters, simulate
 
-from cosim.files import writable, write_text
+from cosim.files import writable, write_unless_owned
 
 #: Of the tracker, m.
 NOISE = 2e-4
@@ -22,28 +22,30 @@ HIDDEN = {"velocity_weakening": {"linear": 0.8}}
 CAMPAIGN = "campaign.toml"
 
 
-def write_example(folder: Path, seed: int = 0) -> Path:
+def write_example(folder: Path, seed: int = 0, force: bool = False) -> Path:
     """A campaign of four runs, the last held out, in a folder that is made; its TOML file.
 
-    Raises OutputRefused where the folder cannot be written to.
+    Raises OutputRefused where the folder cannot be written to, or a file of such a name is there
+    with other content, unless ``force``.
     """
     names = [f"run{number:02d}.csv" for number in range(1, len(SPEEDS) + 1)]
     writable(folder, (CAMPAIGN, *names))
     random = np.random.default_rng(seed)
+    texts = {CAMPAIGN: _campaign(names)}
     for name, speed in zip(names, SPEEDS, strict=True):
         run = simulate(_parameters(speed), DURATION, INTERVAL)
         x = run["x"] + NOISE * random.standard_normal(run.time.size)
         rows = [f"{t:.6g},{value:.7f}" for t, value in zip(run.time, x, strict=True)]
-        write_text("\n".join(["t,x", *rows]) + "\n", folder / name)
-    return write_text(_campaign(names), folder / CAMPAIGN)
+        texts[name] = "\n".join(["t,x", *rows]) + "\n"
+    write_unless_owned(texts, folder, force)
+    return folder / CAMPAIGN
 
 
-def write_planned_example(folder: Path) -> Path:
+def write_planned_example(folder: Path, force: bool = False) -> Path:
     """The same campaign before it is made: a TOML file without tracks, in a folder that is made.
 
-    Raises OutputRefused where the folder cannot be written to.
+    Raises OutputRefused as `write_example` does.
     """
-    writable(folder, (CAMPAIGN,))
     known = {
         "name": "planned",
         "rig": {"spring_natural_length": NATURAL_LENGTH},
@@ -54,7 +56,8 @@ def write_planned_example(folder: Path) -> Path:
     record = {"duration": DURATION, "rate": 1.0 / INTERVAL}
     runs = [setting | {"surface_speed": speed} | record for speed in SPEEDS]
     tables = [tomli_w.dumps(known), *[f"[[run]]\n{tomli_w.dumps(run)}" for run in runs]]
-    return write_text("\n".join(tables), folder / CAMPAIGN)
+    write_unless_owned({CAMPAIGN: "\n".join(tables)}, folder, force)
+    return folder / CAMPAIGN
 
 
 def _campaign(names: Sequence[str]) -> str:

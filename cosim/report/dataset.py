@@ -13,7 +13,9 @@ from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
 from stickslip.ports import OUTPUTS
 
+from .bounds import WIDTH
 from .contents import tables_of
+from .coupling import attach_coupling
 from .files import provenance
 
 # name -> (unit, long name); the mechanical ones as the model itself describes them
@@ -111,7 +113,9 @@ def run_dataset(
     columns["coupling_residual"] = result.ledger.residual
     dataset = _dataset(result.time, columns, units)
     _describe(dataset, scenario, toml, result.status, result.reason, result.wall_time)
-    dataset.attrs.update(case="coupled", parameters=json.dumps(tables_of(scenario)))
+    tables = tables_of(scenario)
+    dataset.attrs.update(case="coupled", parameters=json.dumps(tables))
+    attach_coupling(dataset, result, tables)
     dataset.attrs["events"] = (
         "mode and slip_count are sampled at the communication points: break-away and re-stick "
         "are known to one interval of time; the motion itself was computed with exact events"
@@ -184,6 +188,8 @@ def _describe(
         scenario=toml,
         **provenance(),
     )
+    if (belt := getattr(scenario, "belt", None)) is not None:
+        dataset.attrs[WIDTH] = float(belt.width)
     if wall_time is not None:
         dataset.attrs["wall_time"] = float(wall_time)
 

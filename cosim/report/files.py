@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -28,6 +29,10 @@ PACKAGES = (
     "matplotlib",
     "pydantic",
 )
+
+
+#: Most that a netCDF file has beside its numbers, and for each variable, bytes.
+_OVERHEAD, _A_VARIABLE = 2**18, 2**13
 
 
 def provenance() -> dict[str, str]:
@@ -57,12 +62,22 @@ def write_netcdf(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path) -> 
     groups = {"": dataset} if isinstance(dataset, xr.Dataset) else dataset
 
     def write(partial: Path) -> None:
+        _require_room(partial, groups.values())
         mode: Literal["w", "a"] = "w"
         for group, one in groups.items():
             one.to_netcdf(partial, mode=mode, group=group or None, engine="h5netcdf")
             mode = "a"
 
     return write_atomically(path, write)
+
+
+def _require_room(path: Path, datasets: Iterable[xr.Dataset]) -> None:
+    """OSError while there is nothing to lose: HDF5 does not survive a disk that fills up."""
+    if not hasattr(os, "posix_fallocate"):
+        return
+    size = _OVERHEAD + sum(one.nbytes + _A_VARIABLE * len(one.variables) for one in datasets)
+    with path.open("wb") as file:
+        os.posix_fallocate(file.fileno(), 0, size)
 
 
 def write_csv(dataset: xr.Dataset, path: Path) -> Path:

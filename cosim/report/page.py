@@ -63,12 +63,23 @@ def figure(picture: Picture, alt: str = "") -> Markup:
     )
 
 
-def number(value: float | str | None, digits: int = 4) -> str:
-    """So many significant digits, plain text as it is, a dash for none."""
+#: Of its own largest value, and of its nominal one, what is rounding in a channel.
+OF_LARGEST, OF_NOMINAL = 1e-15, 1e-16
+
+
+def number(
+    value: float | str | None, digits: int = 4, *, largest: float = 0.0, nominal: float = 0.0
+) -> str:
+    """So many significant digits, plain text as it is, a dash for none.
+
+    largest, nominal: sizes of the channel that it is of, in its unit; rounding beside them is 0.
+    """
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "–"
     if isinstance(value, str):
         return value
+    if abs(value) <= max(OF_LARGEST * abs(largest), OF_NOMINAL * abs(nominal)):
+        return "0"
     return f"{value:.{digits}g}".replace("-", "−")
 
 

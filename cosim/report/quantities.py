@@ -121,6 +121,22 @@ UNITS = {
 PREFIXED = {"m", "K", "W", "N", "s"}
 
 
+#: Unit -> what is rounding below it, beside what a rig's block, belt and ice are like: an atom's
+#: size for a length, a part in 1e13 or less of the nominal values for the others.
+ROUNDING = {
+    "m": 1e-10,
+    "m/s": 1e-13,
+    "N": 1e-13,
+    "N.m": 1e-14,
+    "W": 1e-14,
+    "J": 1e-15,
+    "K": 1e-11,
+    "kg": 1e-16,
+    "kg/s": 1e-16,
+    "Pa": 1e-9,
+}
+
+
 def worded(key: str) -> str:
     """A key of the summary in words."""
     return WORDS.get(key, key.replace("_", " "))
@@ -132,11 +148,16 @@ def spelled(unit: str) -> str:
 
 
 def told(value: float | int | None, unit: str, share: bool = False) -> str:
-    """A number with its unit, five digits; a share in percent; a dash where there is none."""
+    """A number with its unit, five digits; a share in percent; a dash where there is none.
+
+    What is but rounding beside the sizes that its unit has in a rig is 0.
+    """
     if value is None:
         return NONE
+    if abs(value) < ROUNDING.get(unit, 0.0):
+        value = 0
     if share:
-        return f"{100.0 * value:.2f} %".translate(MINUS)
+        return f"{100.0 * value:z.2f} %".translate(MINUS)
     if unit == "deg":
         return f"{value:z.2f}°".translate(MINUS)
     if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:

@@ -12,7 +12,9 @@ import xarray as xr
 from cosim.files import write_bytes, write_text
 from cosim.report.contents import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
 
+from .bounds import bounds_sentences
 from .contents import Views, stored_tables
+from .coupling import effort_rows, step_rows
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .page import Picture, render
@@ -117,6 +119,7 @@ def page(
         ledgers=list(ledgers(numbers)),
         tables=list(number_tables(numbers)),
         temperatures=temperature_rows(numbers),
+        beyond=beyond(numbers),
         assessed=assessed(numbers),
         regimes=regime_rows(numbers),
         figures=pictures,
@@ -160,7 +163,7 @@ def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
 
 
 def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """Motion after the speed ramp and over the whole run, the shares of the heat, melting."""
+    """Motion after the speed ramp and in all, shares of the heat, melting, how it was coupled."""
     titles = {
         "after_run_up": "After the speed ramp",
         "whole_run": "Whole run",
@@ -170,6 +173,15 @@ def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
     for name, title in titles.items():
         if name in numbers:
             yield Table(title, _rows(numbers, name, numbers[name]))
+    if "coupling" in numbers:
+        coupling = numbers["coupling"]
+        yield Table("How it was coupled", step_rows(coupling))
+        yield Table("Steps of each side, and time in them", effort_rows(coupling["participants"]))
+
+
+def beyond(numbers: Mapping[str, Any]) -> list[str]:
+    """Sentences on what the block does that its rig could not; none where all is well."""
+    return [f"{said[0].upper()}{said[1:]}." for said in bounds_sentences(numbers)]
 
 
 def assessed(numbers: Mapping[str, Any]) -> list[str]:
@@ -242,4 +254,4 @@ def _at(numbers: Mapping[str, Any], path: str) -> Any:
 
 def _degrees(value: float | None) -> str:
     """A temperature to 0.1 mK: rises of a thermometer's last digit are what runs differ in."""
-    return "–" if value is None else f"{value:.4f} °C".replace("-", "−")
+    return "–" if value is None else f"{value:z.4f} °C".replace("-", "−")

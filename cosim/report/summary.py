@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from cosim.report.contents import assessment_numbers
 
+from .bounds import bounds_numbers
 from .contents import break_aways, ramp_end, slip_share
+from .coupling import coupling_numbers
 from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, melting, melts, temperatures
 from .quantities import Quantity, ratio, split_units
 
@@ -94,7 +96,8 @@ def _growth(dataset: xr.Dataset, name: str) -> float:
 
 
 def summary(dataset: xr.Dataset) -> dict[str, Any]:
-    """Status, ledgers, shares, temperatures, melting, stick-slip numbers, versions, scenario.
+    """Status, coupling, ledgers, temperatures, melting, stick-slip numbers, bounds that the block
+    left, versions, scenario.
 
     Numbers stand in a tree whose units are in ``units`` (``path.to.key`` -> unit); a number
     that a run does not have (too short, failed, no heat) is None.
@@ -122,6 +125,8 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         "rows": Quantity(int(time.size), "1"),
         "wall_time": Quantity(dataset.attrs.get("wall_time"), "s"),
     }
+    if coupling := coupling_numbers(dataset):
+        numbers["coupling"] = coupling
     if time.size == 0:
         return numbers
     numbers["ledger"] = {"mechanics": mechanics_ledger(dataset)}
@@ -134,6 +139,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
             numbers["melting"] = melting(dataset)
     numbers["after_run_up"] = after_ramp(dataset)
     numbers["whole_run"] = whole_run(dataset)
+    numbers |= bounds_numbers(dataset)
     numbers |= assessment_numbers(dataset)
     return numbers
 

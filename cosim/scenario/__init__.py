@@ -2,5 +2,6 @@
 
 from cosim.scenario.faults import ScenarioError
 from cosim.scenario.scenario import Scenario, packaged_scenarios, read_scenario
+from cosim.scenario.work import check_work
 
-__all__ = ["Scenario", "ScenarioError", "packaged_scenarios", "read_scenario"]
+__all__ = ["Scenario", "ScenarioError", "check_work", "packaged_scenarios", "read_scenario"]

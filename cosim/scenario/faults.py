@@ -78,11 +78,20 @@ def describe_faults(report: ValidationError, model: type[BaseModel]) -> str:
     faults: dict[str, list[Fault]] = {}
     for fault in report.errors():
         # deeper places are entries of a list or branches of a union, of one key
-        faults.setdefault(".".join(str(part) for part in fault["loc"][:2]), []).append(fault)
+        loc = fault["loc"]
+        place = loc[:2] if _is_of_a_table(loc, keys) else loc[:1]
+        faults.setdefault(".".join(map(str, place)), []).append(fault)
     key, first = next(iter(faults.items()))
     line = _describe(key, first, keys)
     others = len(faults) - 1
     return line + (f" (and {others} more fault{'s' * (others > 1)})" if others else "")
+
+
+def _is_of_a_table(loc: tuple[Any, ...], keys: Mapping[str, FieldInfo]) -> bool:
+    """Whether the second part of a place is a key, not an entry of a list or of free names."""
+    field = keys.get(str(loc[0])) if loc else None
+    free = field is not None and get_origin(field.annotation) is dict
+    return len(loc) > 1 and not isinstance(loc[1], int) and not free
 
 
 def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
@@ -166,6 +175,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         return " or ".join(f'"{choice}"' for choice in get_args(kind))
     if get_origin(kind) is tuple:
         return _allowed_list(get_args(kind), unit)
+    if get_origin(kind) is dict:
+        return f"a table of names, each with {_allowed_type(get_args(kind)[1], (), unit)}"
     parts = get_args(kind)
     if hasattr(kind, "__metadata__"):
         return _allowed_type(parts[0], _flat_metadata(kind), unit)
@@ -177,6 +188,8 @@ def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
         return f"a list of tables with {', '.join(table.model_fields)}"
     if entries[-1] is Ellipsis:
         return f"a list of {_allowed_type(entries[0], (), unit)}"
+    if entries[0] is str:
+        return f"a list of {len(entries)} texts"
     return f"a list of {len(entries)} numbers{unit and f' in{unit}'}"
 
 

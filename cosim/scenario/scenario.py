@@ -9,11 +9,10 @@ turn of a slab follows from `rig.slab_radius`.
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import tomli_w
 from pydantic import Field, PrivateAttr, create_model, model_validator
@@ -23,6 +22,8 @@ from stickslip.quantity import Table, quantity
 
 from cosim.names import nearest
 from cosim.scenario.faults import ScenarioError, checked
+from cosim.scenario.method import Method
+from cosim.scenario.toml_file import parsed, text_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 
 SUFFIX = ".toml"
@@ -30,6 +31,8 @@ SUFFIX = ".toml"
 MOST_STEPS = 10_000_000
 #: Two intervals that differ by less than this part of themselves are the same: 0.3 / 0.1.
 ROUNDING = 1e-9
+#: An hour of computing, s: longer is meant seldom, and then said.
+PATIENCE = 3600.0
 #: What the contact has of the block.
 FROM_BLOCK = ("radius", "load")
 _HEAT_OF_CONTACT: dict[str, Any] = {
@@ -53,12 +56,33 @@ class Run(Table):
     snapshot_interval: float = quantity(
         1.0, "s", "time between two pictures of the temperature fields", gt=0
     )
+    checkpoint_seconds: float = quantity(
+        30.0,
+        "s",
+        "wall time between two checkpoints of a coupled run, from which --resume goes on; 0: none",
+        ge=0,
+    )
+    checkpoint_steps: int = quantity(
+        0, "1", "the same in macro steps, whichever is first; 0: by wall time alone", ge=0
+    )
+    patience: float = quantity(
+        PATIENCE,
+        "s",
+        "longest that computing the run may take, as it is estimated before the run starts; what "
+        "would take longer is refused",
+        gt=0,
+    )
 
 
-class Coupling(Table):
+class Coupling(Method):
     """How the coupled models talk to each other."""
 
-    macro_step: float = quantity(0.01, "s", "time between two exchanges of heat and travel", gt=0)
+    step_control: Literal["fixed", "doubling", "defect"] = Field(
+        "fixed", description="steps of one length, or as long as their error allows"
+    )
+    macro_step: float = quantity(
+        0.01, "s", "time between two exchanges; of a step control, the first step", gt=0
+    )
 
 
 class Scenario(Parameters):
@@ -156,6 +180,8 @@ class Scenario(Parameters):
         """
         if fault := self._too_fine("coupling.macro_step", self.coupling.macro_step):
             raise ScenarioError(fault)
+        if self.coupling.step_control != "fixed":
+            return 1
         ratio = self.run.output_interval / self.coupling.macro_step
         if round(ratio) < 1 or abs(ratio - round(ratio)) > ROUNDING * ratio:
             if "output_interval" not in self.run.model_fields_set:
@@ -214,15 +240,7 @@ def read_scenario(source: str | Path = "reference") -> Scenario:
     >>> read_scenario("reference").springs.stiffness
     20.17
     """
-    text = _read_text(source)
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{source}: not TOML: {_with_line(str(error), text)}") from None
-    except (ValueError, RecursionError) as error:
-        # tomllib lets through what Python itself refuses: a number of 5000 digits, a date of
-        # month 13, a thousand nested brackets
-        raise ScenarioError(f"{source}: not TOML that can be used: {error}") from None
+    tables = parsed(_read_text(source), source)
     _find_files(tables, Path(source).parent)
     if "name" not in tables:
         tables["name"] = Path(source).name.removesuffix(SUFFIX)
@@ -233,12 +251,12 @@ def read_scenario(source: str | Path = "reference") -> Scenario:
 
 
 #: Keys that name a file.
-_FILES = (("ice", "mesh"), ("friction", "table"))
+FILE_KEYS = (("ice", "mesh"), ("friction", "table"))
 
 
 def _find_files(tables: dict[str, Any], folder: Path) -> None:
     """A file is named from where the scenario is, and found from everywhere."""
-    for table, key in _FILES:
+    for table, key in FILE_KEYS:
         entries = tables.get(table)
         if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]:
             entries[key] = str((folder / entries[key]).resolve())
@@ -248,30 +266,11 @@ def _read_text(source: str | Path) -> str:
     if str(source) in packaged_scenarios() and not Path(source).is_file():
         file = resources.files("cosim.scenario") / "packaged" / f"{source}{SUFFIX}"
         return file.read_text(encoding="utf-8")
-    path = Path(source)
-    if path.is_dir():
-        raise ScenarioError(f"{source}: is a folder, allowed is a TOML file")
-    if not path.exists():
+    if not Path(source).exists():
         known = packaged_scenarios()
         near = nearest(str(source), known)
         hint = f"did you mean {near}?" if near else f"packaged: {', '.join(known)}"
         raise ScenarioError(
             f"{source}: no such file, allowed is a TOML file or a packaged scenario ({hint})"
         )
-    if not (path.is_file() or path.is_fifo()):  # a device may never end
-        raise ScenarioError(f"{source}: is not a file, allowed is a TOML file")
-    try:
-        return path.read_text(encoding="utf-8-sig")  # editors on Windows put a mark in front
-    except UnicodeDecodeError as error:
-        raise ScenarioError(
-            f"{source}: byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"
-        ) from None
-    except OSError as error:
-        raise ScenarioError(f"{source}: cannot be read: {error.strerror}") from None
-
-
-def _with_line(message: str, text: str) -> str:
-    """tomllib's message; it names no line when the fault is only seen at the end."""
-    last = f"at line {len(text.splitlines())}, end of document"
-    message = message.replace("at end of document", last)
-    return message[:1].lower() + message[1:]
+    return text_of(source)

@@ -13,8 +13,9 @@ import pytest
 
 from cosim import read_scenario
 from cosim.cli import main
-from cosim.fmu.build import ensure_fmu
+from cosim.fmu.build import NATIVE, THERMAL, ensure_fmu
 from cosim.gap import read_campaign
+from cosim.systems import read_system
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -62,6 +63,19 @@ def test_the_campaign_is_one(tmp_path):
     campaign = read_campaign(tmp_path)
     assert campaign.noise == {"x": 2e-4}
     assert campaign.runs[0].surface_speed == 0.15
+
+
+def test_the_system_is_one(tmp_path):
+    (tmp_path / "system.toml").write_text(toml_with("units"), encoding="utf-8")
+    with read_system(tmp_path / "system.toml") as system:
+        assert [str(link) for link in system.links] == [
+            "mechanics.heat_flow -> thermal.heat_flow",
+            "mechanics.surface_speed_actual -> thermal.surface_speed",
+            "mechanics.x -> thermal.x",
+            "thermal.interface_temperature -> mechanics.interface_temperature",
+        ]
+        assert [unit.isolate for unit in system.units] == [False, True]
+        assert [unit.file.name for unit in system.units] == [NATIVE, THERMAL]
 
 
 def timeless(line):

@@ -55,6 +55,7 @@ def test_with_an_effect(ran):
     assert abs(got["ledger"]) < 1e-11
 
 
+@pytest.mark.slow
 def test_find_gap(ran):
     got = ran("find_gap")
     assert got["gap"].verdict == "named"

@@ -165,6 +165,24 @@ def test_a_run_that_fails_keeps_what_it_had(place, command):
     assert 0.1 < dataset["time"][-1] < 2.0
 
 
+def test_what_the_master_remarks_is_in_a_file(place):
+    """No step is shorter than the first, and none is as exact as is asked for."""
+    (place / "strict.toml").write_text(
+        SHORT.replace("2.0", "1.0") + '[coupling]\nstep_control = "doubling"\nmacro_step = 0.01\n'
+        "smallest_step = 0.01\nlargest_step = 0.01\nstep_tolerance = 1e-15\n"
+    )
+    done = stickslip(place, "run", "strict.toml", "-v", "-o", "strict")
+    assert done.returncode == 0, done.stderr
+    *said, note = done.stderr.splitlines()
+    above = summary_in(place / "strict")["coupling"]["above_tolerance"]
+    assert above > 0 and len(said) == above
+    assert re.match(r"\(master\): t = 0.\d+ s: warning \[steps\]: a step of 0.01 s, the ", said[0])
+    assert note.startswith(f"note: {above} message") and note.endswith("strict/messages.log")
+    lines = (place / "strict" / "messages.log").read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 1 + above
+    assert "messages.log" in (place / "strict" / "report.html").read_text(encoding="utf-8")
+
+
 def test_a_refused_run_leaves_earlier_results_alone(place):
     results = place / "results" / "short"
     before = {path: path.stat().st_mtime_ns for path in results.rglob("*")}
@@ -242,13 +260,17 @@ def test_a_signal_in_mid_run_keeps_what_was_computed(place, command, duration, i
     (place / "long.toml").write_text(
         f"[run]\nduration = {duration}\noutput_interval = {interval}\n[belt]\nelements = 2\n"
     )
-    running = OnTerminal(place, command, "long.toml", "-o", f"long-{command}")
+    # the run before it can be gone on with
+    running = OnTerminal(place, command, "long.toml", "-o", f"long-{command}", "--force")
     running.wait_for(r"\| (?!0\.00/)\d+\.\d+/\d+ s")
     running.process.send_signal(wanted)
     status, line = running.finish()
     assert status == 1
+    goes_on = ", and this goes on from there: stickslip run --resume long-run"
     assert re.search(
-        rf"error: interrupted at t = [\d.]+( s)?; what was computed is in long-{command}$", line
+        rf"error: interrupted at t = [\d.]+( s)?; what was computed is in long-{command}"
+        rf"{goes_on if command == 'run' else ''}$",
+        line,
     )
     dataset = check_readable(place / f"long-{command}", "interrupted")
     reached = summary_in(place / f"long-{command}")["time_reached"]

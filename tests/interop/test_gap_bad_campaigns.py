@@ -50,6 +50,18 @@ BAD_COLUMNS = {
     "no t": (without("t"), ("column t", "missing", "allowed")),
     "mm for m": (times("x", 1e3), ("column x", "are these millimetres?")),
     "ms for s": (times("t", 1e3), ("column t", "are these milliseconds?")),
+    "thousandths of a second": (
+        times("t", 1e-3),
+        ("column t", "covers 0.004 s", "allowed is at least half", "divided by 1000"),
+    ),
+    "a hole of years": (
+        lambda c: {**c, "t": c["t"] + 3e8 * (c["t"] > 2.0)},
+        ("line 203", "t = 300000002.01 s", "3e+08 s after", "up to 100 times"),
+    ),
+    "days of a stiff rig": (
+        lambda c: {**c, "t": np.linspace(0.0, 1e5, c["t"].size)},
+        ("column t", "allowed is at most half"),
+    ),
     "time not increasing": (swapped, ("line 43", "t = 0.4 s", "falls back", "allowed")),
     "3 samples": (
         lambda c: {k: v[:3] for k, v in c.items()},
@@ -78,6 +90,14 @@ BAD_TABLES = {
     ),
     "unknown key": ({"speed": 0.06}, ("run 1: speed: no such key", "known: file, mass")),
     "a word for a number": ({"mass": "heavy"}, ("run 1: mass", '"heavy"')),
+    "a surface faster than any": (
+        {"surface_speed": 1e9},
+        ("run 1: surface_speed", "1000000000", "at most 1000 m/s"),
+    ),
+    "springs of a hammer": (
+        {"stiffness": 1e9},
+        ("run01.csv", "column t", "0.01 s between samples", "allowed is at most half"),
+    ),
     "nothing to look at": ({"columns": None}, ("run 1", "allowed is")),
 }
 
@@ -88,6 +108,33 @@ def test_bad_runs_are_refused_in_one_line(case, tmp_path, capsys):
     status, err, answer = said(tmp_path, capsys, [{**run_of(), **change}])
     assert (status, err.count("\n"), answer) == (2, 1, None)
     assert all(word in err for word in (str(tmp_path), *words)), err
+
+
+@pytest.mark.parametrize("value", [1e-300, 1e300])
+def test_a_noise_that_no_tracker_has_is_refused(value, tmp_path, capsys):
+    status, err, _ = said(tmp_path, capsys, [run_of(1), run_of(2)], noise={"x": value})
+    assert (status, err.count("\n")) == (2, 1)
+    assert all(word in err for word in ("noise.x", f"{value:g}", "at least 1e-12")), err
+
+
+NOBODY_KNOWS = {
+    "errors.zero": {"errors": {"zero": 1e300}},
+    "errors.stiffness": {"errors": {"stiffness": 1e-300}},
+    "friction.mu_s": {"friction": {"mu_s": [0.3, 1e-300]}},
+    "friction.mu_k": {"friction": {"mu_k": [1e300, 1e299]}},
+    "rig.attachment_radius": {"rig": {"attachment_radius": 1e300}},
+}
+
+
+@pytest.mark.parametrize("key", NOBODY_KNOWS)
+def test_numbers_that_nobody_knows_are_refused(key, tmp_path, capsys):
+    status, err, _ = said(tmp_path, capsys, [run_of(1)], **NOBODY_KNOWS[key])
+    assert (status, err.count("\n")) == (2, 1) and key in err and "allowed is" in err, err
+
+
+def test_a_surface_that_stands_still_is_refused(tmp_path, capsys):
+    status, err, _ = said(tmp_path, capsys, [{**run_of(), "surface_speed": 1e-300}])
+    assert (status, err.count("\n")) == (2, 1) and "surface_speed: 1e-300" in err, err
 
 
 def test_a_file_that_is_a_folder_is_refused(tmp_path, capsys):

@@ -15,7 +15,7 @@ from cosim.gap.candidates.catalogue import candidates
 
 #: Nothing hidden, and an effect. All five, at their whole length, take some minutes: they are asked
 #: in tests/benchmarks/blind_examples.py.
-NAMES = ("e1", "e2")
+NAMES = ("e1", pytest.param("e2", marks=pytest.mark.slow))
 #: Held-out gap, 1 for noise, that counts as a gap and that counts as closed.
 OPEN, CLOSED = 2.0, 1.5
 #: Rows of a run, with the header, that are enough for a name: six seconds.
@@ -106,6 +106,7 @@ def test_every_effect_along_x_is_ranked(name, found):
     assert ranked == along - {"stick_stiffness"}  # which along x is another mu_s
 
 
+@pytest.mark.slow
 def test_the_extended_model_is_a_scenario(found, tmp_path):
     model = found("e2") / "model.toml"
     assert "[velocity_weakening]" in model.read_text(encoding="utf-8")

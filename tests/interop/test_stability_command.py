@@ -36,6 +36,7 @@ def test_it_writes_maps_a_page_and_numbers(tmp_path):
     assert {file.name for file in (tmp_path / "out").iterdir()} == {
         "stability.json",
         "report.html",
+        "made_by.json",
         "pretension_map.png",
         "regime_map.png",
     }

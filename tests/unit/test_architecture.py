@@ -21,11 +21,13 @@ PACKAGES = {
 FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rglob("*.py")]
 
 #: Most files of a room, and modules of cosim without gap. A seventh of those make the units: two of
-#: the mechanics and two of the heat, each in its own way, and a compiler for two.
-MOST_FILES, MOST_OF_COSIM = 15, 130
+#: the mechanics and two of the heat, each in its own way, and a compiler for two. Two fifths are
+#: the coupling: schemes and steps, units of two versions of FMI, processes of their own, what is on
+#: disk while a run goes, systems from files.
+MOST_FILES, MOST_OF_COSIM = 15, 205
 
 #: Parts of cosim that compute and write without knowing what.
-LEAVES = ("cosim.files", "cosim.interrupts", "cosim.names", "cosim.processes")
+LEAVES = ("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes")
 PRODUCT = ("stickslip", "thermal", "cosim")
 #: Part -> what of the product it may import beside itself. What a part is not named for, the
 #: longest name that holds it is.
@@ -46,6 +48,8 @@ MAY_IMPORT = {
         *LEAVES,
     ),
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
+    "cosim.systems": ("stickslip.quantity", "cosim.coupling", "cosim.scenario", *LEAVES),
+    "cosim.systems.show": ("cosim.systems", "cosim.coupling", "cosim.report", *LEAVES),
     "cosim.gap": (
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),
         *("cosim.fmu", "cosim.studies.reproduction", *LEAVES),
@@ -73,7 +77,10 @@ KNOWN_BY = {
 #: What of such a part everybody may import all the same: how figures, pages and data are written;
 #: where the kernel keeps which number.
 OPEN = {
-    "cosim.report": ("cosim.report.style", "cosim.report.page", "cosim.report.files"),
+    "cosim.report": (
+        *("cosim.report.style", "cosim.report.page", "cosim.report.files"),
+        "cosim.report.coupling",
+    ),
     "stickslip.kernel": ("stickslip.kernel.layout",),
 }
 #: What is put together of everything, for whoever writes `from cosim import ...`.

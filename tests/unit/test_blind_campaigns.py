@@ -96,6 +96,7 @@ def test_single_speed_answers_with_the_class():
     assert len({run.hidden.mass for run in made.plan.runs}) == 1
 
 
+@pytest.mark.slow
 def test_files_hold_no_answer_and_repeat_byte_for_byte(tmp_path):
     made = draw_campaign(11, "effects", ["speed_ripple"], tries=1)
     told = write_campaign(made, tmp_path / "a" / "c", tmp_path / "answers" / "c.json", "c")

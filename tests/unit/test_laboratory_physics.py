@@ -41,6 +41,7 @@ def turning_points(x: np.ndarray) -> np.ndarray:
     return x[1:-1][np.diff(np.sign(np.diff(x))) != 0]
 
 
+@pytest.mark.slow
 def test_frequency_without_friction():
     p = apparatus(0.67, 20.17, 0.0, 0.0, 0.0, contact="jump", **LINEAR)
     rows = simulate(p, placed(0.02), 10.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from thermal.contact.footprint import Footprint
 from thermal.parameters import ParameterError, ThermalParameters
 
@@ -9,8 +11,10 @@ from .cylinder import Cylinder
 from .mesh_file import MeshError
 from .sample import Sample
 
+StandingBlock: TypeAlias = tuple[Footprint, Cylinder | Sample]
 
-def standing_block(parameters: ThermalParameters) -> tuple[Footprint, Cylinder | Sample]:
+
+def standing_block(parameters: ThermalParameters) -> StandingBlock:
     """Contact and ice: a cylinder, or what a mesh file holds.
 
     A mesh's contact is taken as the rectangle of its area and breadth, as a disc's is. MeshError

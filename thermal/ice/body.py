@@ -4,7 +4,7 @@ Its Galerkin space is diagonalised, so a constant flux is advanced exactly, what
 Melting lowers the block (see `space`). Within a step the ice sinks at a constant speed and the
 heat that this moves is a constant load, taken at the mean of the temperatures at the step's ends:
 second order in the step. The modes belong to one height; they are formed anew when the present one
-is off by `_TOLERANCE` of itself. Temperatures are rises above the air.
+is off by `TOLERANCE` of itself. Temperatures are rises above the air.
 """
 
 from __future__ import annotations
@@ -23,13 +23,16 @@ Array = NDArray[np.float64]
 
 #: Change of the height, relative, that the modes bear; the conductance upwards then errs by twice
 #: that, to one side and the other in turn.
-_TOLERANCE = 2e-4
+TOLERANCE = 2e-4
 
 #: Part of the first height that has to be left.
 _LEAST_HEIGHT = 0.05
 
 #: Modes that carry the heat of long times; see `_modes`.
 _SLOWEST = 40
+
+# Heights whose modes are kept: a step that is taken back goes from one to another and returns.
+_MOST_KNOWN = 4
 
 
 class IceMelted(RuntimeError):
@@ -77,13 +80,18 @@ class IceBody:
         self.space = space
         self.melted_depth = 0.0
         self._fitted_depth = 0.0
+        self._known: dict[float, tuple[Array, Array]] = {}
         self._diagonalise()
         self.amplitudes: Array = np.zeros(self.rates.size)
 
     def _diagonalise(self) -> None:
         """Modes of the present height."""
         space, height_ratio = self.space, self.height_ratio
-        self.rates, self._shapes = _modes(space, height_ratio)
+        if height_ratio not in self._known:
+            while len(self._known) >= _MOST_KNOWN:
+                del self._known[next(iter(self._known))]
+            self._known[height_ratio] = _modes(space, height_ratio)
+        self.rates, self._shapes = self._known[height_ratio]
         self._face = space.contact @ self._shapes
         self._heat = space.heat @ self._shapes
         self._air = space.air(height_ratio) @ self._shapes
@@ -183,7 +191,7 @@ class IceBody:
                 f"the ice has melted: of its {self.space.height:g} m less than"
                 f" {_LEAST_HEIGHT * self.space.height:g} m are left"
             )
-        bears = _TOLERANCE * (self.space.height - self._fitted_depth)
+        bears = TOLERANCE * (self.space.height - self._fitted_depth)
         gone = self.melted_depth - self._fitted_depth
         if abs(gone) > bears:
             self._fit(self.melted_depth + np.copysign(bears, gone))

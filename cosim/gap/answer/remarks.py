@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from cosim.gap.camera.quantisation import Quantisation
 from cosim.gap.data import Campaign
+from cosim.gap.diagnostics.where import told_chance
 
 #: Effects that only motion across the surface shows.
 _ACROSS = ("lateral_friction", "turning_surface", "spring_misalignment")
@@ -17,10 +19,11 @@ def remarks(
     """What was not tried or not used and why, and in what steps the tracker writes."""
     lines = []
     if rounded:
+        chance = told_chance(math.log10(rounded.p) if rounded.p > 0.0 else -math.inf)
         lines.append(
             f"{100.0 * rounded.share:.3g} % of x lie on steps of {1e6 * rounded.step:.4g} µm, "
             "which is felt beside the noise (noise alone would scatter as much with probability "
-            f"{rounded.p:.1g}): what rounding leaves is counted as noise"
+            f"p {chance}): what rounding leaves is counted as noise"
         )
     silent = [effect for effect in _ACROSS if effect not in tried]
     if silent:

@@ -25,6 +25,9 @@ from cosim.scenario.faults import describe_faults
 
 #: Fewer samples of x than this hold neither a cycle nor its noise.
 FEWEST = 20
+#: A record is also looked at on an even grid, as long as it takes: so many places for each of its
+#: rows, and so many in all where the rows are few in them.
+MOST_EMPTY, MOST_PLACES = 100, 5_000_000
 
 
 def read_campaign(path: str | Path) -> Campaign:
@@ -90,6 +93,7 @@ def read_track(file: Path) -> tuple[Track, list[str]]:
     columns = read_columns(file)
     time = columns.values.pop("t")
     _check_time(file, time, columns.lines)
+    _check_holes(file, time, columns.lines)
     remarks = [f"{file.name}: column {name} is not used" for name in columns.ignored]
     channels: dict[str, np.ndarray] = {}
     outliers: dict[str, int] = {}
@@ -126,6 +130,24 @@ def _check_time(file: Path, time: np.ndarray, lines: np.ndarray) -> None:
             f"allowed is a time that grows from row to row ({back.size} such row"
             f"{'s' * (back.size > 1)})"
         )
+
+
+def _check_holes(file: Path, time: np.ndarray, lines: np.ndarray) -> None:
+    """Refuse a record that is next to nothing but a hole in time."""
+    if time.size < FEWEST:
+        return
+    steps = np.diff(time)
+    interval = float(np.median(steps))
+    places = (time[-1] - time[0]) / interval
+    if places <= min(MOST_EMPTY * time.size, max(MOST_PLACES, 2 * time.size)):
+        return
+    row = int(np.argmax(steps)) + 1
+    raise CampaignError(
+        f"{file}: line {lines[row]}: t = {time[row]:.12g} s comes {steps[row - 1]:.4g} s after the "
+        f"row before, in a record of {time.size} rows that are {interval:.4g} s apart; allowed are "
+        f"holes up to {MOST_EMPTY} times as long as what was recorded: check the times, or give "
+        "each part its own file and [[run]]"
+    )
 
 
 def _unique_names(runs: list[MeasuredRun]) -> list[MeasuredRun]:

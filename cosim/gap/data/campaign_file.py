@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 import stickslip
 from pydantic import AllowInfNan, BaseModel, BeforeValidator, Field, create_model, model_validator
+from stickslip.parameters import FASTEST_SURFACE
 from stickslip.quantity import Table, quantity
 
 from cosim.gap.data.errors import CampaignError
@@ -40,13 +41,26 @@ class Model(Table):
     )
 
 
+#: Of a sample, in its unit: a thousandth of an atom, and still far above the rounding of the model.
+LEAST_NOISE = 1e-12
+
+
+#: Part of itself to which nobody knows a number, and a friction coefficient that nothing has.
+LEAST_DEVIATION, MOST_FRICTION = 1e-6, 100.0
+#: m/s: a millimetre in two weeks.
+SLOWEST_SURFACE = 1e-9
+#: Of a rig's parts, m.
+LENGTHS = ("contact_radius", "attachment_radius", "spring_length", "spring_natural_length")
+LONGEST, SHORTEST = 100.0, 1e-6
+
+
 class Noise(Table):
     """Standard deviation of one sample; what is not given is estimated."""
 
-    x: float = quantity(math.inf, "m", "noise of x", gt=0)
-    y: float = quantity(math.inf, "m", "noise of y", gt=0)
-    phi: float = quantity(math.inf, "rad", "noise of phi", gt=0)
-    force: float = quantity(math.inf, "N", "noise of the spring force", gt=0)
+    x: float = quantity(math.inf, "m", "noise of x", ge=LEAST_NOISE, le=1.0)
+    y: float = quantity(math.inf, "m", "noise of y", ge=LEAST_NOISE, le=1.0)
+    phi: float = quantity(math.inf, "rad", "noise of phi", ge=LEAST_NOISE, le=10.0)
+    force: float = quantity(math.inf, "N", "noise of the spring force", ge=LEAST_NOISE, le=1e6)
 
     @property
     def given(self) -> dict[str, float]:
@@ -57,12 +71,16 @@ class Noise(Table):
 class Errors(Table):
     """How well the rig is known: standard deviations of what the file states."""
 
-    stiffness: float = quantity(0.01, "1", "of the springs' stiffness, part of it", gt=0, le=0.2)
+    stiffness: float = quantity(0.01, "1", "of the springs' stiffness, part of it", ge=1e-6, le=0.2)
     surface_speed: float = quantity(
-        0.01, "1", "of a run's surface speed, part of the set-point", gt=0, le=0.2
+        0.01, "1", "of a run's surface speed, part of the set-point", ge=1e-6, le=0.2
     )
     zero: float = quantity(
-        3.0, "1", "of the tracker's zero in a run, in standard deviations of its noise", gt=0
+        3.0,
+        "1",
+        "of the tracker's zero in a run, in standard deviations of its noise",
+        ge=1e-3,
+        le=1e3,
     )
 
 
@@ -118,6 +136,11 @@ class Friction(Measured):
                     f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation] "
                     "with both above 0"
                 )
+            if value > MOST_FRICTION or deviation < LEAST_DEVIATION * value:
+                raise ValueError(
+                    f"{key} = [{value:g}, {deviation:g}], allowed is a value up to "
+                    f"{MOST_FRICTION:g}, known to {LEAST_DEVIATION:g} of itself at best"
+                )
         return self
 
 
@@ -143,6 +166,11 @@ class Summary(Measured):
                     f"{key} has the standard deviation {deviation:g}, allowed is [value, standard "
                     "deviation] with one above 0"
                 )
+            if deviation < LEAST_DEVIATION * abs(value):
+                raise ValueError(
+                    f"{key} has the standard deviation {deviation:g}, allowed is a value known to "
+                    f"{LEAST_DEVIATION:g} of itself at best"
+                )
             if key == "slip_share" and not 0.0 <= value <= 1.0:
                 raise ValueError(f"slip_share = {value:g} is not a share, allowed is 0 to 1")
         return self
@@ -154,7 +182,9 @@ class RunTable(Table):
     file: str = Field("", description="CSV file beside campaign.toml")
     mass: float = quantity(math.nan, "kg", "mass of the block", gt=0)
     stiffness: float = quantity(math.nan, "N/m", "stiffness of one of the four springs", gt=0)
-    surface_speed: float = quantity(math.nan, "m/s", "set-point of the surface's speed")
+    surface_speed: float = quantity(
+        math.nan, "m/s", "set-point of the surface's speed", ge=-FASTEST_SURFACE, le=FASTEST_SURFACE
+    )
     ambient_degC: float = quantity(-8.0, "degC", "temperature of the room", ge=-273.15, le=100)
     hold_out: bool = Field(False, description="never used for fitting")
     summary: Summary = Summary()
@@ -166,8 +196,11 @@ class RunTable(Table):
         for key in ("mass", "stiffness", "surface_speed"):
             if key not in self.model_fields_set:
                 raise ValueError(f"{key} is missing, allowed is a number")
-        if self.surface_speed == 0.0:
-            raise ValueError("surface_speed = 0: nothing is driven, allowed is any other number")
+        if abs(self.surface_speed) < SLOWEST_SURFACE:
+            raise ValueError(
+                f"surface_speed = {self.surface_speed:g}: nothing is driven, allowed is at least "
+                f"{SLOWEST_SURFACE:g} m/s either way"
+            )
         return self
 
 
@@ -191,6 +224,16 @@ class CampaignTable(Table):
     noise: Noise = Noise()
     errors: Errors = Errors()
     friction: Friction = Friction()
+
+    @model_validator(mode="after")
+    def _check_lengths(self) -> Self:
+        for key in LENGTHS:
+            if not SHORTEST <= getattr(self.rig, key) <= LONGEST:
+                raise ValueError(
+                    f"rig.{key} = {getattr(self.rig, key):g} m is no length of a rig, allowed is "
+                    f"{SHORTEST:g} to {LONGEST:g} m"
+                )
+        return self
 
 
 FILE_NAME = "campaign.toml"

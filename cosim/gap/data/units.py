@@ -22,12 +22,16 @@ USUAL_FRICTION, USUAL_PART = (0.05, 2.0), (1e-6, 0.5)
 TIMES = {"milliseconds": 1e3, "microseconds": 1e6}
 #: Part of a free vibration's period that two samples may at most be apart.
 COARSEST = 0.5
+#: Free vibrations that a record holds: with less than half of one there is no motion to look at;
+#: more than hours of a usual rig are another unit of time, or would be fitted for days.
+FEWEST_PERIODS, MOST_PERIODS = 0.5, 20_000.0
 
 
 def check_units(file: Path, run: MeasuredRun, track: Track, rig: Rig) -> list[str]:
     """Remarks on one run; CampaignError where the numbers are in another unit."""
     period = 2.0 * math.pi / run.natural_frequency
     _check_time(file, track.interval, period)
+    _check_span(file, track.duration, period)
     swing = _swing(track.x)
     if swing == 0.0:
         raise CampaignError(f"{file}: column x: does not change, allowed is a measured motion")
@@ -66,6 +70,22 @@ def _check_time(file: Path, interval: float, period: float) -> None:
         f"{file}: column t: {interval:.4g} s between samples, the block's free vibration takes "
         f"{period:.3g} s; allowed is at most half of it, in seconds{hint}"
     )
+
+
+def _check_span(file: Path, span: float, period: float) -> None:
+    if span < FEWEST_PERIODS * period:
+        again = 1e3 * span > 4.0 * FEWEST_PERIODS * period
+        hint = " (are these thousandths of seconds, divided by 1000 once more?)" if again else ""
+        raise CampaignError(
+            f"{file}: column t: covers {span:.4g} s, the block's free vibration takes "
+            f"{period:.3g} s; allowed is at least half of it, in seconds{hint}"
+        )
+    if span > MOST_PERIODS * period:
+        raise CampaignError(
+            f"{file}: column t: covers {span:.4g} s, which is {span / period:.3g} free vibrations "
+            f"of the block (each {period:.3g} s, by mass and stiffness); allowed are up to "
+            f"{MOST_PERIODS:g}: check mass and stiffness, or give a part of the record"
+        )
 
 
 def _swing(values: np.ndarray) -> float:

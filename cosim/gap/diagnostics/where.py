@@ -23,6 +23,21 @@ SLIGHT = 1.1
 COVERED = 0.8
 
 
+#: Below this power of ten a probability is one of the model of the noise, not of the data.
+LEAST_CHANCE = -12.0
+
+
+def told_chance(log10_p: float) -> str:
+    """A probability by its logarithm, as it stands behind a p: "= 0.012", "= 1e-7", "< 1e-12".
+
+    >>> [told_chance(value) for value in (-1.92, -7.1, -1866.0)]
+    ['= 0.012', '= 1e-7', '< 1e-12']
+    """
+    if log10_p < LEAST_CHANCE:
+        return f"< 1e{LEAST_CHANCE:.0f}"
+    return f"= {10.0**log10_p:.2g}" if log10_p > -4.0 else f"= 1e{log10_p:.0f}"
+
+
 @dataclass(frozen=True)
 class Where:
     """Channel, regime and runs of the misfit (empty where there is none), and the sentence."""
@@ -60,10 +75,11 @@ def _nothing(analysis: RegimeAnalysis) -> str:
     if not analysis.regions:
         return "Nothing can be compared: measurement and model share no stretch of stick or slip."
     least = min(region.most_certain for region in analysis.regions)
-    chance = min(10.0**least * analysis.tests, 1.0)
+    chance = min(least + math.log10(analysis.tests), 0.0)
     return (
         f"No misfit beyond the noise in any channel or regime: {_left(analysis)}; the most "
-        f"suspicious of {analysis.tests} tests comes about by chance with probability {chance:.2g}."
+        f"suspicious of {analysis.tests} tests comes about by chance with probability "
+        f"p {told_chance(chance)}."
     )
 
 

@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from cosim.gap.diagnostics.dependence import Dependence
 from cosim.gap.diagnostics.regimes import RegimeAnalysis, Region
 from cosim.gap.diagnostics.variables import VARIABLES
-from cosim.gap.diagnostics.where import CHANCE
+from cosim.gap.diagnostics.where import CHANCE, told_chance
 from cosim.report.style import BLUE, GREY, RED, logarithmic_x, panels, picture
 
 #: Variables shown of each region, the most certain ones.
@@ -78,5 +78,4 @@ def _errorbars(
         at, factor * value, factor * error, fmt=form, linewidth=0.9, markersize=3.0, capsize=2.0,
         color=RED if corrected < np.log10(CHANCE) else BLUE,
     )  # fmt: skip
-    shown = f"p = {10.0**corrected:.2g}" if corrected > -4.0 else f"p = 1e{corrected:.0f}"
-    axis.set_title(shown, fontsize=8.0, loc="right")
+    axis.set_title(f"p {told_chance(corrected)}", fontsize=8.0, loc="right")

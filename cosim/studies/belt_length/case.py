@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
+from cosim.coupling.case.prepared_block import prepared_block
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
 from thermal.belt.air import convection, laminar_span, moving_belt, radiation
 from thermal.belt.frost import Frost, frost
 from thermal.belt.single_pass import SinglePass
 from thermal.contact.footprint import Footprint
-from thermal.ice.block import standing_block
 from thermal.ice.body import IceBody
 from thermal.materials import GRAVITY
 
@@ -251,4 +251,4 @@ def _block(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody
 @lru_cache(maxsize=128)
 def _standing(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody]:
     long_enough = Belt(width=width, length=100.0)
-    return standing_block(ThermalParameters(belt=long_enough, ice=ice, contact=contact))
+    return prepared_block(ThermalParameters(belt=long_enough, ice=ice, contact=contact))

@@ -17,13 +17,15 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from math import prod
+from math import inf, prod
 from typing import Any
 
 from pydantic import ValidationError
 from stickslip import Parameters
 
+from cosim.scenario import Scenario, ScenarioError
 from cosim.scenario.faults import describe_faults
+from cosim.scenario.work import check_mechanics
 
 from .axis import Axis, axis, labelled_axis
 from .combination import Run, SweepError, content_key, with_changes
@@ -44,12 +46,13 @@ class Grid:
     """Combinations of ``axes`` around ``base``, the last axis running fastest.
 
     combine: makes the changes of a combination (`block.key` -> value) out of one setting from
-    each axis.
+    each axis. patience: longest that one of them may take, s.
     """
 
     base: Parameters
     axes: tuple[Axis, ...]
     combine: Callable[[Sequence[Settings]], dict[str, Any]] = merged
+    patience: float = inf
 
     def __post_init__(self) -> None:
         if not self.axes:
@@ -84,7 +87,9 @@ class Grid:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)
             for changes in self.changes:
-                keys.append(content_key(self._parameters(changes), run))
+                parameters = self._parameters(changes)
+                self._check_work(parameters, changes, run)
+                keys.append(content_key(parameters, run))
                 warned.update({str(entry.message) for entry in caught})
                 caught.clear()
         _warn_once(warned)
@@ -97,19 +102,33 @@ class Grid:
             fault = describe_faults(report, Parameters)
             if any(fault.startswith(f"{key}: ") for key in changes):
                 raise SweepError(fault) from None
-            where = ", ".join(f"{key} = {value}" for key, value in changes.items())
-            raise SweepError(f"{where}: {fault}") from None
+            raise SweepError(f"{_written(changes)}: {fault}") from None
+
+    def _check_work(self, parameters: Parameters, changes: Settings, run: Run) -> None:
+        try:
+            check_mechanics(parameters, run.duration, self.patience)
+        except ScenarioError as fault:
+            raise SweepError(f"{_written(changes)}: {fault}") from None
+
+
+def _written(changes: Settings) -> str:
+    return ", ".join(f"{key} = {value}" for key, value in changes.items())
 
 
 def product_grid(parameters: Parameters, vary: Mapping[Any, Sequence[Any]]) -> Grid:
     """The product of the varied keys; `axis` says how keys and values are given."""
-    return Grid(mechanics_of(parameters), tuple(axis(*entry) for entry in vary.items()))
+    axes = tuple(axis(*entry) for entry in vary.items())
+    return Grid(mechanics_of(parameters), axes, patience=_patience_of(parameters))
 
 
 def mechanics_of(parameters: Parameters) -> Parameters:
     """The mechanical part of a scenario, which is a Parameters and more."""
     tables = {name: getattr(parameters, name) for name in Parameters.model_fields}
     return Parameters.model_construct(**tables)
+
+
+def _patience_of(parameters: Parameters) -> float:
+    return parameters.run.patience if isinstance(parameters, Scenario) else inf
 
 
 def _warn_once(warned: Counter[str]) -> None:
@@ -180,7 +199,7 @@ def plan_grid(
             [{"rig.degrees_of_freedom": each} for each in GUIDES.values()],
         ),
     )
-    return Grid(mechanics_of(parameters), axes, _with_friction)
+    return Grid(mechanics_of(parameters), axes, _with_friction, _patience_of(parameters))
 
 
 def repeats_grid(parameters: Parameters) -> Grid:

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from cosim.cli import main
 from cosim.cli.running import closing_lines
 
 MECHANICS = {
@@ -43,3 +44,32 @@ def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency()
     short = MECHANICS | {"after_run_up": {"frequency": None, "slip_share": None}}
     lines = closing_lines(short, Path("out"), 6.0)
     assert len(lines) == 4 and "not known" in lines[1]
+
+
+def test_rounding_is_not_told_of_as_heat_and_nought_has_no_sign():
+    ledgers = {"ledger": MECHANICS["ledger"] | HEAT_LEDGERS}
+    ledgers["ledger"]["heat"] = HEAT_LEDGERS["heat"] | {"received": -1.95e-21}
+    rise = {"end_degC": -8.0, "end_rise": -1e-14}
+    heat = HEAT | {"temperatures": {"interface": rise}}
+    said = "\n".join(closing_lines(MECHANICS | heat | ledgers, Path("out"), 6.0))
+    assert "heat         0 J" in said and "+0.0000 K" in said and "e-21" not in said
+
+
+SWERVES = """
+[rig]
+spring_natural_length = 0.20
+[lateral_friction]
+ratio = 1.0
+[initial]
+y = 0.03
+[run]
+duration = 1.0
+"""
+
+
+def test_a_block_beyond_its_belt_is_said_in_one_line(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(SWERVES)
+    assert main(["simulate", "case.toml", "-o", "out"]) == 0
+    said = [line for line in capsys.readouterr().err.splitlines() if "edge" in line]
+    assert len(said) == 1 and said[0].startswith("warning: ") and "t = 0 s, y = 30 mm" in said[0]

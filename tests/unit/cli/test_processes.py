@@ -1,15 +1,17 @@
 """Processes end in good order, however many calls wait and however long those under way take."""
 
 import inspect
+import os
 import subprocess
 import sys
 import time
 
 import numba
+import pytest
 from joblib.externals.loky import ProcessPoolExecutor
 from numba.core.cpu import CPUTargetOptions
 
-from cosim.processes import as_finished, processes
+from cosim.processes import apart, as_finished, processes
 
 # two calls under way that do not look whether they are to end, six that wait
 INTERRUPTED = """
@@ -81,3 +83,37 @@ def test_results_come_in_order_or_as_they_are_finished():
         with processes(jobs) as mapped:
             assert list(mapped(square, numbers)) == [0, 1, 4, 9, 16]
         assert sorted(as_finished(jobs, square, numbers)) == [0, 1, 4, 9, 16]
+
+
+def test_apart_returns_and_raises_what_the_call_does():
+    assert apart(divmod, 7, 2) == (3, 1)
+    with pytest.raises(ZeroDivisionError):
+        apart(divmod, 7, 0)
+
+
+def test_apart_says_that_its_process_died():
+    with pytest.raises(RuntimeError, match="without an answer"):
+        apart(os._exit, 3)
+
+
+ENDLESS = """
+import os, signal, threading, time
+from cosim.processes import apart
+
+threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+signal.signal(signal.SIGINT, signal.default_int_handler)
+try:
+    apart(time.sleep, 600.0)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+def test_an_interrupt_ends_a_call_apart(tmp_path):
+    """Of whose end nobody knows; the limit is that of the test, far below the ten minutes."""
+    script = tmp_path / "endless.py"
+    script.write_text(ENDLESS, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(script)], capture_output=True, text=True, timeout=50, check=True
+    )
+    assert done.stdout.strip() == "interrupted"

@@ -40,6 +40,7 @@ def test_distance_comes_first_where_friction_runs_in(tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_sliding_speed_comes_first_where_it_weakens(tmp_path):
     strength = 0.6
     law = {"velocity_weakening": {"hyperbolic": strength}}

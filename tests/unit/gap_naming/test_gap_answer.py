@@ -125,6 +125,7 @@ def test_steps_of_the_tracker_alone_are_named(campaign, bench, finding):
     assert (alone.verdict, alone.effects) == ("named", ("measurement.quantisation",))
 
 
+@pytest.mark.slow
 def test_where_nothing_has_a_name_a_curve_takes_its_place(bench, finding):
     unknown = replace(finding, verdict="unknown", effects=(), ladder=finding.ladder[:1], chosen=0)
     laws = laws_found(bench, unknown, map_here)

@@ -50,7 +50,7 @@ def test_the_folder_has_the_campaigns_name(found, tmp_path, monkeypatch):
 
 def test_numbers_alone(found, tmp_path, capsys):
     assert main(["gap", found[0], "-o", str(tmp_path), "--no-page"]) == 0
-    assert {file.name for file in tmp_path.iterdir()} == {"gap.json", "model.toml"}
+    assert {file.name for file in tmp_path.iterdir()} == {"gap.json", "model.toml", "made_by.json"}
     assert "report.html" not in capsys.readouterr().out
 
 
@@ -61,7 +61,7 @@ def test_ctrl_c_while_drawing_keeps_the_answer(found, tmp_path, capsys, monkeypa
     monkeypatch.setattr(files, "draw_gaps", interrupted)
     assert main(["gap", found[0], "-o", str(tmp_path)]) == 1
     assert {file.name for file in tmp_path.iterdir()} == {
-        "gap.json", "model.toml", "overlay_x.png",
+        "gap.json", "model.toml", "overlay_x.png", "made_by.json",
     }  # fmt: skip
     assert "interrupted while drawing" in capsys.readouterr().err
 

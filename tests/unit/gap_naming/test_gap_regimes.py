@@ -15,6 +15,7 @@ from cosim.gap.diagnostics import (
     pattern_wavelength,
     ripple_frequency,
 )
+from cosim.gap.diagnostics.where import told_chance
 from cosim.gap.show.regime_figure import draw_regimes
 
 SPEEDS = (0.02, 0.06, 0.12)
@@ -226,3 +227,19 @@ def test_the_figure_has_a_row_for_each_region(monkeypatch):
     labels = [axis.get_ylabel() for axis in drawn.axes[::4]]
     assert "x, slip\nfriction force (N)" in labels
     assert draw_regimes(analysis).png.startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("log10_p", "text"),
+    [
+        (0.0, "= 1"),
+        (-0.5, "= 0.32"),
+        (-3.0, "= 0.001"),
+        (-6.2, "= 1e-6"),
+        (-12.0, "= 1e-12"),
+        (-1866.0, "< 1e-12"),
+        (-np.inf, "< 1e-12"),
+    ],
+)
+def test_no_probability_is_told_that_no_data_can_give(log10_p, text):
+    assert told_chance(log10_p) == text

@@ -1,7 +1,9 @@
 """A run as dataset and files: units everywhere, and every number comes back as it was."""
 
 import csv
+import errno
 import json
+import os
 from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace
@@ -14,9 +16,11 @@ from stickslip import Trajectory, simulate
 from stickslip.ports import OUTPUTS
 
 from cosim.coupling import Connection, CoupledResult, EnergyFlow, Ledger
+from cosim.coupling.statistics import Statistics
 from cosim.report import OutputError, run_dataset, trajectory_dataset, write_data
 from cosim.report.contents import mechanics_of, thermal_of
 from cosim.report.dataset import THERMAL
+from cosim.report.files import write_netcdf
 from cosim.scenario import Scenario
 from thermal import BeltIceModel
 
@@ -90,6 +94,7 @@ def made_coupled(surface: str) -> tuple[CoupledResult, SimpleNamespace]:
         1.5,
         2,
         run.time.size - 1,
+        statistics(run.time.size - 1),
     )
     times, profiles, contacts = zip(*pictures, strict=True)
     return result, SimpleNamespace(
@@ -99,6 +104,19 @@ def made_coupled(surface: str) -> tuple[CoupledResult, SimpleNamespace]:
         contact=contacts,
         contact_length=model.footprint.length,
     )
+
+
+def statistics(steps: int) -> Statistics:
+    """As of steps that were iterated twice each and, one of them, a third time."""
+    made = Statistics(["mechanics", "thermal"])
+    for _ in range(steps):
+        made.iterated(2)
+        made.stepped("mechanics", 0.25)
+        made.stepped("thermal", 0.5)
+    made.iterated(3)
+    made.rejected = 1
+    made.unconverged.append(0.5)
+    return made
 
 
 def coupled_dataset(surface: str = "belt") -> xr.Dataset:
@@ -228,3 +246,19 @@ def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatc
         write_data(dataset, tmp_path)
     assert (tmp_path / "result.csv").read_bytes() == before
     assert {path.name for path in tmp_path.iterdir()} == {"result.nc", "result.csv"}
+
+
+@pytest.mark.skipif(not hasattr(os, "posix_fallocate"), reason="no way to ask for room there")
+def test_no_room_for_a_dataset_is_said_before_hdf5_meets_it(tmp_path, monkeypatch):
+    """HDF5 on a disk that fills up writes dozens of tracebacks and takes the process with it."""
+    asked = []
+
+    def refuse(file, start, size):
+        asked.append(size)
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("os.posix_fallocate", refuse)
+    dataset = xr.Dataset({"x": ("time", np.zeros(100_000))})
+    with pytest.raises(OutputError, match=r"result\.nc: cannot be .*: No space left"):
+        write_netcdf(dataset, tmp_path / "result.nc")
+    assert asked[0] > 800_000 and list(tmp_path.iterdir()) == []

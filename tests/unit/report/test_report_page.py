@@ -10,6 +10,7 @@ from test_report_figures import cut_short, with_gaps
 
 from cosim.report import write_results
 from cosim.report.figures import plates_of
+from cosim.report.page import number
 from cosim.report.quantities import digits, told
 
 
@@ -85,6 +86,8 @@ def test_page_shows_scenario_ledger_numbers_and_versions(written):
         "scikit-fem",
         "Energy ledger",
         f"{100 * numbers['heat_shares']['ice']:.2f} %",
+        "<tr><td>iterations of one step at most</td><td>3</td></tr>",
+        f"<tr><td>thermal</td><td>{numbers['rows'] - 1} steps, ",
     ):
         assert text in page, text
     assert "fields/temperature.pvd" in references.linked
@@ -124,10 +127,33 @@ def test_a_run_without_a_row_still_has_its_page(tmp_path):
         (-40.384, "deg", "−40.38°"),
         (-8.0, "degC", "−8 °C"),
         (1e-9, "deg", "0.00°"),
+        (-1.95e-21, "m", "0 m"),
+        (5.74e-11, "m", "0 m"),
+        (5e-10, "m", "5.00 · 10⁻¹⁰ m"),
+        (-3e-17, "N", "0 N"),
+        (-0.0, "m", "0 m"),
+        (2e-20, "1", "2.00 · 10⁻²⁰"),
     ],
 )
 def test_numbers_as_they_are_read(value, unit, text):
     assert told(value, unit) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "sizes", "text"),
+    [
+        (-1.95e-21, {}, "−1.95e−21"),  # of a channel of which nothing is known
+        (-1.95e-21, {"nominal": 0.01}, "0"),
+        (-1.95e-21, {"largest": 3e-22}, "−1.95e−21"),
+        (4e-18, {"largest": 0.03}, "0"),
+        (4e-16, {"largest": 0.03}, "4e−16"),
+        (-0.0, {}, "0"),
+        (None, {"largest": 1.0}, "–"),
+        ("word", {"nominal": 1.0}, "word"),
+    ],
+)
+def test_rounding_beside_a_channels_own_size_or_its_nominal_is_nought(value, sizes, text):
+    assert number(value, 3, **sizes) == text
 
 
 def test_lists_and_words_of_parameters():

@@ -85,6 +85,31 @@ def test_real_run_agrees_with_the_trajectory():
     assert found["ledger"]["mechanics"]["relative_residual"] < 1e-9
 
 
+def test_how_it_was_coupled_is_told_with_units():
+    dataset = coupled_dataset()
+    found, steps = summary(dataset), dataset.sizes["time"] - 1
+    assert found["coupling"] == {
+        "scheme": "gauss_seidel",
+        "step_control": "fixed",
+        "macro_step": 0.01,
+        "steps": steps,
+        "rejected": 1,
+        "iterations": 2 * steps + 3,
+        "most_iterations": 3,
+        "events": 0,
+        "unconverged": 1,
+        "above_tolerance": 0,
+        "initial_sweeps": 2,
+        "participants": {
+            "mechanics": {"steps": steps, "seconds": 0.25 * steps},
+            "thermal": {"steps": steps, "seconds": 0.5 * steps},
+        },
+    }
+    assert found["units"]["coupling.macro_step"] == "s"
+    assert found["units"]["coupling.participants.thermal.seconds"] == "s"
+    assert "coupling" not in summary(mechanics_dataset())
+
+
 def test_heat_and_coupling_ledgers_close():
     found = summary(coupled_dataset())
     heat, coupling = found["ledger"]["heat"], found["ledger"]["coupling"]

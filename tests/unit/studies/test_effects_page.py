@@ -54,7 +54,7 @@ def test_what_was_drawn_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, dra
     assert main(["effects", "run_in", "film_drag", "-o", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert (out, err) == ("", f"error: interrupted; {drawn} of 2 figures are in {tmp_path}\n")
-    assert len(list(tmp_path.iterdir())) == drawn
+    assert len(list(tmp_path.glob("*.png"))) == drawn
 
 
 def test_unknown_effect(capsys):

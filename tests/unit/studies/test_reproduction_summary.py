@@ -149,6 +149,7 @@ def test_nothing_is_missing_where_nothing_is_and_the_same_seed_says_the_same():
     assert first.plain.values["friction.mu_k"] == pytest.approx(0.2, abs=0.01)
 
 
+@pytest.mark.slow
 def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
     few = ("static_strengthening", "film_drag", "spring_hardening")  # all fourteen take long
     monkeypatch.setattr(

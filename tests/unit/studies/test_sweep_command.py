@@ -83,7 +83,12 @@ def test_files_and_last_lines(case, tmp_path, capsys):
     assert call(case, *varied, "--jobs", 1, "-o", out) == 0
     printed = capsys.readouterr()
     assert printed.err == "" and "4 combinations in " in printed.out
-    assert {file.name for file in out.iterdir()} == {"sweep.nc", "sweep.png", "chunks"}
+    assert {file.name for file in out.iterdir()} == {
+        "sweep.nc",
+        "sweep.png",
+        "made_by.json",
+        "chunks",
+    }
     with xr.open_dataset(out / "sweep.nc") as done:
         assert done.x_mean.dims == ("rig.mass", "friction.mu_s+friction.mu_k")
         assert done["rig.mass"].attrs["units"] == "kg"

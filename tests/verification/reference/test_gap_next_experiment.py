@@ -92,6 +92,7 @@ def as_proposed(hidden, proposed, seed):
     return run_of(rig, start, seed, hold_out=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("effect", PAIR)
 def test_one_more_run_names_what_one_speed_cannot(tmp_path, effect):
     hidden = HIDDEN[effect]

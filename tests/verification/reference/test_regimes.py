@@ -50,6 +50,7 @@ def closed_form(speed, mu_s, damping, run_up=10.0):
     return {name: STICK_SLIP if does else SLIDING for name, does in sticks.items()}
 
 
+@pytest.mark.slow
 def test_no_cell_of_twenty_by_twenty_is_wrong():
     """Undamped; speeds up to four times, ratios of mu_s to mu_k up to twice."""
     wrong, seen = [], set()

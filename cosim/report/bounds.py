@@ -1,0 +1,192 @@
+"""Whether a run stays where its rig has it: on the surface, and within the springs' length.
+
+The mechanics goes on beyond the belt's edge as if the surface were endless, and the heat model
+has no y at all: its contact is the disc in the middle of the belt, or of a slab's track. So a
+block that has left the belt is told of, and from when on its heat is that of a block in the
+middle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from stickslip import Parameters
+from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
+
+from .contents import mechanics_of
+from .quantities import Quantity
+
+Array = NDArray[np.float64]
+
+#: Attribute of a dataset: width of the belt (of a slab: of the track that is heated), m.
+WIDTH = "belt_width"
+#: A disc as wide as the belt is over its edge at once: aside by this part of its radius, less
+#: than 1 % of the contact has left the belt.
+SLACK = 0.05
+#: Times its installed length that a spring can be: no linear spring is one beyond that.
+LONGEST = 2.0
+
+
+def bounds_numbers(dataset: xr.Dataset) -> dict[str, Any]:
+    """`left_belt`, where the surface has an edge, and `overstretched`, of the springs; {}: no rows.
+
+    Times are None for a run that stays within its bounds.
+    """
+    time = dataset["time"].values
+    known = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    if not known.any():
+        return {}
+    x, y, phi = (dataset[name].values[known] for name in ("x", "y", "phi"))
+    parameters = mechanics_of(dataset)
+    found: dict[str, Any] = {"overstretched": _overstretched(parameters, time[known], x, y, phi)}
+    if left := _left_belt(dataset, parameters, time[known], y):
+        found["left_belt"] = left
+    if centre := _at_centre(parameters, time[known], x, y):
+        found["slab_centre"] = centre
+    return found
+
+
+def allowed_aside(radius: float, width: float) -> float:
+    """How far aside (m) a disc (radius, m) lies on a belt (width, m) as in its middle.
+
+    Until its rim passes the edge or, of a disc wider than the belt, until its rim is within the
+    edge on the other side; at most half the width, where the belt is no longer under its centre.
+    """
+    return min(max(abs(0.5 * width - radius), SLACK * radius), 0.5 * width)
+
+
+def contact_share(y: float, radius: float, width: float) -> float:
+    """Area of a disc at y (m) on a belt along y = 0, as a part of that in the middle."""
+
+    def below(edge: float) -> float:
+        """Part of a disc of radius 1 that lies below an edge."""
+        e = float(np.clip(edge, -1.0, 1.0))
+        return (np.arcsin(e) + e * np.sqrt(1.0 - e * e)) / np.pi
+
+    half, y = 0.5 * width / radius, y / radius
+    return float((below(half - y) - below(-half - y)) / (2.0 * below(half)))
+
+
+def spring_lengths(parameters: Parameters, x: Array, y: Array, phi: Array) -> Array:
+    """Lengths of the springs (4, n), m, of the block at x, y (n,) m, turned by phi (n,) rad."""
+    p = parameters.pack()
+    anchors = np.array(p[P_ANCHOR : P_ANCHOR + 8]).reshape(4, 2)
+    arms = np.array(p[P_ATTACH : P_ATTACH + 8]).reshape(4, 2)
+    c, s = np.cos(phi), np.sin(phi)
+    along = x + np.outer(arms[:, 0], c) - np.outer(arms[:, 1], s) - anchors[:, :1]
+    across = y + np.outer(arms[:, 0], s) + np.outer(arms[:, 1], c) - anchors[:, 1:]
+    return np.hypot(along, across)
+
+
+def _left_belt(
+    dataset: xr.Dataset, parameters: Parameters, time: Array, y: Array
+) -> dict[str, Quantity]:
+    """When and where the block left the belt, and how far; {} where no edge is known."""
+    width = dataset.attrs.get(WIDTH)
+    heated = "heat_received" in dataset
+    if width is None or (_turns(parameters) and not heated):
+        return {}
+    radius = parameters.rig.contact_radius
+    allowed, aside = allowed_aside(radius, width), np.abs(y)
+    first, farthest = _first(aside > allowed), int(aside.argmax())
+    off = None if _turns(parameters) else _first(aside > 0.5 * width)
+    left = {
+        "time": _at(time, first, "s"),
+        "y": _at(y, first, "m"),
+        "allowed": Quantity(allowed, "m"),
+        "farthest_y": Quantity(float(y[farthest]), "m"),
+        "least_contact_share": Quantity(contact_share(aside[farthest], radius, width), "1"),
+        "centre_off_since": _at(time, off, "s"),
+    }
+    return left | ({"heat_as_in_the_middle_since": left["time"]} if heated else {})
+
+
+def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[str, Quantity]:
+    """When a slab's centre came under the block; {} for a belt."""
+    if not _turns(parameters):
+        return {}
+    centre = 1.0 / parameters.pack()[P_CURVATURE]
+    distance = np.hypot(x, y - centre)
+    first = _first(distance < parameters.rig.contact_radius)
+    return {
+        "time": _at(time, first, "s"),
+        "y": _at(y, first, "m"),
+        "least_distance": Quantity(float(distance.min()), "m"),
+        "allowed": Quantity(parameters.rig.contact_radius, "m"),
+    }
+
+
+def _overstretched(
+    parameters: Parameters, time: Array, x: Array, y: Array, phi: Array
+) -> dict[str, Quantity]:
+    longest = spring_lengths(parameters, x, y, phi).max(axis=0)
+    allowed = LONGEST * parameters.rig.spring_length
+    if curve := parameters.springs.force_curve_extension:
+        allowed = parameters.rig.spring_natural_length + curve[-1]
+    return {
+        "time": _at(time, _first(longest > allowed), "s"),
+        "longest": Quantity(float(longest.max()), "m"),
+        "allowed": Quantity(allowed, "m"),
+    }
+
+
+def _turns(parameters: Parameters) -> bool:
+    return bool(parameters.pack()[P_CURVATURE] != 0.0)
+
+
+def _first(beyond: NDArray[np.bool_]) -> int | None:
+    return int(beyond.argmax()) if beyond.any() else None
+
+
+def _at(values: Array, row: int | None, unit: str) -> Quantity:
+    return Quantity(None if row is None else float(values[row]), unit)
+
+
+def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:
+    """What a run does that its rig could not, a sentence each, from the summary; none is well."""
+    told = []
+    left, centre = numbers.get("left_belt", {}), numbers.get("slab_centre", {})
+    if left.get("time") is not None:
+        told.append(_left_sentence(left, "slab_centre" in numbers))
+    if centre.get("time") is not None:
+        told.append(
+            f"the slab's centre comes under the block at t = {centre['time']:.4g} s "
+            f"(y = {_mm(centre['y'])}): it comes as near as {_mm(centre['least_distance'])}, "
+            f"allowed is {_mm(centre['allowed'])}"
+        )
+    springs = numbers.get("overstretched", {})
+    if springs.get("time") is not None:
+        told.append(
+            f"a spring is longer than it can be from t = {springs['time']:.4g} s on: up to "
+            f"{_mm(springs['longest'])}, allowed is {_mm(springs['allowed'])}"
+        )
+    return told
+
+
+def _left_sentence(left: Mapping[str, Any], slab: bool) -> str:
+    place = "track that the slab is heated on" if slab else "belt's edge"
+    text = (
+        f"the block goes beyond the {place} at t = {left['time']:.4g} s, y = {_mm(left['y'])} "
+        f"(allowed is {_mm(left['allowed'])} to either side); it comes to "
+        f"y = {_mm(left['farthest_y'])}, with {100.0 * left['least_contact_share']:.3g} % of the "
+        "contact left"
+    )
+    if left["centre_off_since"] is not None:
+        text += (
+            f", and from t = {left['centre_off_since']:.4g} s on its centre is beyond it, "
+            "where a block would tip"
+        )
+    if "heat_as_in_the_middle_since" in left:
+        text += (
+            f"; from t = {left['heat_as_in_the_middle_since']:.4g} s on the heat is that of a "
+            "block in the middle, not of this one"
+        )
+    return text
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:z.4g} mm"

@@ -1,0 +1,64 @@
+"""Scenarios and campaigns that nobody would write, the same ones each time.
+
+Of campaigns only the reading: finding takes seconds each. `benchmarks/fuzz.py` does all of it, with
+other cases each time, for as long as one likes.
+"""
+
+import shutil
+from unittest import mock
+
+import pytest
+from fuzzed import called, campaigns, fault_of, scenarios, toml, write_campaign
+from hypothesis import HealthCheck, given, settings
+
+#: What a reading that finds no fault ends with here.
+READ = "error: interrupted before there was a result\n"
+SAME_EACH_TIME = {
+    "derandomize": True,
+    "database": None,
+    "deadline": None,
+    "suppress_health_check": list(HealthCheck),
+}
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    return tmp_path_factory.mktemp("fuzz")
+
+
+def check(status, out, err, folder=None):
+    fault = fault_of(status, out, err, folder)
+    assert fault is None, f"{fault}: {err}"
+
+
+@settings(max_examples=20, **SAME_EACH_TIME)
+@given(tables=scenarios())
+def test_any_scenario_gets_a_sensible_answer(place, tables):
+    if (text := toml(tables)) is None:
+        return
+    (place / "case.toml").write_text(text, encoding="utf-8", errors="replace")
+    shutil.rmtree(place / "out", ignore_errors=True)
+    answer = called("simulate", place / "case.toml", "-o", place / "out", figures=False)
+    check(*answer, place / "out")
+
+
+@settings(max_examples=60, **SAME_EACH_TIME)
+@given(case=campaigns())
+def test_any_campaign_is_read_or_refused(place, case):
+    if (path := write_campaign(place, *case)) is None:
+        return
+    with mock.patch("cosim.cli.gap._find", side_effect=KeyboardInterrupt):
+        status, out, err = called("gap", path, "-o", place / "gap")
+    assert status == 2 or err.endswith(READ), err
+    check(status, out, err)
+
+
+@settings(max_examples=30, **SAME_EACH_TIME)
+@given(case=campaigns(planned=True))
+def test_any_plan_is_read_or_refused(place, case):
+    if (path := write_campaign(place, *case)) is None:
+        return
+    with mock.patch("cosim.gap.plan.make_plan", side_effect=KeyboardInterrupt):
+        status, out, err = called("plan", path, "-o", place / "plan")
+    assert status == 2 or err.endswith(READ), err
+    check(status, out, err)
