@@ -92,6 +92,7 @@ def test_a_second_run_takes_the_fmu_as_it_is_and_repeats_the_first(place):
     pd.testing.assert_frame_equal(first, pd.read_csv(place / "again" / "result.csv"))
 
 
+@pytest.mark.slow
 def test_a_truncated_fmu_is_rebuilt_and_a_given_one_refused(place):
     fmu = place / "build" / "StickSlip3DOF.fmu"
     whole = fmu.read_bytes()

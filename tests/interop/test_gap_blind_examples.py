@@ -116,6 +116,7 @@ def test_the_extended_model_is_a_scenario(found, tmp_path):
     assert summary["status"] == "complete"
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_bytes(short, found, tmp_path):
     """With one process and with two."""
     done = stickslip("gap", short("e1"), "-o", tmp_path, "--no-page", "--jobs", 1)

@@ -17,6 +17,9 @@ from cosim.studies.reproduction.summary import find, find_summary_gap, search
 STUDY = Path(__file__).parents[3] / "cosim" / "gap" / "campaigns" / "study.toml"
 
 
+pytestmark = pytest.mark.slow
+
+
 @pytest.fixture(scope="module")
 def answer():
     with pytest.MonkeyPatch.context() as patch:
