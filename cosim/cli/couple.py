@@ -133,6 +133,7 @@ def _begun(arguments: Namespace) -> Job:
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
+    from cosim.cli.running import refuse_beside_resume
     from cosim.coupling.record import RunFolder
     from cosim.systems import read_system
 
@@ -142,11 +143,7 @@ def _found(arguments: Namespace) -> Job:
         "--set": arguments.changes,
         "--force": arguments.force,
     }
-    for what, value in given.items():
-        if value:
-            raise BadInput(
-                f"--resume: goes on with a run as it was begun, so {what} cannot be given"
-            )
+    refuse_beside_resume(given)
     folder = RunFolder.found(Path(arguments.resume))
     asked = folder.asked
     system, changes = asked.get("system"), asked.get("changes", {})

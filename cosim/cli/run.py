@@ -157,11 +157,7 @@ def _found(arguments: Namespace) -> Job:
         "--animation": arguments.animation,
         "--force": arguments.force,
     }
-    for what, value in given.items():
-        if value:
-            raise BadInput(
-                f"--resume: goes on with a run as it was begun, so {what} cannot be given"
-            )
+    running.refuse_beside_resume(given)
     results = Path(arguments.resume)
     folder = RunFolder.found(results)
     asked = folder.asked

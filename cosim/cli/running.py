@@ -20,7 +20,7 @@ from stickslip.steady_motion.regimes import CREEPING, OWN
 from stickslip.steady_motion.stability import UNSTABLE
 from tqdm import tqdm
 
-from cosim.cli import DONE, FAILED
+from cosim.cli import DONE, FAILED, BadInput
 from cosim.coupling.record import LOG, MessageLog, RunFolder
 from cosim.files import writable
 from cosim.interrupts import Patience
@@ -85,6 +85,15 @@ def field_files(folder: Path) -> list[str]:
     except (OSError, ElementTree.ParseError):
         return []
     return [f"{FIELDS}/{name}" for name in (file.name, *named)]
+
+
+def refuse_beside_resume(given: Mapping[str, object]) -> None:
+    """BadInput for an argument, by what it is called, that was given beside --resume."""
+    for what, value in given.items():
+        if value:
+            raise BadInput(
+                f"--resume: goes on with a run as it was begun, so {what} cannot be given"
+            )
 
 
 def message_log(folder: RunFolder, verbose: bool) -> MessageLog:
