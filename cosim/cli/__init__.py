@@ -15,6 +15,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TextIO
 
+from cosim.cli.plug_ins import handed_on, is_of_an_effect
+from cosim.files import OutputError
 from cosim.interrupts import held_interrupts, interruptible
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
@@ -27,6 +29,10 @@ class BadInput(ValueError):
     """What was given cannot be used; one line: file, key, what is wrong, what is allowed."""
 
 
+class Failed(RuntimeError):
+    """A run that failed before its first step; one line: who, why."""
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; the exit status.
 
@@ -34,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     _one_blas_thread()
     with interruptible(ending=argv is None):
-        return _guarded(sys.argv[1:] if argv is None else argv)
+        return _guarded(sys.argv[1:] if argv is None else argv, ending=argv is None)
 
 
 def _one_blas_thread() -> None:
@@ -47,20 +53,25 @@ def _one_blas_thread() -> None:
         os.environ.setdefault(name, "1")
 
 
-def _guarded(argv: Sequence[str]) -> int:
+def _guarded(argv: Sequence[str], ending: bool) -> int:
     """The exit status, whatever happens."""
     debug = "--debug" in argv
     try:
+        status = handed_on(argv, ending)
+        if status is not None:
+            return status
         with held_interrupts():
             from cosim.cli.arguments import command_module, parser
+            from cosim.cli.saying import saying
 
             arguments = parser(argv).parse_args(argv)
             command = command_module(arguments.command)
             refused = command.refused()
-        with warnings_in_one_line(), refusing(*refused):
-            status: int = command.execute(arguments)
+        how_much = saying(arguments.quiet, arguments.verbose)
+        with how_much, warnings_in_one_line(), refusing(*refused):
+            done: int = command.execute(arguments)
         sys.stdout.flush()
-        return status
+        return done
     except BadInput as error:
         return _give_up(error, BAD_INPUT, debug)
     except KeyboardInterrupt as error:
@@ -69,7 +80,11 @@ def _guarded(argv: Sequence[str]) -> int:
         # whoever read our output has gone; Python would complain again while it shuts down
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return FAILED
+    except (OutputError, Failed) as error:
+        return _give_up(error, FAILED, debug)
     except Exception as error:
+        if is_of_an_effect(error):
+            return _give_up(error, BAD_INPUT, debug)
         said = " ".join(str(error).split()) or type(error).__name__
         return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
 

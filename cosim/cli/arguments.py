@@ -1,6 +1,6 @@
 """The commands of `stickslip`, and what their arguments have in common.
 
-A command is a line in `COMMANDS` and a module of its name here, of this shape:
+A command is a line in `COMMANDS` and a module of its name in one of the rooms here, of this shape:
 
     EXAMPLE                 a command line that works
     add_arguments(parser)   its arguments
@@ -11,28 +11,76 @@ A command is a line in `COMMANDS` and a module of its name here, of this shape:
 from __future__ import annotations
 
 import argparse
+import os
+import re
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
-#: Command -> what it does, in the order of the help.
+
+class Command(NamedTuple):
+    """A command: the room of its module, and what it does, in the words of the help."""
+
+    room: str
+    does: str
+
+
+#: In the order of the help.
 COMMANDS = {
-    "run": "the coupled case: the mechanical FMU and the heat in belt and ice",
-    "simulate": "the mechanics alone, without FMU and heat conduction",
-    "build": "builds the units for other tools: the block (FMI 2.0, 3.0), the heat, both as SSP",
-    "couple": "any system of units: an SSP file, or a TOML of units, connections, scheme, steps",
-    "belt-length": "how long the belt must be: drift of its temperature, loop after loop",
-    "effects": "the catalogue of effects: what each adds, its parameters, and a figure",
-    "friction-map": "friction against speed and temperature in steady coupled sliding",
-    "gap": "what model and measurement disagree on: names the missing effect, adds it, shows it",
-    "plan": "what a campaign could name before it is made: smallest sizes, pairs, the next run",
-    "reproduce": "the source study's claims C1 to C15, each with its number, ours, and a verdict",
-    "stability": "which steady motions a rig has, and which it can keep to: maps and a page",
-    "sweep": "parameter sweep: every combination of some values",
+    "run": Command("runs", "the coupled case: the mechanical FMU and the heat in belt and ice"),
+    "simulate": Command("runs", "the mechanics alone, without FMU and heat conduction"),
+    "build": Command(
+        "authoring",
+        "builds the units for other tools: the block (FMI 2.0, 3.0), the heat, both as SSP",
+    ),
+    "couple": Command(
+        "runs", "any system of units: an SSP file, or a TOML of units, connections, scheme, steps"
+    ),
+    "compare": Command("runs", "two results, or two scenarios: numbers, curves, what differs"),
+    "belt-length": Command(
+        "studies", "how long the belt must be: drift of its temperature, loop after loop"
+    ),
+    "effect": Command(
+        "authoring", "writes the file of an effect of one's own, to be changed: effect new NAME.py"
+    ),
+    "effects": Command(
+        "studies", "the catalogue of effects: what each adds, its parameters, and a figure"
+    ),
+    "explore": Command(
+        "runs", "the mechanics in the browser: a page with a slider for every number"
+    ),
+    "friction-map": Command(
+        "studies", "friction against speed and temperature in steady coupled sliding"
+    ),
+    "gap": Command(
+        "measurements",
+        "what model and measurement disagree on: names the missing effect, adds it, shows it",
+    ),
+    "plan": Command(
+        "measurements",
+        "what a campaign could name before it is made: smallest sizes, pairs, the next run",
+    ),
+    "new": Command("authoring", "writes a commented scenario to begin from, or a copy of one"),
+    "keys": Command("authoring", "every key of a scenario: default, unit, what is allowed"),
+    "schema": Command(
+        "authoring", "the JSON Schema of a scenario, a campaign or a system, for editors"
+    ),
+    "completion": Command("authoring", "completion of commands and options for your shell"),
+    "reproduce": Command(
+        "studies", "the source study's claims C1 to C15, each with its number, ours, and a verdict"
+    ),
+    "stability": Command(
+        "studies", "which steady motions a rig has, and which it can keep to: maps and a page"
+    ),
+    "sweep": Command("studies", "parameter sweep: every combination of some values"),
 }
+
+
+#: As a FILE of --json: standard output.
+STDOUT = "-"
 
 
 class Parser(argparse.ArgumentParser):
@@ -59,27 +107,28 @@ def parser(arguments: Sequence[str]) -> Parser:
     top.add_argument("--version", action="version", version=f"stickslip {version('stickslip')}")
     top.add_argument("--debug", action="store_true", help="show the traceback of an error")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, summary in COMMANDS.items():
-        command = commands.add_parser(name, help=summary, allow_abbrev=False)
+    for name, (_, does) in COMMANDS.items():
+        command = commands.add_parser(name, help=does, allow_abbrev=False)
         if name in arguments:
-            _declare(command, name, summary)
+            _declare(command, name, does)
     return top
 
 
-def _declare(command: Parser, name: str, summary: str) -> None:
+def _declare(command: Parser, name: str, does: str) -> None:
     module = command_module(name)
-    command.description = summary[0].upper() + summary[1:] + "."
+    command.description = does[0].upper() + does[1:] + "."
     command.epilog = f"example: {module.EXAMPLE}"
     # Also behind the command's name; suppressed, so that it does not undo one in front of it.
     command.add_argument(
         "--debug", action="store_true", default=argparse.SUPPRESS, help="show tracebacks"
     )
     module.add_arguments(command)
+    _add_saying(command)
 
 
 def command_module(name: str) -> ModuleType:
     """The module of a command."""
-    return import_module(f"cosim.cli.{name.replace('-', '_')}")
+    return import_module(f"cosim.cli.{COMMANDS[name].room}.{name.replace('-', '_')}")
 
 
 def add_run_arguments(command: argparse.ArgumentParser) -> None:
@@ -88,8 +137,10 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         "scenario",
         nargs="?",
         help="TOML file, or the name of a packaged scenario such as reference (default), slab, "
-        "warm_friction",
+        "warm_friction; effects of one's own that it names are code, and are run",
     )
+    add_set(command)
+    add_json(command)
     add_output(
         command,
         "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)",
@@ -111,17 +162,51 @@ def add_force(command: argparse.ArgumentParser, said: str = "") -> None:
     )
 
 
-def add_verbose(command: argparse.ArgumentParser) -> None:
-    """`-v`: what is said in a run, as it comes."""
+def add_set(command: argparse.ArgumentParser, example: str = "rig.mass=1.2") -> None:
+    """`--set`: keys of the scenario, or of what else a command reads, in place of the file's."""
     command.add_argument(
-        "-v",
-        "--verbose",
-        action="store_true",
-        help="show on stderr what the units say, as it comes, and ask them for more of it;"
-        " messages.log beside the results has it, too",
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        dest="changes",
+        help=f"a key in place of the file's, as {example}: a value as TOML has it, or a text "
+        "without quotes; may come again",
     )
 
 
 def add_json(command: argparse.ArgumentParser) -> None:
-    """`--json`: the numbers on standard output in place of the lines."""
-    command.add_argument("--json", action="store_true", help="print JSON")
+    """`--json`: the numbers on standard output in place of the lines, or in a file beside them."""
+    command.add_argument(
+        "--json",
+        nargs="?",
+        const=STDOUT,
+        type=_json_file,
+        metavar="FILE",
+        help="print the numbers as JSON in place of the lines; with FILE, write them there",
+    )
+
+
+def _json_file(text: str) -> str:
+    """A file's name; not that of a scenario, an effect or a claim, which may have been meant."""
+    if text != STDOUT and not re.search(r"[./\\]", text) and not os.path.exists(text):
+        raise argparse.ArgumentTypeError(
+            f"{text} is no name of a file, allowed is one such as {text}.json; what is to be "
+            "computed goes in front of --json"
+        )
+    return text
+
+
+def _add_saying(command: argparse.ArgumentParser) -> None:
+    """`-q` and `-v`: how much is said beside the results."""
+    how_much = command.add_mutually_exclusive_group()
+    how_much.add_argument(
+        "-q", "--quiet", action="store_true", help="say nothing but results, warnings and errors"
+    )
+    how_much.add_argument(
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="say more on stderr: what is read, compiled and written; of run and couple also what "
+        "the units say, as it comes, and ask them for more of it (messages.log has it, too)",
+    )

@@ -1,26 +1,32 @@
 """A scenario: everything that a run needs, as one TOML file holds it.
 
 The tables of a file are the blocks of the mechanical parameters (`stickslip.Parameters`), those
-of the thermal ones (`thermal.ThermalParameters`), `[run]` and `[coupling]`; every key has a
-default. What both models know has one key: the contact's radius is `rig.contact_radius`, and the
-turn of a slab follows from `rig.slab_radius`.
+of the thermal ones (`thermal.ThermalParameters`), `[run]` and `[coupling]`. What both models know
+has one key: the contact's radius is `rig.contact_radius`, and the turn of a slab follows from
+`rig.slab_radius`. Every key has a default: in Python that of the plain model, in which every effect
+is off; what a file leaves out is as of a rig (`cosim.scenario.defaults`), unless the file says
+`defaults = "plain"`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, Self
 
 import tomli_w
-from pydantic import Field, PrivateAttr, create_model, model_validator
+from pydantic import Field, PrivateAttr, create_model, field_validator, model_validator
 from stickslip import Parameters
+from stickslip.effects import PluginError, use
 from stickslip.packing import GRAVITY
 from stickslip.quantity import Table, quantity
 
 from cosim.names import nearest
+from cosim.scenario import defaults as defaults_of_files
+from cosim.scenario.changes import changed_tables, is_of_change
 from cosim.scenario.faults import ScenarioError, checked
 from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
@@ -83,6 +89,10 @@ class Coupling(Method):
     macro_step: float = quantity(
         0.01, "s", "time between two exchanges; of a step control, the first step", gt=0
     )
+    isolate: bool = Field(
+        False, description="the mechanical unit in a process of its own, which may crash or hang"
+    )
+    time_limit: float = quantity(60.0, "s", "of a call of the isolated unit", gt=0)
 
 
 class Scenario(Parameters):
@@ -100,6 +110,15 @@ class Scenario(Parameters):
         # what every file system takes as the name of a folder
         pattern=r'^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$',
     )
+    effects: tuple[str, ...] = Field(
+        (),
+        description="files of effects of one's own, beside the scenario's file: their code is run",
+    )
+    defaults: Literal["rig", "plain"] = Field(
+        "plain",
+        description="of a file: where it takes what it leaves out from, a rig as it can be built "
+        "(the default of a file), or the plain model, in which every effect is off",
+    )
     ambient: Ambient = Ambient()
     belt: Belt = Belt()
     ice: Ice = Ice()
@@ -108,6 +127,29 @@ class Scenario(Parameters):
     coupling: Coupling = Coupling()
 
     _thermal: ThermalParameters = PrivateAttr()
+
+    @field_validator("effects")
+    @classmethod
+    def _have_effects(cls, files: tuple[str, ...]) -> tuple[str, ...]:
+        try:
+            use(*files)
+        except PluginError as error:
+            raise ValueError(f"effects: {error}") from None
+        return files
+
+    @cached_property
+    def taken(self) -> Mapping[str, Any]:
+        """`table.key` -> value of what the file left to the defaults and is not plain.
+
+        It says where values came from: scenarios that differ in nothing else are equal.
+        """
+        return {}
+
+    def with_taken(self, taken: Mapping[str, Any]) -> Self:
+        """The same scenario, of which so much is known to come from the defaults."""
+        copy = self.model_copy()
+        copy.__dict__["taken"] = dict(taken)
+        return copy
 
     @model_validator(mode="after")
     def _join_with_heat(self) -> Self:
@@ -199,11 +241,12 @@ class Scenario(Parameters):
         >>> Scenario().changed({"rig.mass": 1.2, "run.duration": 5.0}).rig.mass
         1.2
         """
-        tables = self.to_tables()
-        for key, value in changes.items():
-            block, _, entry = key.rpartition(".")
-            (tables.setdefault(block, {}) if block else tables)[entry] = value
-        return type(self).from_tables(tables)
+        # what was not said stays so: some studies ask which numbers are known
+        said = {"name": self.name} | self.model_dump(exclude_unset=True)
+        variant = self.from_tables(changed_tables(said, changes))
+        return variant.with_taken(
+            {key: value for key, value in self.taken.items() if key not in changes}
+        )
 
     @classmethod
     def from_tables(cls, tables: Mapping[str, Any]) -> Self:
@@ -218,6 +261,8 @@ class Scenario(Parameters):
         if "output_interval" not in self.run.model_fields_set:
             follows["run"] = {"output_interval"}
         tables = self.model_dump(exclude=follows)
+        if not self.effects:
+            del tables["effects"]
         return {"name": tables.pop("name")} | tables
 
     def to_toml(self) -> str:
@@ -231,38 +276,64 @@ def packaged_scenarios() -> list[str]:
     return sorted(file.name.removesuffix(SUFFIX) for file in files if file.name.endswith(SUFFIX))
 
 
-def read_scenario(source: str | Path = "reference") -> Scenario:
+def read_scenario(
+    source: str | Path = "reference", changes: Mapping[str, Any] | None = None
+) -> Scenario:
     """The scenario in a TOML file, or a packaged one by its name.
 
-    Raises ScenarioError, in one line: file, key, what is wrong, what is allowed. A case without
-    a name takes that of its file.
+    What the file leaves out is as of a rig, and named in `Scenario.taken`, unless the file says
+    `defaults = "plain"`. ``changes``: `table.key` -> value, in place of what the file has, before
+    the defaults come. Raises ScenarioError, in one line: file, key, what is wrong, what is allowed.
+    A case without a name takes that of its file.
 
     >>> read_scenario("reference").springs.stiffness
     20.17
+    >>> read_scenario("reference", {"springs.stiffness": 38.5}).springs.stiffness
+    38.5
     """
-    tables = parsed(_read_text(source), source)
+    return scenario_of(parsed(source_text(source), source), source, changes)
+
+
+def scenario_of(
+    tables: dict[str, Any], source: str | Path, changes: Mapping[str, Any] | None = None
+) -> Scenario:
+    """As `read_scenario`, from the tables of a file that is, or will be, at ``source``."""
+    changes = {
+        key: _found(value, Path()) if key in FILE_KEYS else value
+        for key, value in (changes or {}).items()
+    }
     _find_files(tables, Path(source).parent)
-    if "name" not in tables:
-        tables["name"] = Path(source).name.removesuffix(SUFFIX)
+    full, taken = defaults_of_files.filled(changed_tables(tables, changes))
+    full.setdefault("name", Path(source).name.removesuffix(SUFFIX))
     try:
-        return Scenario.from_tables(tables)
+        return Scenario.from_tables(full).with_taken(taken)
     except ScenarioError as fault:
-        raise ScenarioError(f"{source}: {fault}") from None
+        where = f"{source}, as changed" if is_of_change(str(fault), changes) else source
+        raise ScenarioError(f"{where}: {fault}") from None
 
 
 #: Keys that name a file.
-FILE_KEYS = (("ice", "mesh"), ("friction", "table"))
+FILE_KEYS = ("ice.mesh", "friction.table")
 
 
 def _find_files(tables: dict[str, Any], folder: Path) -> None:
     """A file is named from where the scenario is, and found from everywhere."""
-    for table, key in FILE_KEYS:
+    effects = tables.get("effects")
+    if isinstance(effects, list) and all(isinstance(name, str) for name in effects):
+        tables["effects"] = [str((folder / name).resolve()) for name in effects]
+    for key in FILE_KEYS:
+        table, _, entry = key.partition(".")
         entries = tables.get(table)
-        if isinstance(entries, dict) and isinstance(entries.get(key), str) and entries[key]:
-            entries[key] = str((folder / entries[key]).resolve())
+        if isinstance(entries, dict) and entry in entries:
+            entries[entry] = _found(entries[entry], folder)
 
 
-def _read_text(source: str | Path) -> str:
+def _found(name: Any, folder: Path) -> Any:
+    return str((folder / name).resolve()) if isinstance(name, str) and name else name
+
+
+def source_text(source: str | Path) -> str:
+    """The text of a file, or of a packaged scenario by its name; ScenarioError for none."""
     if str(source) in packaged_scenarios() and not Path(source).is_file():
         file = resources.files("cosim.scenario") / "packaged" / f"{source}{SUFFIX}"
         return file.read_text(encoding="utf-8")

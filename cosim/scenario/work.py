@@ -1,14 +1,15 @@
 """What a run will take, estimated before it starts: what would not end is refused, in numbers.
 
-The estimate is of the least work that the parameters ask for, on a usual core. It decides between
-minutes and days; a run.patience that is long enough lets anything through that the models can do.
+The estimate is of the least work that the parameters ask for, on a usual core; it is right to a
+factor of ten or so. It decides between minutes and days; a run.patience that is long enough lets
+anything through that the models can do.
 """
 
 from __future__ import annotations
 
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
-from stickslip.status import MOST_STEPS_PER_SECOND, SECONDS_PER_STEP, longest_step
+from stickslip.status import MOST_STEPS_PER_SECOND, SECONDS_PER_STEP, likely_step, longest_step
 
 from cosim.scenario.faults import ScenarioError
 from cosim.scenario.scenario import Scenario
@@ -30,6 +31,7 @@ def check_mechanics(parameters: Parameters, duration: float, patience: float) ->
             f"{step.reason}, followed in steps of {step.size:.2g} s; allowed are steps from "
             f"{1.0 / MOST_STEPS_PER_SECOND:.2g} s: make it slower"
         )
+    step = likely_step(parameters)
     steps = duration * step.per_second
     seconds = steps * SECONDS_PER_STEP
     if seconds > patience:

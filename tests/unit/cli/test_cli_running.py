@@ -2,14 +2,16 @@
 
 from pathlib import Path
 
+import pytest
+
 from cosim.cli import main
-from cosim.cli.running import closing_lines
+from cosim.cli.runs.running import closing_lines
 
 MECHANICS = {
     "name": "case",
     "time_reached": 30.0,
     "wall_time": 2.34,
-    "after_run_up": {"frequency": 2.3, "slip_share": 0.9},
+    "after_run_up": {"frequency": 2.3, "slip_share": 0.9, "duration": 20.0},
     "ledger": {"mechanics": {"relative_residual": 1e-13}},
 }
 HEAT = {
@@ -33,7 +35,7 @@ def test_a_coupled_run_ends_in_six_lines():
         "-7.9432 degC",
         "+0.0568 K",
         "5.126 J",
-        "belt 0.310",
+        "of which belt 31.0 %, ice 48.0 %, air 21.0 %",
         "1.0e-13 of the work",
         "out/report.html",
     ):
@@ -41,9 +43,26 @@ def test_a_coupled_run_ends_in_six_lines():
 
 
 def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency():
-    short = MECHANICS | {"after_run_up": {"frequency": None, "slip_share": None}}
-    lines = closing_lines(short, Path("out"), 6.0)
+    short = {"frequency": None, "slip_share": None, "duration": 0.0}
+    lines = closing_lines(MECHANICS | {"after_run_up": short}, Path("out"), 6.0)
     assert len(lines) == 4 and "not known" in lines[1]
+
+
+def test_a_ledger_of_nothing_and_one_that_is_exact():
+    ledgers = MECHANICS["ledger"] | HEAT_LEDGERS | {"mechanics": {"relative_residual": None}}
+    line = closing_lines(MECHANICS | HEAT | {"ledger": ledgers}, Path("out"), 6.0)[4]
+    assert "mechanics has nothing in it, heat 2.0e-14, coupling 0" in line
+    assert line.endswith("coupling 0")
+
+
+@pytest.mark.parametrize(
+    ("rate", "share", "said"),
+    [(0.0, 1.0, "no break-away at constant speed"), (None, 0.3, "one break-away at constant")],
+)
+def test_without_a_period_there_is_no_frequency(rate, share, said):
+    late = {"frequency": rate, "slip_share": share, "duration": 20.0}
+    line = closing_lines(MECHANICS | {"after_run_up": late}, Path("out"), 6.0)[1]
+    assert said in line and f"slip share {share:.3f}" in line and "Hz" not in line
 
 
 def test_rounding_is_not_told_of_as_heat_and_nought_has_no_sign():
@@ -56,6 +75,7 @@ def test_rounding_is_not_told_of_as_heat_and_nought_has_no_sign():
 
 
 SWERVES = """
+defaults = "plain"
 [rig]
 spring_natural_length = 0.20
 [lateral_friction]

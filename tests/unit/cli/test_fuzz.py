@@ -1,4 +1,4 @@
-"""Scenarios and campaigns that nobody would write, the same ones each time.
+"""Scenarios, campaigns and systems that nobody would write, the same ones each time.
 
 Of campaigns only the reading: finding takes seconds each. `benchmarks/fuzz.py` does all of it, with
 other cases each time, for as long as one likes.
@@ -8,7 +8,8 @@ import shutil
 from unittest import mock
 
 import pytest
-from fuzzed import called, campaigns, fault_of, scenarios, toml, write_campaign
+from fuzzed import called, campaigns, fault_of, fresh, scenarios, toml, write_campaign
+from fuzzed_systems import packages, settings_of, systems, write_package, write_system
 from hypothesis import HealthCheck, given, settings
 
 #: What a reading that finds no fault ends with here.
@@ -47,7 +48,7 @@ def test_any_scenario_gets_a_sensible_answer(place, tables):
 def test_any_campaign_is_read_or_refused(place, case):
     if (path := write_campaign(place, *case)) is None:
         return
-    with mock.patch("cosim.cli.gap._find", side_effect=KeyboardInterrupt):
+    with mock.patch("cosim.cli.measurements.gap._find", side_effect=KeyboardInterrupt):
         status, out, err = called("gap", path, "-o", place / "gap")
     assert status == 2 or err.endswith(READ), err
     check(status, out, err)
@@ -62,3 +63,25 @@ def test_any_plan_is_read_or_refused(place, case):
         status, out, err = called("plan", path, "-o", place / "plan")
     assert status == 2 or err.endswith(READ), err
     check(status, out, err)
+
+
+@pytest.mark.slow
+@settings(max_examples=20, **SAME_EACH_TIME)
+@given(tables=systems())
+def test_any_system_gets_a_sensible_answer(place, tables):
+    folder = fresh(place / "system")
+    folder.mkdir()
+    if (path := write_system(folder, tables)) is None:
+        return
+    check(*called("couple", path, "-o", folder / "out", figures=False), folder / "out")
+
+
+@pytest.mark.slow
+@settings(max_examples=20, **SAME_EACH_TIME)
+@given(case=packages())
+def test_any_package_gets_a_sensible_answer(place, case):
+    folder = fresh(place / "package")
+    folder.mkdir()
+    text, changes = case
+    argv = ["couple", write_package(folder, text), *settings_of(changes), "-o", folder / "out"]
+    check(*called(*argv, figures=False), folder / "out")

@@ -10,6 +10,7 @@ from cosim.files import OutputRefused, write_text
 from cosim.manifest import MANIFEST, files_of_earlier, made_by, require_own, results_in
 
 SHORT = """
+defaults = "plain"
 [surface]
 run_up_time = 0.2
 [run]

@@ -9,8 +9,8 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cosim.cli import DONE, BadInput
-from cosim.cli.arguments import add_run_arguments, add_verbose
+from cosim.cli import DONE, FAILED, BadInput, Failed
+from cosim.cli.arguments import add_run_arguments
 
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun
@@ -24,7 +24,6 @@ SCENARIO = "scenario.toml"
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     add_run_arguments(parser)
-    add_verbose(parser)
     parser.add_argument(
         "--fmu",
         metavar="FILE",
@@ -41,13 +40,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="DIR",
         help="go on with the run in DIR that was cut off, from its newest checkpoint"
         " (run.checkpoint_seconds says how often there is one); as it was begun, so nothing else"
-        " but -v is given",
+        " but -q, -v and --json is given",
     )
 
 
 def refused() -> tuple[type[Exception], ...]:
     """What is bad input, as opposed to a run that fails."""
-    import cosim.cli.running
+    import cosim.cli.runs.running
     import cosim.coupling.case  # noqa: F401  the models, imported where Ctrl-C waits
     from cosim.coupling import CouplingError, FmuError
     from cosim.coupling.record import CheckpointError
@@ -75,14 +74,19 @@ class Job(NamedTuple):
 
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
-    from cosim.cli import running
+    from cosim.cli.numbers import numbers_asked
+    from cosim.cli.runs import running
+    from cosim.cli.scenarios import note_taken
     from cosim.files import writable
     from cosim.interrupts import patient_interrupts
     from cosim.manifest import made_by, results_in
     from cosim.report import run_dataset
 
     began = time.perf_counter()
+    numbers = numbers_asked(arguments, running.KEYS)
     job = _begun(arguments) if arguments.resume is None else _found(arguments)
+    # said with the first step, when units, too, are known to be good; of old when it goes on
+    unsaid = [] if arguments.resume else [job.scenario]
     fields = writable(job.results / running.FIELDS)
     running.compile_model()
     logging = running.message_log(job.folder, arguments.verbose)
@@ -91,11 +95,15 @@ def execute(arguments: Namespace) -> int:
 
             def progress(reached: float) -> None:
                 patience.hold()
+                while unsaid:
+                    note_taken(unsaid.pop())
                 show(reached)
 
-            said = {"heard": log.add, "debug": arguments.verbose}
+            said = {"heard": running.hearing(log, arguments.verbose), "debug": arguments.verbose}
             done = _run(job, fields=fields, progress=progress, **said)
         patience.hold()
+        if running.is_removed(job.results, done.result.time.tolist()):
+            return FAILED
         dataset = run_dataset(
             done.result, job.scenario, job.scenario.to_toml(), snapshots=done.snapshots
         )
@@ -116,6 +124,7 @@ def execute(arguments: Namespace) -> int:
                 command=job.command,
                 resume=_resume(job.results) if goes_on else "",
                 log=log,
+                asked=numbers,
             )
             results.complete = status == DONE
     # only now: had the results not come to the disk, there would still be what they are made of
@@ -125,11 +134,11 @@ def execute(arguments: Namespace) -> int:
 
 def _begun(arguments: Namespace) -> Job:
     """A run from its start."""
-    from cosim.cli import running
+    from cosim.cli.runs import running
     from cosim.coupling.record import RunFolder
     from cosim.manifest import require_own
 
-    scenario = running.scenario_to_run(arguments.scenario, coupled=True)
+    scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
     results = running.results_folder(arguments.output, scenario, arguments.force)
     require_own(results, [running.COLLECTION], arguments.force)
     command = shlex.join(["stickslip", *sys.argv[1:]])
@@ -139,6 +148,7 @@ def _begun(arguments: Namespace) -> Job:
         "command": command,
         "fmu": fmu,
         "views": arguments.animation,
+        "taken": dict(scenario.taken),
     }
     folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
     views, force = arguments.animation, arguments.force
@@ -147,12 +157,13 @@ def _begun(arguments: Namespace) -> Job:
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
-    from cosim.cli import running
+    from cosim.cli.runs import running
     from cosim.coupling.record import RunFolder
 
     given = {
         "a scenario": arguments.scenario,
         "-o": arguments.output,
+        "--set": arguments.changes,
         "--fmu": arguments.fmu,
         "--animation": arguments.animation,
         "--force": arguments.force,
@@ -167,6 +178,7 @@ def _found(arguments: Namespace) -> Job:
             " with it"
         )
     scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
+    scenario = scenario.with_taken(asked.get("taken", {}))
     command = f"{asked.get('command', '')} (cut off, and gone on with)"
     views = bool(asked.get("views"))
     return Job(scenario, results, folder, asked.get("fmu"), views, command, force=False)
@@ -181,7 +193,10 @@ def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
     if done.snapshots.file is None:
         return {}
     name = done.snapshots.file.relative_to(folder).as_posix()
-    return {name: "temperature fields of belt and ice; opens in ParaView"}
+    return {
+        name: "temperature fields of belt and ice for ParaView: colour by rise_K; Warp By Vector "
+        "with stretch_m draws the belt a tenth as thick as long"
+    }
 
 
 def _run(job: Job, **further: Any) -> CoupledRun:
@@ -205,4 +220,4 @@ def _coupled(scenario: Scenario, **arguments: Any) -> CoupledRun:
     except ParticipantError as error:
         if isinstance(error.__cause__, refused()):
             raise BadInput(" ".join(str(error.__cause__).split())) from error
-        raise
+        raise Failed(" ".join(str(error).split())) from error

@@ -36,6 +36,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="that a native unit is to have libraries for, as far as there is a compiler: "
         f"{', '.join(each.name for each in PLATFORMS)} (default: all)",
     )
+    parser.add_argument(
+        "--effects",
+        nargs="+",
+        default=(),
+        metavar="FILE.py",
+        help="effects of one's own that the units of the block are to have behind the catalogue's; "
+        "their code is run. The default folder is then one of their own in the user's cache",
+    )
     add_output(
         parser, "folder of the units (default: build of a checkout, else the user's cache folder)"
     )

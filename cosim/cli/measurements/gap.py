@@ -11,13 +11,13 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from tqdm import tqdm
-
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_output
-from cosim.files import OutputRefused, writable, write_text
+from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar, note
+from cosim.files import OutputRefused, writable
 from cosim.interrupts import held_interrupts
-from cosim.manifest import made_by, require_json, require_own, results_in
+from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
     from cosim.gap import Campaign
@@ -26,8 +26,7 @@ EXAMPLE = "stickslip gap cold_room/campaign.toml -o results/cold_room"
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "verdict", "ranking")
-STDOUT = "-"
-CAMPAIGNS = Path(__file__).parents[1] / "gap" / "campaigns"
+CAMPAIGNS = Path(__file__).parents[2] / "gap" / "campaigns"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -36,7 +35,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "campaign",
         nargs="?",
         help="TOML file, a folder with campaign.toml, or a packaged campaign: "
-        f"{', '.join(packaged_campaigns())}",
+        f"{', '.join(packaged_campaigns())}; effects of one's own that it names are code, and are "
+        "run. A run's CSV file has columns t (s), x (m, along the "
+        "surface's motion) and, where they were measured, y (m), phi (rad) and force (N: what all "
+        "springs pull the block back with along x, positive where x is; compared with their "
+        'stiffness, not fitted). Other names: [columns] x = "pos"; other units: [units] x = '
+        '"mm", or in the header, x [mm], t/ms, phi (deg); both tables for a [[run]] too',
     )
     add_output(
         parser,
@@ -44,9 +48,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "CAMPAIGN-gap)",
     )
     add_force(parser, ", or what is there of the example with other content")
-    parser.add_argument(
-        "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
-    )
+    add_json(parser)
     parser.add_argument(
         "--write-example",
         metavar="DIR",
@@ -88,23 +90,17 @@ def execute(arguments: Namespace) -> int:
     folder = Path(arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap")
     writable(folder, (RESULT, MODEL, PAGE))
     require_own(folder, (RESULT, MODEL, PAGE), arguments.force)
-    copy = Path(arguments.json) if arguments.json not in (None, STDOUT) else None
-    if copy is not None:
-        writable(copy.parent, (copy.name,))
-        require_json(copy, KEYS, arguments.force)
+    asked = numbers_asked(arguments, KEYS)
     for remark in campaign.remarks:
-        print(f"note: {remark}", file=sys.stderr)
+        note(remark)
     with _bar() as step:
         gap = _find(campaign, arguments.seed, arguments.jobs, step)
     made = made_by(campaign=str(_source(arguments.campaign).resolve()))
     with results_in(folder, made, force=arguments.force) as results:
         with held_interrupts():
             text = files.write_data(gap, folder / RESULT, folder / MODEL)
-            if copy is not None:
-                write_text(text, copy)
             corrected = files.write_corrected_data(gap, folder)
-        if arguments.json == STDOUT:
-            print(text, end="")
+        asked.give(text)
         status = _shown(files, gap, folder, corrected[:1], arguments)
         results.complete = status == DONE
     return status
@@ -158,7 +154,7 @@ def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[..., None]) -
 def _drawn(files: ModuleType, gap: Any, folder: Path, corrected: list[Path]) -> list[Any]:
     """Figures and page; what the FMU did."""
     beside = "".join(str(file.relative_to(folder)) for file in corrected)
-    with tqdm(disable=None, unit="figure", leave=False) as bar:
+    with Bar(unit="figure") as bar:
         drawn: list[Any] = files.write_page(gap, folder, folder / PAGE, bar.update, beside)
     return drawn
 
@@ -166,7 +162,7 @@ def _drawn(files: ModuleType, gap: Any, folder: Path, corrected: list[Path]) -> 
 @contextmanager
 def _bar() -> Iterator[Callable[..., None]]:
     """A count of models tried on stderr, none when that is no terminal."""
-    with tqdm(disable=None, unit="model", leave=False) as bar:
+    with Bar(unit="model") as bar:
 
         def step(count: int = 1) -> None:
             bar.update(count)

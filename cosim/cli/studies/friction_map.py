@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from tqdm import tqdm
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
@@ -23,6 +25,9 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
 RESULT, TABLE, FIGURE = "friction_map.json", "friction_map.csv", "friction_map.png"
+PAGE = "report.html"
+#: By which keys RESULT is known.
+KEYS = ("scenario", "regimes", "points")
 #: Three speeds a decade, m/s, up to those of skates and sleds.
 SPEEDS = tuple(float(f"{speed:.3g}") for speed in np.geomspace(3e-3, 30.0, 13))
 AMBIENTS = (-16.0, -8.0, -1.0)
@@ -59,10 +64,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=2.0,
         help="length of each coupled run, s (default: 2)",
     )
+    add_set(parser)
     add_json(parser)
     add_output(
         parser,
-        "folder of table, numbers and figure (default: results/friction-map)",
+        "folder of table, numbers, figure and page (default: results/friction-map)",
         default="results/friction-map",
     )
     add_force(parser)
@@ -79,30 +85,30 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Run, write, print a line a temperature; 0."""
-    from cosim.scenario import read_scenario
     from cosim.studies.friction_map import friction_map
 
     began = time.perf_counter()
-    scenario = read_scenario(arguments.scenario)
+    scenario = given_scenario(arguments.scenario, arguments.changes)
+    asked = numbers_asked(arguments, KEYS)
     folder = Path(arguments.output)
     writable(folder)
-    require_own(folder, (RESULT, TABLE, FIGURE), arguments.force)
+    require_own(folder, (RESULT, TABLE, FIGURE, PAGE), arguments.force)
+    note_taken(scenario)
     total = len(set(arguments.speed)) * len(set(arguments.ambient))
-    with tqdm(total=total, disable=None, unit="run", leave=False) as bar:
+    with Bar(total=total, unit="run") as bar:
         found = friction_map(
             scenario, arguments.speed, arguments.ambient, arguments.duration, bar.update
         )
     made = made_by(scenario=scenario.to_toml())
     with results_in(folder, made, force=arguments.force) as results:
-        _write(found, folder)
+        _write(found, folder, made["command"])
         results.complete = True
-    if arguments.json:
-        print(json.dumps(found.as_json(), indent=1))
+    if asked.give(json.dumps(found.as_json(), indent=1)):
         return DONE
     for ambient in found.ambients:
         _print(found.regimes(ambient))
     wall_time = time.perf_counter() - began
-    print(f"{total} coupled runs in {wall_time:.1f} s; {folder / FIGURE}, {folder / RESULT}")
+    print(f"{total} coupled runs in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE
 
 
@@ -124,13 +130,16 @@ def _print(regimes: dict[str, Any]) -> None:
         print(f"    minimum: {lowest['friction']:.4f} at {lowest['speed']:.3g} m/s")
 
 
-def _write(found: FrictionMap, folder: Path) -> None:
-    """Numbers first, then the figure."""
+def _write(found: FrictionMap, folder: Path, command: str) -> None:
+    """Numbers first, then the figure and the page."""
     from cosim.studies.friction_map.figure import draw_map
+    from cosim.studies.friction_map.page import page
 
     write_text(json.dumps(found.as_json(), indent=1), folder / RESULT)
     write_atomically(folder / TABLE, lambda path: _write_table(found, path))
-    write_bytes(draw_map(found).png, folder / FIGURE)
+    drawn = draw_map(found)
+    write_bytes(drawn.png, folder / FIGURE)
+    write_text(page(found, drawn, command), folder / PAGE)
 
 
 def _write_table(found: FrictionMap, path: Path) -> None:

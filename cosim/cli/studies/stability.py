@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
@@ -23,6 +25,8 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stickslip stability study --grid 20 -o results/stability"
 RESULT, PAGE = "stability.json", "report.html"
+#: By which keys RESULT is known.
+KEYS = ("name", "stability", "regime_map")
 #: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
 #: mu_s/mu_k.
 SPEEDS, PRETENSIONS, RATIOS = (0.2, 4.0), (0.0, 0.2), (1.02, 2.0)
@@ -43,6 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=20,
         help="points a side of each map, 0 for none (default: 20)",
     )
+    add_set(parser)
     add_json(parser)
     add_output(
         parser,
@@ -63,18 +68,19 @@ def refused() -> tuple[type[Exception], ...]:
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
     from cosim.report.contents import regime_sentence, stability_sentence
-    from cosim.scenario import read_scenario
     from cosim.studies.stability import NotAMotion, case_of
     from cosim.studies.stability.maps import as_json
 
     began = time.perf_counter()
     if arguments.grid < 0 or arguments.grid == 1:
         raise NotAMotion(f"--grid = {arguments.grid}: must be at least 2, or 0 for none")
-    scenario = read_scenario(arguments.scenario)
+    scenario = given_scenario(arguments.scenario, arguments.changes)
+    asked = numbers_asked(arguments, KEYS)
     folder = Path(arguments.output)
     writable(folder, (RESULT, PAGE))
     require_own(folder, (RESULT, PAGE), arguments.force)
     case, status = case_of(scenario), DONE
+    note_taken(scenario)
     maps: dict[str, Any] = {}
     try:
         if arguments.grid:
@@ -88,9 +94,7 @@ def execute(arguments: Namespace) -> int:
     with results_in(folder, made, force=arguments.force) as results:
         _write(numbers, sentences, _pictures(maps, case), folder)
         results.complete = status == DONE
-    if arguments.json:
-        print(json.dumps(numbers, indent=1))
-    else:
+    if not asked.give(json.dumps(numbers, indent=1)):
         _print(numbers, sentences, folder, time.perf_counter() - began)
     return status
 
@@ -101,7 +105,7 @@ def _fill(maps: dict[str, Any], case: Case, grid: int) -> None:
 
     speed = abs(case.parameters.surface.speed)
     speeds = speed * np.linspace(*SPEEDS, grid)
-    with tqdm(total=2 * grid**2, disable=None, unit="cell", leave=False) as bar:
+    with Bar(total=2 * grid**2, unit="cell") as bar:
         if case.parameters.rig.degrees_of_freedom != ("x",):
             stretched = case.parameters.rig.spring_length * np.linspace(*PRETENSIONS, grid)
             maps["pretension"] = pretension_map(case, stretched, speeds, bar.update)

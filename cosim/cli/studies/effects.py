@@ -8,10 +8,10 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tqdm import tqdm
-
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, results_in
@@ -25,7 +25,13 @@ RESULT, PAGE = "effects.json", "effects.html"
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    parser.add_argument("effects", metavar="EFFECT", nargs="*", help="ids (default: all)")
+    parser.add_argument(
+        "effects",
+        metavar="EFFECT",
+        nargs="*",
+        help="ids, or files of effects of one's own such as brush.py, whose code is run "
+        "(default: all)",
+    )
     add_json(parser)
     add_output(parser, f"also write {PAGE}, {RESULT} and the figures there")
     add_force(parser)
@@ -43,6 +49,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.studies.effects import chosen, described
 
     entries = [described(entry) for entry in chosen(arguments.effects)]
+    asked = numbers_asked(arguments, ("id", "sentence", "parameters"))
     if arguments.output is not None:
         folder = Path(arguments.output)
         names = (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries))
@@ -51,9 +58,7 @@ def execute(arguments: Namespace) -> int:
             results.complete = _write(entries, folder)
         if not results.complete:
             return FAILED
-    if arguments.json:
-        print(json.dumps(entries, indent=1))
-    else:
+    if not asked.give(json.dumps(entries, indent=1)):
         for entry in entries:
             _print(entry)
     return DONE
@@ -81,7 +86,7 @@ def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
 
     pictures: dict[str, Picture] = {}
     try:
-        for entry in tqdm(entries, disable=None, unit="figure", leave=False):
+        for entry in Bar(entries, unit="figure"):
             name = entry["id"]
             with held_interrupts():
                 pictures[name] = effect_figure(name)

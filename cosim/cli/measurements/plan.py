@@ -8,14 +8,14 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_output
-from cosim.cli.gap import STDOUT, count
+from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
+from cosim.cli.measurements.gap import count
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar, note
 from cosim.files import OutputRefused, writable, write_text
 from cosim.interrupts import held_interrupts
-from cosim.manifest import made_by, require_json, require_own, results_in
+from cosim.manifest import made_by, require_own, results_in
 
 EXAMPLE = "stickslip plan cold_room/campaign.toml -o results/cold_room-plan"
 RESULT, PAGE = "plan.json", "report.html"
@@ -29,13 +29,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "campaign",
         nargs="?",
         help="TOML file, or a folder with campaign.toml: as for `stickslip gap`, but a [[run]] "
-        "needs no file: `duration` (s, default 20) and `rate` (Hz, default 100) take its place",
+        "needs no file: `duration` (s, default 20) and `rate` (Hz, default 100) take its place; "
+        "effects of one's own that it names are code, and are run",
     )
     add_output(parser, f"folder of {PAGE}, figures and {RESULT} (default: results/NAME-plan)")
     add_force(parser, ", or what is there of the example with other content")
-    parser.add_argument(
-        "--json", metavar="FILE", help=f"write {RESULT} there too; {STDOUT}: to standard output"
-    )
+    add_json(parser)
     parser.add_argument(
         "--write-example",
         metavar="DIR",
@@ -82,13 +81,10 @@ def execute(arguments: Namespace) -> int:
     folder = Path(arguments.output or Path("results") / f"{safe_name(planned.campaign.name)}-plan")
     writable(folder, (RESULT, PAGE))
     require_own(folder, (RESULT, PAGE), arguments.force)
-    copy = Path(arguments.json) if arguments.json not in (None, STDOUT) else None
-    if copy is not None:
-        writable(copy.parent, (copy.name,))
-        require_json(copy, KEYS, arguments.force)
+    asked = numbers_asked(arguments, KEYS)
     for remark in planned.campaign.remarks:
-        print(f"note: {remark}", file=sys.stderr)
-    with tqdm(disable=None, unit="step", leave=False) as bar:
+        note(remark)
+    with Bar(unit="step") as bar:
         answer = plan.make_plan(
             planned, level=arguments.level, wanted=arguments.power, jobs=arguments.jobs,
             progress=bar.update,
@@ -98,10 +94,7 @@ def execute(arguments: Namespace) -> int:
     with results_in(folder, made, force=arguments.force) as results:
         with held_interrupts():
             write_text(text, folder / RESULT)
-            if copy is not None:
-                write_text(text, copy)
-        if arguments.json == STDOUT:
-            print(text, end="")
+        asked.give(text)
         status = _shown(answer, data.closing_lines(answer), folder, arguments)
         results.complete = status == DONE
     return status

@@ -12,8 +12,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.arguments import add_force, add_json, add_output, add_verbose
+from cosim.cli import DONE, FAILED, BadInput, Failed
+from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.interrupts import Patience, patient_interrupts
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stickslip couple StickSlipThermal.ssp --set coupling.macro_step=0.01 -o results/pair"
 RESULTS = "results"
+#: By which keys the JSON of a system is known.
+KEYS = ("name", "status", "coupling")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -33,21 +36,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="?",
         help="an SSP file (1.0 or 2.0), or a TOML file of units, connections, scheme and steps",
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        dest="changes",
-        help="a key of [coupling] or [run] in place of the file's, as run.stop=10; may come again",
-    )
+    add_set(parser, "run.stop=10 (of [coupling] and [run])")
     parser.add_argument(
         "--resume",
         metavar="DIR",
         help="go on with the run in DIR that was cut off, from its newest checkpoint"
         " (run.checkpoint_seconds says how often there is one)",
     )
-    add_verbose(parser)
     add_json(parser)
     add_output(parser, "folder of the results; made when missing (default: results/NAME)")
     add_force(parser, ", and begin anew where an unfinished run could be gone on with")
@@ -55,20 +50,22 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def refused() -> tuple[type[Exception], ...]:
     """What is bad input, as opposed to a run that fails."""
-    import cosim.cli.running
+    import cosim.cli.runs.running
     import cosim.systems.show  # noqa: F401  imported where Ctrl-C waits
     from cosim.coupling import CouplingError, FmuError
     from cosim.coupling.record import CheckpointError
     from cosim.files import OutputRefused
+    from cosim.scenario import ScenarioError
     from cosim.systems import SystemFault
 
-    return (SystemFault, OutputRefused, CouplingError, FmuError, CheckpointError)
+    return (SystemFault, ScenarioError, OutputRefused, CouplingError, FmuError, CheckpointError)
 
 
 class Job(NamedTuple):
-    """What is to be run, and where; resume: the command that goes on with it."""
+    """What is to be run, and where; source: its file, as it was begun with."""
 
     specification: SystemSpecification
+    source: str
     results: Path
     folder: RunFolder
     command: str
@@ -82,22 +79,27 @@ class Job(NamedTuple):
 
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
-    from cosim.cli.running import log_files, message_log
+    from cosim.cli.runs.running import hearing, is_removed, log_files, message_log
     from cosim.manifest import made_by, results_in
 
     began = time.perf_counter()
+    numbers = numbers_asked(arguments, KEYS)
     job = _begun(arguments) if arguments.resume is None else _found(arguments)
     logging = message_log(job.folder, arguments.verbose)
     with job.specification, patient_interrupts() as patience, logging as log:
         with units_speak_aside():
-            done = _run(job, patience, heard=log.add, debug=arguments.verbose)
+            done = _run(
+                job, patience, heard=hearing(log, arguments.verbose), debug=arguments.verbose
+            )
         patience.hold()
+        if is_removed(job.results, done.result.time.tolist()):
+            return FAILED
         goes_on = done.result.status != "complete" and job.folder.checkpoint.is_file()
-        made = made_by(job.command, system=job.folder.asked.get("system"))
+        made = made_by(job.command, system=job.source)
         with results_in(job.results, made, force=job.force) as results:
             for name in log_files(log):
                 results.add(job.results / name)
-            status = _finish(job, done, began, patience, arguments.json, goes_on, log)
+            status = _finish(job, done, began, patience, numbers, goes_on, log)
             results.complete = status == DONE
     # only now: had the results not come to the disk, there would still be what they are made of
     job.folder.release() if goes_on else job.folder.finished()
@@ -106,19 +108,20 @@ def execute(arguments: Namespace) -> int:
 
 def _begun(arguments: Namespace) -> Job:
     """A run from its start."""
-    from cosim.cli.running import own_folder
+    from cosim.cli.runs.running import own_folder
     from cosim.coupling.record import RunFolder
+    from cosim.scenario.changes import changes_of
     from cosim.systems import read_system
-    from cosim.systems.run import changes_of, check_system
+    from cosim.systems.run import check_system
     from cosim.systems.show.files import FILES
 
     if arguments.system is None:
         raise BadInput("SYSTEM: missing, needed is an SSP or a TOML file, or --resume DIR")
-    changes = changes_of(arguments.changes)
+    changes = changes_of(arguments.changes, "run.stop=10")
     specification = read_system(arguments.system, changes)
     results = Path(arguments.output or Path(RESULTS) / _folder_name(specification.name))
     command = shlex.join(["stickslip", *sys.argv[1:]])
-    asked = {
+    asked: dict[str, Any] = {
         "system": str(Path(arguments.system).resolve()),
         "changes": changes,
         "command": command,
@@ -128,12 +131,12 @@ def _begun(arguments: Namespace) -> Job:
         check_system(specification)  # before what an earlier run left in the folder is gone
         own_folder(results, FILES, arguments.force)
         folder = RunFolder.begun(results, asked, {}, force=arguments.force)
-    return Job(specification, results, folder, command, arguments.force)
+    return Job(specification, asked["system"], results, folder, command, arguments.force)
 
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
-    from cosim.cli.running import refuse_beside_resume
+    from cosim.cli.runs.running import refuse_beside_resume
     from cosim.coupling.record import RunFolder
     from cosim.systems import read_system
 
@@ -151,7 +154,7 @@ def _found(arguments: Namespace) -> Job:
         raise BadInput(f"{arguments.resume}: its run is none of couple's; see {folder.path}")
     specification = read_system(system, changes)
     command = f"{asked.get('command', '')} (cut off, and gone on with)"
-    return Job(specification, folder.results, folder, command, force=False)
+    return Job(specification, system, folder.results, folder, command, force=False)
 
 
 @contextmanager
@@ -201,7 +204,7 @@ def _run(job: Job, patience: Patience, **said: Any) -> SystemRun:
 
 def _with_bar(job: Job, patience: Patience, **said: Any) -> SystemRun:
     """Run; a unit's contents are only unpacked, and refused, when it starts."""
-    from cosim.cli import running
+    from cosim.cli.runs import running
     from cosim.coupling import ParticipantError
     from cosim.systems import run_system
 
@@ -216,8 +219,10 @@ def _with_bar(job: Job, patience: Patience, **said: Any) -> SystemRun:
             return run_system(job.specification, progress, job.folder, **said)
         except ParticipantError as error:
             if isinstance(error.__cause__, refused()):
-                raise BadInput(" ".join(str(error.__cause__).split())) from error
-            raise
+                cause = " ".join(str(error.__cause__).split())
+                named = cause if ".fmu" in cause else f"{error.participant}: {cause}"
+                raise BadInput(named) from error
+            raise Failed(" ".join(str(error).split())) from error
 
 
 def _finish(
@@ -225,12 +230,13 @@ def _finish(
     done: SystemRun,
     began: float,
     patience: Patience,
-    as_json: bool,
+    asked: Numbers,
     goes_on: bool,
     log: MessageLog,
 ) -> int:
     """Write all and say what came out; 0 when the run is complete, else 1."""
-    from cosim.cli.running import log_files, say_how_it_ended
+    from cosim.cli.runs.running import log_files, say_how_it_ended
+    from cosim.report.coupling import doubts
     from cosim.report.files import json_text
     from cosim.systems.show import write_system
     from cosim.systems.show.summary import closing_lines
@@ -250,11 +256,12 @@ def _finish(
             f"error: interrupted while drawing; the data are in {folder}{further}", file=sys.stderr
         )
         return FAILED
-    if as_json:
-        print(json_text(numbers), end="")
+    printed = asked.give(json_text(numbers))
+    for said in doubts(numbers["coupling"]):
+        print(f"warning: {said}", file=sys.stderr)
     if say_how_it_ended(numbers, folder, job.resume if goes_on else "", log) == FAILED:
         return FAILED
-    if not as_json:
+    if not printed:
         page = str(folder / "report.html")
         print("\n".join(closing_lines(numbers, page, time.perf_counter() - began)))
     return DONE

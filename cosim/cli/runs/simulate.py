@@ -26,7 +26,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def refused() -> tuple[type[Exception], ...]:
     """What is bad input."""
-    import cosim.cli.running  # noqa: F401  the model, imported where Ctrl-C waits
+    import cosim.cli.runs.running  # noqa: F401  the model, imported where Ctrl-C waits
     from cosim.files import OutputRefused
     from cosim.scenario import ScenarioError
 
@@ -35,16 +35,20 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Simulate, write, report; the exit status."""
-    from cosim.cli import running
+    from cosim.cli.numbers import numbers_asked
+    from cosim.cli.runs import running
+    from cosim.cli.scenarios import note_taken
     from cosim.coupling.record import RunFolder
     from cosim.report import trajectory_dataset
 
     began = time.perf_counter()
-    scenario = running.scenario_to_run(arguments.scenario, coupled=False)
+    scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=False)
     folder = running.results_folder(arguments.output, scenario, arguments.force)
+    numbers = numbers_asked(arguments, running.KEYS)
     asked = {"resume": ""}
     # also where a coupled run was cut off: its folder is no place for another run's results
     RunFolder.begun(folder, asked, {}, force=arguments.force).finished()
+    note_taken(scenario)
     running.compile_model()
     with patient_interrupts() as patience:
         start = time.perf_counter()
@@ -54,7 +58,7 @@ def execute(arguments: Namespace) -> int:
         running.assess_motion(dataset, scenario, patience)
         made = made_by(scenario=scenario.to_toml())
         with results_in(folder, made, force=arguments.force) as results:
-            status = running.finish(dataset, folder, began, patience)
+            status = running.finish(dataset, folder, began, patience, asked=numbers)
             results.complete = status == DONE
         return status
 
@@ -67,7 +71,7 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     """
     from stickslip import simulate
 
-    from cosim.cli.running import progress_over
+    from cosim.cli.runs.running import progress_over
 
     run = scenario.run
     with progress_over(run.duration) as show:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tqdm import tqdm
-
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_output
+from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
-from cosim.manifest import made_by, require_json, require_own, results_in
+from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
     from cosim.studies.reproduction import Claim
@@ -27,9 +28,7 @@ RESULT, PAGE = "reproduction.json", "report.html"
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument("claims", metavar="CLAIM", nargs="*", help="C1 to C15 (default: all)")
-    parser.add_argument(
-        "--json", metavar="FILE", help=f"write {RESULT} there instead of the output folder"
-    )
+    add_json(parser)
     add_output(
         parser,
         "folder of report, figures and numbers (default: results/reproduction)",
@@ -53,42 +52,57 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     wanted = claim_ids(arguments.claims)
     folder = Path(arguments.output)
-    result = Path(arguments.json) if arguments.json else folder / RESULT
-    writable(folder, (PAGE,))
-    writable(result.parent, (result.name,))
-    require_own(folder, (PAGE,) if arguments.json else (PAGE, RESULT), arguments.force)
-    if arguments.json:
-        require_json(result, ("referee", "claims"), arguments.force)
+    asked = numbers_asked(arguments, ("referee", "claims"))
+    writable(folder, (PAGE, RESULT))
+    require_own(folder, (PAGE, RESULT), arguments.force)
     made = made_by(claims=wanted)
     claims: list[Claim] = []
     try:
-        for one in tqdm(wanted, disable=None, unit="claim", leave=False):
+        for one in Bar(wanted, unit="claim"):
             claims += reproduce([one])
         found = _datasets(wanted)
         with results_in(folder, made, force=arguments.force) as results:
-            _write(claims, folder, result, time.perf_counter() - began, found)
+            text = _write(claims, folder, time.perf_counter() - began, found)
             results.complete = True
     except KeyboardInterrupt:
         if not claims:
             raise
         with held_interrupts(), results_in(folder, made, force=arguments.force):
-            _write(claims, folder, result, time.perf_counter() - began)
+            asked.give(_write(claims, folder, time.perf_counter() - began))
         print(
             f"error: interrupted; {len(claims)} of {len(wanted)} claims are in {folder / PAGE}",
             file=sys.stderr,
         )
         return FAILED
     wall_time = time.perf_counter() - began
+    if asked.give(text):
+        return DONE
+    for line in _codes(claims):
+        print(line)
     for claim in claims:
         print(f"{claim.id:<4} {claim.verdict:<30} {claim.title}")
         if claim.scope:
             print(f"     scope: {claim.scope}")
         print(f"     {claim.reason}")
+        if claim.first:
+            print(f"     {claim.first}")
         print(f"     {_firmness(claim)}")
     if found:
         print(f"Datasets: {found.says}")
-    print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {result}")
+    print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE
+
+
+def _codes(claims: list[Claim]) -> list[str]:
+    """What the codes of the study's faults stand for, of those that the closing lines use."""
+    from stickslip.reference.faults import DESCRIPTIONS
+
+    said = " ".join(
+        f"{claim.verdict} {claim.scope} {claim.reason} {_firmness(claim)}" for claim in claims
+    )
+    used = [code for code in DESCRIPTIONS if re.search(rf"\b{code}\b", said)]
+    lines = [f"  {code:<4} {DESCRIPTIONS[code]}" for code in used]
+    return ["Faults of the study's scheme, by their numbers:", *lines] if lines else []
 
 
 def _datasets(wanted: tuple[str, ...]) -> Datasets | None:
@@ -111,18 +125,19 @@ def _firmness(claim: Claim) -> str:
 def _write(
     claims: list[Claim],
     folder: Path,
-    result: Path,
     wall_time: float,
     datasets: Datasets | None = None,
-) -> None:
-    """Numbers first, then figures, then the page."""
+) -> str:
+    """Numbers first, then figures, then the page; the numbers as JSON."""
     from stickslip.reference.faults import DESCRIPTIONS
 
-    from cosim.report.files import write_json
+    from cosim.report.files import json_text
     from cosim.studies.reproduction.result import as_data, page
 
-    write_json(as_data(claims, wall_time, datasets), result)
+    text = json_text(as_data(claims, wall_time, datasets))
+    write_text(text, folder / RESULT)
     for claim in claims:
         for picture in claim.pictures:
             write_bytes(picture.png, folder / f"{picture.name}.png")
     write_text(page(claims, DESCRIPTIONS, datasets), folder / PAGE)
+    return text

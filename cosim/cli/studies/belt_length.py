@@ -12,14 +12,14 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from tqdm import tqdm
-
-from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli import DONE, FAILED, BadInput
+from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.numbers import Numbers, numbers_asked
+from cosim.cli.saying import Bar as tqdm
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 from cosim.report.page import Picture
-from cosim.scenario import read_scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.belt_length import (
     AIR,
@@ -29,20 +29,23 @@ from cosim.studies.belt_length import (
     Options,
     Study,
     StudyError,
+    answer_all,
     cases,
     empty_map,
     fill_map,
     scenario_case,
     verdict,
+    with_ranges,
     work_off,
 )
+from cosim.studies.belt_length.show.page import page
 from cosim.studies.belt_length.study import check_case, check_options
 from thermal import MeshError, ParameterError
 from thermal.belt.air import NotLaminar
 from thermal.steady_state import NoSteadyState
 
 EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
-RESULT, TABLE = "belt_length.json", "belt_length.csv"
+RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
@@ -55,6 +58,9 @@ LEGEND = (
     " ice: rise of its face; belt share: of the friction heat; wait: until belt and ice are within"
     " the limit again; mu change: of the kinetic friction by the interface's rise, relative."
 )
+
+#: Of the shortest belts of an own rig.
+HEADINGS = ("as said", "5 %", "median", "95 %", "for ever")
 
 #: Choice -> field of a case, the study's values (None: the default case's), unit, what it is.
 CHOICES: dict[str, tuple[str, tuple[float, ...] | None, str, str]] = {
@@ -88,8 +94,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "scenario",
         nargs="?",
-        help="TOML file or packaged scenario that says belt, block, air, ramp and run, in front of"
-        " the options; without one, the study's rig and protocol",
+        help="TOML file or packaged scenario that says belt (layers, rollers), block, contact, air,"
+        " ramp and run, in front of the options: how long its belt must be, and how sure that is;"
+        " without one, the source study's rig and protocol, and whether 1 m does",
     )
     for name, (field, values, metavar, text) in CHOICES.items():
         shown = " ".join(_shown(value) for value in values or (_own(STUDY, field),))
@@ -100,13 +107,24 @@ def add_arguments(parser: ArgumentParser) -> None:
             type=number_or_air if name == "h" else float,
             help=f"{text} (default: the scenario's, or {shown})",
         )
+    add_set(parser)
     _add_protocol(parser)
     parser.add_argument(
         "--limit",
+        "--camera",
         metavar="K",
         type=float,
         default=CAMERA,
-        help=f"rise that is allowed, K (default: {CAMERA:g}, by the camera's data sheet; a choice)",
+        help="rise that is allowed, such as what a camera tells apart, K (default:"
+        f" {CAMERA:g}, by the study's camera's data sheet; a choice)",
+    )
+    parser.add_argument(
+        "--doubt",
+        metavar="UNKNOWN=LOW,HIGH",
+        action="append",
+        default=[],
+        help="between what something lies that is not known of the rig, or =VALUE where it is; its"
+        " names, and the ranges otherwise, stand in doubt.csv (roller_rise=0,0.1)",
     )
     parser.add_argument(
         "--sensitivity",
@@ -125,8 +143,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--map",
         metavar="N",
         type=int,
-        default=30,
-        help="points a side of the map length x speed, 0 for none (default: 30)",
+        help="points a side of the map length x speed, 0 for none (default: 30, of a scenario 12)",
     )
     parser.add_argument(
         "--jobs",
@@ -209,11 +226,16 @@ def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
     began = time.perf_counter()
     wanted, options = _asked(arguments)
+    numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
     folder = Path(arguments.output)
     writable(folder)
-    require_own(folder, (RESULT, TABLE, CHANGES, DOUBT), arguments.force)
+    require_own(folder, (RESULT, TABLE, PAGE, CHANGES, DOUBT), arguments.force)
+    given = given_scenario(arguments.scenario, arguments.changes) if arguments.scenario else None
+    if given is not None:
+        note_taken(given)
     study, status = Study(options), DONE
-    grid = empty_map(arguments.map) if arguments.map else None
+    own = wanted[0] if arguments.scenario else None
+    grid = empty_map(arguments.map, own) if arguments.map else None
     try:
         with tqdm(
             total=len(wanted) + arguments.map**2, disable=None, unit="case", leave=False
@@ -222,6 +244,8 @@ def execute(arguments: Namespace) -> int:
             def show(count: int) -> None:
                 bar.update(count)
 
+            if own is not None:
+                answer_all(study, wanted, arguments.jobs, lambda count: None)
             work_off(study, wanted, arguments.jobs, show)
             if grid is not None:
                 fill_map(grid, wanted[0], arguments.jobs, show)
@@ -231,13 +255,17 @@ def execute(arguments: Namespace) -> int:
             file=sys.stderr,
         )
         status = FAILED
-    source = arguments.scenario and read_scenario(arguments.scenario).to_toml()
-    with results_in(folder, made_by(scenario=source), force=arguments.force) as results:
+    source = None if given is None else given.to_toml()
+    made = made_by(scenario=source)
+    with results_in(folder, made, force=arguments.force) as results:
         _write(study, grid, folder)
         if status == DONE:
-            _draw(study, grid, wanted[0], folder)
+            pictures = _draw(study, grid, wanted[0], folder)
+            name = None if given is None else given.name
+            text = page(study, pictures, name=name, scenario=source, command=made["command"])
+            write_text(text, folder / PAGE)
             results.complete = True
-    _print(study, arguments.json, folder, time.perf_counter() - began)
+    _print(study, numbers, folder, time.perf_counter() - began)
     return status
 
 
@@ -245,8 +273,12 @@ def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     """Cases and options, all of them checked before anything is computed."""
     check_options(arguments)
     given = arguments.scenario is not None
-    base = _from_file(arguments.scenario) if given else STUDY
-    base = replace(base, protocol=_protocol(base, arguments))
+    if arguments.changes and not given:
+        raise BadInput("--set: changes keys of a scenario, so a SCENARIO is needed with it")
+    base = _from_file(arguments) if given else STUDY
+    base = with_ranges(replace(base, protocol=_protocol(base, arguments)), arguments.doubt)
+    if arguments.map is None:
+        arguments.map = 12 if given else 30
     choices = {}
     for name, (field, values, _, _) in CHOICES.items():
         asked = getattr(arguments, name)
@@ -258,13 +290,13 @@ def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     return wanted, Options(arguments.limit, arguments.sensitivity, arguments.samples)
 
 
-def _from_file(source: str) -> Case:
+def _from_file(arguments: Namespace) -> Case:
     """The case of a scenario; faults begin with the file."""
-    scenario = read_scenario(source)
+    scenario = given_scenario(arguments.scenario, arguments.changes)
     try:
         return scenario_case(scenario)
     except StudyError as error:
-        raise StudyError(f"{source}: {error}") from None
+        raise StudyError(f"{arguments.scenario}: {error}") from None
 
 
 def _protocol(base: Case, arguments: Namespace):
@@ -295,8 +327,8 @@ def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
             write_atomically(folder / name, partial(table.to_csv, index=False))
 
 
-def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> None:
-    from cosim.studies.belt_length.figures import draw_doubt, draw_drift, draw_map
+def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> list[Picture]:
+    from cosim.studies.belt_length.show.figures import draw_doubt, draw_drift, draw_map
 
     pictures: list[Picture] = [draw_drift(study)]
     doubted = [row for row in study.rows if row.uncertainty is not None]
@@ -306,13 +338,15 @@ def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> None
         pictures.append(draw_map(grid, case, study.options.limit))
     for one in pictures:
         write_bytes(one.png, folder / f"{one.name}.png")
+    return pictures
 
 
-def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:
-    if as_json:
-        print(json.dumps(study.as_dict() | {"verdict": verdict(study)}, indent=1))
+def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
+    if asked.give(json.dumps(study.as_dict() | {"verdict": verdict(study)}, indent=1)):
         return
-    if study.rows:
+    if study.answers:
+        _print_answers(study)
+    elif study.rows:
         shown = study.table()[
             [
                 "length [m]",
@@ -336,11 +370,32 @@ def _print(study: Study, as_json: bool, folder: Path, wall_time: float) -> None:
         print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}"))
         print(LEGEND)
         _print_shortest(study)
-    for sentence in verdict(study):
-        print(sentence)
+    if not study.answers:
+        for sentence in verdict(study):
+            print(sentence)
     if study.rows:
         _print_changes(study)
-    print(f"{len(study.rows)} cases in {wall_time:.1f} s; {folder / TABLE}, {folder / RESULT}")
+    print(f"{len(study.rows)} cases in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
+
+
+def _print_answers(study: Study) -> None:
+    """Of an own rig: the answer, then its numbers."""
+    for sentence in verdict(study):
+        print(sentence)
+    print(f"{'shortest belt [m]':<22} {'speed [m/s]':>11} " + " ".join(f"{h:>8}" for h in HEADINGS))
+    for answer in study.answers:
+        for name, question in (
+            ("comes round cold", answer.run),
+            ("interface steady", answer.interface),
+        ):
+            ever = _length(question.for_ever) if question is answer.run else "-"
+            numbers = [
+                _length(question.shortest),
+                *(level.says if level else "-" for level in question.levels),
+                ever,
+            ]
+            shown = " ".join(f"{number:>8}" for number in numbers)
+            print(f"{name:<22} {answer.case.speed:11g} {shown}")
 
 
 def _print_shortest(study: Study) -> None:

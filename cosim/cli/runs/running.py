@@ -13,23 +13,28 @@ from xml.etree import ElementTree
 
 import xarray as xr
 from stickslip import Parameters, simulate
-from stickslip.compiled import is_cached
 from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import PATIENCE, deadline
 from stickslip.steady_motion.regimes import CREEPING, OWN
 from stickslip.steady_motion.stability import UNSTABLE
-from tqdm import tqdm
 
 from cosim.cli import DONE, FAILED, BadInput
+from cosim.cli.numbers import NOT_ASKED, Numbers
+from cosim.cli.saying import Bar, note
+from cosim.cli.scenarios import given_scenario
+from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
 from cosim.coupling.record import LOG, MessageLog, RunFolder
+from cosim.coupling.system import MASTER
 from cosim.files import writable
 from cosim.interrupts import Patience
 from cosim.manifest import claim, require_own
 from cosim.report import Views, summary, write_results
 from cosim.report.bounds import bounds_sentences
 from cosim.report.contents import attach_assessment, ramp_sentence, regime_sentence, unstable_line
+from cosim.report.coupling import doubts
+from cosim.report.files import json_text
 from cosim.report.quantities import ROUNDING
-from cosim.scenario import Scenario, ScenarioError, check_work, read_scenario
+from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.work import WORTH_SAYING, in_words
 
 RESULTS = "results"
@@ -37,17 +42,19 @@ FIELDS = "fields"
 COLLECTION = f"{FIELDS}/temperature.pvd"
 RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)
 COMPLETE = "complete"
+#: By which keys the JSON of a run is known.
+KEYS = ("name", "case", "status", "scenario")
 #: Written after all other data and before the figures.
 LAST_OF_DATA = "summary.json"
 
 
-def scenario_to_run(source: str | None, *, coupled: bool) -> Scenario:
-    """The scenario, without a source the reference case.
+def scenario_to_run(source: str | None, settings: Iterable[str] = (), *, coupled: bool) -> Scenario:
+    """The scenario, without a source the reference case, with `key=value` settings put in.
 
     ScenarioError when it is none or does not fit a coupled run, or would not end.
     """
     source = source or "reference"
-    scenario = read_scenario(source)
+    scenario = given_scenario(source, settings)
     try:
         if coupled:
             _ = scenario.record_every  # raises when rows would fall between macro steps
@@ -55,7 +62,7 @@ def scenario_to_run(source: str | None, *, coupled: bool) -> Scenario:
     except ScenarioError as fault:
         raise ScenarioError(f"{source}: {fault}") from None
     if seconds > WORTH_SAYING:
-        print(f"note: this run takes some {in_words(seconds)}", file=sys.stderr)
+        note(f"this run takes some {in_words(seconds)}")
     return scenario
 
 
@@ -107,7 +114,26 @@ def message_log(folder: RunFolder, verbose: bool) -> MessageLog:
 
 def _show_line(line: str) -> None:
     """On stderr, above the bar where there is one."""
-    tqdm.write(line, file=sys.stderr)
+    Bar.write(line, file=sys.stderr)
+
+
+def hearing(log: MessageLog, verbose: bool) -> Callable[[Message], None]:
+    """What a run tells its messages to: the log, and at once the terminal where it cannot wait.
+
+    That steps grind at their smallest size, or stand unconverged, is said where it begins; what
+    follows of the kind is in the log alone. verbose: the log shows all of it.
+    """
+    heard: set[str] = set()
+
+    def hear(message: Message) -> None:
+        log.add(message)
+        at_once = message.source == MASTER and message.category in (SMALLEST, UNCONVERGED)
+        if at_once and message.category not in heard and not verbose:
+            heard.add(message.category)
+            when = "" if message.time is None else f"at t = {message.time:.6g} s "
+            _show_line(f"warning: {when}{message.text}; more of it is in {log.path}")
+
+    return hear
 
 
 def log_files(log: MessageLog) -> dict[str, str]:
@@ -126,7 +152,7 @@ def say_how_it_ended(
     said = "" if log is None else log.told()
     if numbers["status"] == COMPLETE:
         if said:
-            print(f"note: {said}", file=sys.stderr)
+            note(said)
         return DONE
     goes_on = f", and this goes on from there: {resume}" if resume else ""
     where = f"{folder}, {said}" if said else str(folder)
@@ -134,13 +160,24 @@ def say_how_it_ended(
     return FAILED
 
 
+def is_removed(folder: Path, time: Iterable[float]) -> bool:
+    """Whether the folder of the results is gone, which is then said in one line, with what is lost.
+
+    time: recorded times of the run, s.
+    """
+    if folder.is_dir():
+        return False
+    reached = max(time, default=0.0)
+    print(
+        f"error: {folder}: was removed while the run went; it has ended at t = {reached:.6g} s, and"
+        " all rows until then, checkpoints and messages are lost: begin anew",
+        file=sys.stderr,
+    )
+    return True
+
+
 def compile_model() -> None:
-    """Have the compiled mechanics ready; says so where that takes a while."""
-    if sys.stderr.isatty() and not is_cached():
-        print(
-            "compiling the mechanical model for this machine; once, up to half a minute",
-            file=sys.stderr,
-        )
+    """Have the compiled mechanics ready, before a bar begins to count."""
     simulate(Parameters(), 1e-3, 1e-3)
 
 
@@ -174,17 +211,29 @@ def assess_motion(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -
 def progress_over(duration: float) -> Iterator[Callable[[float], object]]:
     """A bar over simulated time (s) on stderr, none when that is no terminal.
 
-    Gives a function to be called with the time reached.
+    Gives a function to be called with the time reached. What remains is by the mean speed since
+    the first step: models are made ready before it, which takes as long as a thousand steps.
     """
     layout = "{percentage:3.0f}%|{bar}| {n:.2f}/{total:g} s [{elapsed}<{remaining}]"
-    with tqdm(total=duration, disable=None, bar_format=layout, leave=False) as bar:
-        yield lambda time: bar.update(time - bar.n)
+    # miniters: a stretch that goes fast is not to keep the bar still in a slow one
+    with Bar(total=duration, bar_format=layout, smoothing=0, miniters=0) as bar:
+        begun = False
+
+        def show(reached: float) -> None:
+            nonlocal begun
+            if not (begun or bar.disable):
+                begun = True
+                bar.initial = bar.n = bar.last_print_n = reached
+                bar.start_t = bar.last_print_t = time.time()  # tqdm's clock
+            bar.update(reached - bar.n)
+
+        yield show
 
 
 @contextmanager
 def progress_over_files() -> Iterator[Callable[[str], None]]:
     """A line that counts and names the files written; none when stderr is no terminal."""
-    with tqdm(disable=None, bar_format="{n} files written, {desc} the last", leave=False) as bar:
+    with Bar(bar_format="{n} files written, {desc} the last") as bar:
 
         def written(name: str) -> None:
             bar.set_description_str(name, refresh=False)
@@ -203,6 +252,7 @@ def finish(
     command: str | None = None,
     resume: str = "",
     log: MessageLog | None = None,
+    asked: Numbers = NOT_ASKED,
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
@@ -210,6 +260,7 @@ def finish(
     disk; a Ctrl-C then ends the drawing. files: further ones to list on the page. views:
     of belt and ice, for an animation. command: as the run was asked for; None: this one.
     resume: what goes on with a run that is not complete. log: of what was said in it.
+    asked: where the numbers go as JSON.
     """
     command = shlex.join(["stickslip", *sys.argv[1:]]) if command is None else command
     try:
@@ -219,11 +270,16 @@ def finish(
         print(f"error: interrupted while drawing; the data are in {folder}", file=sys.stderr)
         return FAILED
     numbers = summary(dataset)
-    for said in bounds_sentences(numbers):
+    coupling = numbers.get("coupling", {})
+    printed = asked.give(json_text(numbers))
+    for said in (*bounds_sentences(numbers), *doubts(coupling)):
         print(f"warning: {said}", file=sys.stderr)
+    for said in coupling.get("remarks", ()):
+        print(f"note: {said}", file=sys.stderr)
     if say_how_it_ended(numbers, folder, resume, log) == FAILED:
         return FAILED
-    print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
+    if not printed:
+        print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
     return DONE
 
 
@@ -251,9 +307,9 @@ def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) ->
         lines += [
             f"  interface    {interface['end_degC']:z.4f} degC at the end, "
             f"{interface['end_rise']:+z.4f} K over the air",
-            f"  heat         {_heat(ledgers['heat']['received'])} J, in "
+            f"  heat         {_heat(ledgers['heat']['received'])} J, of which "
             + ", ".join(
-                f"{sink} {_number(shares[sink], 'z.3f')}"
+                f"{sink} {_percent(shares[sink])}"
                 for sink in ("belt", "ice", "air", "melting")
                 if sink != "melting" or shares.get(sink)
             ),
@@ -281,12 +337,13 @@ def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
 
 
 def _motion_line(late: Mapping[str, Any]) -> str:
-    if late["frequency"] is None:
-        return "not known: the run ends before the surface has its speed"
-    return (
-        f"{late['frequency']:.3f} break-aways per second at constant speed, "
-        f"slip share {_number(late['slip_share'], '.3f')}"
-    )
+    if not late["duration"]:
+        return "not known: the run ends before the surface has its speed (surface.run_up_time)"
+    rate = late["frequency"]
+    times = f"{rate:.3f} break-aways per second" if rate else "no break-away"
+    if rate is None:
+        times = "one break-away"
+    return f"{times} at constant speed, slip share {_number(late['slip_share'], '.3f')}"
 
 
 def _melting_line(melting: Mapping[str, Any]) -> str:
@@ -301,13 +358,24 @@ def _melting_line(melting: Mapping[str, Any]) -> str:
 
 def _ledger_line(ledgers: Mapping[str, Any]) -> str:
     """What each ledger is off by, as a part of what it is about."""
-    parts = [f"mechanics {_number(ledgers['mechanics']['relative_residual'], '.1e')} of the work"]
+    parts = [f"mechanics {_off_by(ledgers['mechanics']['relative_residual'], 'of the work')}"]
     if "heat" in ledgers:
         parts += [
-            f"heat {_number(ledgers['heat']['relative_residual'], '.1e')}",
-            f"coupling {_number(ledgers['coupling']['relative_difference'], '.1e')} of the heat",
+            f"heat {_off_by(ledgers['heat']['relative_residual'])}",
+            f"coupling {_off_by(ledgers['coupling']['relative_difference'], 'of the heat')}",
         ]
     return ", ".join(parts)
+
+
+def _off_by(part: float | None, of: str = "") -> str:
+    """A part of what a ledger is about; of nothing there is none."""
+    if part is None:
+        return "has nothing in it"
+    return f"{part:.1e} {of}".rstrip() if part else "0"
+
+
+def _percent(share: float | None) -> str:
+    return "none" if share is None else f"{100.0 * share:z.1f} %"
 
 
 def _heat(joules: float) -> str:

@@ -1,0 +1,1 @@
+"""Commands that make what others use: units for other tools."""

@@ -1,0 +1,79 @@
+"""`stickslip effect new`: an effect of one's own, to begin with."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from importlib import resources
+from pathlib import Path
+
+from cosim.cli import DONE
+from cosim.cli.arguments import add_force
+from cosim.files import OutputRefused, writable, write_unless_owned
+
+EXAMPLE = "stickslip effect new brush.py"
+SUFFIX = ".py"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.description = (
+        f"{parser.description} It works as it is: name it in a scenario (effects = "
+        '["brush.py"] at its top, with a table [brush]), in a campaign ([model] effects = '
+        '["brush.py"]), or as `stickslip effects brush.py` and `stickslip build --effects '
+        "brush.py`. Such a file is code that these commands run: name none that you would not run "
+        "by yourself, nor a scenario or campaign that does. Its terms keep to what can become C "
+        "and machine code; what cannot is refused with its line."
+    )
+    parser.add_argument("what", choices=["new"], help="write a new file")
+    parser.add_argument(
+        "file", metavar="FILE.py", type=_file, help="the effect is called as the file is"
+    )
+    add_force(parser)
+
+
+def _file(name: str) -> Path:
+    path = Path(name)
+    wrong = not re.fullmatch(r"[a-z][a-z0-9_]*", path.stem) or keyword.iskeyword(path.stem)
+    if path.suffix != SUFFIX or wrong:
+        raise ArgumentTypeError(
+            f"{name!r} is not allowed, allowed is a name of small letters, digits and _ that "
+            f"begins with a letter, and ends in {SUFFIX}"
+        )
+    return path
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    return (OutputRefused,)
+
+
+def execute(arguments: Namespace) -> int:
+    """Write the file and say what can be done with it."""
+    from stickslip.effects import EFFECTS
+    from stickslip.plugins.load import TABLES
+
+    file: Path = arguments.file
+    name = file.stem
+    if name in {*TABLES, *(effect.id for effect in EFFECTS)}:
+        raise OutputRefused(
+            f"{file}: {name} is the name of a table that there is; allowed is another: `stickslip "
+            "effects` shows the catalogue"
+        )
+    writable(file.parent)
+    write_unless_owned({file.name: text_of(name)}, file.parent, arguments.force)
+    print(
+        f"{file}: effect {name}, which works as it is\n"
+        f'  in a scenario: effects = ["{file.name}"] at its top, and a table [{name}] with '
+        "fall = 0.3\n"
+        f"  its page:      stickslip effects {file} -o results/{name}"
+    )
+    return DONE
+
+
+def text_of(name: str) -> str:
+    """The template as the file of an effect of this name."""
+    text = (resources.files("stickslip.plugins") / "template.py").read_text(encoding="utf-8")
+    title = "".join(part.capitalize() for part in name.split("_"))
+    return text.replace("Template", title).replace("template", name)

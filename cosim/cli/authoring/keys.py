@@ -1,0 +1,60 @@
+"""`stickslip keys`: what a scenario can say."""
+
+from __future__ import annotations
+
+import json
+from argparse import ArgumentParser, Namespace
+from typing import TYPE_CHECKING
+
+from cosim.cli import DONE, BadInput
+from cosim.cli.arguments import add_force, add_json
+from cosim.cli.numbers import numbers_asked
+
+if TYPE_CHECKING:
+    from cosim.scenario.keys import Key
+
+EXAMPLE = "stickslip keys stiffness"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "word",
+        metavar="WORD",
+        nargs="?",
+        help="only keys that have this in their name, or else in what they mean (default: all)",
+    )
+    add_json(parser)
+    add_force(parser)
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.files import OutputRefused
+    from cosim.scenario import ScenarioError
+
+    return (ScenarioError, OutputRefused)
+
+
+def execute(arguments: Namespace) -> int:
+    """Print the keys; 0."""
+    from cosim.names import unknown_name
+    from cosim.scenario.keys import all_keys, found
+
+    keys = all_keys()
+    chosen = found(arguments.word, keys) if arguments.word else keys
+    if not chosen:
+        raise BadInput(unknown_name("key", arguments.word, [key.key for key in keys]))
+    asked = numbers_asked(arguments, ("key", "default", "plain", "unit"))
+    if not asked.give(json.dumps([key._asdict() for key in chosen], indent=1)):
+        for key in chosen:
+            _print(key)
+    return DONE
+
+
+def _print(key: Key) -> None:
+    from cosim.scenario.keys import shown
+
+    plain = "" if key.plain == key.default or key.key == "name" else f" (plain: {shown(key.plain)})"
+    print(f"{key.words}{plain}, allowed is {key.allowed}")
+    print(f"    {key.description}")

@@ -1,0 +1,108 @@
+"""`stickslip schema`: what a TOML file may hold, as JSON Schema."""
+
+from __future__ import annotations
+
+import json
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import Any
+
+from cosim.cli import DONE
+
+EXAMPLE = "stickslip schema campaign -o campaign.schema.json"
+KINDS = ("scenario", "campaign", "plan", "system")
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "kind",
+        nargs="?",
+        choices=KINDS,
+        default=KINDS[0],
+        help="of which file: that of run and simulate (default), gap, plan, or couple",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="write it there (default: standard output); a TOML file beside it that begins with "
+        "#:schema ./FILE is then checked by taplo and by Even Better TOML in VS Code",
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite FILE where it is no such schema"
+    )
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.files import OutputRefused
+
+    return (OutputRefused,)
+
+
+def execute(arguments: Namespace) -> int:
+    """Print or write the schema; 0."""
+    from cosim.files import writable, write_text
+    from cosim.manifest import require_json
+
+    if arguments.output is not None:
+        file = Path(arguments.output)
+        writable(file.parent, (file.name,))
+        require_json(file, ("$schema", "title"), arguments.force)
+    text = json.dumps(_schema(arguments.kind), indent=1, allow_nan=False) + "\n"
+    if arguments.output is None:
+        print(text, end="")
+    else:
+        write_text(text, Path(arguments.output))
+    return DONE
+
+
+def _schema(kind: str) -> dict[str, Any]:
+    from cosim.scenario.json_schema import scenario_schema
+
+    if kind == "scenario":
+        return scenario_schema()
+    return _system_schema() if kind == "system" else _campaign_schema(kind)
+
+
+def _campaign_schema(kind: str) -> dict[str, Any]:
+    """A campaign that was made, or of a plan, whose runs need no file."""
+    from pydantic import Field, create_model
+
+    from cosim.gap.data.campaign_file import CampaignTable, MeasuredRunTable, RunTable
+    from cosim.scenario.json_schema import schema_of
+
+    run: Any = RunTable if kind == "plan" else MeasuredRunTable
+    runs: Any = (tuple[run, ...], Field(min_length=1, description="a table [[run]] for each run"))
+    whole = create_model("Campaign", __base__=CampaignTable, run=runs)
+    schema = schema_of(whole, f"a {kind} of stickslip")
+    schema["$defs"][run.__name__]["required"] = ["mass", "stiffness", "surface_speed"]
+    return schema
+
+
+def _system_schema() -> dict[str, Any]:
+    """A system of units; of their values the units themselves know what they may be."""
+    from pydantic import Field, create_model
+    from stickslip.quantity import Table
+
+    from cosim.scenario.json_schema import schema_of
+    from cosim.systems.settings import Coupling, Run
+    from cosim.systems.toml_file import VALUES, ConnectionTable, Unit
+
+    values: dict[str, Any] = {
+        name: (dict[str, Any], Field({}, description="variable of the unit -> value"))
+        for name in VALUES
+    }
+    unit: Any = create_model("UnitOfSystem", __base__=Unit, **values)
+    tables: dict[str, Any] = {
+        "name": (str, Field("", description="of the system", max_length=100)),
+        "units": (dict[str, unit], Field(description="a table [units.NAME] for every unit")),
+        "connections": (tuple[ConnectionTable, ...], ()),
+        "residuals": (tuple[str, ...], Field((), description="unit.port that should stay 0")),
+        "coupling": (Coupling, Coupling()),
+        "run": (Run, Run()),
+    }
+    schema = schema_of(create_model("System", __base__=Table, **tables), "a system of stickslip")
+    schema["properties"]["units"]["minProperties"] = 1
+    return schema

@@ -1,0 +1,1 @@
+"""Commands of one run: coupled, mechanics alone, any system of units."""

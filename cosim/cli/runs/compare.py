@@ -1,0 +1,166 @@
+"""`stickslip compare`: two results, or two scenarios that are run for it."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cosim.cli import DONE
+from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.files import OutputRefused, writable, write_bytes, write_text
+from cosim.manifest import made_by, require_own, results_in
+
+if TYPE_CHECKING:
+    from cosim.report.compare import Comparison, OneResult
+    from cosim.scenario import Scenario
+
+EXAMPLE = "stickslip compare results/reference results/slab"
+#: Numbers that are on the page only.
+OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
+RESULT, PAGE = "compare.json", "report.html"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    for name in ("a", "b"):
+        parser.add_argument(
+            name,
+            metavar=name.upper(),
+            help="folder of results of run, simulate or couple; or a TOML file or packaged"
+            " scenario, which is then run",
+        )
+    parser.add_argument(
+        "--coupled",
+        action="store_true",
+        help="run scenarios coupled to the heat in belt and ice, not the mechanics alone",
+    )
+    add_json(parser)
+    add_output(parser, "folder of page, numbers and figures (default: results/A-and-B)")
+    add_force(parser)
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    import cosim.cli.runs.running  # noqa: F401  the model, imported where Ctrl-C waits
+    from cosim.report.compare import NotAResult
+    from cosim.scenario import ScenarioError
+
+    return (NotAResult, ScenarioError, OutputRefused)
+
+
+def execute(arguments: Namespace) -> int:
+    """Read or run both, compare, write, print."""
+    from cosim.report.compare import compare
+    from cosim.report.files import json_text
+
+    both = compare(*_results(arguments))
+    folder = Path(arguments.output or Path("results") / _named(both))
+    writable(folder, (RESULT, PAGE))
+    require_own(folder, (RESULT, PAGE), arguments.force)
+    made = made_by(a=both.a.place, b=both.b.place)
+    with results_in(folder, made, force=arguments.force) as results:
+        write_text(json_text(both.as_dict()), folder / RESULT)
+        _draw(both, folder, made["command"])
+        results.complete = True
+    for remark in both.remarks:
+        print(f"warning: {remark}", file=sys.stderr)
+    print(json_text(both.as_dict()) if arguments.json else _table(both, folder))
+    return DONE
+
+
+def _named(both: Comparison) -> str:
+    names = (Path(both.a.place).stem, Path(both.b.place).stem)
+    return f"{names[0]}-and-{names[1]}"
+
+
+def _results(arguments: Namespace) -> list[OneResult]:
+    """Both results; what is wrong with either is found before anything is run."""
+    from cosim.report.compare import read_result
+    from cosim.scenario import Scenario
+
+    sources = (arguments.a, arguments.b)
+    found = [
+        read_result(Path(one)) if Path(one).is_dir() else _scenario(one, arguments.coupled)
+        for one in sources
+    ]
+    return [
+        _run(source, one, arguments.coupled) if isinstance(one, Scenario) else one
+        for source, one in zip(sources, found, strict=True)
+    ]
+
+
+def _scenario(source: str, coupled: bool) -> Scenario:
+    from cosim.cli.runs.running import scenario_to_run
+
+    return scenario_to_run(source, coupled=coupled)
+
+
+def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
+    """A scenario's run, which is kept nowhere."""
+    from stickslip import simulate
+
+    from cosim.cli.runs.running import compile_model, progress_over
+    from cosim.report import run_dataset, summary, trajectory_dataset
+    from cosim.report.compare import OneResult
+
+    compile_model()
+    with progress_over(scenario.run.duration) as bar:
+
+        def show(reached: float) -> None:
+            bar(reached)
+
+        if coupled:
+            from cosim.coupling.case import run_scenario
+
+            done = run_scenario(scenario, progress=show)
+            dataset = run_dataset(done.result, scenario, scenario.to_toml())
+        else:
+            trajectory = simulate(
+                scenario.mechanics,
+                scenario.run.duration,
+                scenario.run.output_interval,
+                interface_temperature=scenario.ambient.temperature_degC,
+                progress=show,
+            )
+            dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml())
+    numbers = summary(dataset)
+    failed = numbers["status"] != "complete"
+    remarks = (f"{source}: its run is not complete ({numbers['reason']})",) * failed
+    return OneResult(scenario.name, source, dataset, numbers, scenario.to_toml(), remarks)
+
+
+def _draw(both: Comparison, folder: Path, command: str) -> None:
+    from cosim.report.compare.figures import draw_overlay, draw_phases, has_phases, moving
+    from cosim.report.compare.page import page
+
+    pictures = [draw_overlay(both)] if moving(both) else []
+    if has_phases(both):
+        pictures.append(draw_phases(both))
+    for one in pictures:
+        write_bytes(one.png, folder / f"{one.name}.png")
+    write_text(page(both, pictures, command), folder / PAGE)
+
+
+def _table(both: Comparison, folder: Path) -> str:
+    """Lines: what differs in the scenarios, and in the numbers."""
+    from cosim.report.compare.page import cells
+    from cosim.report.quantities import digits
+
+    lines = [f"A: {both.a.label} ({both.a.place})", f"B: {both.b.label} ({both.b.place})"]
+    for key, values in both.keys.items():
+        left, right = ("(not there)" if one is None else digits(one) for one in values)
+        lines.append(f"  {key:<44} {left:>16} {right:>16}")
+    rows = [("number", "A", "B", "B - A", "relative")]
+    # other starts than the run's own are on the page
+    told = [one for one in both.different if not one.name.startswith(OTHER_STARTS)]
+    rows += [(one.name, *cells(one)) for one in told]
+    if told:
+        name, *widths = (max(len(row[i]) for row in rows) for i in range(5))
+        for first, *rest in rows:
+            shown = "  ".join(f"{cell:>{width}}" for cell, width in zip(rest, widths, strict=True))
+            lines.append(f"{first:<{name}}  {shown}")
+    same = len(both.numbers) - len(both.different)
+    lines.append(f"{len(both.different)} numbers differ, {same} are the same; {folder / PAGE}")
+    return "\n".join(lines)

@@ -1,0 +1,78 @@
+"""`stickslip explore`: a page with a slider for every number, computed in the browser."""
+
+from __future__ import annotations
+
+import webbrowser
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from cosim.cli import DONE
+from cosim.cli.arguments import add_set
+from cosim.cli.scenarios import given_scenario, note_taken
+
+EXAMPLE = "stickslip explore slab -o slab.html"
+#: Of a page; enough to see whose it is.
+BEGINNING = 100_000
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "scenario",
+        nargs="?",
+        help="TOML file, or the name of a packaged scenario, to begin with (default: reference)",
+    )
+    add_set(parser, "surface.speed=0.1")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="the page (default: results/explorer-NAME OF THE SCENARIO.html)",
+    )
+    parser.add_argument(
+        "--no-open", action="store_true", help="write the page, and leave the browser alone"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite a file that this command did not make"
+    )
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.files import OutputRefused
+    from cosim.fmu.compiler import CompilerError
+    from cosim.scenario import ScenarioError
+
+    return (ScenarioError, OutputRefused, CompilerError)
+
+
+def execute(arguments: Namespace) -> int:
+    """Write the page, say where it is, open it."""
+    from cosim.explore.explorer import explorer_page
+    from cosim.files import write_text
+
+    scenario = given_scenario(arguments.scenario or "reference", arguments.changes)
+    file = Path(arguments.output or f"results/explorer-{scenario.name}.html")
+    require_own(file, arguments.force)
+    note_taken(scenario)
+    write_text(explorer_page(scenario), file)
+    print(file)
+    if not arguments.no_open and not webbrowser.open(file.resolve().as_uri()):
+        print("no browser to be found: open it yourself")
+    return DONE
+
+
+def require_own(file: Path, force: bool) -> None:
+    """OutputRefused for a file that cannot be written, or is somebody else's."""
+    from cosim.explore.explorer import made_here
+    from cosim.files import OutputRefused, writable
+
+    writable(file.parent, [file.name])
+    if force or not file.exists():
+        return
+    with file.open(encoding="utf-8", errors="replace") as there:
+        if not made_here(there.read(BEGINNING)):
+            raise OutputRefused(
+                f"{file}: was not made by stickslip explore, allowed is another name, or --force "
+                "to overwrite it"
+            )

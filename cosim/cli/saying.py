@@ -1,0 +1,63 @@
+"""What a command says beside its results: notes, bars, and with `-v` more of what it does.
+
+Results go to stdout, everything else to stderr. `-q` leaves results, warnings and errors.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from tqdm import tqdm
+
+#: Loggers of the product: what computes says there what a user waits for (WARNING: once, a note),
+#: and what it does (INFO).
+LOGGERS = ("stickslip", "thermal", "cosim")
+
+_quiet = False
+
+
+class Bar(tqdm):
+    """A bar on stderr: none with `-q`, and none where stderr is no terminal."""
+
+    def __init__(self, *given: Any, **further: Any) -> None:
+        super().__init__(*given, **{"disable": True if _quiet else None, "leave": False, **further})
+
+
+def note(text: str) -> None:
+    """A line that helps and changes nothing; not with `-q`."""
+    if not _quiet:
+        Bar.write(f"note: {text}", file=sys.stderr)
+
+
+class _Notes(logging.Handler):
+    """Records as notes; those below WARNING are asked for with `-v`, and come as they are."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        if record.levelno >= logging.WARNING:
+            note(record.getMessage())
+        else:
+            Bar.write(record.getMessage(), file=sys.stderr)
+
+
+@contextmanager
+def saying(quiet: bool, verbose: bool) -> Iterator[None]:
+    """How much is said meanwhile."""
+    global _quiet
+    before, _quiet = _quiet, quiet
+    handler = _Notes(logging.INFO if verbose else logging.WARNING)
+    loggers = [logging.getLogger(name) for name in LOGGERS]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.addHandler(handler)
+        logger.setLevel(handler.level)
+    try:
+        yield
+    finally:
+        _quiet = before
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.removeHandler(handler)
+            logger.setLevel(level)

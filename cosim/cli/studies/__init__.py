@@ -1,0 +1,1 @@
+"""Commands of studies: many runs, a map, a verdict."""

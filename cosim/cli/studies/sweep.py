@@ -1,0 +1,251 @@
+"""`stickslip sweep`: its arguments, what it runs, what it leaves behind."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+import tomllib
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.saying import Bar as tqdm
+from cosim.cli.scenarios import given_scenario, note_taken
+from cosim.files import OutputRefused, not_taken, write_atomically, write_bytes, write_text
+from cosim.manifest import made_by, require_own, results_in
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from cosim.scenario import Scenario
+    from cosim.studies.sweep import Grid, Run
+
+EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
+RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
+OWN = (RESULT, FIGURE, TABLE, PAGE)
+#: Group of the result file that holds the test plan's repeats.
+REPEATS = "repeats"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("scenario", help="TOML file, or the name of a packaged scenario")
+    parser.add_argument(
+        "others",
+        nargs="*",
+        metavar="SCENARIO",
+        help="further ones: the scenario is then an axis of its own",
+    )
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument(
+        "--vary",
+        metavar="KEY=V1,V2,...",
+        action="append",
+        help="values of any key of a scenario, as TOML has them; given more than once, all"
+        " combinations are run. Keys that go together: mu_s and mu_k as"
+        " friction.mu_s+friction.mu_k=0.28:0.21,0.07:0.05; a list's second table:"
+        " belt.layers[2].conductivity=0.2,0.5; a whole list: belt.layers=[{thickness=...}],[...]",
+    )
+    what.add_argument(
+        "--test-plan",
+        action="store_true",
+        help="the 1306 combinations of the published test plan (its belts' friction is assumed)",
+    )
+    add_set(parser)
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument(
+        "--coupled",
+        action="store_true",
+        default=None,
+        help="run each coupled to the heat in belt and ice (as it is without this where a key of"
+        " belt, ice, contact or coupling is varied, or differs between the scenarios)",
+    )
+    how.add_argument(
+        "--mechanics",
+        dest="coupled",
+        action="store_false",
+        help="run the mechanics alone",
+    )
+    parser.add_argument(
+        "--show",
+        metavar="FEATURE",
+        action="append",
+        default=[],
+        help="a feature to be drawn and listed, such as x_mean, frequency, slip_share (default:"
+        " those that vary)",
+    )
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--jobs", metavar="N", type=int, help="processes on this machine (default: all cores)"
+    )
+    where.add_argument(
+        "--dask", metavar="ADDRESS", help="run on the Dask cluster whose scheduler is there"
+    )
+    add_json(parser)
+    add_output(
+        parser,
+        "folder of the results (default: results/NAME OF THE SCENARIO-sweep); combinations "
+        "that are finished there are not run again",
+    )
+    add_force(parser)
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    import cosim.studies.sweep.figure  # noqa: F401  imported where Ctrl-C waits
+    from cosim.scenario import ScenarioError
+    from cosim.studies.sweep import SweepError
+
+    return (SweepError, ScenarioError, OutputRefused)
+
+
+def execute(arguments: Namespace) -> int:
+    """Sweep, write, report; 0, or 1 when nothing came out or the sweep was stopped."""
+    from cosim.studies.sweep import SweepStopped, run_grid
+    from cosim.studies.sweep.figure import check_shown
+
+    began = time.perf_counter()
+    numbers = numbers_asked(arguments, ("runs",))
+    scenario = given_scenario(arguments.scenario, arguments.changes)
+    grids = _grids(arguments, scenario)
+    run = _run_of(grids[""], scenario)
+    check_shown(arguments.show, run.features)
+    folder = Path(arguments.output or Path("results") / f"{scenario.name}-sweep")
+    not_taken(folder, OWN)
+    require_own(folder, OWN, arguments.force)
+    note_taken(scenario)
+    datasets = {}
+    try:
+        for group, grid in grids.items():
+            with _bar(len(grid)) as progress:
+                datasets[group] = run_grid(
+                    grid,
+                    run,
+                    jobs=arguments.jobs,
+                    dask=arguments.dask,
+                    folder=folder,
+                    progress=progress,
+                )
+            datasets[group].attrs["scenario"] = scenario.to_toml()
+    except (KeyboardInterrupt, SweepStopped) as stop:
+        said = str(stop) or "interrupted"
+        print(
+            f"error: {said}; what is finished is kept in {folder}, the same command goes on",
+            file=sys.stderr,
+        )
+        return FAILED
+    # the finished combinations beside the results are kept from sweep to sweep
+    made = made_by(scenario=scenario.to_toml())
+    with results_in(folder, made, force=arguments.force) as results:
+        _write(datasets, folder, arguments.show, made["command"])
+        results.complete = True
+    if numbers.give(_as_json(datasets)):
+        return _status(datasets)
+    return _report(datasets, folder, time.perf_counter() - began)
+
+
+def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
+    """Group of the result file -> combinations."""
+    from cosim.studies.sweep import SweepError, product_grid
+    from cosim.studies.sweep.axis import parse_vary
+    from cosim.studies.sweep.grid import plan_grid, repeats_grid
+
+    if arguments.test_plan:
+        if arguments.others or arguments.coupled:
+            raise SweepError("--test-plan: is of one scenario, and of the mechanics alone")
+        return {"": plan_grid(scenario), REPEATS: repeats_grid(scenario)}
+    scenarios = [
+        scenario,
+        *(given_scenario(source, arguments.changes) for source in arguments.others),
+    ]
+    if not arguments.vary and len(scenarios) == 1:
+        raise SweepError(
+            "nothing is varied, allowed is --vary KEY=V1,V2,..., more than one scenario, or"
+            " --test-plan"
+        )
+    return {"": product_grid(scenarios, parse_vary(arguments.vary or ()), arguments.coupled)}
+
+
+def _run_of(grid: Grid, scenario: Scenario) -> Run:
+    """How each combination is run: as the scenario says."""
+    from cosim.scenario import Scenario as Whole
+
+    own = scenario.run
+    said = {"duration": own.duration, "output_interval": own.output_interval}
+    return grid.run_of({} if isinstance(grid.base, Whole) else said)
+
+
+@contextmanager
+def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
+    """A bar over combinations on stderr, none when that is no terminal."""
+    with tqdm(total=total, disable=None, unit="run", leave=False) as bar:
+
+        def show(done: int, of: int) -> None:
+            bar.total = of
+            bar.update(done - bar.n)
+
+        yield show
+
+
+def _write(datasets: dict[str, xr.Dataset], folder: Path, asked: list[str], command: str) -> None:
+    from cosim.report.files import write_netcdf
+    from cosim.studies.sweep.figure import draw_sweep, shown_features
+    from cosim.studies.sweep.page import page, records
+
+    dataset = datasets[""]
+    write_netcdf(datasets, folder / RESULT)
+    import pandas as pd
+
+    table = pd.DataFrame(records(dataset))
+    write_atomically(folder / TABLE, partial(table.to_csv, index=False))
+    drawn, still = shown_features(dataset, asked)
+    picture = draw_sweep(dataset, drawn)
+    write_bytes(picture.png, folder / FIGURE)
+    scenario = dataset.attrs["scenario"]
+    name = tomllib.loads(scenario)["name"]
+    said = {"name": name, "command": command, "scenario": scenario}
+    write_text(page(dataset, picture, drawn, still, **said), folder / PAGE)
+
+
+def _as_json(datasets: dict[str, xr.Dataset]) -> str:
+    """Every run, NaN as null."""
+    from cosim.studies.sweep.page import records
+
+    found = {
+        group or "runs": [
+            {key: None if value != value else value for key, value in row.items()}
+            for row in records(dataset)
+        ]
+        for group, dataset in datasets.items()
+    }
+    return json.dumps(found, indent=1)
+
+
+def _status(datasets: dict[str, xr.Dataset]) -> int:
+    """The exit status: whether anything came out."""
+    from cosim.studies.sweep.combination import COMPLETE
+
+    return DONE if any((each["status"] == COMPLETE).any() for each in datasets.values()) else FAILED
+
+
+def _report(datasets: dict[str, xr.Dataset], folder: Path, wall_time: float) -> int:
+    """Some lines on what came out."""
+    from cosim.studies.sweep.combination import COMPLETE
+
+    statuses = [dataset["status"] for dataset in datasets.values()]
+    total = sum(status.size for status in statuses)
+    complete = sum(int((status == COMPLETE).sum()) for status in statuses)
+    print(f"{total} combinations in {wall_time:.1f} s, {complete} of them complete")
+    for dataset in datasets.values():
+        reasons = [reason for reason in dataset["reason"].values.ravel() if reason]
+        if reasons:
+            print(f"  failed     {len(reasons)}, the first: {reasons[0]}")
+    print(f"  results    {folder / PAGE}, {folder / RESULT}")
+    return _status(datasets)

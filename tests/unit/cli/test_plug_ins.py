@@ -1,0 +1,90 @@
+"""Commands and effects of one's own: written, found in what is named, refused in one line."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from cosim.cli import main
+from cosim.cli.plug_ins import files_named
+from cosim.coupling.record.folder import UNFINISHED
+
+
+@pytest.fixture
+def brush(tmp_path):
+    assert main(["effect", "new", str(tmp_path / "brush.py")]) == 0
+    return tmp_path / "brush.py"
+
+
+def test_a_new_file_does_not_replace_one(brush, capsys):
+    brush.write_text("mine", encoding="utf-8")
+    assert main(["effect", "new", str(brush)]) == 2
+    assert "brush.py" in capsys.readouterr().err and brush.read_text() == "mine"
+    assert main(["effect", "new", str(brush), "--force"]) == 0
+    assert "EFFECT = Effect(" in brush.read_text()
+
+
+@pytest.mark.parametrize(
+    "name", ["Brush.py", "brush.txt", "2.py", "class.py", "rig.py", "run_in.py"]
+)
+def test_a_name_that_no_effect_can_have(name, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    try:
+        assert main(["effect", "new", name]) == 2
+    except SystemExit as stop:  # argparse
+        assert stop.code == 2
+    assert "allowed is" in capsys.readouterr().err and not list(tmp_path.iterdir())
+
+
+def test_files_are_found_where_they_are_named(tmp_path):
+    scenario, campaign = tmp_path / "case.toml", tmp_path / "room" / "campaign.toml"
+    campaign.parent.mkdir()
+    scenario.write_text('effects = ["a.py", "deep/b.py"]\n[rig]\nmass = 1\n', encoding="utf-8")
+    campaign.write_text('[model]\neffects = ["c.py"]\n', encoding="utf-8")
+    left = tmp_path / "results" / UNFINISHED / "scenario.toml"
+    left.parent.mkdir(parents=True)
+    left.write_text('effects = ["/d.py"]', encoding="utf-8")
+    (tmp_path / "broken.toml").write_text("effects = [", encoding="utf-8")
+    found = [tmp_path / "a.py", tmp_path / "deep" / "b.py"]
+    assert files_named(["sweep", str(scenario), "--vary", "rig.mass=1,2"]) == found
+    assert files_named(["gap", str(campaign.parent)]) == [campaign.parent / "c.py"]
+    assert files_named(["gap", str(campaign)]) == [campaign.parent / "c.py"]
+    assert [str(file) for file in files_named(["run", "--resume", str(tmp_path / "results")])] == [
+        os.sep + "d.py"
+    ]
+    assert [str(file) for file in files_named(["build", "--effects", "e.py"])] == ["e.py"]
+    assert files_named(["effect", "new", "e.py"]) == []
+    assert files_named(["run", str(tmp_path / "broken.toml"), "reference"]) == []
+
+
+def stickslip(*arguments, **variables):
+    return subprocess.run(
+        [sys.executable, "-m", "cosim", *map(str, arguments)],
+        capture_output=True, text=True, env=os.environ | variables,
+    )  # fmt: skip
+
+
+def test_the_catalogue_goes_on_with_it(brush):
+    done = stickslip("effects", brush, "--json")
+    (entry,) = json.loads(done.stdout)
+    assert entry["id"] == "brush" and entry["parameters"][0]["key"] == "brush.fall"
+
+
+def test_what_is_wrong_with_a_file_is_bad_input(brush, capfd):
+    """Also where this process has the model already, and another has to do the work."""
+    brush.write_text(brush.read_text().replace("1.0 - fall", "np.cos(fall)"), encoding="utf-8")
+    scenario = brush.with_name("case.toml")
+    scenario.write_text('effects = ["brush.py"]\n[brush]\nfall = 0.3\n', encoding="utf-8")
+    assert main(["simulate", str(scenario), "-o", str(brush.parent / "out")]) == 2
+    (line,) = capfd.readouterr().err.splitlines()
+    assert line.startswith(f"error: {brush}, line ") and "`np`" in line
+    assert not (brush.parent / "out").exists()
+
+
+def test_a_unit_that_no_unit_has(brush):
+    brush.write_text(brush.read_text().replace('"m/s"', '"furlong"'), encoding="utf-8")
+    done = stickslip("effects", "brush", STICKSLIP_EFFECTS=str(brush))
+    assert done.returncode == 2
+    assert "onset is in 'furlong'" in done.stderr and "m/s2" in done.stderr

@@ -1,0 +1,173 @@
+"""What is said beside the results: notes, more with -v, less with -q; and the numbers as JSON."""
+
+import io
+import json
+import logging
+
+import pytest
+import stickslip.compiled
+from stickslip import Parameters, simulate
+from stickslip.compiled import say_if_compiling
+
+from cosim.cli import main
+from cosim.cli.arguments import COMMANDS, parser
+from cosim.cli.runs import running
+from cosim.cli.saying import Bar, note, saying
+
+SHORT = "[run]\nduration = 0.5\n"
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def case(tmp_path):
+    (tmp_path / "case.toml").write_text(SHORT)
+    return "case.toml"
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_can_say_less_and_more(name, capsys):
+    with pytest.raises(SystemExit):
+        main([name, "--help"])
+    shown = capsys.readouterr().out
+    assert "-q, --quiet" in shown and "-v, --verbose" in shown
+
+
+NO_FIGURES = {"build", "completion", "effect", "explore", "new", "schema"}
+
+
+@pytest.mark.parametrize("name", sorted({*COMMANDS} - NO_FIGURES))
+def test_every_command_with_figures_gives_them_as_json(name, capsys):
+    with pytest.raises(SystemExit):
+        main([name, "--help"])
+    assert "--json [FILE]" in capsys.readouterr().out
+
+
+def test_quiet_leaves_results_and_warnings(case, capsys):
+    assert main(["simulate", case, "-q", "--set", "friction.mu_k=0.5"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("case: 0.5 s") and "results" in out
+    assert err.startswith("warning: friction.mu_k = 0.5 exceeds") and err.count("\n") == 1
+
+
+def test_verbose_names_the_files_as_they_are_written(case, capsys):
+    assert main(["simulate", case, "-v", "-o", "out"]) == 0
+    said = capsys.readouterr().err.splitlines()
+    assert [line for line in said if line.startswith("note: left to the defaults")]
+    for name in ("result.nc", "summary.json", "report.html"):
+        assert f"writing out/{name}" in said
+
+
+def test_quiet_and_verbose_together_are_refused(case, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["simulate", case, "-q", "-v"])
+    assert stop.value.code == 2
+    assert "not allowed with argument" in capsys.readouterr().err
+
+
+def test_how_much_is_said_ends_with_the_command(capsys):
+    with saying(quiet=True, verbose=False):
+        note("nothing")
+        assert Bar(total=1).disable
+    note("something")
+    assert capsys.readouterr().err == "note: something\n"
+    assert not logging.getLogger("cosim").handlers
+
+
+@pytest.fixture
+def not_compiled(monkeypatch):
+    monkeypatch.setattr(stickslip.compiled, "is_cached", lambda: False)
+    say_if_compiling.cache_clear()
+    stickslip.compiled.compiled_kernel.cache_clear()
+    yield
+    say_if_compiling.cache_clear()
+
+
+def test_what_compiles_says_so_before_it_begins(case, not_compiled, capsys, monkeypatch):
+    """Also where stderr is no terminal, as in a log; once."""
+    compiled = []
+    monkeypatch.setattr(
+        stickslip.compiled,
+        "kernel_source",
+        lambda source=stickslip.compiled.kernel_source: (
+            compiled.append(capsys.readouterr().err) or source()
+        ),
+    )
+    assert main(["simulate", case]) == 0
+    (said,) = [text for text in compiled if text]  # before the kernel's text is even made
+    assert said.splitlines()[-1].startswith("note: compiling the mechanical model for this machine")
+    assert "compiling" not in capsys.readouterr().err
+
+
+def test_quiet_does_not_say_what_compiles_and_python_does(case, not_compiled, capsys, caplog):
+    assert main(["simulate", case, "-q"]) == 0
+    assert capsys.readouterr().err == ""
+    say_if_compiling.cache_clear()
+    stickslip.compiled.compiled_kernel.cache_clear()
+    caplog.clear()
+    simulate(Parameters(), 0.01)
+    (record,) = caplog.records
+    assert record.levelname == "WARNING" and "compiling" in record.getMessage()
+
+
+def test_what_remains_is_not_estimated_from_the_time_before_the_first_step(monkeypatch):
+    """A minute of making ready, then a second of the run in a second."""
+    now, bars = [0.0], []
+
+    class OnTerminal(Bar):
+        def __init__(self, **given):
+            super().__init__(**given, disable=False, file=io.StringIO())
+            self._time = lambda: now[0]
+            bars.append(self)
+
+    monkeypatch.setattr(running, "Bar", OnTerminal)
+    monkeypatch.setattr(running.time, "time", lambda: now[0])
+    with running.progress_over(30.0) as show:
+        now[0] = 60.0
+        show(0.01)
+        now[0] = 61.0
+        show(1.01)
+        told = bars[0].format_dict
+        rate = (told["n"] - told["initial"]) / told["elapsed"]
+        assert (told["total"] - told["n"]) / rate == pytest.approx(28.99)
+        # as the bar itself has it: 28.99 s, in whole seconds
+        assert "[00:01<00:28]" in bars[0].__str__()
+
+
+class TestJson:
+    def test_printed_it_is_all_there_is_on_stdout(self, case, capsys):
+        assert main(["simulate", case, "--json", "-o", "out"]) == 0
+        numbers = json.loads(capsys.readouterr().out)
+        assert numbers["status"] == "complete"
+
+    def test_in_a_file_it_is_beside_the_lines(self, case, capsys, tmp_path):
+        for _ in range(2):  # an earlier one is overwritten
+            assert main(["simulate", case, "--json", "deep/numbers.json"]) == 0
+        assert "results" in capsys.readouterr().out
+        assert json.loads((tmp_path / "deep" / "numbers.json").read_text())["name"] == "case"
+
+    def test_a_file_of_somebody_else_stays(self, case, capsys, tmp_path):
+        for content in ("mine", "[]", "{}", '[{"name": 1}]'):
+            (tmp_path / "numbers.json").write_text(content)
+            assert main(["simulate", case, "--json", "numbers.json"]) == 2
+            assert "is there and no result of this command" in capsys.readouterr().err
+            assert (tmp_path / "numbers.json").read_text() == content
+
+    @pytest.mark.parametrize(
+        "argv", [["simulate", "--json", "study"], ["effects", "--json", "film_drag"]]
+    )
+    def test_what_was_meant_to_be_computed_is_not_written_to(self, argv, capsys, tmp_path):
+        with pytest.raises(SystemExit) as stop:
+            parser(argv).parse_args(argv)
+        assert stop.value.code == 2
+        assert f"{argv[-1]} is no name of a file" in capsys.readouterr().err
+        assert not list(tmp_path.iterdir())
+
+    def test_the_catalogue_can_be_written_twice(self, capsys, tmp_path):
+        for _ in range(2):
+            assert main(["effects", "film_drag", "--json", "effects.json"]) == 0
+        (entry,) = json.loads((tmp_path / "effects.json").read_text())
+        assert entry["id"] == "film_drag"

@@ -1,0 +1,48 @@
+import pytest
+
+from cosim.scenario import Scenario, read_scenario
+from cosim.scenario.faults import ScenarioError
+
+
+def scenario(folder, mesh):
+    path = folder / "case.toml"
+    path.write_text(f'[ice]\nmesh = "{mesh}"\n')
+    return path
+
+
+def test_a_mesh_is_named_from_where_the_scenario_is(tmp_path, monkeypatch):
+    (tmp_path / "cases").mkdir()
+    path = scenario(tmp_path / "cases", "../shapes/sample.msh")
+    monkeypatch.chdir(tmp_path)
+    for source in (path, "cases/case.toml"):
+        read = read_scenario(source)
+        assert read.ice.mesh == str(tmp_path / "shapes" / "sample.msh")
+        assert read.thermal.ice.mesh == read.ice.mesh
+
+
+def test_an_absolute_mesh_stays_what_it_is_and_is_written_back(tmp_path):
+    first = read_scenario(scenario(tmp_path, tmp_path / "sample.msh"))
+    (tmp_path / "elsewhere").mkdir()
+    copy = tmp_path / "elsewhere" / "copy.toml"
+    copy.write_text(first.to_toml())
+    assert read_scenario(copy).ice.mesh == str(tmp_path / "sample.msh")
+
+
+def test_without_a_mesh_there_is_none(tmp_path):
+    assert read_scenario(scenario(tmp_path, "")).ice.mesh == ""
+    assert Scenario().ice.mesh == ""
+
+
+@pytest.mark.parametrize(
+    ("tables", "says"),
+    [
+        ({"ice": {"mesh": 3}}, r"ice\.mesh: not a text \(3\), allowed is a text"),
+        (
+            {"ice": {"mesh": "a.msh"}, "contact": {"length": 0.05}},
+            r"contact\.length: 0\.05 m and ice\.mesh are both given",
+        ),
+    ],
+)
+def test_refused(tables, says):
+    with pytest.raises(ScenarioError, match=says):
+        Scenario.from_tables(tables)
