@@ -9,9 +9,8 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .effects import EFFECTS
-
 if TYPE_CHECKING:
+    from .effects import EFFECTS
     from .friction.law import friction_coefficient
     from .parameters import (
         Friction,
@@ -40,14 +39,12 @@ __all__ = [
     "friction_coefficient",
     "simulate",
 ]
-# the effects' tables of parameters, by their names: VelocityWeakening, FilmDrag, ...
-globals().update({effect.table.__name__: effect.table for effect in EFFECTS})
-__all__ += [effect.table.__name__ for effect in EFFECTS]
 
 _HOME = dict.fromkeys(
     ("Friction", "Imperfections", "Initial", "Parameters", "Rig", "Solver", "Springs", "Surface"),
     ".parameters",
 ) | {
+    "EFFECTS": ".effects",
     "Trajectory": ".trajectory",
     "friction_coefficient": ".friction.law",
     "simulate": ".simulation",
@@ -55,11 +52,22 @@ _HOME = dict.fromkeys(
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use: who only builds a unit needs neither numpy nor numba."""
+    """Import on first use: who only builds a unit needs neither numpy nor numba.
+
+    The effects' tables of parameters have their names here too: VelocityWeakening, FilmDrag, ...
+    """
     if name in _HOME:
         return getattr(import_module(_HOME[name], __name__), name)
+    if name[:1].isupper() and name in _tables():
+        return _tables()[name]
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
+def _tables() -> dict[str, Any]:
+    from .effects import EFFECTS
+
+    return {effect.table.__name__: effect.table for effect in EFFECTS}
+
+
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted({*__all__, *_tables()})

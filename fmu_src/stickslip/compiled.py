@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import importlib.util
+import logging
+import multiprocessing
 import os
 import sys
 import tempfile
@@ -18,6 +20,7 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
+import llvmlite.binding
 import numba
 import platformdirs
 from numba.core.cpu import CPUTargetOptions
@@ -31,15 +34,40 @@ if hasattr(CPUTargetOptions, "_nrt"):
     OPTIONS["_nrt"] = False
 
 
+LOG = logging.getLogger(__name__)
+#: The function that calls all others of a run, and so is compiled last.
+LAST = "advance"
+
+
 def is_cached() -> bool:
     """Has machine code of this kernel been made on this machine before?"""
-    name = _name(kernel_source())
-    return any(next((folder / "__pycache__").glob(f"{name}*.nbi"), None) for folder in _folders())
+    kept = f"{_name(kernel_source())}.{LAST}-*.py{sys.version_info[0]}{sys.version_info[1]}*.nbi"
+    places = [folder / "__pycache__" for folder in _folders()]
+    if chosen := getattr(
+        numba.config, "CACHE_DIR", ""
+    ):  # by NUMBA_CACHE_DIR; a folder in it for each module's
+        places = list(Path(chosen).glob("*"))
+    return any(next(place.glob(kept), None) for place in places)
+
+
+@cache
+def say_if_compiling() -> None:
+    """A word to the log, once, where the first use of the kernel will take long.
+
+    For whoever has the work done by other processes, which say nothing; `compiled_kernel` says it
+    by itself.
+    """
+    if multiprocessing.current_process().name == "MainProcess" and not is_cached():
+        LOG.warning(
+            "compiling the mechanical model for this machine, once: a minute or so, more on a "
+            "busy one"
+        )
 
 
 @cache
 def compiled_kernel() -> ModuleType:
     """The kernel as a module of numba functions; machine code is cached between processes."""
+    say_if_compiling()
     source = kernel_source()
     name = _name(source)
     loader = SourceFileLoader(name, str(_write_module(name, source)))
@@ -55,7 +83,10 @@ def compiled_kernel() -> ModuleType:
 
 
 def _name(source: str) -> str:
-    key = f"{source}{OPTIONS}"  # numba's cache does not know with which options it was filled
+    # numba's cache does not know with which options it was filled, and fills itself anew for
+    # another version or another kind of processor
+    cpu = llvmlite.binding.get_host_cpu_name()
+    key = f"{source}{OPTIONS}{numba.__version__}{cpu}"
     return "stickslip_kernel_" + hashlib.sha256(key.encode()).hexdigest()[:16]
 
 

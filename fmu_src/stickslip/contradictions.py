@@ -24,6 +24,8 @@ from .kernel.packing.contradictions import (
     TABLE_GOES_BACK,
     TABLE_OF_NEGATIVE_FRICTION,
     TABLE_OF_ONE_POINT,
+    TABLE_ROW_WITHOUT_FRICTION,
+    TABLE_TEMPERATURES_GO_BACK,
     TRANSITION_BESIDE_STATE_LAW,
 )
 from .kernel.packing.contradictions import contradiction as code_of
@@ -61,6 +63,10 @@ SAID = {
     "value; beyond the last point the places of each repeat its last value, or all are 0",
     TABLE_AT_NEGATIVE_SPEED: "friction.table_speed begins at {friction.table_speed[1]:g} m/s: "
     "allowed is at least 0 m/s",
+    TABLE_TEMPERATURES_GO_BACK: "friction.table_temperature_degC must grow from value to value; "
+    "allowed are none (all 0) or 2 to 6, and beyond the last one its value again",
+    TABLE_ROW_WITHOUT_FRICTION: "friction.table_mu has no friction at one of the temperatures of "
+    "friction.table_temperature_degC: beyond the last temperature, places repeat its value",
     TABLE_OF_NEGATIVE_FRICTION: "friction.table_mu has a negative value: allowed is at least 0",
     TABLE_BESIDE_DRY_LAW: "friction.table_speed beside an effect with another law of the sliding "
     "speed; give one of the two",

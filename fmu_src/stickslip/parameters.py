@@ -16,7 +16,7 @@ from pydantic import Field, create_model, model_validator
 from .contradictions import contradiction
 from .effects import EFFECTS
 from .friction.parameters import Friction
-from .kernel.layout import CURVE_LIMIT
+from .kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
 from .packing import pack
 from .quantity import Table, quantity
 
@@ -189,13 +189,14 @@ class Solver(Table):
     )
 
 
-#: Parameters of several numbers, which the FMU has at their full length.
-CURVES = (
-    ("springs", "force_curve_extension"),
-    ("springs", "force_curve_force"),
-    ("friction", "table_speed"),
-    ("friction", "table_mu"),
-)
+#: Parameters of several numbers, which the FMU has at their full length, and that length.
+CURVES = {
+    ("springs", "force_curve_extension"): CURVE_LIMIT,
+    ("springs", "force_curve_force"): CURVE_LIMIT,
+    ("friction", "table_speed"): CURVE_LIMIT,
+    ("friction", "table_mu"): TABLE_LIMIT,
+    ("friction", "table_temperature_degC"): TEMPERATURE_LIMIT,
+}
 
 if TYPE_CHECKING:
 
@@ -298,10 +299,10 @@ class Parameters(EffectTables):
     def _curve_values(self) -> dict[str, float]:
         """The curves at their full length: unused places repeat the last value, which ends them."""
         values: dict[str, float] = {}
-        for table, key in CURVES:
+        for (table, key), limit in CURVES.items():
             curve = getattr(getattr(self, table), key)
             rest = curve[-1] if curve else 0.0
-            padded = [*curve, *[rest] * (CURVE_LIMIT - len(curve))]
+            padded = [*curve, *[rest] * (limit - len(curve))]
             values |= {f"{table}.{key}[{i + 1}]": value for i, value in enumerate(padded)}
         return values
 

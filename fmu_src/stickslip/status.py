@@ -12,6 +12,7 @@ from .kernel.layout import (
     P_LONGEST_STEP,
     P_MASS,
     P_RATE,
+    P_SPEED_SCALE,
     SPRING_COLLAPSED,
     STEP_VANISHED,
     STEPS_PER_SECOND,
@@ -36,6 +37,9 @@ WHY_NOT = {
 #: Internal steps for a second of motion that the kernel still takes.
 MOST_STEPS_PER_SECOND = STEPS_PER_SECOND
 
+#: Of the time over which a law of friction changes, what a step can be: a twelfth of a pattern's
+#: period, and the bound of stability of an age that fades.
+OF_PATTERN, OF_AGE = 1.0 / (4.0 * pi), 3.0
 #: An internal step on a usual core, s: of a contact in the plane, its share of the events included.
 SECONDS_PER_STEP = 1e-5
 
@@ -82,4 +86,33 @@ def longest_step(parameters: Parameters) -> LongestStep:
                 f"friction.presliding_distance = {parameters.friction.presliding_distance:g} m: "
                 f"its bristles vibrate with a period of {2.0 * pi * bristles / STABLE:.3g} s",
             )
+    return found
+
+
+def likely_step(parameters: Parameters) -> LongestStep:
+    """As `longest_step`, or what laws of friction ask for while the block slides.
+
+    The steps are counted as if it slid all along: a contact that is about to break away takes as
+    many. A block that never does takes far fewer.
+    """
+    found = longest_step(parameters)
+    pattern, law = parameters.surface_pattern, parameters.rate_and_state
+    speed = abs(parameters.surface.speed)
+    if speed == 0.0:
+        return found
+    if pattern.amplitude != 0.0:
+        period = pattern.wavelength / speed
+        reason = (
+            f"surface_pattern.wavelength = {pattern.wavelength:g} m passes at surface.speed = "
+            f"{speed:g} m/s every {period:.3g} s"
+        )
+        found = min(found, LongestStep(OF_PATTERN * period, reason))
+    if law.direct != 0.0 or law.evolution != 0.0:
+        slip = max(speed, parameters.pack()[P_SPEED_SCALE])
+        renewed = law.distance / slip
+        reason = (
+            f"rate_and_state.distance = {law.distance:g} m: a contact that slips at {slip:.2g} m/s "
+            f"is renewed in {renewed:.3g} s"
+        )
+        found = min(found, LongestStep(OF_AGE * renewed, reason))
     return found

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .parameters import Parameters
+from .ports import OUTPUTS
+
+if TYPE_CHECKING:
+    import xarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Trajectory:
     """A run, sampled at ``time``; events are as exact as the motion, whatever the sampling.
 
@@ -20,13 +26,27 @@ class Trajectory:
     events : (k, 3) array: time (s), mode after the event (0 stick, 1 slip), x (m)
     parameters : what was run
     reason : empty, or why the run ended early
+
+    >>> from stickslip import Parameters, simulate
+    >>> simulate(Parameters(), duration=2.0)
+    <Trajectory of 2 s, 201 rows: 4 break-aways, 83 % of the time in slip>
     """
 
     time: np.ndarray
-    columns: dict[str, np.ndarray] = field(repr=False)
-    events: np.ndarray = field(repr=False)
+    columns: dict[str, np.ndarray]
+    events: np.ndarray
     parameters: Parameters
     reason: str = ""
+
+    def __repr__(self) -> str:
+        if self.time.size == 0:
+            return f"<Trajectory without a row: {self.reason}>"
+        length = f"{self.time[-1] - self.time[0]:.6g} s, {self.time.size} rows"
+        ended = f"; ended early: {self.reason}" if self.reason else ""
+        return (
+            f"<Trajectory of {length}: {self.slip_starts.size} break-aways, "
+            f"{100 * self.slip_share:.0f} % of the time in slip{ended}>"
+        )
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self.columns[name]
@@ -44,6 +64,43 @@ class Trajectory:
     def slip_starts(self) -> np.ndarray:
         """Times of break-away, s."""
         return self.events[self.events[:, 1] == 1.0, 0]
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Everything as an `xarray.Dataset`, with units and long names.
+
+        Outputs over ``time`` (n,); ``event_mode`` and ``event_x`` over ``event_time`` (k,); the
+        parameters as JSON in the attribute ``parameters``.
+
+        >>> from stickslip import Parameters, simulate
+        >>> simulate(Parameters(), duration=1.0).to_xarray()["x"].attrs["units"]
+        'm'
+        """
+        import xarray  # only for who asks for it: the model itself needs numpy alone
+
+        described = {
+            port.name: {"units": port.unit or "1", "long_name": port.description}
+            for port in OUTPUTS
+        }
+        event_time, mode, x = self.events.T
+        variables = {
+            name: ("time", values, described[name]) for name, values in self.columns.items()
+        } | {
+            "event_mode": ("event_time", mode, {"units": "1", "long_name": "mode after the event"}),
+            "event_x": ("event_time", x, described["x"]),
+        }
+        coordinates = {
+            "time": ("time", self.time, {"units": "s", "long_name": "time"}),
+            "event_time": (
+                "event_time",
+                event_time,
+                {"units": "s", "long_name": "time of break-away or re-stick"},
+            ),
+        }
+        attributes = {
+            "parameters": json.dumps(self.parameters.model_dump(mode="json")),
+            "reason": self.reason,
+        }
+        return xarray.Dataset(variables, coordinates, attributes)
 
 
 def slip_share(time: np.ndarray, mode: np.ndarray, events: np.ndarray) -> float:

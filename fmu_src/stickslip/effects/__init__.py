@@ -1,13 +1,33 @@
 """The catalogue of effects: what each adds to the plain model, one file each.
 
 An effect joins the house by one line in ``FILES``. Their order is that of the FMU's parameters and
-of the terms that meet in one place of the kernel: append.
+of the terms that meet in one place of the kernel: append. Behind them come those from outside
+(`stickslip.plugins`), whose files need no more than what is named here.
 """
 
 from collections.abc import Iterable
 from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from .effect import Effect
+from ..plugins import PluginError, use
+from ..quantity import Table, quantity
+from .candidate import Candidate, FreeParameter, Scales
+from .effect import Case, Effect, State
+
+__all__ = [
+    "EFFECTS",
+    "Candidate",
+    "Case",
+    "Effect",
+    "FreeParameter",
+    "PluginError",
+    "Scales",
+    "State",
+    "Table",
+    "catalogue",
+    "quantity",
+    "use",
+]
 
 FILES = (
     "friction.lateral_friction",
@@ -47,4 +67,19 @@ def catalogue(files: Iterable[str]) -> tuple[Effect, ...]:
     return tuple(declared.values())
 
 
-EFFECTS = catalogue(FILES)
+if TYPE_CHECKING:
+    EFFECTS: tuple[Effect, ...]
+
+
+def __getattr__(name: str) -> Any:
+    """The effects are read when they are first asked for: until then, `use` may add files."""
+    if name == "EFFECTS":
+        all_of_them = import_module(f"{__name__}.outside")
+        try:
+            return all_of_them.EFFECTS
+        except AttributeError:
+            raise ImportError(
+                "an effect's file imports the model, which is made of the effects; allowed is "
+                f"{__name__}, which has {', '.join(__all__[1:])}"
+            ) from None
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

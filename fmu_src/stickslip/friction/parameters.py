@@ -1,9 +1,10 @@
-"""What is said of dry friction: two coefficients, or a table of the kinetic one over the speed."""
+"""What is said of dry friction: two coefficients, or a table in place of the kinetic one.
+
+The table is over the sliding speed, or over that and the temperature of the interface.
+"""
 
 from __future__ import annotations
 
-import csv
-import math
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -11,11 +12,9 @@ from typing import Any, Self
 
 from pydantic import Field, model_validator
 
-from ..kernel.layout import CURVE_LIMIT
+from ..kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
 from ..quantity import Table, quantity
-
-#: Columns of a file: sliding speed, m/s, and coefficient.
-COLUMNS = ("v", "mu")
+from .table_file import read_table
 
 
 class Friction(Table):
@@ -57,8 +56,8 @@ class Friction(Table):
     )
     table: str = Field(
         "",
-        description="CSV file with the columns v (m/s) and mu, from which table_speed and table_mu "
-        "are read",
+        description="CSV file with the columns v (m/s), mu and, where mu is of both, T_degC, from "
+        "which table_speed, table_temperature_degC and table_mu are read",
     )
     table_speed: tuple[float, ...] = Field(
         (),
@@ -70,10 +69,19 @@ class Friction(Table):
     )
     table_mu: tuple[float, ...] = Field(
         (),
-        description="kinetic friction coefficients of the table",
+        description="kinetic friction coefficients of the table, at all speeds; of a table over "
+        "temperatures too, at all speeds of the first, then of the second, and so on",
         json_schema_extra={"unit": "1"},
         strict=False,
-        max_length=CURVE_LIMIT,
+        max_length=TABLE_LIMIT,
+    )
+    table_temperature_degC: tuple[float, ...] = Field(
+        (),
+        description="temperatures of the interface at which the table has its coefficients, "
+        "growing, 2 to 6; PCHIP between them, constant beyond; none: at any temperature",
+        json_schema_extra={"unit": "degC"},
+        strict=False,
+        max_length=TEMPERATURE_LIMIT,
     )
 
     @property
@@ -84,7 +92,9 @@ class Friction(Table):
     @property
     def at_rest(self) -> tuple[str, float]:
         """Key and value of the kinetic coefficient of a slip that has next to no speed."""
-        return ("table_mu", self.table_mu[0]) if self.has_table else ("mu_k", self.mu_k)
+        if not self.has_table:
+            return "mu_k", self.mu_k
+        return "table_mu", max(self.table_mu[:: len(self.table_speed)])
 
     @model_validator(mode="before")
     @classmethod
@@ -95,15 +105,26 @@ class Friction(Table):
         file = values.get("table", "")
         if not isinstance(file, str) or not file:
             return values
-        if values.get("table_speed") or values.get("table_mu"):
+        if any(values.get(key) for key in ("table_speed", "table_mu", "table_temperature_degC")):
             raise ValueError(f'table = "{file}" beside table_speed and table_mu; give one of them')
-        speed, mu = read_table(Path(file))
-        return {**values, "table": "", "table_speed": speed, "table_mu": mu}
+        speed, temperature, mu = read_table(Path(file))
+        read = {"table_speed": speed, "table_temperature_degC": temperature, "table_mu": mu}
+        return {**values, "table": "", **read}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        speed, mu = self.table_speed, self.table_mu
-        if len(speed) != len(mu):
+        speed, mu, temperature = self.table_speed, self.table_mu, self.table_temperature_degC
+        places = len(speed) * max(1, len(temperature))
+        if temperature and len(mu) != places:
+            raise ValueError(
+                f"table_mu has {len(mu)} values: allowed are {places}, one at each of "
+                f"{len(speed)} speeds for each of {len(temperature)} temperatures"
+            )
+        if len(temperature) == 1:
+            raise ValueError("table_temperature_degC has 1 value: allowed are none or 2 to 6")
+        if any(b <= a for a, b in pairwise(temperature)):
+            raise ValueError("table_temperature_degC must grow from value to value")
+        if len(mu) != places:
             raise ValueError(
                 f"table_speed has {len(speed)} values and table_mu has {len(mu)}: allowed is the "
                 "same number"
@@ -115,59 +136,3 @@ class Friction(Table):
         if any(value < 0.0 for value in mu):
             raise ValueError(f"table_mu has the value {min(mu):g}: allowed is at least 0")
         return self
-
-
-def table_of(values: Mapping[str, float]) -> dict[str, tuple[float, ...]]:
-    """`table_speed` and `table_mu` from the FMU's names, `friction.table_speed[1]` and so on.
-
-    The table ends before the first place that is not there or whose speed does not grow.
-
-    >>> table_of({f"friction.table_{of}[{i}]": 0.1 * i for of in ("speed", "mu") for i in (1, 2)})
-    {'table_speed': (0.1, 0.2), 'table_mu': (0.1, 0.2)}
-    """
-    speed: list[float] = []
-    mu: list[float] = []
-    for i in range(1, CURVE_LIMIT + 1):
-        at = values.get(f"friction.table_speed[{i}]")
-        if at is None or (speed and at <= speed[-1]):
-            break
-        speed.append(at)
-        mu.append(values[f"friction.table_mu[{i}]"])
-    if len(speed) < 2:  # the places of a table that there is not
-        return {"table_speed": (), "table_mu": ()}
-    return {"table_speed": tuple(speed), "table_mu": tuple(mu)}
-
-
-def read_table(file: Path) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Sliding speeds (m/s) and coefficients of a CSV file with a header row.
-
-    ValueError in one line for a file that is none, a column that is missing, what is no number, and
-    more points than a table takes.
-    """
-    try:
-        with file.open(encoding="utf-8-sig", newline="") as lines:
-            rows = list(csv.DictReader(lines, skipinitialspace=True))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        why = getattr(error, "strerror", None) or "no CSV in UTF-8"
-        raise ValueError(f'table = "{file}": cannot be read: {why}') from None
-    if not 2 <= len(rows) <= CURVE_LIMIT:
-        raise ValueError(f'table = "{file}": {len(rows)} points, allowed are 2 to {CURVE_LIMIT}')
-    for column in COLUMNS:
-        if column not in rows[0]:
-            there = ", ".join(map(str, rows[0]))
-            raise ValueError(f'table = "{file}": no column {column} (there are {there})')
-    speed, mu = (
-        tuple(_number(file, number, column, row[column]) for number, row in enumerate(rows, 2))
-        for column in COLUMNS
-    )
-    return speed, mu
-
-
-def _number(file: Path, line: int, column: str, text: str | None) -> float:
-    try:
-        value = float(text or "")
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise ValueError(f'table = "{file}": line {line}, {column} = "{text}": not a finite number')
-    return value

@@ -48,6 +48,9 @@ HELD = -2.0  # not known either, but of a block that has stuck for a while
 CURVE_LIMIT = 16  # points of a force-length curve, or a table of friction, that ``p`` has room for
 CURVE_WIDTH = 4  # extension, force, stiffness, energy
 TABLE_WIDTH = 3  # sliding speed, coefficient, its slope
+TABLE_ROW = CURVE_LIMIT * TABLE_WIDTH  # of a table of friction, at one temperature
+TEMPERATURE_LIMIT = 6  # of a table of friction
+TABLE_LIMIT = CURVE_LIMIT * TEMPERATURE_LIMIT  # coefficients of a table
 STAGES = 12  # of a step
 ALL_STAGES = 16  # with the slope at its end and those that only the interpolant needs
 POWERS = 7  # coefficients of the interpolant for each state
@@ -185,7 +188,9 @@ PARAMETERS = (
     ("P_FAST_SLIP", 1),  # sliding speed from which the shear follows from the slip alone, m/s
     ("P_MU_SCALE", 1),  # what the factors of mu_k multiply: mu_k, or 1 where a table gives it
     ("P_TABLE_POINTS", 1),  # points of the table of mu_k over the sliding speed; 0: none
-    ("P_TABLE", CURVE_LIMIT * TABLE_WIDTH),
+    ("P_TABLE_ROWS", 1),  # temperatures at which it has them
+    ("P_TABLE_TEMPERATURE", TEMPERATURE_LIMIT),  # degC
+    ("P_TABLE", TABLE_ROW * TEMPERATURE_LIMIT),
 )
 
 # --- v: values of the parameters, those of the effects before them ------------------------------
@@ -222,7 +227,8 @@ VALUES = (
     ("springs.force_curve_extension", CURVE_LIMIT),
     ("springs.force_curve_force", CURVE_LIMIT),
     ("friction.table_speed", CURVE_LIMIT),
-    ("friction.table_mu", CURVE_LIMIT),
+    ("friction.table_mu", TABLE_LIMIT),
+    ("friction.table_temperature_degC", TEMPERATURE_LIMIT),
     ("rig.free_y", 1),
     ("rig.free_phi", 1),
 )

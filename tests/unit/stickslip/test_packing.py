@@ -87,6 +87,11 @@ def cases(count):
                 "table_speed": [0.01 * i + 0.002 * i**2 for i in range(points)],
                 "table_mu": [draw.uniform(0.1, 0.3) for _ in range(points)],
             }
+        if "table_mu" in tables["friction"] and draw.random() < 0.5:
+            tables["friction"] |= {
+                "table_temperature_degC": [-12.0, -7.0, -1.0],
+                "table_mu": [draw.uniform(0.1, 0.3) for _ in range(3 * points)],
+            }
         tables["friction"]["transition_speed"] = 3e-3
         tables["friction"]["presliding_distance"] = draw.choice([0.0, 5e-5])
         try:
@@ -153,6 +158,12 @@ def test_every_contradiction_is_said_and_names_parameters_that_there_are():
         },
         {**TABLE, **MU},
         {**TABLE, **places("friction.table_mu", 0.3, *[0.2] * 15)},
+        {**TABLE, **places("friction.table_mu", 0.3, *[0.2] * 95)},
+        {
+            **TABLE,
+            **places("friction.table_mu", *[0.2] * 6),
+            **places("friction.table_temperature_degC", -9.0, *[-8.0] * 5),
+        },
         {"speed_ripple.amplitude": 1.0, "speed_ripple.frequency": 100.0},
         {"speed_ripple.amplitude": 0.9, "speed_ripple.frequency": 500.0},
         {"rig.spring_natural_length": 0.4},

@@ -5,7 +5,7 @@ a body that conducts answers a redistribution of its heat over a step H with H^(
 order of the interface temperature. The temperature that friction feels is one step old: the motion
 has the order of Gauss-Seidel, 1, once the step resolves the stick-slip cycle.
 
-    python tests/verification/coupled/test_macro_step.py    prints the table of the README
+    python tests/verification/coupled/test_macro_step.py    prints a table of the docs
 """
 
 import numpy as np

@@ -12,7 +12,7 @@ from kernel_steps import largest_step_difference, memory_of
 from scipy.interpolate import PchipInterpolator
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.compiled import compiled_kernel
-from stickslip.friction.parameters import table_of
+from stickslip.friction.table_file import table_of
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.friction.table import table_coefficient
 from stickslip.kernel.layout import P_MU_K, U_SIZE, W_FRICTION, W_SIZE
@@ -42,7 +42,7 @@ def test_between_its_points_it_is_scipys_pchip(spans, first, draw):
     mu = [draw.choice([0.0, 0.2, draw.uniform(0.0, 0.5)]) for _ in speed]
     p, peer = Parameters(**table(speed, mu)).pack(), PchipInterpolator(speed, mu)
     for at in [*speed, *(draw.uniform(speed[0], speed[-1]) for _ in range(20))]:
-        assert table_coefficient(p, at) == pytest.approx(float(peer(at)), abs=1e-14)
+        assert table_coefficient(p, at, -8.0) == pytest.approx(float(peer(at)), abs=1e-14)
 
 
 def test_beyond_its_ends_it_is_constant():
@@ -126,7 +126,7 @@ def test_it_is_found_again_under_the_fmu_s_names():
     assert table_of(Parameters().flat()) == {"table_speed": (), "table_mu": ()}
     few = {f"friction.table_{of}[{i}]": 0.1 * i for of in ("speed", "mu") for i in (1, 2, 3)}
     given = Parameters().flat() | few  # the places that are left end it
-    mu = [table_coefficient(pack(given), v) for v in (0.05, 0.2, 0.25, 1.0)]
+    mu = [table_coefficient(pack(given), v, -8.0) for v in (0.05, 0.2, 0.25, 1.0)]
     assert mu == pytest.approx([0.1, 0.2, 0.25, 0.3])
 
 

@@ -203,7 +203,7 @@ def test_fields_of_a_sample_read_back(tmp_path):
     kinds = {block.type: block.data for block in mesh.cells}
     assert set(kinds) == {"quad", "tetra"}
     assert len(kinds["tetra"]) == len(model.ice.cells)
-    seen = mesh.point_data["temperature"][kinds["tetra"]]
+    seen = mesh.point_data["temperature_degC"][kinds["tetra"]]
     assert seen.max() == pytest.approx(-8.0 + model.ice.at_points().max(), abs=1e-12)
     heights = mesh.points[kinds["tetra"]][..., 2]
     assert heights.min() == 0.0 and heights.max() == pytest.approx(0.1)

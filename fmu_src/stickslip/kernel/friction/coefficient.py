@@ -30,6 +30,7 @@ from ..layout import (
     P_MU_S,
     P_MU_SCALE,
     P_TABLE_POINTS,
+    P_TABLE_ROWS,
     P_TRANSITION_EXPONENT,
     P_TRANSITION_SPEED,
     STICK,
@@ -74,7 +75,7 @@ def is_felt(p: Floats, u: Floats, i: int) -> bool:
     if i == U_SINCE:
         return varies(u)
     if i == U_TEMPERATURE:
-        return feels_temperature(p)
+        return feels_temperature(p) or p[P_TABLE_ROWS] > 1.0
     if i == U_FILM:
         return feels_film(p)
     return True
@@ -103,7 +104,7 @@ def local_coefficient(p: Floats, u: Floats, w: Floats, mu: float, speed: float) 
     is not on the solid contact, all that holds for the rest.
     """
     if p[P_TABLE_POINTS] > 0.0:
-        mu *= table_coefficient(p, speed)
+        mu *= table_coefficient(p, speed, u[U_TEMPERATURE])
     mu = with_dry_factor(p, u, w, mu, speed)
     mu = with_melting(p, u, w, mu, speed)
     mu = with_film_friction(p, u, w, mu, speed)

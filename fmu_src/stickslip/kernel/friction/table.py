@@ -1,29 +1,102 @@
-"""Kinetic friction by a table over the local sliding speed: PCHIP inside, constant outside.
+"""Kinetic friction by a table over the local sliding speed, and over the temperature: PCHIP.
 
 Piecewise cubic Hermite interpolation with the slopes of Fritsch & Butland (SIAM J. Sci. Stat.
 Comput. 5, 1984): it passes the points, is smooth between them, and neither rises nor falls where
-the points do not. The slopes are made once, in `packing`.
+the points do not; beyond the ends it is constant. A table over both has a row of the same speeds at
+each temperature of the interface: each row is looked up at the speed, and what comes of them is
+joined over the temperature in the same way. The rows' slopes are made once, in `packing`.
 """
 
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import P_TABLE, P_TABLE_POINTS, TABLE_WIDTH
+from ..layout import (
+    P_TABLE,
+    P_TABLE_POINTS,
+    P_TABLE_ROWS,
+    P_TABLE_TEMPERATURE,
+    TABLE_ROW,
+    TABLE_WIDTH,
+)
 
 
-def table_coefficient(p: Floats, speed: float) -> float:
-    """The table's coefficient at a local sliding speed, m/s; ``p`` holds two points at least."""
-    last = P_TABLE + TABLE_WIDTH * (int(p[P_TABLE_POINTS]) - 1)
-    if speed <= p[P_TABLE]:
-        return p[P_TABLE + 1]
+def between(t: float, low: float, high: float, a: float, b: float) -> float:
+    """The cubic from ``low`` at t = 0 to ``high`` at t = 1, with the slopes a and b there."""
+    rise = high - low
+    return low + t * (a + t * (3.0 * rise - 2.0 * a - b + t * (a + b - 2.0 * rise)))
+
+
+def joined_slope(
+    span_before: float, rise_before: float, span_after: float, rise_after: float
+) -> float:
+    """PCHIP's slope at a point between two pieces of such widths and secants; 0 at an extremum."""
+    if rise_before * rise_after <= 0.0:
+        return 0.0
+    before = 2.0 * span_after + span_before
+    after = span_after + 2.0 * span_before
+    return (before + after) / (before / rise_before + after / rise_after)
+
+
+def end_slope(span: float, rise: float, next_span: float, next_rise: float) -> float:
+    """PCHIP's slope at an end: of the parabola through three points, kept monotone.
+
+    span and rise: width and secant of the piece at the end, next_span and next_rise: of that beside
+    it.
+    """
+    slope = ((2.0 * span + next_span) * rise - span * next_rise) / (span + next_span)
+    if slope * rise <= 0.0:
+        return 0.0
+    if rise * next_rise <= 0.0 and abs(slope) > 3.0 * abs(rise):
+        return 3.0 * rise
+    return slope
+
+
+def row_coefficient(p: Floats, row: int, speed: float) -> float:
+    """Coefficient of a row of the table at a local sliding speed, m/s; it has two points at least.
+
+    The row begins at ``p[row]``.
+    """
+    last = row + TABLE_WIDTH * (int(p[P_TABLE_POINTS]) - 1)
+    if speed <= p[row]:
+        return p[row + 1]
     if speed >= p[last]:
         return p[last + 1]
-    at = P_TABLE
+    at = row
     while speed > p[at + TABLE_WIDTH]:
         at += TABLE_WIDTH
     span = p[at + 3] - p[at]
     t = (speed - p[at]) / span
-    rise = p[at + 4] - p[at + 1]
-    a = span * p[at + 2]
-    b = span * p[at + 5]
-    return p[at + 1] + t * (a + t * (3.0 * rise - 2.0 * a - b + t * (a + b - 2.0 * rise)))
+    return between(t, p[at + 1], p[at + 4], span * p[at + 2], span * p[at + 5])
+
+
+def table_coefficient(p: Floats, speed: float, temperature: float) -> float:
+    """The table's coefficient at a local sliding speed, m/s, and an interface temperature, degC."""
+    rows = int(p[P_TABLE_ROWS])
+    last = P_TABLE_TEMPERATURE + rows - 1
+    if rows < 2 or temperature <= p[P_TABLE_TEMPERATURE]:
+        return row_coefficient(p, P_TABLE, speed)
+    if temperature >= p[last]:
+        return row_coefficient(p, P_TABLE + TABLE_ROW * (rows - 1), speed)
+    at = P_TABLE_TEMPERATURE
+    while temperature > p[at + 1]:
+        at += 1
+    row = P_TABLE + TABLE_ROW * (at - P_TABLE_TEMPERATURE)
+    low = row_coefficient(p, row, speed)
+    high = row_coefficient(p, row + TABLE_ROW, speed)
+    span = p[at + 1] - p[at]
+    rise = (high - low) / span
+    a = rise
+    b = rise
+    if at > P_TABLE_TEMPERATURE:
+        span_before = p[at] - p[at - 1]
+        rise_before = (low - row_coefficient(p, row - TABLE_ROW, speed)) / span_before
+        a = joined_slope(span_before, rise_before, span, rise)
+        if at + 1 == last:
+            b = end_slope(span, rise, span_before, rise_before)
+    if at + 1 < last:
+        span_after = p[at + 2] - p[at + 1]
+        rise_after = (row_coefficient(p, row + 2 * TABLE_ROW, speed) - high) / span_after
+        b = joined_slope(span, rise, span_after, rise_after)
+        if at == P_TABLE_TEMPERATURE:
+            a = end_slope(span, rise, span_after, rise_after)
+    return between((temperature - p[at]) / span, low, high, span * a, span * b)

@@ -8,10 +8,13 @@ from __future__ import annotations
 from .. import Floats
 from ..layout import (
     CURVE_LIMIT,
+    TABLE_LIMIT,
+    TEMPERATURE_LIMIT,
     V_FRICTION_PRESLIDING_DISTANCE,
     V_FRICTION_STICK_CREEP,
     V_FRICTION_TABLE_MU,
     V_FRICTION_TABLE_SPEED,
+    V_FRICTION_TABLE_TEMPERATURE_DEGC,
     V_FRICTION_TRANSITION_SPEED,
     V_INITIAL_OMEGA,
     V_INITIAL_VY,
@@ -30,7 +33,7 @@ from ..layout import (
     V_TURNING_SURFACE_CURVATURE,
 )
 from ..terms import has_dry_law
-from .points import count_points
+from .points import count_grown, count_points
 
 # what `contradiction` returns
 NO_CONTRADICTION = 0
@@ -52,6 +55,8 @@ SURFACE_TURNS_UNDER_BLOCK = 15
 FULL_RIPPLE_TOO_FAST = 16
 GUIDED_Y_MOVES = 17
 GUIDED_PHI_TURNS = 18
+TABLE_TEMPERATURES_GO_BACK = 19
+TABLE_ROW_WITHOUT_FRICTION = 20
 
 FASTEST_FULL_RIPPLE = 100.0  # Hz
 
@@ -96,9 +101,11 @@ def contradiction_of_springs(v: Floats) -> int:
     if v[V_RIG_SPRING_NATURAL_LENGTH] > 2.0 * v[V_RIG_SPRING_LENGTH]:
         return SPRINGS_COIL_ON_COIL
     count = count_points(v, extension)
-    if count == 0 and (is_given(v, extension) or is_given(v, force)):
+    given = is_given(v, extension, CURVE_LIMIT) or is_given(v, force, CURVE_LIMIT)
+    if count == 0 and given:
         return FORCE_CURVE_OF_ONE_POINT
-    if not (is_ended(v, extension, count) and is_ended(v, force, count)):
+    ended = is_ended(v, extension, count, CURVE_LIMIT)
+    if not (ended and is_ended(v, force, count, CURVE_LIMIT)):
         return FORCE_CURVE_GOES_BACK
     for i in range(1, count):
         if v[force + i] < v[force + i - 1]:
@@ -107,22 +114,43 @@ def contradiction_of_springs(v: Floats) -> int:
 
 
 def contradiction_of_table(v: Floats) -> int:
-    """The table of mu_k over the sliding speed, and other laws of that speed."""
+    """The table of mu_k over sliding speed and temperature, and other laws of that speed."""
     speed = V_FRICTION_TABLE_SPEED
     mu = V_FRICTION_TABLE_MU
+    temperature = V_FRICTION_TABLE_TEMPERATURE_DEGC
     count = count_points(v, speed)
-    if count == 0 and (is_given(v, speed) or is_given(v, mu)):
+    rows = count_grown(v, temperature, TEMPERATURE_LIMIT)
+    size = count * max(1, rows)
+    if count == 0 and (is_given(v, speed, CURVE_LIMIT) or is_given(v, mu, TABLE_LIMIT)):
         return TABLE_OF_ONE_POINT
-    if not (is_ended(v, speed, count) and is_ended(v, mu, count)):
+    if not (is_ended(v, speed, count, CURVE_LIMIT) and is_table_ended(v, count, rows)):
         return TABLE_GOES_BACK
+    if rows == 0 and is_given(v, temperature, TEMPERATURE_LIMIT):
+        return TABLE_TEMPERATURES_GO_BACK
+    if rows > 0 and not is_repeated(v, temperature, rows, TEMPERATURE_LIMIT):
+        return TABLE_TEMPERATURES_GO_BACK
     if v[speed] < 0.0:
         return TABLE_AT_NEGATIVE_SPEED
-    for i in range(count):
+    for i in range(size):
         if v[mu + i] < 0.0:
             return TABLE_OF_NEGATIVE_FRICTION
+    for i in range(rows):
+        if count > 0 and not is_given(v, mu + count * i, count):
+            return TABLE_ROW_WITHOUT_FRICTION
     if count > 0 and has_dry_law(v):
         return TABLE_BESIDE_DRY_LAW
     return NO_CONTRADICTION
+
+
+def is_table_ended(v: Floats, count: int, rows: int) -> bool:
+    """Whether the places beyond the coefficients repeat the last, or are all 0.
+
+    Without temperatures, those of the first of them will do.
+    """
+    mu = V_FRICTION_TABLE_MU
+    if rows == 0 and not is_given(v, mu + CURVE_LIMIT, TABLE_LIMIT - CURVE_LIMIT):
+        return is_ended(v, mu, count, CURVE_LIMIT)
+    return is_ended(v, mu, count * max(1, rows), TABLE_LIMIT)
 
 
 def contradiction_of_motion(v: Floats) -> int:
@@ -139,21 +167,22 @@ def contradiction_of_motion(v: Floats) -> int:
     return NO_CONTRADICTION
 
 
-def is_given(v: Floats, first: int) -> bool:
-    """Does any place of a row of a curve hold a number?"""
-    for i in range(CURVE_LIMIT):
+def is_given(v: Floats, first: int, limit: int) -> bool:
+    """Does any of so many places hold a number?"""
+    for i in range(limit):
         if v[first + i] != 0.0:
             return True
     return False
 
 
-def is_ended(v: Floats, first: int, count: int) -> bool:
-    """Do the places beyond the curve's points repeat the last value, or are all of them 0?"""
-    repeated = True
-    zero = True
-    for i in range(count, CURVE_LIMIT):
-        if v[first + i] != 0.0:
-            zero = False
+def is_repeated(v: Floats, first: int, count: int, limit: int) -> bool:
+    """Do the places beyond so many numbers repeat the last of them?"""
+    for i in range(count, limit):
         if v[first + i] != v[first + max(count - 1, 0)]:
-            repeated = False
-    return repeated or zero
+            return False
+    return True
+
+
+def is_ended(v: Floats, first: int, count: int, limit: int) -> bool:
+    """Do the places beyond so many numbers repeat the last of them, or are all of them 0?"""
+    return is_repeated(v, first, count, limit) or not is_given(v, first + count, limit - count)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import log, sqrt
 
 from .. import Floats
+from ..friction.table import end_slope
 from ..layout import (
     MOVING,
     P_BRISTLE_DAMPING,
@@ -20,11 +21,15 @@ from ..layout import (
     P_PRESLIDING,
     P_TABLE,
     P_TABLE_POINTS,
+    P_TABLE_ROWS,
+    P_TABLE_TEMPERATURE,
     P_TRANSITION_EXPONENT,
     P_TRANSITION_SPEED,
     REMEMBERED,
     SHEARED,
+    TABLE_ROW,
     TABLE_WIDTH,
+    TEMPERATURE_LIMIT,
     V_FRICTION_BRISTLE_DAMPING,
     V_FRICTION_MU_K,
     V_FRICTION_MU_S,
@@ -32,11 +37,12 @@ from ..layout import (
     V_FRICTION_STICK_CREEP,
     V_FRICTION_TABLE_MU,
     V_FRICTION_TABLE_SPEED,
+    V_FRICTION_TABLE_TEMPERATURE_DEGC,
     V_FRICTION_TRANSITION_EXPONENT,
     V_FRICTION_TRANSITION_SPEED,
 )
 from ..terms import has_ageing, has_local_law, has_memory, with_coefficient_factor
-from .points import copy_points, count_points, end_slope, inner_slope, secant
+from .points import copy_points, count_grown, count_points, inner_slope, secant
 
 # Of its excess, what friction may err by where bristles are left out: worth some 1e-7 m of the way.
 LAG = 1e-4
@@ -57,42 +63,51 @@ def set_friction_law(v: Floats, p: Floats):
 
 
 def set_table(v: Floats, p: Floats):
-    """Points of the table of mu_k over the sliding speed, with PCHIP's slopes.
+    """Points of the table of mu_k over the sliding speed, and rows of them over the temperature.
 
-    The table takes the place of mu_k, which is then the table's value at rest. What depends on the
-    load alone multiplies it as it does mu_k.
+    The table takes the place of mu_k, which is then the table's value at rest, the largest of its
+    rows'. What depends on the load alone multiplies it as it does mu_k.
     """
     count = count_points(v, V_FRICTION_TABLE_SPEED)
     if count == 0:
         return
+    rows = max(1, count_grown(v, V_FRICTION_TABLE_TEMPERATURE_DEGC, TEMPERATURE_LIMIT))
     p[P_TABLE_POINTS] = float(count)
-    copy_points(v, V_FRICTION_TABLE_SPEED, V_FRICTION_TABLE_MU, count, p, P_TABLE, TABLE_WIDTH)
-    set_table_ends(p, P_TABLE + TABLE_WIDTH * (count - 1))
-    for i in range(1, count - 1):
-        at = P_TABLE + TABLE_WIDTH * i
-        p[at + 2] = inner_slope(p, at, TABLE_WIDTH)
+    p[P_TABLE_ROWS] = float(rows)
+    at_rest = 0.0
+    for i in range(rows):
+        row = P_TABLE + TABLE_ROW * i
+        p[P_TABLE_TEMPERATURE + i] = v[V_FRICTION_TABLE_TEMPERATURE_DEGC + i]
+        mu = V_FRICTION_TABLE_MU + count * i
+        copy_points(v, V_FRICTION_TABLE_SPEED, mu, count, p, row, TABLE_WIDTH)
+        set_row_slopes(p, row, count)
+        at_rest = max(at_rest, p[row + 1])
     p[P_MU_SCALE] = with_coefficient_factor(p, v, 1.0)
-    p[P_MU_K] = p[P_MU_SCALE] * p[P_TABLE + 1]
+    p[P_MU_K] = p[P_MU_SCALE] * at_rest
 
 
-def set_table_ends(p: Floats, last: int):
-    """Slopes of the table at its first point and at its last, ``p[last:]``."""
-    second = P_TABLE + TABLE_WIDTH
+def set_row_slopes(p: Floats, row: int, count: int):
+    """PCHIP's slopes of so many points ``p[row:]``."""
+    last = row + TABLE_WIDTH * (count - 1)
+    second = row + TABLE_WIDTH
     before = last - TABLE_WIDTH
-    first_rise = secant(p, P_TABLE, TABLE_WIDTH)
+    first_rise = secant(p, row, TABLE_WIDTH)
     last_rise = secant(p, before, TABLE_WIDTH)
-    p[P_TABLE + 2] = first_rise
+    p[row + 2] = first_rise
     p[last + 2] = last_rise
-    if before == P_TABLE:  # two points: a straight line
+    if before == row:  # two points: a straight line
         return
-    first_span = p[second] - p[P_TABLE]
+    first_span = p[second] - p[row]
     next_span = p[second + TABLE_WIDTH] - p[second]
     next_rise = secant(p, second, TABLE_WIDTH)
-    p[P_TABLE + 2] = end_slope(first_span, first_rise, next_span, next_rise)
+    p[row + 2] = end_slope(first_span, first_rise, next_span, next_rise)
     last_span = p[last] - p[before]
     next_span = p[before] - p[before - TABLE_WIDTH]
     next_rise = secant(p, before - TABLE_WIDTH, TABLE_WIDTH)
     p[last + 2] = end_slope(last_span, last_rise, next_span, next_rise)
+    for i in range(1, count - 1):
+        at = row + TABLE_WIDTH * i
+        p[at + 2] = inner_slope(p, at, TABLE_WIDTH)
 
 
 def set_bristles(v: Floats, p: Floats, limit: float):

@@ -7,16 +7,22 @@ places, abscissae and ordinates. In ``p`` it is points of a width: abscissa, ord
 from __future__ import annotations
 
 from .. import Floats
+from ..friction.table import joined_slope
 from ..layout import CURVE_LIMIT
 
 
 def count_points(v: Floats, first: int) -> int:
-    """Points of the curve whose abscissae begin at ``v[first]``: it ends where they stop growing.
+    """Points of the curve whose abscissae begin at ``v[first]``, see `count_grown`."""
+    return count_grown(v, first, CURVE_LIMIT)
 
-    The places that it leaves unused do not count, and one point is no curve: then 0.
+
+def count_grown(v: Floats, first: int, limit: int) -> int:
+    """Numbers of a row of ``limit`` places from ``v[first]`` on: it ends where they stop growing.
+
+    The places that it leaves unused do not count, and one number is no row: then 0.
     """
     count = 1
-    while count < CURVE_LIMIT and v[first + count] > v[first + count - 1]:
+    while count < limit and v[first + count] > v[first + count - 1]:
         count += 1
     if count == 1:
         return 0
@@ -37,26 +43,6 @@ def secant(p: Floats, at: int, width: int) -> float:
 
 def inner_slope(p: Floats, at: int, width: int) -> float:
     """Slope at a point between two: weighted harmonic mean of the secants; 0 at an extremum."""
-    rise_before = secant(p, at - width, width)
-    rise_after = secant(p, at, width)
-    if rise_before * rise_after <= 0.0:
-        return 0.0
     span_before = p[at] - p[at - width]
     span_after = p[at + width] - p[at]
-    before = 2.0 * span_after + span_before
-    after = span_after + 2.0 * span_before
-    return (before + after) / (before / rise_before + after / rise_after)
-
-
-def end_slope(span: float, rise: float, next_span: float, next_rise: float) -> float:
-    """PCHIP's slope at an end: of the parabola through three points, kept monotone.
-
-    span and rise: width and secant of the piece at the end, next_span and next_rise: of that beside
-    it.
-    """
-    slope = ((2.0 * span + next_span) * rise - span * next_rise) / (span + next_span)
-    if slope * rise <= 0.0:
-        return 0.0
-    if rise * next_rise <= 0.0 and abs(slope) > 3.0 * abs(rise):
-        return 3.0 * rise
-    return slope
+    return joined_slope(span_before, secant(p, at - width, width), span_after, secant(p, at, width))

@@ -1,0 +1,214 @@
+"""An effect from outside is a file: what is wrong with it is said in one line, with its place."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+from stickslip.generation.places import PLACES
+from stickslip.plugins import PluginError, use
+from stickslip.plugins.load import TABLES, effect_in
+
+from cosim.cli.authoring.effect import text_of
+from cosim.scenario import Scenario
+
+GOOD = text_of("brush")
+TERM = "    return 1.0 - fall * speed * speed / (speed * speed + onset * onset)\n"
+
+
+@pytest.fixture
+def said(tmp_path):
+    """Text of a file -> what is said of it, without the file's path."""
+
+    def read(text):
+        file = tmp_path / f"brush{len(list(tmp_path.iterdir()))}.py"
+        file.write_text(text, encoding="utf-8")
+        with pytest.raises(PluginError) as refusal:
+            effect_in(file)
+        message = str(refusal.value)
+        assert message.startswith(str(file)) and "\n" not in message
+        return message.removeprefix(str(file))
+
+    return read
+
+
+def line_of(text, part):
+    return text[: text.index(part)].count("\n") + 1
+
+
+def test_the_template_is_an_effect_of_the_file_s_name(tmp_path):
+    file = tmp_path / "brush.py"
+    file.write_text(GOOD, encoding="utf-8")
+    effect = effect_in(file)
+    assert (effect.id, effect.table.__name__) == ("brush", "Brush")
+    assert "template" not in GOOD.lower()
+    assert [path.name for path in tmp_path.iterdir()] == ["brush.py"]  # no __pycache__
+
+
+@pytest.mark.parametrize(
+    ("instead", "what"),
+    [
+        ("    return np.tanh(speed)\n", "`np`"),
+        ("    return 1.0 if speed else 'a'\n", "'a'"),
+        ("    return sum([speed, fall, onset])\n", "`sum`"),
+        ("    return max(x for x in (speed, fall))\n", "max"),
+        ("    parts = [speed]\n    return parts[0]\n", "[speed]"),
+        ("    with speed:\n        return fall\n", "with speed"),
+    ],
+)
+def test_a_term_keeps_to_what_becomes_c(said, instead, what):
+    text = GOOD.replace(TERM, instead)
+    line = line_of(text, instead)
+    message = said(text)
+    assert message.startswith(f", line {line}: "), message
+    assert what in message and "allowed in a term: numbers" in message and "exp" in message
+
+
+def test_a_term_s_numbers_are_declared(said):
+    message = said(GOOD.replace("speed: float, fall", "speed, fall"))
+    assert "speed of dry_factor is not declared as float" in message
+    message = said(GOOD.replace(") -> float:", "):"))
+    assert "what dry_factor returns is not declared as float" in message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "what"),
+    [
+        ("EFFECT = Effect(", "EFFECTS = Effect(", "has no EFFECT"),
+        ("EFFECT = Effect(", "EFFECT = dict(", "dict"),
+        ("class Brush(Table):", "class Brush(Table:", "line "),
+        ('switch=("fall",)', 'switch=("rise",)', "switch 'rise' is no parameter"),
+        ('switch=("fall",)', 'switch=("onset",)', "onset is not off at 0"),
+        ('axis="sliding speed"', 'axis="temperament"', "'temperament' is none"),
+        ("terms=(dry_factor,)", "terms=(dry_factor)", "terms is no tuple"),
+        ("def dry_factor(", "def wet_factor(", "wet_factor"),
+        ("speed: float, fall", "speed: float, mood: float, fall", "'mood'"),
+        ('{"fall": 0.3, "onset": 0.05}', '{"fall": 3.0}', "case: fall"),
+        ('id="brush"', 'id="rig"', "'rig' cannot be the name of a table"),
+        ('id="brush"', 'id="Brush"', "'Brush' cannot be the name of a table"),
+        ('"brush.onset", s.speed', '"brush.start", s.speed', "brush.start is no parameter"),
+        ("s.speed, 0.3", "s.mood, 0.3", "AttributeError"),
+        ("import Candidate, Case", "import Candidates, Case", "Candidates"),
+        (
+            "    fall: float = quantity(\n        0.0,",
+            "    fall: float = quantity(\n        ...,",
+            "o",
+        ),
+        ('"""Kinetic', '1 / 0\n"""Kinetic', "line 1: ZeroDivisionError"),
+    ],
+)
+def test_what_is_wrong_with_a_file_is_said(said, old, new, what):
+    assert old in GOOD
+    if old == "def dry_factor(":
+        text = GOOD.replace("dry_factor", "wet_factor")
+        assert all(place.name in said(text) for place in PLACES)
+        return
+    text = GOOD.replace(old, new, 1)
+    assert what in said(text)
+
+
+def test_a_table_without_words_is_none(said):
+    head, _, rest = GOOD.partition("class Brush(Table):\n")
+    text = head + "class Brush(Table):\n" + rest.partition("\n\n")[2]
+    assert "Brush has no docstring" in said(text)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(PluginError, match="No such file"):
+        effect_in(tmp_path / "none.py")
+    (tmp_path / "latin.py").write_bytes(b"# \xff")
+    with pytest.raises(PluginError, match="byte 3 is not UTF-8"):
+        effect_in(tmp_path / "latin.py")
+
+
+def test_no_effect_is_called_as_a_table_of_a_scenario():
+    blocks = {name for name in Scenario.model_fields if name not in catalogue_ids()}
+    assert blocks <= set(TABLES)
+
+
+def catalogue_ids():
+    from stickslip import EFFECTS
+
+    return {effect.id for effect in EFFECTS}
+
+
+def test_files_come_before_the_model(tmp_path):
+    with pytest.raises(PluginError, match="before anything else of stickslip is imported"):
+        use(tmp_path / "late.py")
+
+
+PROGRAM = """
+import pickle, sys
+from stickslip.effects import use
+use(sys.argv[1])
+from stickslip import EFFECTS, Parameters, simulate
+on = {"rig": {"spring_natural_length": 0.17}, "initial": {"vx": 0.15}}
+runs = [
+    simulate(Parameters(**on, brush={"fall": fall}), 0.6, 0.1, interpreted=True)
+    for fall in (0.0, 0.5)
+]
+differ = abs(runs[0]["x"] - runs[1]["x"]).max() > 1e-4
+exact = max(abs(run["energy_residual"]).max() for run in runs) < 1e-9
+open(sys.argv[2], "wb").write(pickle.dumps(Parameters(brush={"fall": 0.5}).brush))
+print(EFFECTS[-1].id, differ, exact)
+"""
+UNPICKLED = "import pickle, sys; print(pickle.load(open(sys.argv[1], 'rb')).fall)"
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """A Python program and its arguments -> what it prints, in a process of its own."""
+    folder = tmp_path_factory.mktemp("alone")
+    (folder / "brush.py").write_text(GOOD, encoding="utf-8")
+
+    def run(program, *arguments, **variables):
+        done = subprocess.run(
+            [sys.executable, "-c", program, *map(str, arguments)],
+            capture_output=True, text=True, cwd=folder, env=os.environ | variables,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return done.stdout.split()
+
+    return run
+
+
+def test_it_moves_the_block_and_other_processes_can_have_its_numbers(alone, tmp_path):
+    """Interpreted: what is compiled is the same text (tests/interop/units/test_plug_in_unit.py)."""
+    numbers = tmp_path / "numbers"
+    assert alone(PROGRAM, "brush.py", numbers) == ["brush", "True", "True"]
+    assert alone(UNPICKLED, numbers, STICKSLIP_EFFECTS="brush.py") == ["0.5"]
+
+
+EARLY = """
+import pathlib
+from stickslip.effects import PluginError, use
+pathlib.Path("early.py").write_text("from stickslip import Parameters")
+use("early.py")
+try:
+    from stickslip import EFFECTS
+except PluginError as error:
+    print(str(error).partition("early.py")[2])
+"""
+
+
+def test_a_file_that_imports_what_is_made_of_it(alone):
+    said = " ".join(alone(EARLY))
+    assert said.startswith(", line 1: ImportError: an effect's file imports the model")
+    assert "allowed is stickslip.effects" in said
+
+
+INSTALLED = """
+from stickslip import EFFECTS, Parameters
+from stickslip.kernel import layout
+print(EFFECTS[-1].id, Parameters().grease.fall, layout.P_GREASE_FALL > layout.P_MASS)
+"""
+
+
+def test_an_installed_one_is_there_by_itself(alone, tmp_path):
+    (tmp_path / "grease.py").write_text(text_of("grease"), encoding="utf-8")
+    info = tmp_path / "grease-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: grease\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[stickslip.effects]\ngrease = grease:EFFECT\n")
+    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    assert alone(INSTALLED, PYTHONPATH=path) == ["grease", "0.0", "True"]
