@@ -26,12 +26,14 @@ class NativeUnits(BuildHookInterface):
         if self.target_name != "wheel" or version == "editable":
             return
         sys.path[:0] = [str(ROOT), str(ROOT / "fmu_src")]
-        from cosim.fmu import libraries, native
+        from cosim.fmu import libraries, native, web
+        from cosim.fmu.platforms import BROWSER
         from cosim.fmu.thermal import native_unit
 
         self.scratch = Path(tempfile.mkdtemp(prefix="stickslip-prebuilt-"))
         for unit in (native, native_unit):
             libraries.prebuild(self.scratch, unit.NAME, unit.guid(), unit.sources)
+        libraries.prebuild(self.scratch, web.NAME, web.guid(), web.sources, [BROWSER])
         build_data["force_include"][str(self.scratch)] = f"cosim/fmu/{libraries.PREBUILT}"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:

@@ -12,10 +12,13 @@ from pathlib import Path
 
 import platformdirs
 import stickslip
+from stickslip.effects import EFFECTS
+from stickslip.effects import FILES as CATALOGUE
+from stickslip.effects.effect import Effect
 
 import cosim
 from cosim.fmu import libraries, native, python_unit
-from cosim.fmu.compiler import CompilerError
+from cosim.fmu.compiler import CompilerError, possible
 from cosim.fmu.libraries import runs_here
 from cosim.fmu.platforms import PLATFORMS, Platform, this_platform
 from cosim.fmu.thermal import native_unit
@@ -35,16 +38,30 @@ class FmuBuildError(ValueError):
 
 
 def own_folder() -> Path:
-    """Where the units stand that nobody named: `build` of a checkout, else the user's cache."""
+    """Where the units stand that nobody named: `build` of a checkout, else the user's cache.
+
+    With effects from outside, a folder of their own: one's own effects and the catalogue alone do
+    not take turns in one file.
+    """
+    if outside := _outside():
+        names = "-".join([*(effect.id for effect in outside), native.guid()[:8]])
+        return platformdirs.user_cache_path("stickslip") / names
     if (BUILD_FOLDER / "units.py").is_file():
         return BUILD_FOLDER
     return platformdirs.user_cache_path("stickslip")
 
 
+def _outside() -> tuple[Effect, ...]:
+    """Effects of this process that are not of the catalogue."""
+    return EFFECTS[len(CATALOGUE) :]
+
+
 def own_fmu() -> Path:
     """The native unit in `own_folder`, fresh; where that cannot be written, in the cache or a
     scratch folder."""
-    for place in dict.fromkeys((own_folder(), platformdirs.user_cache_path("stickslip"))):
+    folder = own_folder()
+    cached = folder if _outside() else platformdirs.user_cache_path("stickslip")
+    for place in dict.fromkeys((folder, cached)):
         try:
             return ensure_fmu(place)
         except FmuBuildError as error:
@@ -80,6 +97,12 @@ def build_fmu(
     _check_writable(directory)
     if name in MADE_APART:
         return _build_python_unit(directory, name)
+    if _outside() and name in (NATIVE, FMI3) and not possible(platforms):
+        raise FmuBuildError(
+            f"{name} was not built: an effect of one's own has to be compiled, and there is no C "
+            "compiler: `pip install ziglang` brings one for every platform; or build "
+            f"{PYTHON}, which needs none (`stickslip run --fmu` takes it)"
+        )
     try:
         return _maker(name)(directory, platforms)
     except CompilerError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import logging
 import os
 import shutil
 import struct
@@ -15,17 +16,19 @@ from pathlib import Path
 
 from cosim.fmu.platforms import Platform, this_platform
 
+LOG = logging.getLogger(__name__)
+
 # With a * b + c contracted into one rounding, the motion would differ from machine to machine.
 OPTIONS = (
     "-std=c99",
     "-Werror=implicit-function-declaration",
     "-O2",
     "-ffp-contract=off",
-    "-fPIC",
-    "-shared",
     "-fvisibility=hidden",
     "-s",
 )
+# WebAssembly has no libraries that are linked later: a module that is called, without a `main`.
+SHARED = {".wasm": ["-mexec-model=reactor"]}
 # A library of a Mac says where it is to be looked for: wherever who links to it says. (Who opens it
 # by its path, as hosts do, does not ask.)
 MORE = {".dll": [], ".dylib": ["-lm", "-Wl,-install_name,@rpath/{library}"]}
@@ -57,6 +60,7 @@ def compiled(
     Each is compiled by a process of its own, as many at once as there are processors. Raises
     CompilerError.
     """
+    LOG.info("compiling %s for %s", name, ", ".join(each.name for each in platforms))
     with tempfile.TemporaryDirectory(prefix="stickslip-c-") as scratch:
         folder = Path(scratch)
         for file, content in sources.items():
@@ -72,7 +76,8 @@ def _library(folder: Path, platform: Platform, name: str) -> bytes:
     (folder / library.parent).mkdir()
     files = sorted(file.name for file in folder.glob("*.c"))
     more = [word.format(library=library.name) for word in MORE.get(platform.suffix, ["-lm"])]
-    command = [*_compiler(platform), *OPTIONS, "-o", str(library), *files, *more]
+    shared = SHARED.get(platform.suffix, ["-fPIC", "-shared"])
+    command = [*_compiler(platform), *OPTIONS, *shared, "-o", str(library), *files, *more]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         said = next((line for line in done.stderr.splitlines() if "error" in line), done.stderr)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import IO
 
 from cosim.fmu.compiler import CompilerError, compiled, joined, possible
-from cosim.fmu.platforms import PLATFORMS, Platform, this_platform
+from cosim.fmu.platforms import BROWSER, PLATFORMS, Platform, this_platform
 
 #: Versions of FMI, each with its own names of the folders in `binaries`.
 FMI2, FMI3 = 2, 3
@@ -41,7 +41,7 @@ def libraries(
 
 def _prebuilt(guid: str) -> dict[Platform, bytes]:
     folder = _prebuilt_folder() / guid
-    files = {each: folder / f"{each.name}{each.suffix}" for each in PLATFORMS}
+    files = {each: folder / f"{each.name}{each.suffix}" for each in (*PLATFORMS, BROWSER)}
     return {each: file.read_bytes() for each, file in files.items() if file.is_file()}
 
 
@@ -65,11 +65,17 @@ def _no_way(guid: str) -> str:
     )
 
 
-def prebuild(folder: Path, name: str, guid: str, sources: Sources) -> Path:
+def prebuild(
+    folder: Path,
+    name: str,
+    guid: str,
+    sources: Sources,
+    platforms: Sequence[Platform] = PLATFORMS,
+) -> Path:
     """Compile for every platform that can be, for a wheel; the folder that it is to bring along."""
     target = folder / guid
     target.mkdir(parents=True, exist_ok=True)
-    for platform, library in compiled(sources(), possible(PLATFORMS), name).items():
+    for platform, library in compiled(sources(), possible(platforms), name).items():
         (target / f"{platform.name}{platform.suffix}").write_bytes(library)
     return target
 

@@ -30,6 +30,8 @@ PLATFORMS = (
     Platform("x86_64-darwin", "darwin64", "x86_64-macos.11.0", ".dylib"),
     Platform("aarch64-darwin", "darwin64", "aarch64-macos.11.0", ".dylib"),
 )
+#: No platform of a unit: a page, wherever it is opened.
+BROWSER = Platform("wasm32-browser", "", "wasm32-wasi", ".wasm")
 
 
 def this_platform() -> Platform | None:

@@ -34,8 +34,8 @@ SPECIAL: dict[str, Entry] = {
     },
     **{
         f"friction.table_{of}[{i + 1}]": {"min": 0}
-        for of in ("speed", "mu")
-        for i in range(layout.CURVE_LIMIT)
+        for of, limit in (("speed", layout.CURVE_LIMIT), ("mu", layout.TABLE_LIMIT))
+        for i in range(limit)
     },
 }
 #: Of the unit alone: the model by itself has its inputs as they are.

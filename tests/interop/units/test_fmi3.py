@@ -86,7 +86,8 @@ def test_value_references_are_those_of_fmi_2(fmu, fmu3):
         "springs.force_curve_extension": 16,
         "springs.force_curve_force": 16,
         "friction.table_speed": 16,
-        "friction.table_mu": 16,
+        "friction.table_mu": 96,
+        "friction.table_temperature_degC": 6,
     }
     for variable in new:
         name = f"{variable.name}[1]" if variable.name in arrays else variable.name
@@ -315,7 +316,7 @@ def test_tunable_parameters_change_in_event_mode(unit):
 
 
 def test_an_array_is_one_variable(unit):
-    speeds, mus = [0.0, 0.1, 0.3, *[0.0] * 13], [0.4, 0.3, 0.2, *[0.0] * 13]
+    speeds, mus = [0.0, 0.1, 0.3, *[0.0] * 13], [0.4, 0.3, 0.2, *[0.0] * 93]
     with unit.instance() as block:
         block.begin(**{"friction.table_speed": speeds, "friction.table_mu": mus})
         assert block.get("friction.table_speed") == speeds

@@ -122,6 +122,7 @@ def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(ssp, in_turn, tmp_path):
         run_system(other, folder=RunFolder.found(tmp_path))
 
 
+@pytest.mark.slow
 def test_the_command_goes_on_with_what_was_killed(ssp, tmp_path, capsys):
     """Killed as by kill -9, in the middle of the run; the rows are those of one that was not."""
     place = tmp_path / "killed"

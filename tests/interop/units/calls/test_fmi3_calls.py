@@ -58,7 +58,7 @@ REFUSED = [
     ("SetFloat64", one_float("time"), "time is the independent variable and cannot be set"),
     ("SetFloat64", one_float("x"), "x is an output and cannot be set"),
     ("SetFloat64", one_float("rig.mass"), "rig.mass is fixed and cannot be set after"),
-    ("GetFloat64", one_float("friction.table_mu", 3), "3 values, the variables have 16"),
+    ("GetFloat64", one_float("friction.table_mu", 3), "3 values, the variables have 96"),
     ("GetFloat64", one_float("friction.table_mu+1"), "no such variable, it is within an array"),
     ("GetBoolean", one_float(0), "all variables are of the types Float64 and Int32"),
     ("SetString", one_float(0), "all variables are of the types Float64 and Int32"),

@@ -1,0 +1,203 @@
+"""What the explorer lets one turn: every key of the mechanics, from its declaration.
+
+Name, unit, bounds, words and typical range are those that scenarios, the FMU and the effects page
+show, too; a new effect has its sliders at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from stickslip import EFFECTS, Parameters
+from stickslip.quantity import details
+
+from cosim.fmu.variables import bounds_of
+from cosim.scenario import Scenario
+from cosim.scenario.faults import allowed, unit_of
+
+#: Table -> heading, of what is no effect, in the order of the page; the first are open.
+HEADINGS = {
+    "surface": "Surface",
+    "rig": "Block and rig",
+    "springs": "Springs",
+    "friction": "Friction",
+    "run": "Run and temperature",
+    "initial": "Start",
+    "imperfections": "Imperfections",
+    "solver": "Integrator",
+}
+OPEN = ("surface", "rig", "springs", "friction")
+#: Keys of other tables that a run of the mechanics alone takes.
+OF_RUN = ("run.duration", "run.output_interval", "ambient.temperature_degC")
+#: Keys that are no numbers of the motion: the file of a table has been read.
+LEFT_OUT = ("friction.table",)
+#: Where a slider goes to, of keys whose declarations have no range: sizes of a rig on a table.
+RANGES = {
+    "rig.mass": (0.1, 5.0),
+    "rig.inertia": (1e-5, 1e-2),
+    "rig.contact_radius": (0.005, 0.1),
+    "rig.attachment_radius": (0.01, 0.2),
+    "rig.spring_length": (0.05, 0.6),
+    "rig.spring_natural_length": (0.05, 0.6),
+    "rig.slab_radius": (-2.0, 2.0),
+    "springs.stiffness": (2.0, 200.0),
+    "friction.mu_s": (0.0, 1.0),
+    "friction.mu_k": (0.0, 1.0),
+    "friction.stick_creep": (1e-6, 1e-2),
+    "friction.transition_speed": (1e-4, 0.1),
+    "friction.presliding_distance": (1e-6, 1e-3),
+    "surface.speed": (-0.6, 0.6),
+    "surface.run_up_time": (0.0, 30.0),
+    "initial.x": (-0.1, 0.1),
+    "initial.y": (-0.05, 0.05),
+    "initial.phi": (-0.5, 0.5),
+    "initial.vx": (-0.5, 0.5),
+    "initial.vy": (-0.5, 0.5),
+    "initial.omega": (-5.0, 5.0),
+    "imperfections.seed": (0, 100),
+    "surface_scatter.seed": (0, 100),
+    "run.duration": (1.0, 300.0),
+    "run.output_interval": (1e-3, 0.1),
+    "ambient.temperature_degC": (-40.0, 0.0),
+}
+#: A slider is logarithmic where its ends are further apart than this.
+DECADES = 30.0
+#: A typical range ends where most rigs do; a slider goes on so much further.
+BEYOND = 2.0
+
+
+def groups() -> list[dict[str, Any]]:
+    """Groups of controls as plain data, in the order of the page.
+
+    Each has id, title, sentence, enters ("" where it is no effect), open, and controls: key, name,
+    unit, kind, description, allowed (words), bounds (gt, ge, lt, le), choices, slider (see
+    `slider`; None of what is no single number) and switch, whether it turns an effect on.
+    """
+    found = [
+        {
+            "id": table,
+            "title": title,
+            "sentence": "",
+            "enters": "",
+            "open": table in OPEN,
+            "controls": [control(key, field) for key, field in _fields(table)],
+        }
+        for table, title in HEADINGS.items()
+    ]
+    for effect in EFFECTS:
+        fields = effect.table.model_fields.items()
+        controls = [control(f"{effect.id}.{name}", field) for name, field in fields]
+        for each in controls:
+            each["switch"] = each["name"] in effect.switch
+        found.append(
+            {
+                "id": effect.id,
+                "title": effect.id.replace("_", " "),
+                "sentence": effect.sentence,
+                "enters": effect.enters,
+                "open": False,
+                "controls": controls,
+            }
+        )
+    return found
+
+
+def _fields(table: str) -> Iterator[tuple[str, FieldInfo]]:
+    """Key and declaration of what a group shows."""
+    if table == "run":
+        for key in OF_RUN:
+            owner, _, name = key.partition(".")
+            yield key, _table(Scenario, owner).model_fields[name]
+        return
+    for name, field in _table(Parameters, table).model_fields.items():
+        if f"{table}.{name}" not in LEFT_OUT:
+            yield f"{table}.{name}", field
+
+
+def _table(model: type[BaseModel], name: str) -> type[BaseModel]:
+    kind: Any = model.model_fields[name].annotation
+    return kind
+
+
+def control(key: str, field: FieldInfo) -> dict[str, Any]:
+    """A key as the page shows it."""
+    bounds = _bounds(field)
+    kind = _kind(field)
+    numeric = kind in ("number", "whole", "inertia")
+    return {
+        "key": key,
+        "name": key.partition(".")[2],
+        "unit": unit_of(field),
+        "kind": kind,
+        "description": field.description or "",
+        "allowed": allowed(key, field),
+        "default": field.default,
+        "bounds": bounds,
+        "choices": list(map(str, get_args(field.annotation))) if kind == "choice" else [],
+        "slider": slider(key, field, bounds) if numeric else None,
+        "switch": False,
+    }
+
+
+def _kind(field: FieldInfo) -> str:
+    """number, whole, choice, freedom (motions that are allowed), inertia, or list (of numbers)."""
+    kind: Any = field.annotation
+    if kind is float:
+        return "number"
+    if kind is int:
+        return "whole"
+    if get_origin(kind) is Literal:
+        return "choice"
+    if get_origin(kind) is tuple:
+        return "list" if float in get_args(kind) else "freedom"
+    return "inertia"
+
+
+def _bounds(field: FieldInfo) -> dict[str, float]:
+    """gt, ge, lt, le of a number; ``max_length`` of a list."""
+    found = bounds_of(field)
+    for bound in field.metadata:
+        if getattr(bound, "max_length", None) is not None:
+            found["max_length"] = bound.max_length
+    return found
+
+
+def slider(key: str, field: FieldInfo, bounds: dict[str, float]) -> dict[str, Any]:
+    """Ends of a slider, whether it is logarithmic, and whether 0 stands before its lower end.
+
+    What is off at 0 has 0 at the left end in any case. A value that is typed may lie beyond.
+    """
+    said = details(field)
+    low, high = _ends(key, field, bounds, said.get("typical") or said.get("tried"))
+    log = low > 0.0 and high / low >= DECADES
+    zero = low > 0.0 and field.default == 0.0
+    if zero and not log:
+        low, zero = 0.0, False
+    return {"low": low, "high": high, "log": log, "zero": zero}
+
+
+def _ends(
+    key: str, field: FieldInfo, bounds: dict[str, float], typical: tuple[float, float] | None
+) -> tuple[float, float]:
+    least = bounds.get("ge", bounds.get("gt", -math.inf))
+    most = bounds.get("le", bounds.get("lt", math.inf))
+    default = field.default if isinstance(field.default, (int, float)) else 0.0
+    if key in RANGES:
+        low, high = RANGES[key]
+    elif typical is not None:
+        low, high = typical
+        low = low / BEYOND if low > 0.0 else low * BEYOND
+        high *= BEYOND
+    elif math.isfinite(least) and math.isfinite(most):
+        low, high = least, most
+    else:
+        size = abs(default) or 1.0
+        low, high = (size / 10.0, 10.0 * size) if least >= 0.0 else (-10.0 * size, 10.0 * size)
+    low, high = max(low, least), min(high, most)
+    if default != 0.0:
+        low, high = min(low, default), max(high, default)
+    return low, high

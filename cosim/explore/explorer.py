@@ -1,0 +1,116 @@
+"""The explorer's page: one file with the kernel, the controls, scenarios and the scripts."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import zlib
+from importlib import resources
+from importlib.metadata import version
+from typing import Any
+
+from markupsafe import Markup
+from stickslip.kernel import layout
+from stickslip.names import NAMES
+from stickslip.ports import OUTPUTS
+
+from cosim.explore.controls import groups
+from cosim.fmu import web
+from cosim.report.page import render
+from cosim.scenario import Scenario, read_scenario
+
+#: Packaged scenarios that can be begun with, beside that which was asked for.
+PRESETS = ("reference", "study", "slab")
+#: Scripts of the page, in the order in which they need each other. The kernel's own runs in a
+#: thread of its own, without the others.
+WORKER = "worker.js"
+SCRIPTS = (
+    *("units.js", "scenario.js", "checks.js", "runs.js", "statistics.js", "plots.js"),
+    *("pictures.js", "top_view.js", "controls.js", "main.js"),
+)
+#: Says, in the page, which tool has made it.
+GENERATOR = '<meta name="generator" content="stickslip explore">'
+
+
+def explorer_page(scenario: Scenario | None = None) -> str:
+    """HTML of the explorer, opened on a scenario (left out: the reference case).
+
+    One file that needs nothing else. Raises CompilerError where there is no WebAssembly of the
+    kernel: a checkout without zig.
+    """
+    return render(
+        "explorer.html.j2",
+        "cosim.explore",
+        generator=Markup(GENERATOR),
+        version=version("stickslip"),
+        style=_text("explorer.css"),
+        kernel=base64.b64encode(zlib.compress(web.module(), 9)).decode("ascii"),
+        data=_inside_script(json.dumps(page_data(scenario), ensure_ascii=False, allow_nan=False)),
+        worker=_text(WORKER),
+        programs=[(name, _text(name)) for name in SCRIPTS],
+    )
+
+
+def page_data(scenario: Scenario | None = None) -> dict[str, Any]:
+    """What the scripts are told: scenarios, controls, and places in the kernel's arrays."""
+    presets = [preset(read_scenario(name)) for name in PRESETS]
+    chosen = preset(scenario) if scenario is not None else presets[0]
+    if chosen not in presets:
+        presets.insert(0, chosen)
+    return {
+        "version": version("stickslip"),
+        "presets": presets,
+        "chosen": presets.index(chosen),
+        "groups": groups(),
+        "names": list(NAMES),
+        "outputs": {port.name: getattr(layout, port.slot) for port in OUTPUTS},
+        "units": {port.name: port.unit or "1" for port in OUTPUTS},
+        "sizes": {
+            "row": layout.O_SIZE,
+            "event": layout.E_WIDTH,
+            "inputs": layout.U_SIZE,
+            "speed": layout.U_SPEED,
+            "temperature": layout.U_TEMPERATURE,
+            "curve": layout.CURVE_LIMIT,
+        },
+        "belt_width": Scenario().belt.width,
+    }
+
+
+def preset(scenario: Scenario) -> dict[str, Any]:
+    """Name and tables of a scenario: what departs from the plain model, and what says so."""
+    plain = Scenario().to_tables()
+    tables: dict[str, Any] = {}
+    for name, value in scenario.to_tables().items():
+        if not isinstance(value, dict):
+            continue
+        departs = {key: entry for key, entry in value.items() if _departs(plain, name, key, entry)}
+        if departs:
+            tables[name] = departs
+    top = {name: value for name, value in plain.items() if not isinstance(value, dict)}
+    return {"name": scenario.name, "top": top | {"name": scenario.name}, "tables": tables}
+
+
+def _departs(plain: dict[str, Any], table: str, key: str, value: Any) -> bool:
+    entries = plain.get(table, {})
+    return key not in entries or entries[key] != value
+
+
+def _text(name: str) -> Markup:
+    """A file of the folder `page`, as it is."""
+    text = (resources.files("cosim.explore") / "page" / name).read_text("utf-8")
+    return _inside_script(text) if name.endswith(".js") else Markup(text)
+
+
+def _inside_script(text: str) -> Markup:
+    """Text between script tags: nothing in it may look like the tag that ends it, or a comment.
+
+    In a string of JavaScript or JSON the backslash means nothing there.
+    """
+    return Markup(re.sub(r"<(?=/script|!--)", r"\\u003c", text, flags=re.IGNORECASE))
+
+
+def made_here(text: str) -> bool:
+    """Whether a page, or how one begins, is the explorer's."""
+    return GENERATOR in text

@@ -1,0 +1,204 @@
+"use strict";
+/* A row for each key: name, slider, number, and a way back. Groups fold. */
+
+const STEPS = 1000; // of a slider
+const ENTERS = { friction: "Effects of friction", contact: "Effects of the contact at rest", springs: "Effects of the springs", surface: "Effects of the surface" };
+
+class Controls {
+  /* turned: called with a key and its new value; refused: with a key and what is wrong. */
+  constructor(place, turned, refused) {
+    Object.assign(this, { place, turned, refused });
+    this.rows = new Map();
+    this.folds = [];
+    this.build();
+  }
+
+  build() {
+    const plain = DATA.groups.filter((group) => !group.enters);
+    for (const group of plain) this.place.append(this.fold(group));
+    const kinds = [...new Set(DATA.groups.map((group) => group.enters).filter(Boolean))];
+    for (const kind of kinds) {
+      const heading = element("h3", { textContent: ENTERS[kind] || `Effects: ${kind}` });
+      this.place.append(heading);
+      for (const group of DATA.groups) if (group.enters === kind) this.place.append(this.fold(group));
+    }
+  }
+
+  fold(group) {
+    const title = element("span", { textContent: group.title });
+    const mark = element("span", { className: "mark" });
+    const summary = element("summary", {}, [title, mark]);
+    const rows = group.controls.map((control) => this.row(control));
+    const said = group.sentence ? [element("p", { className: "small", textContent: group.sentence })] : [];
+    const fold = element("details", { open: group.open, id: `group-${group.id}` }, [summary, ...said, ...rows]);
+    this.folds.push({ group, fold, mark });
+    return fold;
+  }
+
+  row(control) {
+    const id = `key-${control.key.replace(/\W/g, "-")}`;
+    const label = element("label", { htmlFor: id, textContent: labelOf(control.name) });
+    if (control.switch) label.className = "switch";
+    const said = element("p", { className: "said", id: `${id}-said`, textContent: control.description });
+    const reset = element("button", { type: "button", className: "reset", textContent: "↺", title: `back to what ${control.key} began with` });
+    reset.setAttribute("aria-label", `reset ${control.key}`);
+    const row = { control, reset, box: null, slider: null };
+    const input = control.choices.length || control.kind === "freedom" ? this.choice(row, id) : this.text(row, id);
+    input.setAttribute("aria-describedby", said.id);
+    row.input = input;
+    const unit = element("span", { className: "unit", textContent: shownUnit(control.unit) });
+    const parts = [label, input, unit, reset];
+    if (control.slider) parts.splice(1, 0, this.slider(row, id));
+    reset.addEventListener("click", () => this.turned(control.key, undefined));
+    row.box = element("div", { className: control.slider ? "row" : "row without", title: control.key }, [...parts, said]);
+    this.rows.set(control.key, row);
+    return row.box;
+  }
+
+  slider(row, id) {
+    const { control } = row;
+    const slider = element("input", { type: "range", min: 0, max: STEPS, step: 1 });
+    slider.setAttribute("aria-label", `${control.key}, slider`);
+    slider.setAttribute("aria-describedby", `${id}-said`);
+    slider.addEventListener("input", () => this.turned(control.key, atPosition(control, Number(slider.value))));
+    row.slider = slider;
+    return slider;
+  }
+
+  /* A value that is typed, with or without a unit; Enter or leaving the field takes it. */
+  text(row, id) {
+    const { control } = row;
+    const input = element("input", { type: "text", id, spellcheck: false, autocomplete: "off" });
+    input.setAttribute("autocapitalize", "off");
+    input.addEventListener("change", () => {
+      const value = valueOfText(control, input.value);
+      if (value === undefined) {
+        input.setAttribute("aria-invalid", "true");
+        this.refused(control.key, `${control.key}: not a number ("${input.value.trim()}"), allowed is ${control.allowed}`);
+      } else {
+        this.turned(control.key, value);
+      }
+    });
+    return input;
+  }
+
+  choice(row, id) {
+    const { control } = row;
+    const choices = control.kind === "freedom"
+      ? [["x", "y", "phi"], ["x", "y"], ["x", "phi"], ["x"]] : control.choices;
+    const options = choices.map((each, i) => element("option", { value: i, textContent: [each].flat().join(", ") }));
+    const select = element("select", { id }, options);
+    select.addEventListener("change", () => this.turned(control.key, choices[select.value]));
+    row.choices = choices;
+    return select;
+  }
+
+  /* Everything as a scenario has it; wrong: the key that is at fault, or "". */
+  show(scenario, wrong = "") {
+    for (const row of this.rows.values()) this.showRow(row, scenario, row.control.key === wrong);
+    for (const { group, mark } of this.folds) {
+      const on = group.controls.some((each) => each.switch && scenario.get(each.key) !== each.default);
+      const changed = group.controls.some((each) => !same(scenario.get(each.key), scenario.begun(each.key)));
+      mark.textContent = [on ? "on" : "", changed ? "changed" : ""].filter(Boolean).join(", ");
+    }
+  }
+
+  showRow(row, scenario, isWrong) {
+    const { control, input, slider, reset, choices, box } = row;
+    const value = scenario.get(control.key);
+    const changed = !same(value, scenario.begun(control.key));
+    const state = JSON.stringify([value, changed, isWrong]);
+    if (state === row.state && control.kind !== "inertia") return; // as it stands there
+    row.state = state;
+    if (choices) input.value = choices.findIndex((each) => sameSet(each, value));
+    else input.value = textOf(value);
+    if (isWrong) input.setAttribute("aria-invalid", "true");
+    else input.removeAttribute("aria-invalid");
+    reset.disabled = !changed;
+    box.classList.toggle("changed", changed);
+    if (slider) this.placeSlider(slider, control, value, scenario);
+  }
+
+  placeSlider(slider, control, value, scenario) {
+    const number = control.kind === "inertia" ? inertia(scenario) || 0.5 * scenario.get("rig.mass") * scenario.get("rig.contact_radius") ** 2 : value;
+    slider.value = positionOf(control, number);
+    slider.setAttribute("aria-valuetext", `${textOf(value)} ${shownUnit(control.unit)}`.trim());
+  }
+
+  /* Rows whose key or words have all that is looked for; their groups open. */
+  find(text) {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const { group, fold } of this.folds) {
+      let there = 0;
+      for (const control of group.controls) {
+        const said = `${control.key.replace(/[_.]/g, " ")} ${control.key} ${control.description} ${group.sentence}`.toLowerCase();
+        const found = words.every((word) => said.includes(word));
+        this.rows.get(control.key).box.hidden = !found;
+        there += found;
+      }
+      fold.hidden = there === 0;
+      if (words.length) fold.open = there > 0;
+      else fold.open = group.open;
+    }
+  }
+}
+
+/* --- positions of a slider ------------------------------------------------------------------- */
+
+/* Three digits are as many as a hand can set. */
+function atPosition(control, position) {
+  const { low, high, log, zero } = control.slider;
+  if (zero && position === 0) return 0;
+  const part = zero ? (position - 1) / (STEPS - 1) : position / STEPS;
+  const value = log ? low * (high / low) ** part : low + (high - low) * part;
+  if (position === STEPS) return high;
+  if (position === 0) return low;
+  if (control.kind === "whole") return Math.round(value);
+  if (log) return Number(value.toPrecision(3));
+  const digits = Math.ceil(Math.log10(STEPS / (high - low)));
+  return Number(value.toFixed(Math.min(Math.max(digits, 0), 20)));
+}
+
+function positionOf(control, value) {
+  const { low, high, log, zero } = control.slider;
+  if (zero && value <= 0) return 0;
+  const inside = Math.min(Math.max(value, low), high);
+  const part = log ? Math.log(inside / low) / Math.log(high / low) : (inside - low) / (high - low);
+  return Math.round(zero ? 1 + part * (STEPS - 1) : part * STEPS);
+}
+
+/* A key as a label: its unit stands behind the number; mu_s stays a symbol. */
+function labelOf(name) {
+  return name.replace(/_deg(C)?$/, "").replace(/_(?=[a-z]{2})/g, " ");
+}
+
+/* --- values as texts --------------------------------------------------------------------------- */
+
+function textOf(value) {
+  if (Array.isArray(value)) return value.join(", ");
+  return String(value);
+}
+
+/* undefined for what is no value of the control. */
+function valueOfText(control, text) {
+  if (control.kind === "list") {
+    const entries = text.split(/[,;\s]+/).filter(Boolean).map((each) => typedValue(each, control.unit));
+    return entries.every(Number.isFinite) ? entries : undefined;
+  }
+  if (control.kind === "inertia" && /^\s*(disc|ring)\s*$/.test(text)) return text.trim();
+  const value = typedValue(text, control.unit);
+  if (!Number.isFinite(value) || (control.kind === "whole" && !Number.isInteger(value))) return undefined;
+  return value;
+}
+
+function sameSet(one, other) {
+  return [one].flat().slice().sort().join() === [other].flat().slice().sort().join();
+}
+
+/* --- elements ---------------------------------------------------------------------------------- */
+
+function element(name, properties, children = []) {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...children);
+  return made;
+}

@@ -1,0 +1,380 @@
+"use strict";
+/* The page: what is turned becomes a run, what the run gives is shown, frame by frame.
+
+   `explorer` is what the console and other scripts may use: `explorer.run` (time, column(name),
+   events, state, reason), `explorer.set(key, value)`, and the calls below. */
+
+const byId = (id) => document.getElementById(id);
+const explorer = {
+  scenario: null, // as it is turned
+  run: null, // the newest run
+  seen: null, // the run that is shown: the newest that has rows
+  kept: null, // for comparison
+  moment: null, // that is shown, s
+  range: null, // of time that is shown, s
+  frames: 0, // since the page began
+  pending: false, // whether something was turned since the last run was wished for
+  renewals: 0, // how often it has been wished for, or refused
+};
+
+explorer.start = async function () {
+  explorer.runs = new Runs(await unpacked(byId("kernel").textContent), heard);
+  explorer.pictures = new Pictures();
+  explorer.top = new TopView(byId("top"));
+  explorer.controls = new Controls(byId("groups"), explorer.set, refuse);
+  preparePlayer();
+  prepareBar();
+  const { scenario, strange } = ofAddress(location.hash, DATA.presets[DATA.chosen]);
+  explorer.scenario = scenario;
+  if (strange.length) say(`not understood in the address: ${strange.join(", ")}`);
+  changed();
+  requestAnimationFrame(frame);
+};
+
+/* Base64 of what zlib has packed. */
+async function unpacked(text) {
+  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(stream).arrayBuffer();
+}
+
+/* --- from the controls to a run ----------------------------------------------------------------- */
+
+/* A key's new value; undefined: what it began with. */
+explorer.set = function (key, value) {
+  const { scenario } = explorer;
+  scenario.set(key, value === undefined ? scenario.begun(key) : value);
+  changed();
+};
+
+let addressing = null;
+
+/* The scenario is another one: once a frame is as often as anybody sees. */
+function changed() {
+  if (explorer.pending) return;
+  explorer.pending = true;
+  requestAnimationFrame(() => {
+    explorer.pending = false;
+    explorer.renewals++;
+    renew();
+  });
+}
+
+function renew() {
+  const { scenario } = explorer;
+  const wrong = outOfBounds(scenario) || contradiction(scenario);
+  showScenario(wrong ? wrong.key : "");
+  if (wrong) {
+    refuse(wrong.key, wrong.text);
+    return;
+  }
+  const frozen = Object.assign(new Scenario(scenario.preset), {
+    name: scenario.name, tables: structuredClone(scenario.tables),
+  });
+  explorer.run = explorer.runs.wish(frozen);
+}
+
+function showScenario(wrong) {
+  const { scenario, controls } = explorer;
+  controls.show(scenario, wrong);
+  byId("name").value = scenario.name;
+  byId("preset").value = DATA.presets.indexOf(scenario.preset);
+  clearTimeout(addressing);
+  addressing = setTimeout(showAddress, 250); // browsers mind an address that changes all the time
+}
+
+function showAddress() {
+  try {
+    history.replaceState(null, "", addressOf(explorer.scenario));
+  } catch {
+    // a browser that keeps a file's address as it is; "Copy link" has it all the same
+  }
+}
+
+/* Something is not allowed: the motion before it stays. */
+function refuse(key, text) {
+  explorer.run = null;
+  show(byId("fault"), text);
+  show(byId("remark"), "");
+  const row = explorer.controls.rows.get(key);
+  if (row) {
+    row.input.setAttribute("aria-invalid", "true");
+    row.state = null; // to be shown anew, whatever comes
+  }
+  document.body.classList.add("refused");
+}
+
+function show(place, text) {
+  place.textContent = text;
+  place.hidden = !text;
+}
+
+function say(text) {
+  byId("done").textContent = text;
+}
+
+/* --- from a run to the page ----------------------------------------------------------------------- */
+
+let stale = true; // the plots are older than what there is to plot
+
+function heard(run, message) {
+  if (run !== explorer.run) return;
+  if (run.state === "refused") {
+    const wrong = kernelFault(run.reason);
+    refuse(wrong.key, wrong.text);
+    return;
+  }
+  if (message.begun) {
+    const wrong = refusedBeside(run.scenario);
+    if (wrong) {
+      explorer.runs.current = null;
+      refuse(wrong.key, wrong.text);
+      return;
+    }
+    document.body.classList.remove("refused");
+    show(byId("fault"), "");
+    show(byId("remark"), remarks(run.scenario));
+  }
+  if (run.rows > 0) explorer.seen = run;
+  if (run.state === "done" && run.reason) show(byId("fault"), run.reason);
+  stale = true;
+}
+
+/* --- the moment that is shown ---------------------------------------------------------------------- */
+
+const player = { playing: false, moment: 0, last: 0, computed: null, since: 0 };
+
+function preparePlayer() {
+  player.playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  byId("play").addEventListener("click", () => play(!player.playing));
+  byId("moment").addEventListener("input", (event) => {
+    play(false);
+    player.moment = (Number(event.target.value) / 1000) * endOf(explorer.seen);
+  });
+  byId("span").addEventListener("change", () => (stale = true));
+  new ResizeObserver(() => (stale = true)).observe(byId("x"));
+  play(player.playing);
+}
+
+function play(on) {
+  player.playing = on;
+  const button = byId("play");
+  button.textContent = on ? "Pause" : "Play";
+  button.setAttribute("aria-pressed", String(on));
+}
+
+function endOf(run) {
+  return run ? run.time[run.time.length - 1] : 0;
+}
+
+function frame(now) {
+  requestAnimationFrame(frame);
+  explorer.frames++;
+  showProgress(now);
+  const run = explorer.seen;
+  const passed = Math.min((now - player.last) / 1000, 0.1);
+  player.last = now;
+  if (!run) return;
+  const reached = run.time[run.rows - 1];
+  if (player.playing) {
+    player.moment += passed * Number(byId("pace").value);
+    if (player.moment > endOf(run)) player.moment = 0;
+  }
+  const moment = Math.min(player.moment, reached);
+  const range = shownRange(run, moment);
+  const moved = moment !== explorer.moment;
+  if (!moved && !stale) return; // a page at rest costs nothing
+  explorer.moment = moment;
+  if (stale || !sameRange(range, explorer.range)) redraw(run, range);
+  showMoment(run, moment);
+}
+
+const QUICK_MS = 400; // what takes no longer need not be told of
+
+/* How far a run is that takes its time. */
+function showProgress(now) {
+  const run = explorer.run;
+  if (run !== player.computed) Object.assign(player, { computed: run, since: now });
+  const computing = run && (run.state === "wished" || run.state === "begun");
+  const slow = computing && now - player.since > QUICK_MS;
+  const text = slow ? `computing, ${Math.floor((100 * run.rows) / run.time.length)} %` : "";
+  if (byId("progress").textContent !== text) byId("progress").textContent = text;
+}
+
+function showMoment(run, moment) {
+  const state = stateAt(run, moment);
+  explorer.pictures.show(run, moment, state);
+  explorer.top.show(run, state);
+  const said = `${moment.toFixed(2)} s`;
+  const slider = byId("moment");
+  if (document.activeElement !== slider) slider.value = (1000 * moment) / (endOf(run) || 1);
+  slider.setAttribute("aria-valuetext", said);
+  byId("clock").textContent = said;
+  byId("ledger").textContent = ledger(state);
+}
+
+/* Times that are shown, s: a page of so many seconds is turned when the moment leaves it. */
+function shownRange(run, moment) {
+  const end = endOf(run);
+  const choice = byId("span").value;
+  if (choice === "all") return [0, end];
+  if (choice === "late") return [Math.min(run.rampEnd, end * 0.999), end];
+  const length = Math.min(Number(choice), end);
+  const begin = Math.floor(moment / length) * length;
+  return [begin, begin + length];
+}
+
+function sameRange(one, other) {
+  return Boolean(other) && one[0] === other[0] && one[1] === other[1];
+}
+
+function redraw(run, range) {
+  explorer.pictures.draw(run, explorer.kept, range);
+  explorer.range = range;
+  stale = false;
+  showStatistics(run);
+}
+
+/* Numbers of a moment: between two rows on a straight line. */
+function stateAt(run, moment) {
+  let [low, high] = [0, run.rows - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (run.time[middle] <= moment) low = middle;
+    else high = middle;
+  }
+  const span = run.time[high] - run.time[low];
+  const part = span > 0 ? Math.min(Math.max((moment - run.time[low]) / span, 0), 1) : 0;
+  const state = {};
+  for (const name of Object.keys(DATA.outputs)) {
+    state[name] = (1 - part) * run.at(name, low) + part * run.at(name, high);
+  }
+  state.mode = run.at("mode", part < 0.5 ? low : high);
+  return state;
+}
+
+/* The energy ledger in one line: what came in, and where it is. */
+function ledger(now) {
+  const came = now.surface_work + now.external_work;
+  const small = 1e-9 * Math.max(Math.abs(came), now.heat); // below that it is rounding
+  const joules = (value) => `${shown(Math.abs(value) < small ? 0 : value, 4)} J`;
+  const gained = came - now.heat - now.damping_heat + now.energy_residual;
+  return `Work of the surface ${joules(came)} = friction heat ${joules(now.heat)} + damping ` +
+    `${joules(now.damping_heat)} + gained by block and springs ${joules(gained)}; residual ` +
+    joules(now.energy_residual);
+}
+
+/* --- numbers --------------------------------------------------------------------------------------- */
+
+explorer.statistics = (run = explorer.seen) => statistics(run);
+
+function showStatistics(run) {
+  const numbers = statistics(run);
+  const before = explorer.kept ? statistics(explorer.kept) : null;
+  const mm = (value) => `${shown(MM * value, 3)} mm`;
+  const rows = [
+    ["the block", (n) => regime(n)],
+    ["stick-slip frequency", (n) => `${shown(n.mean_period ? 1 / n.mean_period : 0, 4)} Hz`],
+    ["break-aways", (n) => `${n.break_aways} in ${shown(n.duration, 4)} s`],
+    ["share in slip", (n) => `${shown(100 * n.slip_share, 3)} %`],
+    ["x, mean", (n) => mm(n.mean_x)],
+    ["x, from … to", (n) => `${shown(MM * n.min_x, 3)} … ${mm(n.max_x)}`],
+    ["y, from … to", (n) => `${shown(MM * still(n.min_y), 3)} … ${mm(still(n.max_y))}`],
+    ["largest rotation", (n) => `${shown(still(n.max_rotation_deg), 3)}°`],
+    ["friction heat, mean", (n) => `${shown(n.mean_heat_flow, 3)} W`],
+  ];
+  const entries = rows.map(([name, text]) => {
+    const parts = [element("dt", { textContent: name }), element("dd", { textContent: text(numbers) })];
+    if (before) parts.push(element("dd", { className: "kept", textContent: `kept: ${text(before)}` }));
+    return element("div", {}, parts);
+  });
+  byId("statistics").replaceChildren(...entries);
+  const all = run.rows === run.time.length;
+  for (const [id, what] of [["x", "x"], ["y", "y"], ["phi", "rotation"]]) {
+    byId(id).setAttribute("aria-label", `${what} over time: the block ${regime(numbers)}${all ? "" : ", still computing"}`);
+  }
+}
+
+/* Rounding is nothing. */
+function still(value) {
+  return Math.abs(value) < 1e-9 ? 0 : value;
+}
+
+/* --- presets, files, links ------------------------------------------------------------------------ */
+
+/* The file that "Save as scenario" gives, what "Copy link" puts behind the #, the kernel's `v`. */
+explorer.toml = () => toml(explorer.scenario);
+explorer.address = () => addressOf(explorer.scenario);
+explorer.values = () => kernelValues(explorer.scenario);
+
+/* What a text means for a key, as it is typed; undefined for what is no value of it. */
+explorer.read = (key, text) => valueOfText(CONTROLS.get(key), text);
+
+function prepareBar() {
+  DATA.presets.forEach((each, i) => byId("preset").append(element("option", { value: i, textContent: each.name })));
+  byId("preset").addEventListener("change", (event) => begin(DATA.presets[event.target.value]));
+  byId("reset").addEventListener("click", () => begin(explorer.scenario.preset));
+  byId("freeze").addEventListener("click", keep);
+  byId("save").addEventListener("click", save);
+  byId("share").addEventListener("click", share);
+  byId("name").addEventListener("change", (event) => rename(event.target.value));
+  byId("find").addEventListener("input", (event) => explorer.controls.find(event.target.value));
+  window.addEventListener("hashchange", (event) => {
+    // the address may have been written over since
+    const hash = event.newURL ? new URL(event.newURL).hash : location.hash;
+    explorer.scenario = ofAddress(hash, explorer.scenario.preset).scenario;
+    changed();
+  });
+}
+
+function begin(preset) {
+  explorer.scenario = new Scenario(preset);
+  say("");
+  changed();
+}
+
+/* The run that is seen stays, in grey; once more: it goes. */
+function keep() {
+  explorer.kept = explorer.kept ? null : explorer.seen;
+  byId("freeze").setAttribute("aria-pressed", String(Boolean(explorer.kept)));
+  byId("freeze").textContent = explorer.kept ? "Drop comparison" : "Keep for comparison";
+  stale = true;
+}
+
+/* A name is also that of a folder: what every file system takes. */
+function rename(name) {
+  if (/^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$/.test(name)) {
+    explorer.scenario.name = name;
+    say("");
+  } else {
+    say('a name has 1 to 100 characters without /\\:*?"<>|, a dot or a space not first');
+  }
+}
+
+function save() {
+  const { scenario } = explorer;
+  if (document.body.classList.contains("refused")) {
+    say("not saved: what is said above is not allowed");
+    return;
+  }
+  const address = URL.createObjectURL(new Blob([toml(scenario)], { type: "application/toml" }));
+  const link = element("a", { href: address, download: `${scenario.name}.toml` });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+  say(`saved as ${scenario.name}.toml: stickslip simulate ${scenario.name}.toml`);
+}
+
+async function share() {
+  const link = location.href.replace(/#.*$/, "") + addressOf(explorer.scenario);
+  try {
+    await navigator.clipboard.writeText(link);
+    say("link copied: it opens this page with these numbers");
+  } catch {
+    say(link);
+  }
+}
+
+window.explorer = explorer;
+explorer.start().catch((error) => {
+  show(byId("fault"), `the kernel does not run in this browser: ${error.message}`);
+});

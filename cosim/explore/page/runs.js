@@ -1,0 +1,133 @@
+"use strict";
+/* Runs of the kernel: one at a time, the newest wish first, what comes of it kept by columns. */
+
+const PATIENCE_MS = 1500; // that a thread may be silent while another run is wished for
+const CURVE_POINTS = 160;
+
+/* A run as it comes: columns by name, filled up to `rows`; events as time, mode, x. */
+class Run {
+  constructor(scenario, number) {
+    this.number = number;
+    this.scenario = scenario;
+    this.time = sampleTimes(scenario.get("run.duration"), scenario.get("run.output_interval"));
+    this.rampEnd = scenario.get("surface.run_up_time");
+    this.speeds = curveSpeeds(scenario);
+    this.table = new Float64Array(this.time.length * DATA.sizes.row);
+    this.rows = 0;
+    this.events = [];
+    this.state = "wished"; // then begun, refused or done
+    this.reason = "";
+  }
+
+  /* A column at all rows there are, times a factor. */
+  column(name, factor = 1) {
+    const values = new Float64Array(this.rows);
+    let at = DATA.outputs[name];
+    for (let i = 0; i < this.rows; i++, at += DATA.sizes.row) values[i] = this.table[at] * factor;
+    return values;
+  }
+
+  at(name, row) {
+    return this.table[row * DATA.sizes.row + DATA.outputs[name]];
+  }
+
+  take(message) {
+    if (message.refused !== undefined) {
+      this.state = "refused";
+      this.reason = message.refused;
+    } else if (message.begun) {
+      this.state = "begun";
+      ({ attachments: this.attachments, anchors: this.anchors, curve: this.curve } = message);
+    } else if (message.rows) {
+      this.table.set(message.rows, message.from * DATA.sizes.row);
+      this.rows = message.from + message.rows.length / DATA.sizes.row;
+      const width = DATA.sizes.event;
+      for (let i = 0; i < message.events.length; i += width) {
+        this.events.push(message.events.slice(i, i + width));
+      }
+    } else if (message.done) {
+      this.state = "done";
+      this.reason = message.reason;
+      this.energyAtStart = message.energyAtStart;
+      // the internal step that the run ends in may have met an event beyond that end
+      const end = this.time[this.rows - 1] ?? 0;
+      if (!this.reason) this.events = this.events.filter((event) => event[0] <= end);
+    }
+  }
+}
+
+/* 0, interval, 2 interval, ... and the duration itself, s: the times of `stickslip simulate`. */
+function sampleTimes(duration, interval) {
+  const count = Math.floor((duration / interval) * (1 + 1e-12));
+  const times = Array.from({ length: count + 1 }, (_, i) => i * interval);
+  if (duration - times[count] > 1e-9 * interval) times.push(duration);
+  else times[count] = duration;
+  return Float64Array.from(times);
+}
+
+/* Sliding speeds of the friction curve: closer together where they are small. */
+function curveSpeeds(scenario) {
+  const top = 2 * Math.max(Math.abs(scenario.get("surface.speed")), 0.02);
+  return Float64Array.from({ length: CURVE_POINTS }, (_, i) => top * ((i + 1) / CURVE_POINTS) ** 2);
+}
+
+/* The thread that computes, begun anew where it does not answer. `told` is called with each run that
+   has changed. */
+class Runs {
+  constructor(kernel, told) {
+    this.kernel = kernel;
+    this.told = told;
+    this.number = 0;
+    this.current = null;
+    this.waiting = null;
+    this.begin();
+  }
+
+  begin() {
+    const text = document.getElementById("worker").textContent;
+    const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
+    this.worker = new Worker(address);
+    URL.revokeObjectURL(address);
+    this.worker.onmessage = ({ data }) => this.heard(data);
+    this.worker.postMessage({ kernel: this.kernel });
+    this.last = performance.now();
+  }
+
+  /* Compute a scenario; what was being computed is let go. */
+  wish(scenario) {
+    const run = new Run(scenario, ++this.number);
+    this.current = run;
+    clearTimeout(this.waiting);
+    this.waiting = setTimeout(() => this.restart(run), PATIENCE_MS);
+    this.ask(run);
+    return run;
+  }
+
+  ask(run) {
+    this.worker.postMessage({
+      run: run.number,
+      values: kernelValues(run.scenario),
+      speed: run.scenario.get("surface.speed"),
+      temperature: run.scenario.get("ambient.temperature_degC"),
+      times: run.time,
+      speeds: run.speeds,
+      sizes: DATA.sizes,
+    });
+  }
+
+  /* The thread sits in one long call of an earlier run: only another thread helps. */
+  restart(run) {
+    if (run !== this.current || run.state !== "wished") return;
+    this.worker.terminate();
+    this.begin();
+    this.ask(run);
+  }
+
+  heard(message) {
+    const run = this.current;
+    if (!run || message.run !== run.number) return;
+    clearTimeout(this.waiting);
+    run.take(message);
+    this.told(run, message);
+  }
+}

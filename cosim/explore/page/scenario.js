@@ -1,0 +1,192 @@
+"use strict";
+/* A scenario as the page holds it, the kernel's numbers that it stands for, and its TOML. */
+
+const DATA = JSON.parse(document.getElementById("data").textContent);
+
+// Key -> its control, of everything that can be turned.
+const CONTROLS = new Map();
+for (const group of DATA.groups) for (const each of group.controls) CONTROLS.set(each.key, each);
+
+/* Keys whose values differ from the plain model are in `tables`; also those of belt, ice and
+   coupling, which the page does not show and a saved scenario keeps. */
+class Scenario {
+  constructor(preset) {
+    this.preset = preset;
+    this.name = preset.name;
+    this.tables = structuredClone(preset.tables);
+  }
+
+  get(key) {
+    const [table, name] = parted(key);
+    const entries = this.tables[table];
+    if (entries && name in entries) return entries[name];
+    return CONTROLS.get(key).default;
+  }
+
+  set(key, value) {
+    const [table, name] = parted(key);
+    (this.tables[table] ??= {})[name] = value;
+  }
+
+  /* What the scenario was begun with. */
+  begun(key) {
+    const [table, name] = parted(key);
+    const entries = this.preset.tables[table];
+    return entries && name in entries ? entries[name] : CONTROLS.get(key).default;
+  }
+
+  /* Keys that have another value than at the beginning. */
+  changed() {
+    return [...CONTROLS.keys()].filter((key) => !same(this.get(key), this.begun(key)));
+  }
+}
+
+function parted(key) {
+  const at = key.indexOf(".");
+  return [key.slice(0, at), key.slice(at + 1)];
+}
+
+function same(one, other) {
+  return JSON.stringify(one) === JSON.stringify(other);
+}
+
+/* --- the kernel's numbers ------------------------------------------------------------------ */
+
+/* The kernel's array `v`: what `Parameters.flat` of the Python package is, in its order. */
+function kernelValues(scenario) {
+  return Float64Array.from(DATA.names, (name) => kernelValue(scenario, name));
+}
+
+function kernelValue(scenario, name) {
+  const element = /^(.*)\[(\d+)\]$/.exec(name);
+  if (element) return ofList(scenario.get(element[1]), Number(element[2]) - 1);
+  const freedom = scenario.get("rig.degrees_of_freedom");
+  switch (name) {
+    case "rig.inertia":
+      return inertia(scenario);
+    case "rig.free_y":
+      return Number(freedom.includes("y"));
+    case "rig.free_phi":
+      return Number(freedom.includes("phi"));
+    case "turning_surface.curvature":
+      if (scenario.get("rig.surface") === "slab") return 1 / scenario.get("rig.slab_radius");
+  }
+  return scenario.get(name);
+}
+
+/* 0 stands for a disc, by the kernel's own rule. */
+function inertia(scenario) {
+  const said = scenario.get("rig.inertia");
+  if (said === "disc") return 0;
+  if (said === "ring") return scenario.get("rig.mass") * scenario.get("rig.attachment_radius") ** 2;
+  return said;
+}
+
+/* Unused places of a curve repeat its last value, which ends it. */
+function ofList(list, place) {
+  return list.length === 0 ? 0 : list[Math.min(place, list.length - 1)];
+}
+
+/* --- the file ------------------------------------------------------------------------------ */
+
+/* The text of a file that `stickslip` reads: what departs from the plain model. */
+function toml(scenario) {
+  const lines = [
+    "# Made by the explorer. SI units; what is left out is as in the plain model, its effects off.",
+    "#",
+    "#   stickslip simulate FILE    gives this motion",
+    "#   stickslip run FILE         the same with the heat in belt and ice",
+    "",
+  ];
+  const top = { ...scenario.preset.top, name: scenario.name };
+  for (const [name, value] of Object.entries(top)) lines.push(`${name} = ${tomlValue(value)}`);
+  for (const [table, entries] of Object.entries(scenario.tables)) {
+    const rows = Object.entries(entries).filter(([name, value]) => departs(table, name, value));
+    if (rows.length === 0) continue;
+    lines.push("", `[${table}]`);
+    for (const [name, value] of rows) lines.push(`${name} = ${tomlValue(value)}`);
+  }
+  return lines.join("\n") + "\n";
+}
+
+/* What was set, and set back to the plain model's, need not be said. */
+function departs(table, name, value) {
+  const control = CONTROLS.get(`${table}.${name}`);
+  return !control || !same(value, control.default);
+}
+
+function tomlValue(value) {
+  if (Array.isArray(value)) return `[${value.map(tomlValue).join(", ")}]`;
+  if (typeof value === "string") return JSON.stringify(value).replace(/\x7f/g, "\\u007f");
+  if (typeof value === "object") {
+    const entries = Object.entries(value).map(([name, entry]) => `${name} = ${tomlValue(entry)}`);
+    return `{ ${entries.join(", ")} }`;
+  }
+  return String(value); // of a number, the shortest digits that give it back
+}
+
+/* --- the address --------------------------------------------------------------------------- */
+
+/* What was changed, behind the # of the page's address. */
+function addressOf(scenario) {
+  const parts = [`preset=${encodeURIComponent(scenario.preset.name)}`];
+  for (const key of scenario.changed()) {
+    const value = scenario.get(key);
+    const text = typeof value === "number" ? String(value) : JSON.stringify(value);
+    parts.push(`${key}=${encodeURIComponent(text)}`);
+  }
+  return `#${parts.join("&")}`;
+}
+
+/* The scenario of an address, and what of it was not understood. */
+function ofAddress(hash, begin) {
+  const said = hash.replace(/^#/, "").split("&").filter(Boolean).map((part) => {
+    const at = part.indexOf("=");
+    return [part.slice(0, at), decoded(part.slice(at + 1))];
+  });
+  const named = said.find(([key]) => key === "preset");
+  const preset = named && DATA.presets.find((each) => each.name === named[1]);
+  const scenario = new Scenario(preset || begin);
+  const strange = named && !preset ? [`preset=${named[1]}`] : [];
+  for (const [key, text] of said) {
+    if (key === "preset") continue;
+    const value = ofText(CONTROLS.get(key), text);
+    if (value === undefined) strange.push(`${key}=${text}`);
+    else scenario.set(key, value);
+  }
+  return { scenario, strange };
+}
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
+/* The value of a control from JSON; undefined for what it cannot be. Bounds are checked later. */
+function ofText(control, text) {
+  if (!control) return undefined;
+  let value;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+  const isNumber = typeof value === "number" && Number.isFinite(value);
+  const isList = Array.isArray(value);
+  switch (control.kind) {
+    case "number":
+      return isNumber ? value : undefined;
+    case "whole":
+      return Number.isInteger(value) ? value : undefined;
+    case "inertia":
+      return isNumber || value === "disc" || value === "ring" ? value : undefined;
+    case "choice":
+      return control.choices.includes(value) ? value : undefined;
+    case "freedom":
+      return isList && value.every((each) => ["x", "y", "phi"].includes(each)) ? value : undefined;
+  }
+  return isList && value.every((each) => Number.isFinite(each)) ? value : undefined;
+}

@@ -1,0 +1,90 @@
+"use strict";
+/* What a motion is like after the run-up: the numbers of `after_run_up` in summary.json. */
+
+function statistics(run) {
+  const end = run.rows ? run.time[run.rows - 1] : 0;
+  const begin = run.rampEnd;
+  const window = end - begin;
+  const aways = run.events.filter((event) => event[1] === 1).map((event) => event[0]);
+  const starts = aways.filter((time) => time >= begin && time <= end);
+  const first = run.time.findIndex((time) => time >= begin);
+  const late = { from: first < 0 ? run.rows : first, to: run.rows };
+  const reached = window > 0;
+  const period = starts.length > 1 ? (starts.at(-1) - starts[0]) / (starts.length - 1) : NaN;
+  return {
+    begin,
+    duration: reached ? window : 0,
+    break_aways: starts.length,
+    frequency: reached && starts.length === 0 ? 0 : 1 / period,
+    mean_period: period,
+    slip_share: reached ? slipTime(run, begin, end) / window : NaN,
+    mean_x: timeMean(run, "x", late),
+    ...extremes(run, "x", late),
+    mean_y: timeMean(run, "y", late),
+    ...extremes(run, "y", late),
+    max_rotation_deg: (largest(run, "phi", late) * 180) / Math.PI,
+    mean_friction_force_x: timeMean(run, "friction_force_x", late),
+    mean_heat_flow: reached && late.to > late.from
+      ? (run.at("heat", late.to - 1) - run.at("heat", late.from)) / window : NaN,
+  };
+}
+
+/* Begin and end of every slip, s. */
+function slips(run) {
+  if (run.rows === 0) return [];
+  const found = [];
+  const end = run.time[run.rows - 1];
+  let since = run.at("mode", 0) === 1 ? run.time[0] : null;
+  for (const [time, mode] of run.events) {
+    if (time <= run.time[0] || time > end) continue;
+    if (mode === 1 && since === null) since = time;
+    if (mode === 0 && since !== null) {
+      found.push([since, time]);
+      since = null;
+    }
+  }
+  if (since !== null) found.push([since, end]);
+  return found;
+}
+
+function slipTime(run, begin, end) {
+  let sum = 0;
+  for (const [from, to] of slips(run)) {
+    sum += Math.max(0, Math.min(to, end) - Math.max(from, begin));
+  }
+  return sum;
+}
+
+/* Mean over time by the trapezoidal rule. */
+function timeMean(run, name, { from, to }) {
+  if (to - from < 1) return NaN;
+  if (to - from === 1) return run.at(name, from);
+  let sum = 0;
+  for (let i = from + 1; i < to; i++) {
+    sum += 0.5 * (run.at(name, i) + run.at(name, i - 1)) * (run.time[i] - run.time[i - 1]);
+  }
+  return sum / (run.time[to - 1] - run.time[from]);
+}
+
+function extremes(run, name, { from, to }) {
+  let [low, high] = [Infinity, -Infinity];
+  for (let i = from; i < to; i++) {
+    const value = run.at(name, i);
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return { [`min_${name}`]: low, [`max_${name}`]: high };
+}
+
+function largest(run, name, rows) {
+  const ends = extremes(run, name, rows);
+  return rows.to > rows.from ? Math.max(Math.abs(ends[`min_${name}`]), Math.abs(ends[`max_${name}`])) : NaN;
+}
+
+/* What the block does, in words. */
+function regime(numbers) {
+  if (!(numbers.duration > 0)) return "still in the run-up";
+  if (numbers.slip_share >= 1) return "slides without ever sticking";
+  if (numbers.slip_share === 0) return "sticks and never slips";
+  return numbers.break_aways > 1 ? "sticks and slips" : "comes to rest";
+}

@@ -1,0 +1,378 @@
+"""The explorer in Chromium: its numbers are those of `stickslip simulate`, and it can be used.
+
+One file for all, so that one browser is started.
+"""
+
+import json
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from explorer_page import address_of
+from stickslip import EFFECTS, Parameters, simulate
+from stickslip.friction.law import friction_coefficient
+from stickslip.packing import in_order
+
+from cosim import read_scenario
+from cosim.report import trajectory_dataset
+from cosim.report.summary import after_ramp
+from cosim.scenario import ScenarioError
+from cosim.studies.effects.page import PLAIN
+
+#: Lengths, angles and energies are the same to this, m, rad, J: what is asked for. The browser has
+#: another libm, whose last bit the sharpest break-away makes a thousand times larger.
+SAME = 1e-9
+#: Velocities are those times the rates of the motion, some 10/s, in a creeping contact 50/s.
+SAME_SPEED = 50 * SAME
+#: A creeping contact comes to rest without end: when it counts as stuck, s, is known the less
+#: exactly the slower it gets.
+WHEN_CREEP_ENDS = 1e-5
+DURATION = 10.0
+COLUMNS = ("x", "y", "phi", "vx", "vy", "heat", "surface_work", "sliding_distance", "mode")
+
+
+def assert_same(found, run, when=SAME):
+    assert found["reason"] == run.reason == ""
+    assert np.array_equal(found["time"], run.time)
+    for name in COLUMNS:
+        bound = SAME_SPEED if name in ("vx", "vy") else SAME
+        assert np.max(np.abs(found["columns"][name] - run[name])) <= bound, name
+    assert len(found["events"]) == len(run.events)
+    assert np.allclose(np.reshape(found["events"], (-1, 3)), run.events, rtol=0.0, atol=when)
+
+
+@pytest.mark.parametrize("preset", ["reference", "study", "slab"])
+def test_a_packaged_scenario(page, preset):
+    scenario = read_scenario(preset)
+    found = page.ended(address_of(preset, {"run.duration": DURATION}), COLUMNS)
+    assert_same(found, simulated(scenario, DURATION))
+
+
+def simulated(scenario, duration):
+    return simulate(
+        scenario.mechanics,
+        duration,
+        scenario.run.output_interval,
+        interface_temperature=scenario.ambient.temperature_degC,
+    )
+
+
+@pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
+def test_an_effect(page, effect):
+    """In the rig in which it shows, after a ramp and with every random part of the rig."""
+    changes = {
+        f"{table}.{key}": value
+        for table, keys in {**PLAIN, **effect.case.rig}.items()
+        for key, value in {**PLAIN.get(table, {}), **keys}.items()
+    }
+    changes |= {f"{effect.id}.{name}": value for name, value in effect.case.effect.items()}
+    changes |= {"imperfections.seed": 7, "imperfections.spring_stiffness": 0.02}
+    warmth = {"ambient.temperature_degC": -3.0} if "reference_degC" in effect.case.effect else {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        scenario = read_scenario("study").changed(changes | warmth)
+    asked = changes | warmth | {"run.duration": DURATION}
+    found = page.ended(address_of("study", asked), COLUMNS)
+    creeps = effect.id == "rate_and_state"
+    assert_same(found, simulated(scenario, DURATION), WHEN_CREEP_ENDS if creeps else SAME)
+    speeds, curve = map(np.array, found["curve"])
+    law = friction_coefficient(scenario.mechanics, speeds, scenario.ambient.temperature_degC)
+    assert np.allclose(curve, law, rtol=0.0, atol=SAME)
+
+
+#: Of every kind of control, what the kernel is told otherwise than it is said.
+SAID_OTHERWISE = [
+    {},
+    {"rig.inertia": "ring", "rig.attachment_radius": 0.03},
+    {"rig.inertia": 4e-4, "rig.degrees_of_freedom": ["x", "phi"]},
+    {
+        "rig.surface": "slab",
+        "rig.slab_radius": -0.7,
+        "rig.attachment_angles_deg": [150, 30, 190, 350],
+    },
+    {
+        "springs.force_curve_extension": [-0.1, 0.0, 0.1],
+        "springs.force_curve_force": [-2, 0, 2.5],
+        "friction.table_speed": [0, 0.1],
+        "friction.table_mu": [0.2, 0.15],
+        "initial.vx": -0.0125,
+    },
+]
+
+
+@pytest.mark.parametrize("changes", SAID_OTHERWISE)
+def test_the_kernel_is_told_the_same(page, changes):
+    tables = {}
+    for key, value in changes.items():
+        table, _, name = key.partition(".")
+        tables.setdefault(table, {})[name] = tuple(value) if isinstance(value, list) else value
+    if "degrees_of_freedom" in tables.get("rig", {}):
+        tables["rig"]["degrees_of_freedom"] = tuple(changes["rig.degrees_of_freedom"])
+    base = read_scenario("study").mechanics.model_dump()
+    for table, entries in tables.items():
+        base[table] |= entries
+    expected = in_order(Parameters.model_validate(base).flat())
+    page.ended(address_of("study", changes))
+    told = page.tell("return [...explorer.values()]")
+    assert told == expected
+
+
+def test_the_numbers_are_those_of_the_summary(page):
+    changes = {"run.duration": 20.0}
+    scenario = read_scenario("reference").changed(changes)
+    found = page.ended(address_of("reference", changes))["statistics"]
+    dataset = trajectory_dataset(simulated(scenario, 20.0), scenario, "")
+    expected = {name: each.value for name, each in after_ramp(dataset).items()}
+    assert expected["break_aways"] > 10
+    assert found.keys() == expected.keys()
+    for name, value in expected.items():
+        assert found[name] == pytest.approx(value, rel=0.0, abs=1e-7 if "deg" in name else SAME), (
+            name
+        )
+
+
+def test_a_saved_scenario_gives_the_same_motion(page):
+    """Turned, typed, saved by the button, and read as `stickslip simulate` reads it."""
+    name = page.by_id("name")
+    name.clear()
+    name.send_keys("turned around\n")
+    type_into(page, "rig.mass", "812 g")
+    type_into(page, "velocity_weakening.hyperbolic", "1.5")
+    type_into(page, "surface_scatter.deviation", "4 %")
+    type_into(page, "run.duration", "8")
+    found = page.ended(None, COLUMNS)
+    page.by_id("save").click()
+    file = page.driver.downloads / "turned around.toml"
+    wait_for(file)
+    scenario = read_scenario(file)
+    assert scenario.name == "turned around" and scenario.rig.mass == 0.812
+    assert scenario.imperfections == read_scenario("reference").imperfections
+    assert scenario.surface_scatter.deviation == 0.04 and scenario.run.duration == 8.0
+    assert scenario.belt == read_scenario("reference").belt
+    assert_same(found, simulated(scenario, scenario.run.duration))
+
+
+def type_into(page, key, text):
+    field = page.driver.find_element("css selector", f'[id="{field_id(key)}"]')
+    page.tell("arguments[0].closest('details').open = true", field)
+    field.clear()
+    field.send_keys(text + "\n")
+
+
+def field_id(key):
+    return "key-" + "".join(each if each.isalnum() or each == "_" else "-" for each in key)
+
+
+def wait_for(file, tries=100):
+    for _ in range(tries):
+        if file.exists():
+            return
+        time.sleep(0.05)
+    raise AssertionError(f"{file} has not come; there are {list(file.parent.iterdir())}")
+
+
+def test_every_preset_comes_back_from_its_file(page, tmp_path):
+    for preset in ("reference", "study", "slab"):
+        page.ended(address_of(preset, {}))
+        (tmp_path / "back.toml").write_text(page.tell("return explorer.toml()"), encoding="utf-8")
+        back = read_scenario(tmp_path / "back.toml")
+        assert back.model_dump() == read_scenario(preset).model_dump()
+
+
+# --- in use: keys, words for what is refused, folds, sizes, and who cannot see it ---
+
+REFUSED = [
+    {"rig.mass": -1},
+    {"springs.stiffness": -0.5},
+    {"lateral_friction.ratio": 2},
+    {"imperfections.seed": -1},
+    {"rig.inertia": 0},
+    {"rig.attachment_angles_deg": [1, 2, 3]},
+    {"rig.surface": "slab", "rig.slab_radius": 0.02},
+    {"rig.surface": "slab", "turning_surface.curvature": 1.5},
+    {"springs.force_curve_extension": [0, 0.1], "springs.force_curve_force": [0]},
+    {"friction.stick_creep": 0.2},
+    {"friction.stick_creep": 0.01, "rate_and_state.evolution": 0.02},
+    {"friction.presliding_distance": 1e-5},
+    {"rig.spring_natural_length": 0.5},
+    {"speed_ripple.amplitude": 1, "speed_ripple.frequency": 150},
+    {"rig.degrees_of_freedom": ["x"], "initial.omega": 1},
+    {"run.duration": 300, "run.output_interval": 1e-5},
+]
+
+
+@pytest.mark.parametrize("changes", REFUSED, ids=lambda changes: " ".join(changes))
+def test_what_is_refused_is_refused_in_the_same_words(page, changes):
+    with pytest.raises(ScenarioError) as error:
+        read_scenario("study").changed(changes)
+    assert page.ended(address_of("study", changes)) is None
+    assert page.text("fault") == str(error.value)
+    assert page.tell("return document.querySelectorAll('[aria-invalid=true]').length") == 1
+    # and what was there before is still there, and comes back
+    assert page.tell("return explorer.seen.rows") == 3001
+    assert page.ended(address_of("study", {}))["reason"] == ""
+    assert page.text("fault") == ""
+
+
+@pytest.mark.parametrize(
+    "changes", [{"friction.mu_k": 0.3}, {"rig.spring_natural_length": 0.21}], ids=str
+)
+def test_what_is_warned_of_is_warned_of_in_the_same_words(page, changes):
+    with pytest.warns(UserWarning) as told:
+        read_scenario("study").changed(changes)
+    page.ended(address_of("study", changes))
+    assert page.text("remark") == str(told[0].message)
+
+
+def test_by_keyboard_alone(page):
+    """Tab reaches every control in turn; arrows, digits and Enter are all it takes."""
+    from selenium.webdriver.common.keys import Keys
+
+    driver = page.driver
+    page.by_id("find").send_keys("surface speed velocity")  # nothing has all three
+    assert not visible(page)
+    page.by_id("find").clear()
+    page.by_id("find").send_keys("speed negative runs backwards")
+    assert visible(page) == ["surface.speed"]
+    active = driver.switch_to.active_element
+    for _ in range(3):  # the fold's heading, the slider
+        active.send_keys(Keys.TAB)
+        active = driver.switch_to.active_element
+        if active.get_attribute("type") == "range":
+            break
+    assert active.get_attribute("aria-label") == "surface.speed, slider"
+    active.send_keys(Keys.ARROW_RIGHT)
+    assert page.ended() is not None
+    turned = page.tell("return explorer.scenario.get('surface.speed')")
+    assert 0.15 < turned < 0.155
+    active.send_keys(Keys.TAB)
+    field = driver.switch_to.active_element
+    field.send_keys(Keys.CONTROL, "a")
+    field.send_keys("12 cm/s", Keys.ENTER)
+    page.ended()
+    assert page.tell("return explorer.run.scenario.get('surface.speed')") == 0.12
+    field.send_keys(Keys.CONTROL, "a")
+    field.send_keys("12 kg", Keys.ENTER)
+    assert page.text("fault").startswith(
+        'surface.speed: not a number ("12 kg"), allowed is a number'
+    )
+    field.send_keys(Keys.TAB)
+    driver.switch_to.active_element.send_keys(Keys.ENTER)  # back to where it began
+    page.ended()
+    assert page.tell("return explorer.run.scenario.get('surface.speed')") == 0.15
+
+
+def visible(page):
+    """Keys of the rows that are to be seen."""
+    return page.tell(
+        "return [...document.querySelectorAll('.row')]"
+        ".filter((row) => row.offsetParent).map((row) => row.title)"
+    )
+
+
+TYPED = [
+    ("rig.mass", "670 g", 0.67),
+    ("rig.mass", "1,5", 1.5),
+    ("rig.mass", "3 m", None),
+    ("rig.mass", "heavy", None),
+    ("rig.inertia", "ring", "ring"),
+    ("rig.inertia", "5 kg.cm2", 5e-4),
+    ("rig.attachment_angles_deg", "150, 30, 210, 330", [150, 30, 210, 330]),
+    ("springs.stiffness", "0.2 N/mm", 200),
+    ("surface.speed", "-0.9 km/h", -0.25),
+    ("friction.stick_creep", "3 µm/s", 3e-6),
+    ("friction.mu_s", "28 %", 0.28),
+    ("initial.phi", "180 deg", 3.14159265358979),  # to the fifteen digits that a unit leaves
+    ("ambient.temperature_degC", "-5 °C", -5),
+    ("ambient.temperature_degC", "260 K", None),  # no difference of temperatures is asked for
+    ("run.duration", "2 min", 120),
+    ("speed_ripple.frequency", "500 mHz", 0.5),
+    ("film_drag.coefficient", "1 N.s/mm", 1000),
+    ("asperity_melting.effusivity", "2 kW.s0.5/(m2.K)", 2000),
+    ("surface_scatter.seed", "3.5", None),
+]
+
+
+@pytest.mark.parametrize("key, text, value", TYPED)
+def test_values_are_typed_with_units(opened, key, text, value):
+    assert opened.tell("return explorer.read(...arguments) ?? null", key, text) == value
+
+
+def test_a_link_opens_the_same_numbers(page):
+    changes = {"rig.mass": 1.25, "surface_scatter.deviation": 0.05, "rig.inertia": "ring"}
+    address = address_of("slab", changes)
+    page.open(address)
+    assert json.loads(page.tell("return JSON.stringify(explorer.scenario.changed())")) == [
+        *("rig.mass", "rig.inertia", "surface_scatter.deviation"),
+    ]
+    assert page.by_id("group-surface_scatter").text.split()[-1] in ("changed", "on,")
+    again = page.tell("return explorer.address()")
+    page.open(again)
+    assert page.tell("return explorer.scenario.get('rig.mass')") == 1.25
+    page.by_id("reset").click()
+    page.ended()
+    assert page.tell("return explorer.scenario.changed()") == []
+    page.open("#preset=nobody&rig.mas=1&rig.mass=much")
+    assert page.text("done") == (
+        "not understood in the address: preset=nobody, rig.mas=1, rig.mass=much"
+    )
+
+
+def test_a_run_is_kept_for_comparison(page):
+    page.by_id("freeze").click()
+    before = page.tell("return explorer.kept.statistics || explorer.statistics(explorer.kept)")
+    page.ended(address_of("reference", {"rig.mass": 1.5}))
+    told = page.text("statistics")
+    assert f"kept: {before['break_aways']} in 20 s" in told
+    assert page.tell("return explorer.pictures.over.x.spec.curves.length") == 2
+    page.by_id("freeze").click()
+    assert page.tell("return explorer.kept") is None
+
+
+def test_a_run_that_ends_early_says_why(page):
+    found = page.ended(address_of("study", {"springs.stiffness": 2, "friction.mu_s": 3}))
+    assert "the block was carried into the anchor of a spring" in found["reason"]
+    assert page.text("fault") == found["reason"]
+
+
+def test_it_is_one_small_file(explorer_file):
+    text = explorer_file.read_text(encoding="utf-8")
+    assert explorer_file.stat().st_size < 1_000_000
+    assert "http://" not in text and "https://" not in text and "src=" not in text
+
+
+SERIOUS = ("serious", "critical")
+
+
+#: As `.ci/run` installs it.
+AXE = Path(__file__).resolve().parents[3] / ".npm/node_modules/axe-core/axe.min.js"
+
+
+@pytest.mark.parametrize("width", [1400, 390])
+def test_no_serious_barrier(page, width):
+    """axe-core, with all folds open; and on a phone nothing sticks out."""
+    if not AXE.is_file():
+        pytest.skip("needs axe-core: npm install --no-save --prefix .npm axe-core")
+    page.driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": width < 500},
+    )
+    try:
+        page.driver.refresh()
+        page.ended()
+        wide = page.tell("return document.documentElement.scrollWidth")
+        page.tell("document.querySelectorAll('details').forEach((each) => (each.open = true))")
+        page.tell(AXE.read_text(encoding="utf-8"))
+        found = page.driver.execute_async_script("axe.run().then(arguments[0])")
+    finally:
+        page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert wide <= width
+    barriers = {
+        each["id"]: [node["html"][:90] for node in each["nodes"][:3]]
+        for each in found["violations"]
+        if each["impact"] in SERIOUS
+    }
+    assert barriers == {}
+    assert len(found["passes"]) > 20  # it has looked

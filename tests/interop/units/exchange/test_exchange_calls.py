@@ -1,0 +1,282 @@
+"""Model exchange: states, rates, inputs and parameters, and what is refused."""
+
+import ctypes
+import math
+
+import fmpy
+import numpy as np
+import pytest
+from exchange_host import (
+    SPEED,
+    changes,
+    hosted,
+    values,
+)
+from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2Error
+from fmpy.validation import validate_fmu
+from stickslip import Parameters
+
+from cosim.fmu.exchange import states, variables
+from cosim.fmu.variables import variables as variables_without
+
+# --- states, rates, description ---
+
+
+def test_description(fmu):
+    assert validate_fmu(str(fmu)) == []
+    description = fmpy.read_model_description(str(fmu), validate_model_structure=True)
+    exchange = description.modelExchange
+    assert exchange.modelIdentifier == description.coSimulation.modelIdentifier
+    assert exchange.canGetAndSetFMUstate and exchange.canSerializeFMUstate
+    assert exchange.needsCompletedIntegratorStep
+    declared = description.modelVariables
+    of_states = [each for each in declared if each.derivative is not None]
+    assert [each.derivative.name for each in of_states] == [each.name for each in states()]
+    assert [each.variable for each in description.derivatives] == of_states
+    # what has been there before stands where it stood
+    before = [each.name for each in variables_without()]
+    assert [each.name for each in declared[: len(before)]] == before
+    assert {each.causality for each in declared[len(before) :]} == {"local"}
+    assert len(declared) == len(variables())
+
+
+def test_rates_are_those_of_the_variables(host):
+    host.begin()
+    for name in ("x", "omega", "heat", "slip_time", "thermal_weakening.recent_heat"):
+        place = [each.name for each in states()].index(name)
+        assert host.get(name) == host.x()[place]
+        assert host.get(f"der({name})") == host.rates(0.0, host.x())[place]
+    assert host.get("heat_flow") == host.get("der(heat)")
+
+
+def test_rates_in_co_simulation(fmu):
+    """They are the motion's own: differences of what they are the rates of say so."""
+    names = ("x", "vx", "heat", "surface_travel", "sliding_distance")
+    rates = [f"der({name})" for name in names]
+    result = simulate_fmu(
+        str(fmu),
+        fmi_type="CoSimulation",
+        stop_time=0.4,
+        output_interval=1e-3,
+        start_values=values({"initial": {"vx": 0.0}, "surface": {"run_up_time": 0.2}}),
+        output=[*names, *rates, "mode"],
+    )
+    slipping = result["mode"] == 1
+    inside = slipping[:-2] & slipping[1:-1] & slipping[2:]
+    assert inside.sum() > 100
+    at = result["time"][1:-1]
+    inside &= abs(at - 0.2) > 2e-3  # the surface's acceleration jumps
+    for name in names:
+        found = (result[name][2:] - result[name][:-2]) / 2e-3
+        size = np.abs(found).max()
+        assert np.abs(found - result[f"der({name})"][1:-1])[inside].max() < 1e-3 * size, name
+
+
+def test_saved_states_in_continuous_time(host):
+    host.begin()
+    x = host.x()
+    for n in range(10):
+        x = x + 1e-4 * host.rates(n * 1e-4, x)
+    host.be_at(1e-3, x)
+    host.unit.completedIntegratorStep()
+    kept = host.unit.getFMUState()
+    as_bytes = host.unit.serializeFMUState(kept)
+    before, rates = host.everything(), host.rates(1e-3, x)
+    host.rates(0.5, x + 1.0)
+    host.unit.enterEventMode()
+    for state in (kept, host.unit.deserializeFMUState(as_bytes)):
+        host.unit.setFMUState(state)
+        assert host.everything() == before
+        assert (host.rates(1e-3, x) == rates).all()
+        host.rates(0.6, x + 2.0)
+    host.unit.freeFMUState(kept)
+
+
+def test_start_time_is_no_part_of_the_motion(fmu, tmp_path):
+    tables = {"surface": {"run_up_time": 0.5}}
+    told = []
+    for start in (0.0, 100.0):
+        with hosted(fmu, tmp_path, tables) as host:
+            told.append((host.begin(start)[5] - start, *host.rates(start + 0.25, host.x())))
+    assert told[0] == told[1] and told[0][0] == 0.5
+
+
+def test_directional_derivatives_are_those_of_the_springs(host):
+    """On a line in slip: springs for x, friction for nothing, and each force its mass."""
+    host.begin()
+    knowns = ["x", "vx", "external_force_x"]
+    unknowns = ["der(vx)", "der(x)", "x", "mode", "der(external_work)"]
+    places = [[host.variables[name].valueReference for name in of] for of in (unknowns, knowns)]
+    parameters = Parameters()
+    ask = host.unit.getDirectionalDerivative
+    mass, vx = parameters.rig.mass, host.get("vx")
+    step = 1e-4
+    x = host.x()
+    stiffness = [host.rates(0.0, x + sign * step * np.eye(len(x))[0])[3] for sign in (1, -1)]
+    host.be_at(0.0, x)
+    before = host.everything()
+    along_x = ask(*places, [1.0, 0.0, 0.0])
+    assert along_x[0] == pytest.approx((stiffness[0] - stiffness[1]) / (2 * step), rel=1e-5)
+    assert along_x[1:] == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-9)
+    assert ask(*places, [0.0, 2.0, 0.0])[:3] == pytest.approx([0.0, 2.0, 0.0], abs=1e-8)
+    along_force = ask(*places, [0.0, 0.0, 1.0])
+    assert along_force == pytest.approx([1.0 / mass, 0.0, 0.0, 0.0, vx], abs=1e-8)
+    assert host.everything() == before
+    refused(ask, *places[:1], [host.variables["rig.mass"].valueReference], [1.0])
+
+
+# --- inputs and parameters ---
+
+
+def test_inputs_change_at_events(fmu):
+    step = np.array(
+        [(0.0, 0.15, 0.0), (1.0, 0.15, 0.0), (1.0, 0.05, 1.0), (3.0, 0.05, 1.0)],
+        dtype=[("time", float), ("surface_speed", float), ("external_force_x", float)],
+    )
+    common = {
+        "stop_time": 3.0,
+        "output_interval": 0.01,
+        "input": step,
+        "output": ["x", "slip_count"],
+    }
+    result = simulate_fmu(
+        str(fmu),
+        fmi_type="ModelExchange",
+        relative_tolerance=1e-9,
+        record_events=False,
+        start_values=values({}),
+        **common,
+    )
+    own = simulate_fmu(str(fmu), fmi_type="CoSimulation", start_values=values({}), **common)
+    assert np.abs(result["x"] - own["x"]).max() < 1e-6
+    assert (result["slip_count"] == own["slip_count"]).all()
+
+
+def test_a_force_that_grows_with_time_breaks_the_block_away(fmu):
+    """Between events, too: the indicator follows the input of the moment."""
+    at_rest = values({"surface": {"speed": 0.0}, "initial": {"vx": 0.0}})
+    parameters = Parameters()
+    limit = parameters.friction.mu_s * parameters.rig.mass * 9.81
+    force = np.array(
+        [(0.0, 0.0), (2.0, 2.0 * limit)], dtype=[("time", float), ("external_force_x", float)]
+    )
+    result = simulate_fmu(
+        str(fmu),
+        fmi_type="ModelExchange",
+        relative_tolerance=1e-8,
+        stop_time=1.5,
+        output_interval=0.01,
+        start_values=at_rest,
+        input=force,
+        output=["mode", "external_work"],
+    )
+    times, modes = changes(result)
+    assert modes[0] == 1 and times[0] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_tunable_parameter_changes_in_event_mode_only(host):
+    host.begin()
+    refused(host.put, "friction.mu_s", 0.01)
+    assert "enter event mode" in host.log.take_errors()
+    host.unit.reset()
+    host.put("surface_speed", SPEED)
+    host.put("initial.vx", SPEED)
+    host.initialise()
+    host.unit.newDiscreteStates()
+    assert host.get("mode") == 0
+    host.put("friction.mu_s", 1e-9)
+    host.put("friction.mu_k", 1e-9)
+    host.put("external_force_x", 1.0)
+    host.unit.newDiscreteStates()
+    assert (host.get("mode"), host.get("slip_count")) == (1, 1)
+
+
+# --- refusals ---
+
+
+def refused(call, *arguments):
+    """The call must return fmi2Error."""
+    with pytest.raises(FMICallException) as caught:
+        call(*arguments)
+    assert caught.value.status == fmi2Error
+
+
+def test_calls_out_of_turn(host):
+    unit, room = host.unit, (ctypes.c_double * host.states)()
+    continuous = [
+        (unit.completedIntegratorStep,),
+        (unit.setContinuousStates, room, host.states),
+    ]
+    out_of_turn = {
+        "instantiated": [(unit.newDiscreteStates,), (unit.setTime, 1.0), *continuous],
+        "event": [*continuous, (host.put, "rig.mass", 1.0), (host.put, "x", 1.0)],
+        "continuous": [
+            (unit.newDiscreteStates,),
+            (unit.enterContinuousTimeMode,),
+            (unit.setContinuousStates, room, host.states - 1),
+            (unit.setTime, math.nan),
+            (unit.getDerivatives, room, host.states + 1),
+            (host.put, "der(x)", 1.0),
+        ],
+    }
+    reach = {"instantiated": lambda: None, "event": host.initialise, "continuous": host.begin}
+    for phase, calls in out_of_turn.items():
+        for call, *arguments in calls:
+            unit.reset()
+            reach[phase]()
+            refused(call, *arguments)
+            assert host.log.take_errors()
+            refused(unit.enterEventMode)  # it has failed
+            host.log.take_errors()
+
+
+def test_rates_of_inputs_are_for_co_simulation(host):
+    """In model exchange an input is what the host sets at each time."""
+    reference = ctypes.byref(ctypes.c_uint(host.variables["surface_speed"].valueReference))
+    order, rate = ctypes.byref(ctypes.c_int(1)), ctypes.byref(ctypes.c_double(0.1))
+    function = host.unit.dll.fmi2SetRealInputDerivatives
+    function.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 2]
+    host.begin()
+    assert function(host.unit.component, reference, 1, order, rate) == fmi2Error
+    assert "takes no derivative in model exchange" in str(host.log.take_errors())
+    assert host.description.coSimulation.canInterpolateInputs
+
+
+def test_one_interface_is_not_the_other(host):
+    slave = FMU2Slave(
+        guid=host.description.guid,
+        unzipDirectory=host.unit.unzipDirectory,
+        modelIdentifier=host.description.coSimulation.modelIdentifier,
+    )
+    slave.instantiate(callbacks=host.log.callbacks, loggingOn=True)
+    slave.setupExperiment()
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    host.begin()
+    refused(host.unit.setFMUState, slave.getFMUState())
+    assert "co-simulation" in host.log.take_errors()
+    host.unit.reset()
+    host.begin()
+    room = (ctypes.c_double * host.states)()
+    refused(_rates_of, slave, room, host.states)
+    slave.freeInstance()
+
+
+def _rates_of(slave, room, count):
+    """Ask an instance for co-simulation for its rates."""
+    function = slave.dll.fmi2GetDerivatives
+    function.argtypes = [ctypes.c_void_p, ctypes.POINTER(ctypes.c_double), ctypes.c_size_t]
+    status = function(slave.component, room, count)
+    if status:
+        raise FMICallException("fmi2GetDerivatives", status)
+
+
+def test_a_state_that_is_no_number_is_refused_at_the_step(host):
+    host.begin()
+    x = host.x()
+    x[0] = math.nan
+    host.be_at(0.1, x)
+    refused(host.unit.completedIntegratorStep)
+    assert "not a finite number" in host.log.take_errors()

@@ -1,0 +1,137 @@
+"""Model exchange: a host's integrator and events against the model's own, which are exact.
+
+A host's tolerance is that of one step, of each state by its nominal. Some hundred steps make a slip
+and some ten slips a run, each of which begins and ends where the error of the one before has put
+it: an event is late by about a thousand tolerances, in the time of the motion itself, 0.1 s and
+more. That is what the bounds below say, with what the model itself leaves open where a contact
+in the plane comes to rest (`rest_speed` over mu g, some 1e-7 s).
+"""
+
+import numpy as np
+import pytest
+from exchange_host import (
+    CASES,
+    CREEPING,
+    DURATION,
+    EVENTS,
+    SENSITIVE,
+    TOLERANCES,
+    changes,
+    exchanged,
+    hosted,
+    values,
+)
+from fmpy import simulate_fmu
+from stickslip import Parameters, simulate
+
+
+@pytest.mark.parametrize("case", CREEPING)
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_a_slip_that_creeps_at_first_is_not_begun_again_at_every_step(fmu, case, tolerance):
+    """Friction follows speed and age of the contact: a slip begins at speeds far below a coarse
+    tolerance. What a host makes of them costs some events, and there is an end of them."""
+    law = {"rate_and_state": {"direct": 0.01, "evolution": 0.03}}
+    tables = {**law, **CREEPING[case]}
+    own = simulate(Parameters(**tables), duration=DURATION).events
+    found = exchanged(fmu, tables, tolerance, timeout=100.0)
+    assert found["time"][-1] == DURATION
+    assert found["slip_count"][-1] == np.count_nonzero(own[:, 1] == 1.0) > 0
+    assert len(found) - DURATION / 0.01 < 2000
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_events_converge_to_the_models_own(fmu, case):
+    tables = CASES[case]
+    tight = {**tables, "solver": {"tolerance": 1e-12}}
+    own = simulate(Parameters(**tight), duration=DURATION)
+    expected = own.events[:EVENTS]
+    assert len(expected) >= 6
+    print(f"\n{case}")
+    for tolerance in TOLERANCES:
+        result = exchanged(fmu, tables, tolerance)
+        times, modes = changes(result)
+        assert list(modes[: len(expected)]) == list(expected[:, 1])
+        late = np.abs(times[: len(expected)] - expected[:, 0])
+        residual = np.abs(result["energy_residual"]).max()
+        print(
+            f"{tolerance:7.0e} s: first {late[0]:.1e} last {late[-1]:.1e} most {late.max():.1e}, "
+            f"residual {residual:.1e} J, slips {result['slip_count'][-1]}"
+        )
+        bound = 100.0 * SENSITIVE.get(case, 1.0) * tolerance + 5e-7
+        assert late.max() < bound, tolerance
+        assert residual < 500.0 * tolerance  # J; heat and works are some joules, of as many steps
+    assert result["slip_count"][-1] == own["slip_count"][-1]
+    assert result["slip_time"][-1] == pytest.approx(own["slip_time"][-1], abs=1e-6)
+    assert result["x"][-1] == pytest.approx(own["x"][-1], abs=1e-6)
+
+
+SLAB = {"lateral_friction.ratio": 1.0, "turning_surface.curvature": 0.3}
+TURNED = {"lateral_friction.ratio": 1.0, "initial.phi": 0.1, "surface_speed": 0.05}
+BESIDE = {
+    "guided slab, never at rest": {**SLAB, "rig.free_y": 0, "rig.free_phi": 0},
+    "guided across": {**TURNED, "initial.vx": 0.05, "rig.free_y": 0},
+    "guided on a line": {**TURNED, "rig.free_y": 0, "rig.free_phi": 0},
+    "stick_stiffness": {"stick_stiffness.ratio": 0.5},
+    "no friction": {"friction.mu_s": 0.0, "friction.mu_k": 0.0, "initial.x": 0.05},
+    "mu_k = mu_s": {**TURNED, "friction.mu_s": 0.05, "friction.mu_k": 0.05},
+    "surface at rest": {"surface_speed": 0.0, "initial.vx": 0.1, "initial.x": 0.1},
+}
+
+
+@pytest.mark.parametrize("case", BESIDE)
+def test_special_contacts_move_as_in_co_simulation(fmu, case):
+    common = {
+        "stop_time": 4.0,
+        "output_interval": 0.01,
+        "start_values": {**values({}), **BESIDE[case]},
+        "output": ["x", "y", "phi", "slip_count", "slip_time"],
+    }
+    result = simulate_fmu(
+        str(fmu), fmi_type="ModelExchange", relative_tolerance=1e-8, record_events=False, **common
+    )
+    own = simulate_fmu(str(fmu), fmi_type="CoSimulation", **common)
+    for name in ("x", "y", "phi", "slip_time"):
+        assert np.abs(result[name] - own[name]).max() < 5e-6, name
+    assert (result["slip_count"] == own["slip_count"]).all()
+
+
+@pytest.mark.parametrize(
+    "case, method", [("line", "DOP853"), ("run-up", "DOP853"), ("slab", "Radau")]
+)
+def test_any_method_finds_the_same_events(fmu, tmp_path, case, method):
+    tables = {**CASES[case], "solver": {"tolerance": 1e-12}}
+    own = simulate(Parameters(**tables), duration=1.5).events
+    with hosted(fmu, tmp_path, CASES[case]) as host:
+        events = host.integrate(1.5, method, 1e-7)
+    assert list(events[:, 1]) == list(own[:, 1])
+    assert np.abs(events[:, 0] - own[:, 0]).max() < 1e-5
+
+
+def test_forward_euler(fmu):
+    """Of first order, and without a search for events: these are late by a step."""
+    result = exchanged(
+        fmu, {}, None, solver="Euler", step_size=1e-4, output_interval=1e-4, stop_time=1.0
+    )
+    own = simulate(Parameters(), duration=1.0)
+    times, modes = changes(result)
+    assert list(modes) == list(own.events[:, 1])
+    assert np.abs(times - own.events[:, 0]).max() < 5e-3
+    assert np.abs(result["energy_residual"]).max() < 1e-2
+
+
+def test_with_pretension_a_long_run_is_that_of_co_simulation(fmu):
+    """As the documentation has it: without, both leave their line by rounding, each in its way."""
+
+    def x(values, **options):
+        result = simulate_fmu(
+            str(fmu), stop_time=30.0, output_interval=0.01, start_values=values, **options
+        )
+        return np.interp(np.arange(0.0, 30.0, 0.01), result["time"], result["x"])
+
+    exchange = {"fmi_type": "ModelExchange", "solver": "CVode", "relative_tolerance": 1e-9}
+    apart = [
+        np.abs(x(values) - x(values, **exchange))
+        for values in ({"rig.spring_natural_length": 0.17}, {})
+    ]
+    assert apart[0].max() < 1e-6
+    assert apart[1][:1000].max() < 1e-6 and apart[1][1500:].max() > 1e-4
