@@ -34,8 +34,9 @@ from cosim.coupling.schemes.jacobi import Jacobi
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.control import ConvergenceError, StepControl
-from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual, PowerBond
+from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual
 from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.step_control.restore_check import restores_exactly
 from cosim.coupling.subcycled import Subcycled
 from cosim.coupling.system import Connection, CoupledSystem

@@ -7,12 +7,15 @@ units = factor * value + offset), never by a table of spellings here.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cosim.coupling.participant import CouplingError, Port, UnitDefinition
 from cosim.coupling.waveform import Waveform
 
 NO_UNIT = "1"
+#: kg m^2 s^-3.
+POWER = (1, 2, -3, 0, 0, 0, 0, 0)
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 # Definitions are written with some 15 digits, and a conversion that is none by these is none.
 SAME = 1e-12
@@ -82,6 +85,7 @@ def _by_definition(source: Port, sink: Port) -> Affine:
     if start.exponents != end.exponents:
         raise CouplingError(
             f"{_told(source)} ({_dimension(start)}) does not fit {_told(sink)} ({_dimension(end)})"
+            ", allowed are units of one dimension"
         )
     if start.factor == 0.0 or end.factor == 0.0:
         raise CouplingError(f"{_told(source)} to {_told(sink)}: a unit is defined by the factor 0")
@@ -105,10 +109,14 @@ def _told(port: Port) -> str:
 
 
 def _dimension(unit: UnitDefinition) -> str:
-    """In base units: kg.m2/s2 is `kg m^2 s^-2`."""
+    return told_dimension(unit.exponents)
+
+
+def told_dimension(exponents: Sequence[int]) -> str:
+    """In base units, of exponents in the order of `BASE_UNITS`: kg.m2/s2 is `kg m^2 s^-2`."""
     parts = [
         name if exponent == 1 else f"{name}^{exponent}"
-        for name, exponent in zip(BASE_UNITS, unit.exponents, strict=True)
+        for name, exponent in zip(BASE_UNITS, exponents, strict=True)
         if exponent
     ]
     return " ".join(parts) or "a plain number"

@@ -182,10 +182,10 @@ class Exchange:
             raise ParticipantError(name, self.time, f"has not advanced: it is at {reached:.9g} s")
         return reached - self.time
 
-    def remark(self, text: str, time: float | None) -> None:
+    def remark(self, text: str, time: float | None, category: str = "steps") -> None:
         """Something that the user of the results should know of the step from a time (s)."""
         self.system.messages.time = time
-        self.system.messages.add(WARNING, "steps", text)
+        self.system.messages.add(WARNING, category, text)
 
     def mark(self) -> Mark:
         """Remember where everything stands; asks every participant for its state."""

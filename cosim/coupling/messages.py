@@ -13,6 +13,9 @@ LONGEST = 4000
 #: Statuses as FMI has them, by which one sees what is worth a look.
 WARNING, FAILURES = "warning", ("discard", "error", "fatal")
 
+#: Categories of remarks that whoever waits for the run should hear of at once.
+SMALLEST, UNCONVERGED = "smallest step", "not converged"
+
 
 @dataclass(frozen=True)
 class Message:

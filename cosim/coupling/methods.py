@@ -17,9 +17,9 @@ from cosim.coupling.step_control.estimates import (
     Doubling,
     EnergyResidual,
     Estimate,
-    PowerBond,
 )
 from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.tolerance import Tolerance
 
 #: Parts and multiples of macro_step that a step control keeps to where nothing is said.

@@ -165,13 +165,15 @@ class Capabilities:
     """What a participant can do beyond the least; a participant may say so as `capabilities`.
 
     waveforms: it is one that `TakesWaveforms`; restores: it is `Restorable`; saves: it is `Saved`;
-    ends_early: its `step` may end before the end that it was asked for.
+    ends_early: its `step` may end before the end that it was asked for. input_order: highest
+    derivative of its inputs that it follows over a step, None for any.
     """
 
     waveforms: bool = False
     restores: bool = False
     saves: bool = False
     ends_early: bool = False
+    input_order: int | None = None
 
 
 def capabilities(participant: Participant) -> Capabilities:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from operator import itemgetter
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from cosim.coupling.statistics import Statistics
 from cosim.coupling.system import Connection, CoupledSystem, find_port
 from cosim.files import OutputError
 from cosim.names import unknown_name
+
+if TYPE_CHECKING:
+    import xarray
 
 Status = Literal["complete", "interrupted", "failed"]
 
@@ -59,7 +62,7 @@ class Ledger:
         return np.sum(parts, axis=0) if parts else np.zeros(0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CoupledResult:
     """A coupled run up to where it came.
 
@@ -68,7 +71,8 @@ class CoupledResult:
     status: "complete"; "interrupted" (by the user); "failed" (error holds the exception).
     reason: one line on why it is not complete, else "". wall_time: of the steps, s.
     sweeps: how many sweeps the initial exchange took. steps: macro steps accepted. statistics: of
-    the participants and the scheme.
+    the participants and the scheme. remarks: what of the settings could not be checked or comes to
+    something else than they say, a line each.
     """
 
     time: np.ndarray
@@ -82,12 +86,41 @@ class CoupledResult:
     sweeps: int
     steps: int
     statistics: Statistics
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        """Whether no step was accepted whose iteration had not converged."""
+        return not self.statistics.unconverged
 
     def __getitem__(self, name: str) -> np.ndarray:
         """The recorded values of `participant.port`, (n,)."""
         if name not in self.values:
             raise KeyError(unknown_name("recorded variable", name, self.values))
         return self.values[name]
+
+    def __repr__(self) -> str:
+        """What it is of, in one line."""
+        reached = f"{self.time[-1]:.6g} s" if self.time.size else "no time"
+        ended = f" ({self.reason})" if self.reason else ""
+        return (
+            f"<CoupledResult, {self.status}{ended}: {reached} in {self.steps} macro steps, "
+            f"{self.time.size} rows of {len(self.values)} variables>"
+        )
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Every recorded variable over ``time`` (n,), by its name `participant.port`, with units;
+        ``energy_residual``: that of the ledger, J."""
+        import xarray  # only for who asks for it
+
+        variables = {
+            name: ("time", values, {"units": self.units[name]})
+            for name, values in self.values.items()
+        } | {"energy_residual": ("time", self.ledger.residual, {"units": "J"})}
+        time = ("time", self.time, {"units": "s", "long_name": "time"})
+        return xarray.Dataset(
+            variables, {"time": time}, {"status": self.status, "reason": self.reason}
+        )
 
 
 class Recording:

@@ -15,10 +15,12 @@ from cosim.coupling.result import CoupledResult, Recording, Status, ledger_of
 from cosim.coupling.schemes.scheme import Scheme, ending_early_first
 from cosim.coupling.step_control.control import HALVE, STOP, ConvergenceError, StepControl, Stepper
 from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.step_control.remarks import remarks_of
 from cosim.coupling.step_control.restore_check import restores_exactly
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt
+from cosim.names import listed
 
 Progress = Callable[[float], None]
 
@@ -76,8 +78,11 @@ def run(
     control = _control(control, macro_step)
     control.begin(start, stop, scheme)
     scheme.check(system)
+    remarks = (*control.check(system), *remarks_of(system, scheme, control, stop - start))
     marks = _check_restore(system, scheme, control, on_divergence)
     exchange = Exchange(system)
+    for remark in remarks:
+        exchange.remark(remark, None)
     sweeps = _initialise(exchange, scheme.order, start, stop, exchange_tolerance, exchange_sweeps)
     if scheme.needs_restore or control.needs_restore or marks:
         _try_restore(exchange, start, min(control.first_size, stop - start))
@@ -110,6 +115,7 @@ def run(
         sweeps=sweeps,
         steps=exchange.statistics.steps,
         statistics=exchange.statistics,
+        remarks=remarks,
     )
 
 
@@ -134,12 +140,12 @@ def _check_restore(
         f"the scheme {type(scheme).__name__}": scheme.needs_restore,
         f"the step control {type(control).__name__}": control.needs_restore,
         f"on_divergence = {on_divergence!r}": on_divergence == HALVE,
-        f"{', '.join(late)}, which may end a step that others have made,": bool(late),
+        f"{listed(late)}, which may end a step that others have made,": bool(late),
     }
     for reason, needs in reasons.items():
         if needs and cannot:
             raise CouplingError(
-                f"{', '.join(cannot)}: cannot go back to an earlier state, and {reason} takes steps"
+                f"{listed(cannot)}: cannot go back to an earlier state, and {reason} takes steps"
                 " back; allowed are Jacobi and GaussSeidel with fixed steps"
             )
     taken_back = bool(late) or (scheme.needs_restore and bool(early))

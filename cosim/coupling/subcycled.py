@@ -45,7 +45,7 @@ class Subcycled:
     @property
     def capabilities(self) -> Capabilities:
         """Those of the participant, and it follows waveforms."""
-        return replace(capabilities(self._inner), waveforms=True)
+        return replace(capabilities(self._inner), waveforms=True, input_order=None)
 
     def write(self, values: Mapping[str, float]) -> None:
         """Values that are held over the macro step."""

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from cosim.coupling.conversion import IDENTITY, Affine, conversion
 from cosim.coupling.messages import Message, Messages
 from cosim.coupling.participant import Causality, CouplingError, Participant, Port
-from cosim.names import unknown_name
+from cosim.names import listed, unknown_name
 
 ENERGY_UNIT = "J"
 #: Whose remarks those of the master are.
@@ -107,7 +107,7 @@ def check_connections(
         if connection.sink in fed:
             raise CouplingError(
                 f"{connection.sink} is fed twice: by {fed[connection.sink].source} "
-                f"and by {connection.source}"
+                f"and by {connection.source}, allowed is one connection to an input"
             )
         fed[connection.sink] = connection
 
@@ -124,7 +124,9 @@ def _check_ends(participants: Mapping[str, Participant], connection: Connection)
             f"{connection}: {connection.sink} is an output; a connection ends at an input"
         )
     if connection.source.participant == connection.sink.participant:
-        raise CouplingError(f"{connection}: a participant is not connected to itself")
+        raise CouplingError(
+            f"{connection}: a participant is not connected to itself, allowed is another's input"
+        )
 
 
 def conversions_of(
@@ -203,10 +205,12 @@ class CoupledSystem:
                 raise CouplingError(unknown_name("participant", name, self.participants))
         repeated = [name for name in self.participants if order.count(name) > 1]
         if repeated:
-            raise CouplingError(f"the order names {', '.join(repeated)} more than once")
+            raise CouplingError(f"the order names {listed(repeated)} more than once")
         missing = [name for name in self.participants if name not in order]
         if missing:
-            raise CouplingError(f"the order leaves out {', '.join(missing)}")
+            raise CouplingError(
+                f"the order leaves out {listed(missing)}, allowed is every participant once"
+            )
 
     def listen(self, heard: Callable[[Message], object]) -> None:
         """Hand over what participants and master say, as it comes, until they are gone.

@@ -27,6 +27,7 @@ from cosim.coupling.fmu.variables import scalars, unit_of
 from cosim.coupling.participant import Causality
 from cosim.coupling.system import Address, find_port
 from cosim.names import unknown_name
+from cosim.systems.checks import check_coupling, naming
 from cosim.systems.faults import SystemFault
 from cosim.systems.settings import NOT_GIVEN, unused
 from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
@@ -57,10 +58,12 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
 
     Raises SystemFault, FmuError or CouplingError in one line for what does not fit.
     """
+    source = specification.source
     descriptions = {unit.name: describe(unit.file) for unit in specification.units}
-    participants: list[Participant] = [
-        _participant(unit, descriptions[unit.name], debug) for unit in specification.units
-    ]
+    with naming(source):
+        participants: list[Participant] = [
+            _participant(unit, descriptions[unit.name], debug) for unit in specification.units
+        ]
     remarks = [
         *specification.remarks,
         *unused(specification.coupling, specification.run),
@@ -69,16 +72,18 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
     by_name = {each.name: each for each in participants}
     connections = []
     for link in specification.links:
-        affine, remark = _conversion(specification, by_name, link)
+        with naming(source, link.place):
+            affine, remark = _conversion(specification, by_name, link)
         connections.append(
             Connection(link.source, link.sink, link.taken, transformation=affine, converts=False)
         )
         if remark:
             remarks.append(f"{link}: {remark}")
-    system = CoupledSystem(participants, connections, specification.residuals, receipts=False)
+    with naming(source):
+        system = CoupledSystem(participants, connections, specification.residuals, receipts=False)
     step, remark = _step(specification, descriptions)
     order = specification.coupling.order or tuple(by_name)
-    system.check_order(order)
+    check_coupling(specification, system, order, step)
     return Assembly(system, order, step, (*remarks, *filter(None, [remark])))
 
 

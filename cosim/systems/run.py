@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from cosim.coupling import CoupledResult, Message, run
 from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.systems.assembly import Assembly, assemble, record_every
+from cosim.systems.checks import naming
 from cosim.systems.faults import SystemFault
 from cosim.systems.specification import SystemSpecification
 from cosim.systems.ssp.reader import read_ssp
@@ -34,6 +34,10 @@ class SystemRun:
     assembly: Assembly
     result: CoupledResult
     steps: StepLog
+
+    def __repr__(self) -> str:
+        """How far it came, in one line."""
+        return f"<SystemRun of {', '.join(self.assembly.system.participants)}: {self.result!r}>"
 
 
 def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> SystemSpecification:
@@ -72,19 +76,20 @@ def run_system(
     with assembly.system as system:
         if heard is not None:
             system.listen(heard)
-        result = run(
-            system,
-            scheme_of(settings, assembly.order),
-            start=specification.run.start,
-            stop=specification.run.stop,
-            control=control_of(settings, assembly.macro_step, settings.power_bonds),
-            on_divergence=settings.on_divergence,
-            smallest_step=smallest_step(settings, assembly.macro_step),
-            record_every=record_every(specification, assembly.macro_step),
-            keep=_kept(specification, folder, steps),
-            observe=steps.add,
-            progress=progress,
-        )
+        with naming(specification.source):
+            result = run(
+                system,
+                scheme_of(settings, assembly.order),
+                start=specification.run.start,
+                stop=specification.run.stop,
+                control=control_of(settings, assembly.macro_step, settings.power_bonds),
+                on_divergence=settings.on_divergence,
+                smallest_step=smallest_step(settings, assembly.macro_step),
+                record_every=record_every(specification, assembly.macro_step),
+                keep=_kept(specification, folder, steps),
+                observe=steps.add,
+                progress=progress,
+            )
     return SystemRun(specification, assembly, result, steps)
 
 
@@ -108,20 +113,6 @@ def _kept(
     run = specification.run
     how_often = {"seconds": run.checkpoint_seconds, "steps": run.checkpoint_steps}
     return Keep(folder, setup=setup, also={STEPS: steps}, **how_often)  # type: ignore[arg-type]
-
-
-def changes_of(settings: Iterable[str]) -> dict[str, Any]:
-    """`key=value` texts as changes; a value is as TOML has it, or a text without quotes."""
-    found: dict[str, Any] = {}
-    for setting in settings:
-        key, equals, text = setting.partition("=")
-        if not equals or not key.strip():
-            raise SystemFault(f"--set {setting}: allowed is KEY=VALUE, as run.stop=10")
-        try:
-            found[key.strip()] = tomllib.loads(f"value = {text}")["value"]
-        except (tomllib.TOMLDecodeError, ValueError):
-            found[key.strip()] = text.strip()
-    return found
 
 
 def _is_zip(path: Path) -> bool:

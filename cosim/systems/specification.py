@@ -66,13 +66,15 @@ class Hop:
 class Link:
     """What feeds an input: `unit.port` to `unit.port`, border after border.
 
-    taken: output of the sink's unit, in J, that says how much of an energy it has taken up.
+    taken: output of the sink's unit, in J, that says how much of an energy it has taken up. place:
+    its key in the file, "" where it has none.
     """
 
     source: str
     sink: str
     hops: tuple[Hop, ...] = (Hop(),)
     taken: str | None = None
+    place: str = ""
 
     def __str__(self) -> str:
         return f"{self.source} -> {self.sink}"

@@ -31,6 +31,8 @@ NAME = re.compile(r"[^\s.\"'/\\\x00-\x1f][^.\"'/\\\x00-\x1f]*")
 TABLES = ("name", "units", "connections", "residuals", "coupling", "run")
 #: Tables of values in a unit.
 VALUES = ("parameters", "inputs")
+#: Whole numbers beyond this are no number of a unit.
+LARGEST = 2**1000
 #: Of a unit in one macro step, which Ctrl-C waits for.
 MOST_SUBSTEPS = 1_000_000
 
@@ -131,7 +133,9 @@ def _unit(name: str, entry: Any, folder: Path) -> UnitEntry:
         raise SystemFault(f"{place}.file: missing, needed is the path of an FMU")
     unit = table_of(Unit, own, place)
     if not unit.isolate and "time_limit" in own:
-        raise SystemFault(f"{place}.time_limit: is for a unit with isolate = true")
+        raise SystemFault(
+            f"{place}.time_limit: is for a unit with isolate = true, allowed is to leave it out"
+        )
     given: dict[str, Start] = {}
     for table in VALUES:
         given |= _values(entry.get(table, {}), f"{place}.{table}")
@@ -166,6 +170,8 @@ def _values(entries: Any, place: str) -> dict[str, Start]:
 
 
 def _is_finite(value: Value) -> bool:
+    if isinstance(value, int):
+        return abs(value) <= LARGEST
     return not isinstance(value, float) or math.isfinite(value)
 
 
@@ -187,7 +193,7 @@ def _links(entries: Any, units: list[str]) -> list[Link]:
             raise SystemFault(f"{place}.factor: 0 would carry nothing, allowed is another number")
         hop = Hop(transformation, table["convert"])
         taken = table["taken"] or None
-        found.append(Link(ends["from"], ends["to"], (hop,), taken))
+        found.append(Link(ends["from"], ends["to"], (hop,), taken, place))
     return found
 
 

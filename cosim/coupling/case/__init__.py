@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from stickslip import EFFECTS
 
@@ -16,12 +16,15 @@ from cosim.coupling import (
     CoupledResult,
     CoupledSystem,
     FmuParticipant,
+    IsolatedParticipant,
     Message,
+    Participant,
     run,
 )
 from cosim.coupling.case.prepared_block import prepared_block
 from cosim.coupling.case.snapshots import Snapshots
 from cosim.coupling.case.thermal_participant import ThermalParticipant
+from cosim.coupling.fmu.description import describe
 from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.files import OutputError
@@ -29,6 +32,10 @@ from cosim.fmu.build import own_fmu
 from cosim.scenario import Scenario, check_work, read_scenario
 from cosim.scenario.scenario import FILE_KEYS
 from thermal import BeltIceModel
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
 
 MECHANICS, THERMAL = "mechanics", "thermal"
 CONNECTIONS = (
@@ -42,7 +49,7 @@ CONNECTIONS = (
 RESIDUALS = (f"{MECHANICS}.energy_residual", f"{THERMAL}.heat_residual")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CoupledRun:
     """What a coupled run was made of and what came out.
 
@@ -54,6 +61,35 @@ class CoupledRun:
     scenario: Scenario
     result: CoupledResult
     snapshots: Snapshots
+
+    def __repr__(self) -> str:
+        name, result = self.scenario.name, self.result
+        reached = f"{result.time[-1]:.6g} s" if result.time.size else "no time"
+        ended = f" ({result.reason})" if result.reason else ""
+        return f"<CoupledRun of {name}, {result.status}{ended}: {reached} in {result.steps} steps>"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The dataset that `stickslip run` writes as ``result.nc``: all outputs over ``time`` (n,)
+        with units and long names, the belt's temperature over time and place, the scenario."""
+        from cosim.report import run_dataset  # matplotlib, pandas: only for who asks for them
+
+        return run_dataset(
+            self.result, self.scenario, self.scenario.to_toml(), snapshots=self.snapshots
+        )
+
+    def plot(self, figure: str = "motion") -> Figure:
+        """One of the figures of the run's page; which there are, the refusal of another name says.
+
+        Raises ValueError for a name that is none.
+
+        >>> from cosim import read_scenario
+        >>> run = run_scenario(read_scenario("reference").changed({"run.duration": 0.5}))
+        >>> run.plot("temperatures")
+        <Figure size ... with 3 Axes>
+        """
+        from cosim.report.figures import figure_of
+
+        return figure_of(self.to_xarray(), figure)
 
 
 def run_scenario(
@@ -92,13 +128,8 @@ def run_scenario(
     check_work(scenario, coupled=True)
     store = None if folder is None else folder.path
     snapshots = Snapshots(scenario.run.snapshot_interval, fields, views, store)
-    mechanics = FmuParticipant(
-        fmu or own_fmu(),
-        MECHANICS,
-        parameters=scenario.mechanics.flat(),
-        inputs={"surface_speed": scenario.surface.speed},
-        debug=debug,
-    )
+    path = Path(fmu or own_fmu())
+    mechanics = _mechanics(scenario, path, debug)
     model = BeltIceModel(scenario.thermal, prepared_block(scenario.thermal))
     heat = ThermalParticipant(model, THERMAL, observer=snapshots, melts=feels_melting(scenario))
 
@@ -114,7 +145,7 @@ def run_scenario(
             on_divergence=scenario.coupling.on_divergence,
             smallest_step=smallest_step(scenario.coupling, scenario.coupling.macro_step),
             record_every=record_every,
-            keep=None if folder is None else _keep(folder, scenario, mechanics, snapshots),
+            keep=None if folder is None else _keep(folder, scenario, path, snapshots),
             observe=lambda time: heat.observe(),
             progress=progress,
         )
@@ -122,23 +153,38 @@ def run_scenario(
     return CoupledRun(scenario, result, snapshots)
 
 
-def _keep(
-    folder: RunFolder, scenario: Scenario, mechanics: FmuParticipant, snapshots: Snapshots
-) -> Keep:
+def _mechanics(scenario: Scenario, fmu: Path, debug: bool) -> Participant:
+    """The unit with the rig's parameters, in a process of its own where that is asked for."""
+    given: dict[str, Any] = {
+        "parameters": scenario.mechanics.flat(),
+        "inputs": {"surface_speed": scenario.surface.speed},
+        "debug": debug,
+    }
+    if not scenario.coupling.isolate:
+        return FmuParticipant(fmu, MECHANICS, **given)
+    time_limit = scenario.coupling.time_limit
+    return IsolatedParticipant(FmuParticipant, str(fmu), MECHANICS, time_limit=time_limit, **given)
+
+
+def _keep(folder: RunFolder, scenario: Scenario, fmu: Path, snapshots: Snapshots) -> Keep:
     """What the run leaves on disk, and what of it tells it from another."""
     tables = scenario.model_dump(mode="json")
+    if not scenario.effects:
+        del tables["effects"]  # what a checkpoint from before there were any does not have
     setup: dict[str, Any] = {
         "stickslip": version("stickslip"),
-        "GUID of mechanics": mechanics.description.guid,
+        "GUID of mechanics": describe(fmu).guid,
     }
     for table, entries in tables.items():
         if isinstance(entries, dict):
             setup |= {f"{table}.{key}": value for key, value in entries.items()}
         else:
             setup[table] = entries
-    for table, key in FILE_KEYS:
-        if name := setup.get(f"{table}.{key}"):
+    for key in FILE_KEYS:
+        if name := setup.get(key):
             setup[f"contents of {name}"] = sha256(Path(name).read_bytes()).hexdigest()
+    for key in ("isolate", "time_limit"):  # where a unit computes is nothing to what it computes
+        del setup[f"coupling.{key}"]
     how_often = {"seconds": setup.pop("run.checkpoint_seconds")}
     how_often["steps"] = setup.pop("run.checkpoint_steps")
     return Keep(folder, setup=setup, also={"pictures": snapshots}, **how_often)

@@ -44,8 +44,11 @@ class Calls(Protocol):
 
     memory: dict[str, Any]
 
-    def enter_initialisation(self, start: float, stop: float, tolerance: float | None) -> None:
-        """From start to stop, s."""
+    def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        """From start to stop, s; before anything is set: some units then forget what was."""
+
+    def enter_initialisation(self) -> None:
+        """What is constant over the run is set."""
 
     def exit_initialisation(self) -> None:
         """Steps follow."""

@@ -50,8 +50,10 @@ class Fmi2:
         self._rates: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}
         self._get = {name: getattr(self._fmu, f"fmi2Get{name}") for name in functions}
 
-    def enter_initialisation(self, start: float, stop: float, tolerance: float | None) -> None:
+    def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
         self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
+
+    def enter_initialisation(self) -> None:
         self._fmu.enterInitializationMode()
 
     def exit_initialisation(self) -> None:

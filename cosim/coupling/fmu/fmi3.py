@@ -75,8 +75,11 @@ class Fmi3:
             logMessage=how.log.log_message,
         )
 
-    def enter_initialisation(self, start: float, stop: float, tolerance: float | None) -> None:
-        self._fmu.enterInitializationMode(tolerance=tolerance, startTime=start, stopTime=stop)
+    def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        self._experiment = {"tolerance": tolerance, "startTime": start, "stopTime": stop}
+
+    def enter_initialisation(self) -> None:
+        self._fmu.enterInitializationMode(**self._experiment)
 
     def exit_initialisation(self) -> None:
         self._fmu.exitInitializationMode()

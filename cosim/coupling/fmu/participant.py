@@ -116,8 +116,11 @@ class FmuParticipant:
     def _capabilities(self) -> Capabilities:
         declared, new = self.description.coSimulation, is_fmi3(self.description)
         restores = bool(declared.canGetAndSetFMUstate)
+        waveforms = not new and fmi2.takes_waveforms(self.description)
         return Capabilities(
-            waveforms=not new and fmi2.takes_waveforms(self.description),
+            waveforms=waveforms,
+            # who takes none gets a mean, which the schemes count on
+            input_order=self._input_order if waveforms else None,
             restores=restores,
             saves=restores and bool(declared.canSerializeFMUstate),
             ends_early=new and self._early and fmi3.may_end_early(self.description),
@@ -129,8 +132,9 @@ class FmuParticipant:
         """Start a fresh instance with the parameters and held inputs set."""
         self._free_instance()
         calls = self._instantiate()
+        self._call(calls.set_up, start, stop, self._tolerance)
         self._call(calls.write, self._values.filled(self._parameters))
-        self._call(calls.enter_initialisation, start, stop, self._tolerance)
+        self._call(calls.enter_initialisation)
         self._call(calls.write, self._values.filled(self._inputs))
 
     def exit_initialisation(self) -> None:

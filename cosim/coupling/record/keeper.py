@@ -26,6 +26,7 @@ from cosim.coupling.statistics import Effort
 from cosim.coupling.step_control.control import StepControl
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
+from cosim.names import listed
 
 
 @dataclass(frozen=True)
@@ -160,7 +161,7 @@ def _can_be_saved(system: CoupledSystem) -> bool:
     cannot = [name for name, each in system.participants.items() if not capabilities(each).saves]
     if cannot:
         warnings.warn(
-            f"no checkpoints: {', '.join(cannot)} cannot be saved; should this run be cut off, its "
+            f"no checkpoints: {listed(cannot)} cannot be saved; should this run be cut off, its "
             "rows are on disk, and it can only be begun anew",
             UserWarning,
             stacklevel=2,

@@ -6,10 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from cosim.coupling.exchange import Exchange
+from cosim.coupling.messages import SMALLEST
 from cosim.coupling.participant import CouplingError
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.control import OFTEN, Stepper
 from cosim.coupling.step_control.estimates import Estimate
+from cosim.coupling.system import CoupledSystem
 
 #: Bounds of the factor from one step to the next.
 SHRINK, GROW = 0.2, 5.0
@@ -49,18 +52,22 @@ class AdaptiveStep:
         if not 0.0 < self.safety < 1.0:
             raise CouplingError(f"safety = {self.safety:g}: must lie between 0 and 1")
         self._size, self._error = self.first, 1.0
-        self._exponent = 1.0
+        self._exponent, self._above = 1.0, 0
 
     @property
     def first_size(self) -> float:
         """As it was given, s."""
         return self.first
 
+    def check(self, system: CoupledSystem) -> list[str]:
+        """As its estimate does."""
+        return self.estimate.check(system)
+
     def begin(self, start: float, stop: float, scheme: Scheme) -> None:
         """From the first size."""
         if stop <= start:
             raise CouplingError(f"stop = {stop:g} s: must be later than start = {start:g} s")
-        self._size, self._error = self.first, 1.0
+        self._size, self._error, self._above = self.first, 1.0, 0
         self.estimate.begin(scheme)
         self._exponent = self.estimate.exponent
 
@@ -83,17 +90,34 @@ class AdaptiveStep:
                 self._shrink(error, made)
         finally:
             exchange.forget(mark)
-        if error > 1.0:
-            exchange.statistics.above_tolerance.append(began)
-            exchange.remark(
-                f"a step of {made:.3g} s, the smallest, is accepted with {error:.3g} times the "
-                "error that is allowed",
-                began,
-            )
+        self._count_above(exchange, error, made, began, stop)
         if refused > OFTEN:
             exchange.remark(f"was taken back {refused} times, to be of {made:.3g} s", began)
         self._follow(error, made, asked=self._size if size is None else size)
         return reached
+
+    def _count_above(
+        self, exchange: Exchange, error: float, made: float, began: float, stop: float
+    ) -> None:
+        """Say where steps begin to be too long and cannot be shorter, and where that is over."""
+        if error > 1.0:
+            exchange.statistics.above_tolerance.append(began)
+            if not self._above:
+                exchange.remark(
+                    f"a step of {made:.3g} s, the smallest, is accepted with {error:.3g} times the"
+                    f" error that is allowed; to t = {stop:.6g} s there would be"
+                    f" {(stop - began) / made:.3g} of them",
+                    began,
+                    SMALLEST,
+                )
+            self._above += 1
+        elif self._above:
+            exchange.remark(
+                f"{self._above} steps of the smallest size had a larger error than is allowed, of"
+                " which this is the first that has not",
+                began,
+            )
+            self._above = 0
 
     def _shrink(self, error: float, made: float) -> None:
         factor = self.safety * error ** (-1.0 / self._exponent) if math.isfinite(error) else 0.0
@@ -118,12 +142,14 @@ class AdaptiveStep:
         return True
 
     def state(self) -> dict[str, Any]:
-        """Size and last error."""
-        return {"size": self._size, "error": self._error, "estimate": self.estimate.state()}
+        """Size, last error, and steps that were too long at last."""
+        said = {"size": self._size, "error": self._error, "above": self._above}
+        return {**said, "estimate": self.estimate.state()}
 
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from there."""
         self._size, self._error = float(state["size"]), float(state["error"])
+        self._above = int(state.get("above", 0))  # checkpoints of before have none
         self.estimate.restore(state["estimate"])
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from cosim.coupling.exchange import Exchange
+from cosim.coupling.messages import UNCONVERGED
 from cosim.coupling.participant import CouplingError
 from cosim.coupling.schemes.scheme import EndedEarly, Scheme, StepDone
+from cosim.coupling.system import CoupledSystem
 
 STOP, HALVE, ACCEPT = "stop", "halve", "accept"
 #: What is done where an iteration does not converge.
@@ -86,6 +88,7 @@ class Stepper:
                 f"is accepted: {done.worst} still changes by {done.residual:.3g} times what is "
                 "allowed",
                 self.exchange.time,
+                UNCONVERGED,
             )
             return False
         if self.on_divergence == HALVE and size / 2.0 >= self.smallest:
@@ -109,6 +112,9 @@ class StepControl(Protocol):
     @property
     def first_size(self) -> float:
         """Size of the first step, s."""
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """What could not be checked, a line each; CouplingError for a system that does not fit."""
 
     def begin(self, start: float, stop: float, scheme: Scheme) -> None:
         """Get ready for a run from start to stop (s)."""

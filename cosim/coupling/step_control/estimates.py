@@ -14,7 +14,8 @@ from cosim.coupling.participant import CouplingError
 from cosim.coupling.schemes.iterated import Iterated
 from cosim.coupling.schemes.scheme import Scheme, sources
 from cosim.coupling.step_control.control import Stepper
-from cosim.coupling.system import Address
+from cosim.coupling.step_control.power_bond import PowerBond
+from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import Tolerance
 
 
@@ -24,6 +25,9 @@ class Estimate(Protocol):
     @property
     def exponent(self) -> float:
         """Power of the step's size that the error goes with."""
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """What could not be checked, a line each; CouplingError for a system that does not fit."""
 
     def begin(self, scheme: Scheme) -> None:
         """A run with a scheme begins."""
@@ -49,8 +53,19 @@ class Forgetful:
         """Nothing to go on from."""
 
 
+class OfOutputs(Forgetful):
+    """Compares values of outputs, of which any will do."""
+
+    tolerance: Tolerance
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """The tolerances are those of its ports."""
+        self.tolerance.check(system)
+        return []
+
+
 @dataclass
-class Doubling(Forgetful):
+class Doubling(OfOutputs):
     """The step is made once whole and once in two halves, which stand.
 
     Their difference over 2^p - 1, p the scheme's order, is the error of the halves (Richardson).
@@ -94,10 +109,11 @@ class Doubling(Forgetful):
 
 
 @dataclass
-class Defect(Forgetful):
+class Defect(OfOutputs):
     """What inputs were extrapolated to at the step's end, against what has come of them.
 
-    Costs no further step. Of the outputs that the scheme needs before they are there.
+    Costs no further step. Of the outputs that the scheme needs before they are there. Joules handed
+    over since the start are held by every scheme, so theirs is what the step has handed over.
     """
 
     tolerance: Tolerance = field(default_factory=Tolerance)
@@ -117,29 +133,11 @@ class Defect(Forgetful):
         began = exchange.time
         assert began is not None
         which = stepper.scheme.unknown(exchange.system)
-        history = exchange.history
-        courses = [history.extrapolated(source, self._degree, end - began) for source in which]
+        courses = [exchange.extrapolated(source, self._degree, end - began) for source in which]
         reached = stepper.make(end)
         expected = np.array([course.at(reached - began) for course in courses])
         found = values(exchange, which)
         return reached, _largest(exchange, which, np.abs(found - expected), found, self.tolerance)
-
-
-@dataclass(frozen=True)
-class PowerBond:
-    """A pair of connections whose product is a power.
-
-    effort, flow : outputs (`participant.port`) that feed each other's participants: force and
-    velocity, moment and rate of turn. What one side gives in a step the other has to take: with
-    inputs that are extrapolated, their difference is energy that comes from nowhere.
-    """
-
-    effort: Address
-    flow: Address
-
-    def __init__(self, effort: str, flow: str):
-        object.__setattr__(self, "effort", Address.parse(effort))
-        object.__setattr__(self, "flow", Address.parse(flow))
 
 
 @dataclass
@@ -156,6 +154,13 @@ class EnergyResidual:
     relative: float = 1e-3
     absolute: float = 1e-9
     _crossed: float = 0.0
+    _watts: tuple[float, ...] = ()
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """Every bond is one, and its product a power."""
+        remarks = [bond.check(system) for bond in self.bonds]
+        self._watts = tuple(bond.watts(system) for bond in self.bonds)
+        return [remark for remark in remarks if remark]
 
     def begin(self, scheme: Scheme) -> None:
         """Nothing has crossed yet."""
@@ -181,11 +186,11 @@ class EnergyResidual:
         assert began is not None
         reached = stepper.make(end)
         lost, crossed = 0.0, 0.0
-        for bond in self.bonds:
-            effort, effort_got = _both_ends(exchange, bond.effort, bond.flow.participant)
-            flow, flow_got = _both_ends(exchange, bond.flow, bond.effort.participant)
-            lost += (reached - began) * abs(effort * flow_got - effort_got * flow)
-            crossed += (reached - began) * abs(effort * flow)
+        for bond, watts in zip(self.bonds, self._watts, strict=True):
+            effort, effort_got, flow, flow_got = bond.values(exchange)
+            joules = watts * (reached - began)
+            lost += joules * abs(effort * flow_got - effort_got * flow)
+            crossed += joules * abs(effort * flow)
         error = lost / (self.absolute + self.relative * max(self._crossed, crossed))
         if error <= 1.0:
             self._crossed = max(self._crossed, crossed)
@@ -198,20 +203,6 @@ class EnergyResidual:
     def restore(self, state: Any) -> None:
         """Go on with it."""
         self._crossed = float(state)
-
-
-def _both_ends(exchange: Exchange, source: Address, sink: str) -> tuple[float, float]:
-    """Value that a source gives, and what the participant at the other end stepped with.
-
-    Both as the source counts: a force that is turned round on its way is the same force.
-    """
-    for feed in exchange.feeds[sink]:
-        if feed.source == source:
-            got = exchange.inputs[sink][feed.sink.port]
-            way = exchange.system.conversions[feed]
-            given = exchange.outputs[source.participant][source.port]
-            return given, (got - way.offset) / way.factor
-    raise CouplingError(f"power bond: {source} does not feed {sink}")
 
 
 def values(exchange: Exchange, which: Sequence[Address]) -> NDArray[np.float64]:

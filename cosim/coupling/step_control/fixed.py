@@ -8,6 +8,7 @@ from typing import Any
 from cosim.coupling.participant import CouplingError
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.control import Stepper
+from cosim.coupling.system import CoupledSystem
 
 # A remainder below this part of a macro step is rounding in (stop - start) / H, not a step that
 # somebody asked for: 1e6 steps leave some 1e-10.
@@ -65,6 +66,10 @@ class FixedStep:
     def first_size(self) -> float:
         """That of all, s."""
         return self.macro_step
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """Fits all."""
+        return []
 
     def begin(self, start: float, stop: float, scheme: Scheme) -> None:
         """The grid from start to stop (s)."""

@@ -36,6 +36,7 @@ def system_dataset(run: SystemRun) -> xr.Dataset:
         title=run.specification.name,
         case="system",
         status=result.status,
+        unconverged_steps=len(result.statistics.unconverged),
         reason=result.reason,
         system=run.specification.text,
         wall_time=float(result.wall_time),

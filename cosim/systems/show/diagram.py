@@ -32,6 +32,8 @@ LINE, HEAD, BETWEEN, GAP, MARGIN = 0.24, 0.42, 0.45, 1.9, 0.35
 LANE, ASIDE, SHIFT, LANES = 0.2, 0.16, 0.07, 10
 #: Inches of a letter, and of the narrowest and the widest box.
 LETTER, NARROW, WIDE = 0.075, 1.5, 3.6
+#: Units and columns of them that a page shows legibly: more are for `matrix`.
+MOST_BOXES, MOST_COLUMNS = 24, 8
 #: Ports that nothing is connected to are counted, not drawn; letters of a name that are.
 LONGEST_NAME = 26
 
@@ -85,6 +87,11 @@ def diagram(system: CoupledSystem, order: Sequence[str]) -> Figure:
     for box in boxes.values():
         _draw_box(axes, system, box)
     return figure
+
+
+def is_legible(system: CoupledSystem, order: Sequence[str]) -> bool:
+    """Whether the system is small enough for boxes with their ports."""
+    return len(order) <= MOST_BOXES and len(_columns(system, order)) <= MOST_COLUMNS
 
 
 def _boxes(system: CoupledSystem) -> dict[str, Box]:

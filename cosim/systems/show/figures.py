@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.coupling import Ledger
+from cosim.report.live import Curve, Live, Panel, over_time
+from cosim.report.page import Picture, number
 from cosim.report.style import (
     BLUE,
     FAINT_BLUE,
@@ -35,31 +39,71 @@ PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/
 NOTHING = 1e-6
 
 
+def signals(dataset: xr.Dataset) -> Picture:
+    """A panel for every output, up to `MOST_PANELS`."""
+    return _alive(_signals(dataset), "Outputs over time.", _signals_live(dataset))
+
+
+def energy(time: NDArray[np.float64], ledger: Ledger) -> Picture:
+    """Handed over and taken up, and what is between."""
+    alt = "Energy handed over and taken up across each connection over time."
+    return _alive(_energy(time, ledger), alt, _energy_live(time, ledger))
+
+
+def steps(dataset: xr.Dataset, start: float) -> Picture:
+    """Step size over time, on a logarithmic axis where the steps differ much."""
+    alt = "Sizes of the macro steps over time."
+    return _alive(_steps(dataset, start), alt, _steps_live(dataset, start))
+
+
+def _alive(drawn: Picture, alt: str, live: Live) -> Picture:
+    return replace(drawn, alt=alt, live=live)
+
+
 @picture(
     "signals",
     f"Outputs over time at the recorded times, those that are connected first, and of more than"
     f" {MOST_PANELS} the first; the numbers below and the files have all.",
 )
-def signals(dataset: xr.Dataset) -> Figure:
-    """A panel for every output, up to `MOST_PANELS`."""
-    names = _drawn(dataset)
+def _signals(dataset: xr.Dataset) -> Figure:
+    names, flat = _drawn(dataset)
     rows = -(-len(names) // COLUMNS)
     figure, axes = panels(rows, COLUMNS, height=1.7, width=10.5, sharex=True)
     time = dataset["time"].values
     for panel, name in zip(axes.flat, names, strict=False):
-        values = dataset[name].values
-        unit = dataset[name].attrs["units"]
-        scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
-        line(panel, time, scaled(values), color=BLUE)
-        panel.set_title(f"{name} [{SPELLING.get(scaled.unit, scaled.unit)}]", fontsize=9)
+        label, values, least = _signal(dataset, name)
+        line(panel, time, values, color=BLUE)
+        panel.set_title(label, fontsize=9)
         plain_ticks(panel)
-        # else the last bits of what stays the same would fill the panel
-        at_least(panel, NOTHING * scaled.factor * float(np.max(np.abs(values))))
+        at_least(panel, least)
     _end(axes, len(names))
+    if flat:
+        figure.supxlabel("\n".join(textwrap.wrap(flat, 130)), x=0.008, ha="left", fontsize=9)
     return figure
 
 
-def _drawn(dataset: xr.Dataset) -> list[str]:
+def _signals_live(dataset: xr.Dataset) -> Live:
+    names, flat = _drawn(dataset)
+    panels = []
+    for name in names:
+        label, values, least = _signal(dataset, name)
+        panels.append(Panel(label, [Curve(name, values, BLUE)], span=least))
+    return over_time(dataset["time"].values, panels, note=flat, columns=2)
+
+
+def _signal(dataset: xr.Dataset, name: str) -> tuple[str, NDArray[np.float64], float]:
+    """Label, values in a readable unit, and the least that an axis spans.
+
+    Else the last bits of what stays the same would fill the panel.
+    """
+    values, unit = dataset[name].values, dataset[name].attrs["units"]
+    scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
+    least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
+    return f"{name} [{SPELLING.get(scaled.unit, scaled.unit)}]", scaled(values), least
+
+
+def _drawn(dataset: xr.Dataset) -> tuple[list[str], str]:
+    """Outputs to draw, and a line of text on those that stay as they are."""
     sources = {each.attrs.get("fed_by", "") for each in dataset.data_vars.values()}
     outputs = [
         str(name)
@@ -67,15 +111,30 @@ def _drawn(dataset: xr.Dataset) -> list[str]:
         if each.attrs.get("causality") == "output"
     ]
     connected = [name for name in outputs if dataset[name].attrs["long_name"] in sources]
-    return [*connected, *(name for name in outputs if name not in connected)][:MOST_PANELS]
+    ordered = [*connected, *(name for name in outputs if name not in connected)]
+    flat = [name for name in ordered if _is_flat(dataset[name].values)]
+    # a figure of nothing at all would be less than one of something flat
+    shown = [name for name in ordered if name not in flat] or ordered[:1]
+    said = [_constant(dataset, name) for name in flat if name not in shown]
+    note = f"Not drawn, as they do not change: {'; '.join(said)}." if said else ""
+    return shown[:MOST_PANELS], note
+
+
+def _is_flat(values: NDArray[np.float64]) -> bool:
+    return bool(np.ptp(values) <= NOTHING * np.max(np.abs(values)))
+
+
+def _constant(dataset: xr.Dataset, name: str) -> str:
+    unit = dataset[name].attrs["units"]
+    return f"{name} {number(float(dataset[name].values[-1]))} {SPELLING.get(unit, unit)}".strip()
 
 
 def _end(axes: NDArray[Any], used: int) -> None:
     """Time below the lowest panel of each column; no empty panels."""
-    for number, panel in enumerate(axes.flat):
-        if number >= used:
+    for place, panel in enumerate(axes.flat):
+        if place >= used:
             panel.set_visible(False)
-        elif number + COLUMNS >= used:
+        elif place + COLUMNS >= used:
             panel.set_xlabel("time [s]")
             panel.tick_params(labelbottom=True)
 
@@ -85,8 +144,7 @@ def _end(axes: NDArray[Any], used: int) -> None:
     "Energy across each connection in J: handed over by the one unit, and taken up by the other. "
     "Below: what has been handed over and not taken up.",
 )
-def energy(time: NDArray[np.float64], ledger: Ledger) -> Figure:
-    """Handed over and taken up, and what is between."""
+def _energy(time: NDArray[np.float64], ledger: Ledger) -> Figure:
     figure, axes = panels(2, 1, height=2.2, width=9.0, sharex=True)
     for flow, colour in zip(ledger.flows, _colours(len(ledger.flows)), strict=True):
         line(axes[0, 0], time, flow.handed, color=colour, label=str(flow.connection))
@@ -100,8 +158,18 @@ def energy(time: NDArray[np.float64], ledger: Ledger) -> Figure:
     return figure
 
 
+def _energy_live(time: NDArray[np.float64], ledger: Ledger) -> Live:
+    handed, transit = [], []
+    for flow, colour in zip(ledger.flows, _colours(len(ledger.flows)), strict=True):
+        name = str(flow.connection)
+        handed.append(Curve(name, flow.handed, colour))
+        handed.append(Curve(f"{name}, taken up", flow.taken, INK, dash=True, width=0.8))
+        transit.append(Curve(name, flow.in_transit, colour))
+    return over_time(time, [Panel("handed over [J]", handed), Panel("in transit [J]", transit)])
+
+
 def _colours(count: int) -> Sequence[str]:
-    return [SERIES[number % len(SERIES)] for number in range(count)]
+    return [SERIES[place % len(SERIES)] for place in range(count)]
 
 
 @picture(
@@ -109,8 +177,7 @@ def _colours(count: int) -> Sequence[str]:
     "Sizes of the macro steps that were accepted. In a run of very many steps neighbours are drawn "
     "as one band, from the smallest to the largest of them.",
 )
-def steps(dataset: xr.Dataset, start: float) -> Figure:
-    """Step size over time, on a logarithmic axis where the steps differ much."""
+def _steps(dataset: xr.Dataset, start: float) -> Figure:
     figure, axes = panels(1, 1, height=2.4, width=9.0)
     panel = axes[0, 0]
     ends = dataset["step_time"].values
@@ -129,3 +196,19 @@ def steps(dataset: xr.Dataset, start: float) -> Figure:
     panel.set_xlabel("time [s]")
     panel.set_ylabel("macro step [s]")
     return figure
+
+
+def _steps_live(dataset: xr.Dataset, start: float) -> Live:
+    edges = np.concatenate([[start], dataset["step_time"].values])
+    longest, shortest = (
+        np.append(dataset[name].values[:1], dataset[name].values)
+        for name in ("longest_step", "shortest_step")
+    )
+    curves = [Curve("longest of neighbours", longest, BLUE, steps=True)]
+    if np.any(longest > shortest * (1.0 + 1e-6)):
+        curves.append(Curve("shortest of them", shortest, FAINT_BLUE, steps=True))
+    else:
+        curves = [Curve("macro step", longest, BLUE, steps=True)]
+    differ = bool(longest.max() > 5.0 * shortest.min())
+    panel = Panel("macro step [s]", curves, logarithmic=differ, from_zero=not differ)
+    return over_time(edges, [panel])

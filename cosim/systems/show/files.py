@@ -49,10 +49,12 @@ def write_system(
 
 
 def _figures(run: SystemRun, dataset: Any) -> dict[str, Picture]:
-    from cosim.systems.show.diagram import diagram
+    from cosim.systems.show.diagram import diagram, is_legible
     from cosim.systems.show.figures import energy, signals, steps
+    from cosim.systems.show.matrix import matrix
 
-    found = [diagram(run.assembly.system, run.assembly.order)]
+    system, order = run.assembly.system, run.assembly.order
+    found = [(diagram if is_legible(system, order) else matrix)(system, order)]
     if any(each.attrs.get("causality") == "output" for each in dataset.data_vars.values()):
         found.append(signals(dataset))
     if run.result.ledger.flows:

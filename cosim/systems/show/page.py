@@ -8,7 +8,7 @@ from typing import Any
 
 from cosim.coupling import Affine
 from cosim.coupling.conversion import NO_UNIT
-from cosim.report.coupling import step_rows
+from cosim.report.coupling import doubts, step_rows
 from cosim.report.page import Picture, number, render
 from cosim.report.style import SPELLING
 
@@ -34,6 +34,7 @@ def page(
         numbers=numbers,
         created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
         overview=overview(numbers),
+        doubts=[f"{each}." for each in doubts(numbers["coupling"])],
         connections=[_connection_row(each) for each in numbers["connections"]],
         units=_units(numbers["participants"]),
         steps=step_rows(numbers["coupling"]),

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from cosim.coupling import Connection, CoupledSystem, Port
+from cosim.coupling.conversion import POWER
 from cosim.coupling.system import find_port
 from cosim.report.coupling import efforts, step_numbers
 from cosim.report.page import number
@@ -18,8 +19,6 @@ from cosim.systems.run import SystemRun
 
 #: Remarks that the terminal shows.
 MOST_NOTES = 4
-#: kg m^2 s^-3.
-POWER = (1, 2, -3, 0, 0, 0, 0, 0)
 
 
 def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
@@ -43,7 +42,7 @@ def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
         "connections": [_connection(system, each) for each in system.connections],
         "ledger": ledger(run),
         "outputs": _outputs(run, dataset),
-        "remarks": list(run.assembly.remarks),
+        "remarks": [*run.assembly.remarks, *result.remarks],
         "created": dataset.attrs["created"],
         "versions": json.loads(dataset.attrs["versions"]),
         "source": run.specification.source,

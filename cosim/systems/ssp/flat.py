@@ -100,17 +100,24 @@ class Flat:
             kind = owner.connectors[name].kind
             if kind not in GIVES + TAKES:
                 raise SystemFault(
-                    f"connection {ends}: a connector of kind {kind} is not connected here"
+                    f"connection {ends}: a connector of kind {kind} is not connected here,"
+                    " allowed are input and output"
                 )
             # an input of the system gives to what is in it
             gives = (kind in GIVES) is bool(element)
             nodes.append((((*path, element) if element else path, name), gives))
         (start, start_gives), (end, end_gives) = nodes
         if start_gives == end_gives:
-            raise SystemFault(f"connection {ends}: both ends {'give' if end_gives else 'take'}")
+            raise SystemFault(
+                f"connection {ends}: both ends {'give' if end_gives else 'take'}, allowed is"
+                " an output to an input"
+            )
         source, sink = (start, end) if start_gives else (end, start)
         if sink in self._feeds:
-            raise SystemFault(f"connection {ends}: {'.'.join((*sink[0], sink[1]))} is fed twice")
+            raise SystemFault(
+                f"connection {ends}: {'.'.join((*sink[0], sink[1]))} is fed twice,"
+                " allowed is one connection to an input"
+            )
         self._feeds[sink] = Feed(source, ends)
 
     def _followed(self, node: Node, feed: Feed) -> tuple[list[Hop], Node]:
@@ -146,11 +153,20 @@ class Flat:
         connector = self._connector(node)
         where = ".".join((*node[0], node[1]))
         if connector.type not in NUMBERS:
-            raise SystemFault(f"connector {where} is a {connector.type}, which is not coupled here")
+            raise SystemFault(
+                f"connector {where} is a {connector.type}, which is not coupled here,"
+                " allowed are numbers"
+            )
         if connector.is_array:
-            raise SystemFault(f"connector {where} is an array, which is not coupled here")
+            raise SystemFault(
+                f"connector {where} is an array, which is not coupled here,"
+                " allowed are its elements"
+            )
         if connector.kind not in ("input", "output"):
-            raise SystemFault(f"connector {where} is a {connector.kind}, which is not coupled here")
+            raise SystemFault(
+                f"connector {where} is a {connector.kind}, which is not coupled here,"
+                " allowed are input and output"
+            )
 
     def _all_given(self) -> dict[Path, dict[str, Start]]:
         """Component -> variable -> what it starts from; outer bindings count more than inner."""
@@ -214,7 +230,7 @@ class Flat:
             elif passed[0] in self._components and self._connector(node).kind != "input":
                 raise SystemFault(
                     f"connection {feed.ends}: a parameter that another unit computes is not done"
-                    " here"
+                    " here, allowed are inputs"
                 )
 
 

@@ -60,7 +60,9 @@ class Package:
         except etree.XMLSyntaxError as error:
             root = self._despite_prefixes(content, place, error)
         if root.getroottree().docinfo.doctype or root.getroottree().docinfo.internalDTD is not None:
-            raise SystemFault(f"{place}: declares a document type, which no SSP has; not read")
+            raise SystemFault(
+                f"{place}: declares a document type, which no SSP has; allowed is XML without"
+            )
         return root
 
     def file(self, source: str) -> Path:
@@ -126,7 +128,9 @@ class Package:
 
     def _missing(self, source: str) -> str:
         return f"{self.path}: has no {source}" + (
-            ", so it is no SSP" if source == self.structure else ", which its structure names"
+            ", so it is no SSP"
+            if source == self.structure
+            else ", which its structure names, needed is that file"
         )
 
     def _despite_prefixes(
@@ -137,7 +141,9 @@ class Package:
         root = etree.fromstring(content, parser)
         faults = [entry for entry in parser.error_log if "NAMESPACE" not in entry.type_name]
         if root is None or faults:
-            raise SystemFault(f"{place}: is not XML ({error.msg})") from None
+            raise SystemFault(
+                f"{place}: is not XML ({error.msg}), allowed is a file that is"
+            ) from None
         self.remarks.append(f"{place}: uses a prefix that it has not declared")
         return root
 
@@ -154,7 +160,9 @@ def _opened(path: Path) -> zipfile.ZipFile:
     try:
         archive = zipfile.ZipFile(path)
     except (zipfile.BadZipFile, EOFError, ValueError, OSError) as error:
-        raise SystemFault(f"{path}: is no SSP, or truncated ({error})") from None
+        raise SystemFault(
+            f"{path}: is no SSP, or truncated ({error}), allowed is a zip archive"
+        ) from None
     try:
         _check_members(path, archive.infolist())
     except SystemFault:
@@ -168,17 +176,24 @@ def _check_members(path: Path, members: list[zipfile.ZipInfo]) -> None:
         raise SystemFault(f"{path}: has {len(members)} members, allowed are {MOST_MEMBERS}")
     for member in members:
         if _leads_out(member.filename):
-            raise SystemFault(f"{path}: its member {member.filename!r} points outside the package")
+            raise SystemFault(
+                f"{path}: its member {member.filename!r} points outside the package,"
+                " allowed are paths within"
+            )
         if stat.S_ISLNK(member.external_attr >> 16):
-            raise SystemFault(f"{path}: its member {member.filename!r} is a link, not a file")
+            raise SystemFault(
+                f"{path}: its member {member.filename!r} is a link, allowed are files"
+            )
         if member.flag_bits & 1:
-            raise SystemFault(f"{path}: its member {member.filename!r} is encrypted")
+            raise SystemFault(
+                f"{path}: its member {member.filename!r} is encrypted, allowed are plain files"
+            )
     whole = sum(member.file_size for member in members)
     packed = max(path.stat().st_size, 1)
     if whole > MOST_BYTES or (whole > HARMLESS and whole > MOST_RATIO * packed):
         raise SystemFault(
             f"{path}: would unpack to {whole >> 20} MiB from {packed >> 10} KiB, which no system"
-            " does; not opened"
+            " does; allowed is less"
         )
 
 

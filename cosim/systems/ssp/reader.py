@@ -46,7 +46,7 @@ def _specified(
     coupling, run = _tables(structure, changes)
     units = flat.units()
     if not units:
-        raise SystemFault(f"{package.structure}: has no component")
+        raise SystemFault(f"{package.structure}: has no component, needed is one at least")
     return SystemSpecification(
         name=structure.name,
         source=str(package.path),

@@ -98,10 +98,12 @@ class Structure:
 def read_structure(root: etree._Element, place: str) -> Structure:
     """What the root of an SSD says; SystemFault, with the place, by the name of what cannot be."""
     if root.tag != tag("ssd:SystemStructureDescription"):
-        raise SystemFault(f"{place}: is no SystemStructureDescription of SSP 1.0 or 2.0")
+        raise SystemFault(
+            f"{place}: is no SystemStructureDescription, allowed is one of SSP 1.0 or 2.0"
+        )
     top = root.find(tag("ssd:System"))
     if top is None:
-        raise SystemFault(f"{place}: has no System")
+        raise SystemFault(f"{place}: has no System, needed is one")
     experiment = root.find(tag("ssd:DefaultExperiment"))
     try:
         return Structure(
@@ -164,7 +166,7 @@ def transformation_of(node: etree._Element, what: str) -> Affine:
             affine = Affine(_finite(child, "factor", 1.0), _finite(child, "offset", 0.0))
             return affine
         if name.endswith("Transformation"):
-            raise SystemFault(f"{what}: {name} is not done here, only LinearTransformation is")
+            raise SystemFault(f"{what}: {name} is not done here, allowed is LinearTransformation")
     return Affine()
 
 
@@ -179,14 +181,17 @@ def _system(node: etree._Element) -> System:
         places = ("ssd:SignalDictionaries", "ssd:Elements")
         for found in (each for place in places for each in below(node, f"{place}/ssd:{word}")):
             raise SystemFault(
-                f"{word} {found.get('name', '')!r} in system {name!r} is not done here; connect the"
-                " units themselves"
+                f"{word} {found.get('name', '')!r} in system {name!r} is not done here;"
+                " allowed are connections"
+                " of the units themselves"
             )
     elements: dict[str, Component | System] = {}
     for child in _children(node, "ssd:Elements"):
         element = _element(child)
         if element.name in elements:
-            raise SystemFault(f"system {name!r} has two elements named {element.name!r}")
+            raise SystemFault(
+                f"system {name!r} has two elements named {element.name!r}, allowed is one"
+            )
         elements[element.name] = element
     connections = tuple(_ends(child) for child in below(node, "ssd:Connections/ssd:Connection"))
     return System(name, _connectors(node), node, elements, connections)
@@ -200,11 +205,11 @@ def _children(node: etree._Element, name: str) -> Iterator[etree._Element]:
 def _element(node: etree._Element) -> Component | System:
     kind, name = local(node), node.get("name", "")
     if not name:
-        raise SystemFault(f"a {kind} has no name")
+        raise SystemFault(f"a {kind} has no name, needed is one")
     if kind == "System":
         return _system(node)
     if kind != "Component":
-        raise SystemFault(f"{kind} {name!r} is not done here, only Component and System are")
+        raise SystemFault(f"{kind} {name!r} is not done here, allowed are Component and System")
     form, source = node.get("type", FMU), node.get("source", "")
     if form != FMU:
         raise SystemFault(f"component {name!r} is of type {form}, allowed is {FMU}")
@@ -214,7 +219,7 @@ def _element(node: etree._Element) -> Component | System:
             "allowed is CoSimulation"
         )
     if not source:
-        raise SystemFault(f"component {name!r} has no source")
+        raise SystemFault(f"component {name!r} has no source, needed is the path of an FMU")
     return Component(name, _connectors(node), node, source)
 
 

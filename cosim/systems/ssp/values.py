@@ -69,7 +69,7 @@ def _set(
             return {}, "a binding without values"
         root, place = inline, f"the set {inline.get('name', '')!r}"
     if root.tag != tag("ssv:ParameterSet"):
-        raise SystemFault(f"{place} is no ParameterSet")
+        raise SystemFault(f"{place} is no ParameterSet, allowed is one")
     known = {**units, **units_of(root, "ssv")}
     found = {}
     for parameter in below(root, "ssv:Parameters/ssv:Parameter"):
@@ -90,17 +90,25 @@ def _mapped(
     source = mapping.get("source")
     root = package.xml(source) if source else mapping.find(tag("ssm:ParameterMapping"))
     if root is None or root.tag != tag("ssm:ParameterMapping"):
-        raise SystemFault(f"the mapping {source or 'inside the binding'} is no ParameterMapping")
+        raise SystemFault(
+            f"the mapping {source or 'inside the binding'} is no ParameterMapping, allowed is one"
+        )
     for entry in below(root, "ssm:MappingEntry"):
         name, target = entry.get("source", ""), entry.get("target", "")
         if not name:
             continue  # of a tool that lists all targets, those that get nothing
         if name not in given:
-            raise SystemFault(f"the mapping of {name!r} to {target!r}: {place} has no such value")
+            raise SystemFault(
+                f"the mapping of {name!r} to {target!r}: {place} has no such value,"
+                " allowed are those that it has"
+            )
         affine = transformation_of(entry, f"the mapping of {name!r} to {target!r}")
         start = given[name]
         if not affine.is_identity and isinstance(start.value, (bool, str)):
-            raise SystemFault(f"the mapping of {name!r} to {target!r} scales what is no number")
+            raise SystemFault(
+                f"the mapping of {name!r} to {target!r} scales what is no number,"
+                " allowed are numbers"
+            )
         yield target, replace(start, transformation=affine, converts=converts(entry))
 
 
@@ -120,7 +128,7 @@ def _value(parameter: etree._Element, units: Mapping[str, UnitDefinition], what:
         if not form or form in ("Annotations", "MetaData", "Dimension"):
             continue
         if text is None:
-            raise SystemFault(f"{what} has no value")
+            raise SystemFault(f"{what} has no value, needed is one")
         if form in REALS or form in INTEGERS:
             unit = unit_of(child)
             definition = None if unit is None else units.get(unit)
@@ -131,13 +139,17 @@ def _value(parameter: etree._Element, units: Mapping[str, UnitDefinition], what:
             return Start(TRUTH[text.strip()])
         if form in ("String", "Enumeration"):
             return Start(text)
-        raise SystemFault(f"{what} is a {form}, which is not set here")
-    raise SystemFault(f"{what} has no value")
+        raise SystemFault(
+            f"{what} is a {form}, which is not set here, allowed are numbers and texts"
+        )
+    raise SystemFault(f"{what} has no value, needed is one")
 
 
 def _numeric(text: str, form: str, what: str) -> float | int:
     if len(text.split()) > 1:
-        raise SystemFault(f"{what} is an array, which is not set here")
+        raise SystemFault(
+            f"{what} is an array, which is not set here, allowed are numbers and texts"
+        )
     try:
         value = int(text) if form in INTEGERS else float(text)
     except ValueError:

@@ -74,7 +74,9 @@ def test_verbose_shows_them_and_asks_for_more(system, tmp_path, capsys):
         "loud: t = 0.25 s: ok [debug]: all is well",
         "loud: t = 0.25 s: warning [heat]: warm",
     ]
-    assert said.err.splitlines()[6].startswith("note: 6 messages (3 warnings) in ")
+    (note,) = [line for line in said.err.splitlines() if line.startswith("note: ")]
+    assert note.startswith("note: 6 messages (3 warnings) in ")
+    assert f"writing {tmp_path / 'out' / 'summary.json'}" in said.err.splitlines()
     json.loads(said.out)
 
 

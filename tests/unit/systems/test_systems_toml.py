@@ -131,6 +131,7 @@ def test_rows_of_a_step_control_are_its_steps_and_that_is_told(chain):
         ('"part.rate"', '"part.rat"', r"no variable of first is named 'part.rat'; nearest: 'par"),
         ("u = 3.0", "u = [3.0]", r"units.first.inputs.u: not possible .* a finite number, true"),
         ("u = 3.0", "u = nan", r"units.first.inputs.u: not possible \(nan\)"),
+        ("u = 3.0", f"u = 1{400 * '0'}", r"units.first.inputs.u: not possible \(10+\)"),
         ('from = "first.y"', 'from = "frist.y"', r"connections\[1\].from: no unit is named 'fri"),
         ('from = "first.y"', 'from = "first.z"', r"no port of first is named 'z'"),
         ('from = "first.y"', 'from = "first"', r'not a port \("first"\), allowed is a text as u'),
