@@ -154,7 +154,8 @@ def has_events(dataset: xr.Dataset) -> bool:
 def mode_changes(dataset: xr.Dataset) -> tuple[Array, Array]:
     """Times (k,) s and modes after them (k,), the first entry being the run's start.
 
-    Without located events a change is put halfway between the two rows that tell it.
+    Without located events the time spent in slip tells where a change lies between the two rows
+    that show it; without that either, it is put halfway.
     """
     time, mode = dataset["time"].values, dataset["mode"].values.astype(float)
     if time.size == 0:
@@ -166,8 +167,13 @@ def mode_changes(dataset: xr.Dataset) -> tuple[Array, Array]:
     known = np.isfinite(mode)
     time, mode = time[known], mode[known]
     at = np.flatnonzero(np.diff(mode))
-    middles = 0.5 * (time[at] + time[at + 1])
-    return np.concatenate([time[:1], middles]), np.concatenate([mode[:1], mode[at + 1]])
+    if "slip_time" in dataset:
+        slipped = np.diff(dataset["slip_time"].values[known])[at]
+        changes = np.where(mode[at + 1] == SLIP, time[at + 1] - slipped, time[at] + slipped)
+        changes = np.clip(changes, time[at], time[at + 1])
+    else:
+        changes = 0.5 * (time[at] + time[at + 1])
+    return np.concatenate([time[:1], changes]), np.concatenate([mode[:1], mode[at + 1]])
 
 
 def slip_intervals(dataset: xr.Dataset) -> Array:

@@ -27,18 +27,32 @@ WORDS = {
     "iterations": "iterations of all steps",
     "most_iterations": "iterations of one step at most",
     "unconverged": "steps accepted without convergence",
+    "first_unconverged": "the first of them, from",
     "above_tolerance": "steps accepted above the tolerance",
+    "first_above_tolerance": "the first of these, from",
     "events": "steps ended early by a unit",
     "initial_sweeps": "sweeps of the initial exchange",
+    "remarks": "to be noted",
 }
-TIMES = ("macro_step", "shortest_step", "longest_step")
+#: What is shown only where there is any: for one, the start of the first step that stands although
+#: it should not.
+FIRST = ("first_unconverged", "first_above_tolerance")
+SELDOM = (*FIRST, "remarks")
+TIMES = (
+    *("macro_step", "shortest_step", "longest_step"),
+    *FIRST,
+)
 ATTRIBUTE, TABLE = "coupling", "coupling"
 #: Keys of a scenario's table that are told with the numbers.
 SETTINGS = ("scheme", "step_control", "macro_step")
 
 
-def step_numbers(result: CoupledResult) -> dict[str, int]:
-    """Steps, what was repeated of them, and what stands although it should not: how many."""
+def step_numbers(result: CoupledResult) -> dict[str, Any]:
+    """Steps, what was repeated of them, and what stands although it should not: how many.
+
+    converged: whether none stands whose iteration had not come to its end; first_...: start of the
+    first step that stands so, s, None where there is none.
+    """
     done = result.statistics
     return {
         "steps": result.steps,
@@ -47,9 +61,37 @@ def step_numbers(result: CoupledResult) -> dict[str, int]:
         "most_iterations": done.most_iterations,
         "events": done.events,
         "unconverged": len(done.unconverged),
+        "first_unconverged": done.unconverged[0] if done.unconverged else None,
+        "converged": result.converged,
         "above_tolerance": len(done.above_tolerance),
+        "first_above_tolerance": done.above_tolerance[0] if done.above_tolerance else None,
         "initial_sweeps": result.sweeps,
     }
+
+
+def doubts(coupling: Mapping[str, Any]) -> list[str]:
+    """What is wrong with the steps of a run that is complete all the same, a sentence each.
+
+    coupling: numbers of a summary.
+    """
+    said = (
+        (
+            "unconverged",
+            'whose iteration has not converged (on_divergence = "accept"): from there on the'
+            " results are not those of the coupled system",
+        ),
+        (
+            "above_tolerance",
+            "of the smallest size although their error is larger than allowed: from there on the"
+            " results are less exact than asked for",
+        ),
+    )
+    return [
+        f"{coupling[key]} of {coupling['steps']} steps were accepted, the first from t ="
+        f" {coupling[f'first_{key}']:.6g} s, {words}"
+        for key, words in said
+        if coupling.get(key)
+    ]
 
 
 def efforts(result: CoupledResult) -> dict[str, dict[str, float]]:
@@ -67,6 +109,7 @@ def attach_coupling(
     settings = tables.get(TABLE, {})
     told = {key: settings[key]["value"] for key in SETTINGS if key in settings}
     found = told | step_numbers(result) | {"participants": efforts(result)}
+    found["remarks"] = list(result.remarks)
     dataset.attrs[ATTRIBUTE] = json.dumps(found)
 
 
@@ -80,7 +123,7 @@ def _with_units(found: Mapping[str, Any]) -> dict[str, Any]:
     for key, value in found.items():
         if isinstance(value, dict):
             told[key] = _with_units(value)
-        elif isinstance(value, str):
+        elif isinstance(value, str | bool | list):
             told[key] = value
         else:
             told[key] = Quantity(value, "s" if key in (*TIMES, "seconds") else "1")
@@ -89,7 +132,12 @@ def _with_units(found: Mapping[str, Any]) -> dict[str, Any]:
 
 def step_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """Words and values for a page, of what there is."""
-    return [(words, _told(key, numbers[key])) for key, words in WORDS.items() if key in numbers]
+    shown = [
+        key
+        for key in WORDS
+        if key in numbers and (key not in SELDOM or numbers[key] not in (None, []))
+    ]
+    return [(WORDS[key], _told(key, numbers[key])) for key in shown]
 
 
 def effort_rows(participants: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, ...]]:
@@ -104,5 +152,5 @@ def _told(key: str, value: Any) -> str:
     if isinstance(value, list):
         return ", ".join(map(str, value)) or "none"
     if key in TIMES:
-        return number(value) if value is None else f"{number(value)} s"
+        return "none" if value is None else f"{number(value)} s"
     return str(value)

@@ -186,6 +186,7 @@ def _describe(
         status=status,
         reason=reason,
         scenario=toml,
+        defaults=json.dumps(dict(getattr(scenario, "taken", {}))),
         **provenance(),
     )
     if (belt := getattr(scenario, "belt", None)) is not None:

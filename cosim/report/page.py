@@ -1,15 +1,24 @@
 """Pages: one self-contained HTML file, its pictures inside, its look that of all the others.
 
 A page is a Jinja template that extends `page.html.j2` and fills its blocks title, style and
-content. Beside its own values it has ``figure(picture)`` and the filter ``number``.
+content. Beside its own values it has ``figure(picture)`` and the filters ``number`` and ``unit``.
+
+A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
+where scripts do not run, and on paper, stands its PNG. The scripts are in the page, plain and
+readable, and so is uPlot (MIT licence, in `templates/uplot`), which draws the curves: a page asks
+for nothing outside. Wide tables scroll by themselves, so that a page never does sideways.
 """
 
 from __future__ import annotations
 
 import base64
+import json
 import math
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from importlib import resources
 from typing import Any
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
@@ -21,11 +30,31 @@ CSS_DPI, DPI = 96, 150
 
 @dataclass(frozen=True)
 class Picture:
-    """A PNG with its caption."""
+    """A PNG with its caption.
+
+    alt: what a reader hears who does not see it (left out, the caption). live: what the page draws
+    in place of the PNG, see `cosim.report.live`.
+    """
 
     name: str
     caption: str
     png: bytes = field(repr=False)
+    alt: str = ""
+    live: Mapping[str, Any] | None = field(default=None, repr=False)
+
+
+UPLOT, ITS_LICENCE = "uplot/uPlot.iife.min.js", "uplot/LICENSE"
+#: The only address in a page with it: where uPlot is from. A page names none.
+ITS_HOME = "https://github.com/leeoniya/"
+#: What draws each kind of live picture, in this order; of `templates/`.
+SCRIPTS = {
+    "over_time": (UPLOT, "live.js", "over_time.js"),
+    "belt_map": ("live.js", "belt_map.js"),
+    "top_view": ("live.js", "player.js", "top_view.js"),
+}
+#: On every page, and behind the scripts of live pictures.
+EVERYWHERE = "page.js"
+TEMPLATES = resources.files("cosim.report") / "templates"
 
 
 def render(template: str, package: str, **values: Any) -> str:
@@ -33,7 +62,42 @@ def render(template: str, package: str, **values: Any) -> str:
 
     Raises jinja2.UndefinedError where one of them is missing.
     """
-    return _environment(package).get_template(template).render(**values)
+    kinds: set[str] = set()
+
+    def drawn(picture: Picture, alt: str = "") -> Markup:
+        if picture.live is not None:
+            kinds.add(picture.live["kind"])
+        return figure(picture, alt)
+
+    found = _environment(package).get_template(template)
+    return _scrolling(found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds)))
+
+
+def _scripts(kinds: set[str]) -> Markup:
+    """The scripts that these kinds of live pictures need, each once."""
+    files = dict.fromkeys(file for kind in SCRIPTS if kind in kinds for file in SCRIPTS[kind])
+    return Markup("").join(
+        Markup("<script>\n{}</script>\n").format(Markup(asset(file)))
+        for file in (*files, EVERYWHERE)
+    )
+
+
+@cache
+def asset(file: str) -> str:
+    """Text of a script or a style sheet in `templates/`."""
+    text = (TEMPLATES / file).read_text(encoding="utf-8")
+    if file == UPLOT:
+        return f"/*\n{asset(ITS_LICENCE)}*/\n{text.replace(ITS_HOME, '')}"
+    return text
+
+
+#: A table by itself, not the only thing in a box that scrolls already.
+_TABLE = re.compile(r'(?<!<div class="wide">)(?<!<div class="wide">\n)(<table\b.*?</table>)', re.S)
+
+
+def _scrolling(html: str) -> str:
+    """The page with every table in a box of its own that scrolls where the window is narrow."""
+    return _TABLE.sub(r'<div class="wide">\1</div>', html)
 
 
 @cache
@@ -46,21 +110,45 @@ def _environment(package: str) -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["number"] = number
-    environment.globals["figure"] = figure
+    environment.filters["unit"] = unit_text
+    environment.globals["asset"] = lambda file: Markup(asset(file))
     return environment
 
 
 def figure(picture: Picture, alt: str = "") -> Markup:
-    """A picture and its caption, as wide as its inches say."""
+    """A picture and its caption, as wide as its inches say; with the numbers of a live one."""
+    data = Markup("")
+    if picture.live is not None:
+        data = Markup('<script type="application/json">{}</script>\n').format(_json(picture.live))
     return Markup(
-        '<figure><img width="{}" src="data:image/png;base64,{}" alt="{}">\n'
-        "<figcaption>{}</figcaption></figure>\n"
+        '<figure{} data-name="{}"><img class="still" width="{}" '
+        'src="data:image/png;base64,{}" alt="{}">\n{}<figcaption>{}</figcaption></figure>\n'
     ).format(
+        Markup(' class="live"') if picture.live is not None else "",
+        picture.name,
         _width(picture.png),
         base64.b64encode(picture.png).decode("ascii"),
-        alt or picture.caption,
+        alt or picture.alt or picture.caption,
+        data,
         picture.caption,
     )
+
+
+def _json(content: Mapping[str, Any]) -> Markup:
+    """JSON that is safe inside a script element, in which no entity is read."""
+    text = json.dumps(content, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    return Markup(text.replace("<", "\\u003c"))
+
+
+def unit_text(unit: str) -> str:
+    """A unit of FMI as it is read: powers raised, a root as such, a product with a space.
+
+    >>> unit_text("W.s0.5/(m2.K)"), unit_text("kg.m2"), unit_text("degC")
+    ('W √s/(m² K)', 'kg m²', '°C')
+    """
+    unit = re.sub(r"([A-Za-z]+)0\.5", r"√\1", unit)
+    unit = re.sub(r"(?<=[A-Za-z])\d", lambda power: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(power[0])], unit)
+    return {"degC": "°C", "deg": "°"}.get(unit, unit.replace(".", " "))
 
 
 #: Of its own largest value, and of its nominal one, what is rounding in a channel.

@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from .page import unit_text
+
 
 class Quantity(NamedTuple):
     """A number, or None where there is none, and its unit."""
@@ -144,7 +146,7 @@ def worded(key: str) -> str:
 
 def spelled(unit: str) -> str:
     """A unit as it is printed."""
-    return UNITS.get(unit, unit)
+    return UNITS[unit] if unit in UNITS else unit_text(unit)
 
 
 def told(value: float | int | None, unit: str, share: bool = False) -> str:

@@ -11,10 +11,11 @@ import xarray as xr
 
 from cosim.files import write_bytes, write_text
 from cosim.report.contents import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
+from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
 from .contents import Views, stored_tables
-from .coupling import effort_rows, step_rows
+from .coupling import doubts, effort_rows, step_rows
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .page import Picture, render
@@ -61,8 +62,7 @@ def write_results(
     of each file once it is written. Raises OutputError where the disk refuses.
     """
     from .figures import plates_of
-    from .figures.animation import animation
-    from .style import png
+    from .figures.animation import Moving, animation
 
     folder = Path(folder)
     written: list[Path] = []
@@ -78,12 +78,13 @@ def write_results(
     done(write_json(numbers, folder / "summary.json"))
     pictures = []
     for plate in plates_of(dataset):
-        pictures.append(Picture(plate.name, plate.caption, png(plate.draw(dataset))))
+        pictures.append(plate.picture(dataset))
         done(write_bytes(pictures[-1].png, folder / f"{plate.name}.png"))
     files = dict(files or {})
     if views:
-        moving = animation(views, ambient_degC(dataset), dataset.attrs["title"])
-        done(write_bytes(moving, folder / ANIMATION))
+        columns = (dataset[name].values for name in ("time", "x", "surface_travel"))
+        film = animation(views, ambient_degC(dataset), dataset.attrs["title"], Moving(*columns))
+        done(write_bytes(film, folder / ANIMATION))
         files[ANIMATION] = "temperature of belt and ice over time, an animation"
     text = page(dataset, numbers, pictures, command=command, files=files)
     done(write_text(text, folder / "report.html"))
@@ -124,6 +125,7 @@ def page(
         regimes=regime_rows(numbers),
         figures=pictures,
         parameters=parameter_tables(dataset),
+        defaults=taken_line(numbers["defaults"]),
         files=own | dict(files or {}),
         command=command,
         coupled=numbers["case"] == "coupled",
@@ -152,7 +154,9 @@ def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
     for path in paths:
         value = _at(numbers, path)
         if value is not None:
-            found.append((words.get(path, worded(path.rsplit(".")[-1])), _told(numbers, path)))
+            none = path == "after_run_up.frequency" and value == 0.0
+            told_of = "none" if none else _told(numbers, path)
+            found.append((words.get(path, worded(path.rsplit(".")[-1])), told_of))
     return found
 
 
@@ -181,7 +185,8 @@ def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
 
 def beyond(numbers: Mapping[str, Any]) -> list[str]:
     """Sentences on what the block does that its rig could not; none where all is well."""
-    return [f"{said[0].upper()}{said[1:]}." for said in bounds_sentences(numbers)]
+    found = (*bounds_sentences(numbers), *doubts(numbers.get("coupling", {})))
+    return [f"{said[0].upper()}{said[1:]}." for said in found]
 
 
 def assessed(numbers: Mapping[str, Any]) -> list[str]:

@@ -23,7 +23,8 @@ Array = NDArray[np.float64]
 def after_ramp(dataset: xr.Dataset) -> dict[str, Quantity]:
     """What the stick-slip motion is like once the surface has its speed.
 
-    frequency: break-aways over the window. mean_period: between the first and the last of them.
+    mean_period: from the first to the last break-away in it. frequency: one over that; 0 without
+    break-aways, None of a single one.
     """
     begin, end = ramp_end(dataset), float(dataset["time"][-1])
     window = end - begin
@@ -31,12 +32,13 @@ def after_ramp(dataset: xr.Dataset) -> dict[str, Quantity]:
     starts = break_aways(dataset)
     starts = starts[(starts >= begin) & (starts <= end)]
     reached = window > 0.0
-    period = (starts[-1] - starts[0]) / (starts.size - 1) if starts.size > 1 else None
+    period = float(starts[-1] - starts[0]) / (starts.size - 1) if starts.size > 1 else None
+    frequency = 1.0 / period if period else None if starts.size else 0.0
     return {
         "begin": Quantity(begin, "s"),
         "duration": Quantity(window if reached else 0.0, "s"),
         "break_aways": Quantity(int(starts.size), "1"),
-        "frequency": Quantity(starts.size / window if reached else None, "Hz"),
+        "frequency": Quantity(frequency if reached else None, "Hz"),
         "mean_period": Quantity(period, "s"),
         "slip_share": Quantity(slip_share(dataset, begin, end), "1"),
         "mean_x": Quantity(time_mean(late, "x"), "m"),
@@ -97,7 +99,7 @@ def _growth(dataset: xr.Dataset, name: str) -> float:
 
 def summary(dataset: xr.Dataset) -> dict[str, Any]:
     """Status, coupling, ledgers, temperatures, melting, stick-slip numbers, bounds that the block
-    left, versions, scenario.
+    left, versions, what was left to the defaults (`table.key` -> value), scenario.
 
     Numbers stand in a tree whose units are in ``units`` (``path.to.key`` -> unit); a number
     that a run does not have (too short, failed, no heat) is None.
@@ -113,6 +115,7 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
         "events": dataset.attrs["events"],
         "created": dataset.attrs["created"],
         "versions": json.loads(dataset.attrs["versions"]),
+        "defaults": json.loads(dataset.attrs.get("defaults", "{}")),
         "parameters": _plain(json.loads(dataset.attrs["parameters"])),
         "scenario": dataset.attrs["scenario"],
     }

@@ -1,93 +1,159 @@
-"""The figures of a run, each from the dataset alone."""
+"""The figures of a run, each from the dataset alone: as a drawing, and alive on a page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import xarray as xr
 from matplotlib.figure import Figure
 
-from .heat import draw_heat, draw_melting
-from .motion import draw_friction_force, draw_motion, draw_phase_portrait
-from .temperatures import draw_belt_temperature, draw_temperatures
-from .top_view import draw_top_view
+from cosim.names import unknown_name
+from cosim.report.live import Live
+from cosim.report.page import Picture
+from cosim.report.style import png
+
+from ..contents import mechanics_of
+from .belt_map import belt_temperature_live, draw_belt_temperature
+from .friction_table import draw_friction_table
+from .heat import heat, melting
+from .motion import draw_phase_portrait, friction_force, motion
+from .over_time import Describe, drawn, live
+from .temperatures import temperatures
+from .top_view import draw_top_view, top_view_live
 
 
 @dataclass(frozen=True)
 class Plate:
-    """A figure: name of its file, caption, how it is drawn, the variable that it needs.
+    """A figure: name of its file, title, caption, how it is drawn, the variable that it needs.
 
-    grows: that variable must rise above 0, or there is nothing to see.
+    alt: what a reader hears who does not see it. live: what the page's scripts make of it; None
+    where it stays a drawing. grows: the variable must rise above 0, or there is nothing to see.
     """
 
     name: str
+    title: str
     caption: str
+    alt: str
     draw: Callable[[xr.Dataset], Figure]
+    live: Callable[[xr.Dataset], Live] | None = None
     needs: str = "x"
     grows: bool = False
+
+    def picture(self, dataset: xr.Dataset) -> Picture:
+        """Drawn, and with what makes it alive."""
+        alive = self.live(dataset) if self.live is not None else None
+        if alive is not None:
+            alive = {"title": self.title, **alive}
+        return Picture(self.name, self.caption, png(self.draw(dataset)), self.alt, alive)
+
+
+def _over_time(
+    name: str,
+    title: str,
+    caption: str,
+    alt: str,
+    describe: Describe,
+    needs: str = "x",
+    grows: bool = False,
+) -> Plate:
+    return Plate(name, title, caption, alt, drawn(describe), live(describe), needs, grows)
 
 
 PLATES = (
     Plate(
+        "top_view",
+        "Block and springs from above",
+        "Block and springs from above with their exact geometry, to scale. Squares: fixed ends of"
+        " the springs; the line from the centre turns with the block. Dotted: the block at rest.",
+        "The rig seen from above: block, four springs and the moving surface.",
+        draw_top_view,
+        top_view_live,
+    ),
+    _over_time(
         "motion",
+        "Motion of the block",
         "Position x along the motion of the surface, y across it and rotation φ (counter-clockwise)"
         " of the block. Slip is shaded; in between the block sticks to the surface and moves with"
         " it.",
-        draw_motion,
+        "Position and rotation of the block over time, phases of slip shaded.",
+        motion,
     ),
-    Plate(
+    _over_time(
         "friction_force",
+        "Friction on the block",
         "Friction of the surface on the block. Dashed: the largest that static friction holds"
-        " (μ_s m g) and what sliding friction amounts to (μ_k m g). Drawn at the recorded"
-        " times: a peak between two of them is cut.",
-        draw_friction_force,
+        " (μₛ m g) and what sliding friction amounts to (μₖ m g). Drawn through the located"
+        " break-aways and re-sticks: a peak between two recorded times is whole, unless it is"
+        " narrower than their distance.",
+        "Friction on the block over time, beside its limits in stick and in slip.",
+        friction_force,
     ),
     Plate(
         "phase_portrait",
-        "Velocity over position. On the dashed line the block moves with the surface: it sticks."
-        " A closed loop is a stick-slip cycle.",
+        "Phase portrait",
+        "Velocity over position. On the dashed line the block moves with the surface below it: it"
+        " sticks. A closed loop is a stick-slip cycle. The speed ramp comes out of the paper, the"
+        " faintest first.",
+        "Velocity of the block over its position: a closed loop for each stick-slip cycle.",
         draw_phase_portrait,
     ),
-    Plate(
+    _over_time(
         "heat",
+        "Friction heat",
         "Friction heat: power (mean over the interval between two rows), its sum since the start,"
         " and what of it is found where.",
-        draw_heat,
+        "Power and sum of the friction heat over time, and the shares of belt, ice and air.",
+        heat,
     ),
-    Plate(
+    _over_time(
         "temperatures",
+        "Temperatures",
         "Rise of the temperatures over that of the air; the scale at the right is the"
-        " thermometer's. Before and behind the contact: an eighth of the contact's length outside"
-        " it.",
-        draw_temperatures,
+        " thermometer's. The face of the ice and the mean of both faces differ so little that"
+        " their difference is drawn. Before and behind the contact: an eighth of the contact's"
+        " length outside it.",
+        "Temperatures of the contact and of the belt before and behind it over time.",
+        temperatures,
         needs="interface_temperature",
     ),
-    Plate(
+    _over_time(
         "melting",
+        "Melting",
         "Stress of friction on the contact; mean thickness of the water under the block, and what"
         " the melting of the moment alone would feed (the rest has come round on the belt); ice"
-        " that the block has lost, and what of it lies frozen on the belt. Dotted: what the film"
+        " that the block has lost, and what of it lies frozen on the belt. Pale: what the film"
         " would be sheared with if it covered the whole contact; where that is more than friction,"
         " it does not.",
-        draw_melting,
+        "Stress in the contact, thickness of the water and mass of melted ice over time.",
+        melting,
         needs="melted_mass",
         grows=True,
     ),
     Plate(
         "belt_temperature",
-        "Contact face of the belt along its length, in the belt's own coordinate, at several times."
-        " Below, in the same colours: where the block stood. Where the belt runs forwards the"
-        " block moves to the left in this coordinate.",
+        "Temperature of the surface over time and place",
+        "Contact face of the belt over time, place by place of its own material. Blue: the place"
+        " below the middle of the block; a belt that runs forwards comes to it from higher places."
+        " Below the block the mean of the contact. Between the times at which the belt was"
+        " recorded a place keeps its temperature until the block has passed, then has the next.",
+        "Map of the temperature of the belt over time and place; warmest below the block.",
         draw_belt_temperature,
+        belt_temperature_live,
         needs="belt_temperature",
     ),
-    Plate(
-        "top_view",
-        "Block and springs from above with their exact geometry, to scale. Dotted: the block at"
-        " rest; squares: fixed ends of the springs; the line from the centre turns with the block.",
-        draw_top_view,
-    ),
+)
+
+#: Of a run whose friction is a table.
+TABLE = Plate(
+    "friction_table",
+    "Friction as measured",
+    "The table in place of μ_k: its points, and what the model has between and beyond them"
+    " (monotone cubics). Shaded: speeds at which the block slid; dotted: static friction.",
+    "Kinetic friction over sliding speed: the points of the table and the curve through them.",
+    draw_friction_table,
+    needs="sliding_speed",
 )
 
 
@@ -95,7 +161,22 @@ def plates_of(dataset: xr.Dataset) -> list[Plate]:
     """The figures that a dataset has the variables (and at least one row) for."""
     if dataset.sizes["time"] == 0:
         return []
-    return [plate for plate in PLATES if _has(dataset, plate)]
+    shown = [plate for plate in PLATES if _has(dataset, plate)]
+    return [*shown, TABLE] if mechanics_of(dataset).friction.has_table else shown
+
+
+def figure_of(dataset: xr.Dataset, name: str) -> Figure:
+    """The figure of a name, of those that `plates_of` has; ValueError for a name that is none.
+
+    A notebook shows it where it stands last in a cell.
+    """
+    plates = {plate.name: plate for plate in plates_of(dataset)}
+    if name not in plates:
+        raise ValueError(unknown_name("figure of this run", name, plates))
+    figure = plates[name].draw(dataset)
+    # what Jupyter asks an object for; figures that pyplot does not know have nothing of the kind
+    figure._repr_png_ = partial(png, figure)  # type: ignore[attr-defined]
+    return figure
 
 
 def _has(dataset: xr.Dataset, plate: Plate) -> bool:

@@ -1,8 +1,13 @@
-"""Temperature of belt and ice as an animation: a GIF, which every browser plays."""
+"""Temperature of belt and ice as an animation: a GIF, which every browser plays.
+
+Seen from the rig: the block goes to and fro over the fixed springs' middle, and marks go by on the
+belt, which an arrow says the direction of.
+"""
 
 from __future__ import annotations
 
 import io
+from typing import NamedTuple
 
 import matplotlib
 import numpy as np
@@ -10,11 +15,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.figure import Figure
+from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 from PIL import Image
 
 from cosim.report.contents import Views
-from cosim.report.style import GREY, INK, RC, SKY, plain_ticks, readable
+from cosim.report.style import GREY, HEAT_MAP, INK, RC, SKY, plain_ticks, readable
 from thermal import RigView
 
 Array = NDArray[np.float64]
@@ -23,21 +29,41 @@ Array = NDArray[np.float64]
 LASTS = 12.0
 SLOWEST, FASTEST = 3, 25
 DPI = 100
-COLOURS = "inferno"
 #: Ice above the height to which this part of the largest rise reaches is not shown.
 FAINT = 0.01
 LEAST_HEIGHT = 5e-3
 SMALLEST_RISE = 1e-9
 
 
-def animation(views: Views, ambient: float, name: str) -> bytes:
+#: m between two marks on the belt, and of the arrow that shows where it goes.
+MARKS = 0.1
+
+
+class Moving(NamedTuple):
+    """Where block and surface are: x and travel (times,) m at time (times,) s."""
+
+    time: Array
+    x: Array
+    travel: Array
+
+    def at(self, time: float) -> tuple[float, float]:
+        """x and travel, m, at a time, s."""
+        return float(np.interp(time, self.time, self.x)), float(
+            np.interp(time, self.time, self.travel)
+        )
+
+
+STANDING = Moving(np.zeros(1), np.zeros(1), np.zeros(1))
+
+
+def animation(views: Views, ambient: float, name: str, moving: Moving = STANDING) -> bytes:
     """A GIF file of at least one view (time in s, what is seen), one frame for each.
 
-    ambient: degC of the air; name: of the case.
+    ambient: degC of the air; name: of the case. moving: left out, neither block nor belt do.
     """
     palette = _palette()
     with matplotlib.rc_context(RC):
-        picture = _Picture(views, ambient, name)
+        picture = _Picture(views, ambient, name, moving)
         frames = [
             picture.frame(time, view).quantize(palette=palette, dither=Image.Dither.NONE)
             for time, view in views
@@ -57,7 +83,7 @@ def animation(views: Views, ambient: float, name: str) -> bytes:
 
 def _palette() -> Image.Image:
     """The same 256 colours for all frames, those of the map above all: no steps, no flicker."""
-    map_ = matplotlib.colormaps[COLOURS](np.linspace(0.0, 1.0, 239))[:, :3]
+    map_ = matplotlib.colormaps[HEAT_MAP](np.linspace(0.0, 1.0, 239))[:, :3]
     greys = np.linspace(0.0, 1.0, 16)[:, None] * np.ones(3)
     colours = np.concatenate((map_, greys, [to_rgb(SKY)]))
     image = Image.new("P", (1, 1))
@@ -68,8 +94,8 @@ def _palette() -> Image.Image:
 class _Picture:
     """The figure of which each frame changes the colours and the time."""
 
-    def __init__(self, views: Views, ambient: float, name: str) -> None:
-        self._ambient, self._name = ambient, name
+    def __init__(self, views: Views, ambient: float, name: str, moving: Moving) -> None:
+        self._ambient, self._name, self._moving = ambient, name, moving
         rises = (
             np.array([np.nanmax([np.nanmax(view.belt), np.nanmax(view.ice)]) for _, view in views])
             - ambient
@@ -83,6 +109,14 @@ class _Picture:
         ice, belt = figure.subplots(2, 1, height_ratios=[1.6, 1.0])
         self._ice = self._mesh(ice, first.x, first.height, first.ice)
         self._belt = self._mesh(belt, first.offset, -first.depth, first.belt)
+        self._ways = [(mesh, Affine2D()) for mesh in (self._ice, self._belt)]
+        for (mesh, way), axes in zip(self._ways, (ice, belt), strict=True):
+            mesh.set_transform(way + axes.transData)
+        left = 1e3 * float(np.nanmin(moving.x, initial=0.0))
+        right = 1e3 * float(np.nanmax(moving.x, initial=0.0))
+        ice.set_xlim(1e3 * first.x.min() + left, 1e3 * first.x.max() + right)
+        # the loop's ends, which are one place, go to and fro with the block
+        belt.set_xlim(1e3 * first.offset.min() + right, 1e3 * first.offset.max() + left)
         self._label_ice(ice, _shown_height(views, ambient))
         self._label_belt(belt, first.contact)
         figure.colorbar(self._ice, ax=[ice, belt], label=f"rise over the air [{self._scaled.unit}]")
@@ -94,7 +128,7 @@ class _Picture:
             1e3 * z,
             self._rise(field),
             shading="gouraud" if np.isfinite(field).all() else "nearest",
-            cmap=COLOURS,
+            cmap=HEAT_MAP,
             norm=self._norm,
             rasterized=True,
         )
@@ -105,13 +139,13 @@ class _Picture:
     def _label_ice(self, axes: Axes, height: float) -> None:
         axes.set_ylim(0.0, 1e3 * height)
         axes.set_title("ice, section through its middle: the part at the contact")
-        axes.set_xlabel("along the belt [mm]")
+        axes.set_xlabel("along the belt, from the middle of the rig [mm]")
         axes.set_ylabel("above the contact [mm]")
         _plain(axes)
 
     def _label_belt(self, axes: Axes, contact: float) -> None:
         half = 0.5e3 * contact
-        axes.plot(
+        (stands,) = axes.plot(
             [-half, half],
             [0.0, 0.0],
             color=SKY,
@@ -119,8 +153,16 @@ class _Picture:
             clip_on=False,
             solid_capstyle="butt",
         )
-        axes.set_title("belt, the whole loop; the ice stands on the blue line")
-        axes.set_xlabel("behind the middle of the contact [mm]")
+        way = Affine2D()
+        stands.set_transform(way + axes.transData)
+        self._ways.append((stands, way))
+        (self._marks,) = axes.plot([], [], "|", color="white", markersize=8.0)
+        gone = float(self._moving.travel[-1] - self._moving.travel[0])
+        arrow = {0.0: "", 1.0: "; it moves to the right →", -1.0: "; it moves to the left ←"}
+        axes.set_title(
+            f"belt, the whole loop; the ice stands on the blue line{arrow[float(np.sign(gone))]}"
+        )
+        axes.set_xlabel("along the belt, from the middle of the rig [mm]")
         axes.set_ylabel("depth [mm]")
         _plain(axes)
         axes.yaxis.set_major_formatter(lambda depth, _: f"{abs(depth):g}")
@@ -129,6 +171,13 @@ class _Picture:
         """The picture at a time (s)."""
         self._ice.set_array(self._rise(view.ice))
         self._belt.set_array(self._rise(view.belt))
+        x, travel = self._moving.at(time)
+        for _, way in self._ways:
+            way.clear().translate(1e3 * x, 0.0)
+        first, last = view.offset.min(), view.offset.max()
+        marks = MARKS * np.arange(np.floor(first / MARKS), np.ceil(last / MARKS)) + travel % MARKS
+        depth = -0.5e3 * float(view.depth.max())
+        self._marks.set_data(1e3 * marks, np.full(marks.size, depth))
         self._title.set_text(f"Temperature of ice and belt: {self._name}, t = {time:.2f} s")
         self._canvas.draw()
         return Image.fromarray(np.asarray(self._canvas.buffer_rgba())).convert("RGB")

@@ -4,31 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from stickslip.friction.law import feels_water
 
 from cosim.report.contents import mechanics_of
 from cosim.report.heat_numbers import SINKS, Film, all_other_heat, film_of, held
+from cosim.report.live import Curve, Panel
 from cosim.report.style import (
     BLUE,
     GREEN,
     GREY,
     INK,
+    LIGHT_BLUE,
     ORANGE,
     PURPLE,
     RED,
     SKY,
     Scaled,
-    line,
     readable,
-    styled,
 )
 
-from .over_time import slip_patch, time_panels, title
+from .over_time import TimeFigure
 
 COLOURS = {"belt": BLUE, "ice": SKY, "air": ORANGE, "supports": GREEN, "melting": PURPLE}
 LABELS = {
@@ -40,47 +35,43 @@ LABELS = {
 }
 #: Sinks that most runs do not have.
 RARE = ("supports", "melting")
+#: Of all the heat: shares of less are not drawn.
+SMALLEST_PART = 2e-3
 
 
-@styled
-def draw_heat(dataset: xr.Dataset) -> Figure:
+def heat(dataset: xr.Dataset) -> TimeFigure:
     """Heat flow, cumulative heat and, where there is a thermal model, the shares."""
     sinks = sinks_of(dataset)
-    figure, axes = time_panels(dataset, rows=3 if sinks else 2)
-    time = dataset["time"].values
-    flow = readable(dataset["heat_flow"].values, "W")
     beside = all_other_heat(dataset)
-    heat = readable(dataset["heat"].values + beside, "J")
-    for column in range(axes.shape[1]):
-        line(axes[0, column], time, flow(dataset["heat_flow"].values), color=RED)
-        _stack(axes[1, column], dataset, sinks, heat)
-        line(axes[1, column], time, heat(dataset["heat"].values), color=INK)
-        if beside.any():
-            line(
-                axes[1, column],
-                time,
-                heat(dataset["heat"].values + beside),
-                color=INK,
-                linestyle="--",
-            )
-        if sinks:
-            _shares(axes[2, column], dataset, sinks)
-    axes[0, 0].set_ylabel(f"friction heat [{flow.unit}]")
-    axes[1, 0].set_ylabel(f"heat since start [{heat.unit}]")
-    axes[0, 0].set_ylim(bottom=0.0)
-    axes[1, 0].set_ylim(bottom=0.0)
-    if sinks:
-        axes[2, 0].set_ylabel("share of the heat [%]")
-        axes[2, 0].set_ylim(0.0, 100.0)
-    figure.align_ylabels(axes[:, 0])
-    title(figure, "Friction heat", dataset)
-    handles: list[Artist] = [Line2D([], [], color=INK, label="friction heat")]
+    flow = readable(dataset["heat_flow"].values, "W")
+    total = readable(dataset["heat"].values + beside, "J")
+    sums = [
+        Curve(LABELS[sink], total(held(dataset, name)), COLOURS[sink], fill=True)
+        for sink, name in sinks.items()
+    ]
+    sums.append(Curve("friction heat", total(dataset["heat"].values), INK))
     if beside.any():
-        handles += [Line2D([], [], color=INK, linestyle="--", label="with railing's, rollers'")]
-    handles += [Patch(facecolor=COLOURS[sink], alpha=0.75, label=LABELS[sink]) for sink in sinks]
-    handles += [slip_patch()]
-    figure.legend(handles=handles, loc="outside upper right", ncols=len(handles))
-    return figure
+        all_of_it = total(dataset["heat"].values + beside)
+        sums.append(Curve("with railing's, rollers'", all_of_it, INK, dash=True))
+    panels = [
+        Panel(
+            f"friction heat [{flow.unit}]",
+            [Curve("mean power", flow(dataset["heat_flow"].values), RED, steps=True)],
+            from_zero=True,
+        ),
+        Panel(
+            f"heat since start [{total.unit}]",
+            sums,
+            stacked=bool(sinks),
+            from_zero=True,
+            # shading would mix with the colours of what is stacked
+            shaded=not sinks,
+        ),
+    ]
+    if sinks:
+        label = "share of the heat [%]"
+        panels.append(Panel(label, _shares(dataset, sinks), from_zero=True, top=100.0))
+    return TimeFigure("Friction heat", panels)
 
 
 def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
@@ -92,91 +83,59 @@ def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
     }
 
 
-def _stack(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str], heat: Scaled) -> None:
-    if sinks:
-        axes.stackplot(
-            dataset["time"].values,
-            *(heat(held(dataset, name)) for name in sinks.values()),
-            colors=[COLOURS[sink] for sink in sinks],
-            alpha=0.75,
-            linewidth=0.0,
-        )
-
-
-def _shares(axes: Axes, dataset: xr.Dataset, sinks: dict[str, str]) -> None:
+def _shares(dataset: xr.Dataset, sinks: dict[str, str]) -> list[Curve]:
     received = dataset["heat_received"].values + all_other_heat(dataset)
-    known = received > 0.0
-    for sink, name in sinks.items():
-        share = 100.0 * held(dataset, name)[known] / received[known]
-        line(axes, dataset["time"].values[known], share, color=COLOURS[sink], linewidth=1.8)
+    # of the first joules the parts are rounding and the mesh's
+    least = SMALLEST_PART * float(np.nanmax(received, initial=0.0))
+    whole = np.where(received > least, received, np.nan)
+    return [
+        Curve(LABELS[sink], 100.0 * held(dataset, name) / whole, COLOURS[sink], width=1.8)
+        for sink, name in sinks.items()
+    ]
 
 
-@styled
-def draw_melting(dataset: xr.Dataset) -> Figure:
+def melting(dataset: xr.Dataset) -> TimeFigure:
     """Stresses in the contact, thickness of the film, melted and frozen mass."""
-    figure, axes = time_panels(dataset, rows=3, height=2.3, share_y=False)
-    film, time = film_of(dataset), dataset["time"].values
-    parts = feels_water(mechanics_of(dataset))
+    film = film_of(dataset)
     stress = readable(film.friction, "Pa")
     thickness = readable(film.thickness, "m")
     mass = readable(1e3 * dataset["melted_mass"].values, "g")
-    for column in range(axes.shape[1]):
-        top, middle, bottom = axes[:, column]
-        _stresses(top, time, film, stress, parts)
-        line(middle, time, thickness(film.thickness), color=BLUE, label="film")
-        line(
-            middle,
-            time,
-            thickness(film.fed),
-            color=GREY,
-            linestyle="--",
-            label="film that melting alone\nwould feed",
-        )
-        line(bottom, time, mass(1e3 * dataset["melted_mass"].values), color=PURPLE, label="melted")
-        line(
-            bottom,
-            time,
-            mass(1e3 * dataset["refrozen_mass"].values),
-            color=SKY,
-            label="of it, ice on the belt",
-        )
-        if dataset["wiped_ice_mass"].max() > 0.0:
-            line(
-                bottom,
-                time,
-                mass(1e3 * dataset["wiped_ice_mass"].values),
-                color=GREY,
-                label="of it, ice wiped off",
-            )
-    axes[0, 0].set_ylabel(f"stress [{stress.unit}]")
-    axes[1, 0].set_ylabel(f"water [{thickness.unit}]")
-    axes[2, 0].set_ylabel(f"mass [{mass.unit}]")
-    for panel in axes.flat:
-        panel.set_ylim(bottom=0.0)
-    figure.align_ylabels(axes[:, 0])
-    title(figure, "Melting", dataset)
-    for panel in axes[:, -1]:
-        panel.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    figure.legend(handles=[slip_patch()], loc="outside upper right")
-    return figure
+
+    def weight(name: str) -> np.ndarray:
+        return mass(1e3 * dataset[name].values)
+
+    masses = [
+        Curve("melted", weight("melted_mass"), PURPLE),
+        Curve("of it, ice on the belt", weight("refrozen_mass"), SKY),
+    ]
+    if dataset["wiped_ice_mass"].max() > 0.0:
+        masses.append(Curve("of it, ice wiped off", weight("wiped_ice_mass"), GREY))
+    water = [
+        Curve("film", thickness(film.thickness), BLUE),
+        Curve("film that melting alone would feed", thickness(film.fed), GREY, dash=True),
+    ]
+    stresses = _stresses(film, stress, feels_water(mechanics_of(dataset)))
+    panels = [
+        Panel(f"stress [{stress.unit}]", stresses, from_zero=True),
+        Panel(f"water [{thickness.unit}]", water, from_zero=True),
+        Panel(f"mass [{mass.unit}]", masses, from_zero=True),
+    ]
+    return TimeFigure("Melting", panels, height=2.3, share_y=False)
 
 
-def _stresses(axes: Axes, time: np.ndarray, film: Film, scaled: Scaled, parts: bool) -> None:
+def _stresses(film: Film, scaled: Scaled, parts: bool) -> list[Curve]:
     """Friction, its parts where it feels the water, and what a film over all would be sheared with.
 
-    The latter has no bound as the film thins; the axis is that of friction.
+    The latter has no bound as the film thins: it is cut where the axis of friction ends.
     """
-    line(axes, time, scaled(film.friction), color=INK, label="friction")
+    curves = [Curve("friction", scaled(film.friction), INK)]
     if parts:
         water = np.nan_to_num(film.water)
-        line(axes, time, scaled(film.friction - water), color=ORANGE, label="dry part of it")
-        line(axes, time, scaled(film.water), color=BLUE, label="shear of the water")
-    line(
-        axes,
-        time,
-        scaled(film.whole),
-        color=GREY,
-        linestyle=":",
-        label="shear of the film if it\ncovered the whole contact",
-    )
-    axes.set_ylim(top=1.3 * scaled.factor * float(np.nanmax(film.friction, initial=0.0)) or 1.0)
+        curves.append(Curve("dry part of it", scaled(film.friction - water), ORANGE))
+        curves.append(Curve("shear of the water", scaled(film.water), BLUE))
+    highest = 1.3 * scaled.factor * float(np.nanmax(film.friction, initial=0.0)) or 1.0
+    whole = scaled(film.whole)
+    with np.errstate(invalid="ignore"):
+        whole = np.where(whole <= highest, whole, np.nan)
+    curves.append(Curve("shear of a film over the whole contact", whole, LIGHT_BLUE, dash=True))
+    return curves

@@ -1,7 +1,13 @@
-"""Figures over the time of a run: panels, slip shaded, a part of a long run enlarged."""
+"""Figures over the time of a run: panels, slip shaded, a part of a long run enlarged.
+
+What a figure shows is a `TimeFigure`, which is drawn (for a file, for paper) and goes into the page
+(to hover over and to zoom) from the same numbers.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,11 +15,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosim.report.contents import break_aways, mechanics_of, ramp_end, slip_intervals
-from cosim.report.style import INK, SLIP, plain_ticks
+from cosim.report.live import Live, Panel, over_time
+from cosim.report.style import GREY, INK, SLIP, at_least, in_full, line, plain_ticks, styled
+
+from .events import through_events
 
 Array = NDArray[np.float64]
 
@@ -24,6 +34,180 @@ LARGEST_PART = 0.3
 MARGIN = 0.15
 # cycles shown behind the last break-away, where the run goes on without any
 AFTERWARDS = 2.0
+
+
+@dataclass(frozen=True)
+class TimeFigure:
+    """Title, panels one below the other, a line of text below them; height: of a panel, inches.
+
+    share_y: the enlarged part has the scale of the whole run.
+    """
+
+    title: str
+    panels: Sequence[Panel]
+    note: str = ""
+    height: float = 2.0
+    share_y: bool = True
+
+
+Describe = Callable[[xr.Dataset], TimeFigure]
+
+
+def drawn(describe: Describe) -> Callable[[xr.Dataset], Figure]:
+    """A function that draws a run's figure."""
+
+    def draw(dataset: xr.Dataset) -> Figure:
+        return _draw(dataset, describe)
+
+    return styled(draw)
+
+
+def _draw(dataset: xr.Dataset, describe: Describe) -> Figure:
+    rows, _ = through_events(dataset)
+    described = describe(rows)
+    count = len(described.panels)
+    figure, axes = time_panels(dataset, count, described.height, described.share_y)
+    for panel, row in zip(described.panels, axes, strict=True):
+        for column in row:
+            _draw_panel(column, rows["time"].values, panel)
+        row[0].set_ylabel(panel.label)
+        if panel.thermometer:
+            _thermometer(row[-1], *panel.thermometer)
+    if not described.share_y:
+        _fit_to_part(axes, rows["time"].values, described)
+    figure.align_ylabels(axes[:, 0])
+    title(figure, described.title, dataset)
+    if described.note:
+        figure.supxlabel(described.note, x=0.008, ha="left", fontsize=9)
+    _legend(figure, described)
+    return figure
+
+
+def _draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
+    if not panel.shaded:
+        for collection in list(axes.collections):
+            collection.remove()
+    below = np.zeros(time.size)
+    for curve in panel.curves:
+        if curve.fill:
+            top = below + np.nan_to_num(curve.values) if panel.stacked else curve.values
+            axes.fill_between(time, below, top, color=curve.colour, linewidth=0.0)
+            below = top if panel.stacked else below
+            continue
+        line(
+            axes,
+            time,
+            curve.values,
+            color=curve.colour,
+            linewidth=curve.width,
+            linestyle="--" if curve.dash else "-",
+            drawstyle="steps-pre" if curve.steps else "default",
+        )
+    at_least(axes, panel.span)
+    _draw_levels(axes, panel.levels)
+    if panel.logarithmic:
+        axes.set_yscale("log")
+    if panel.from_zero:
+        axes.set_ylim(bottom=0.0)
+    if panel.top is not None:
+        axes.set_ylim(top=panel.top)
+
+
+def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:
+    """Broken lines, named behind the right edge."""
+    for height, text in levels:
+        axes.axhline(height, color=GREY, linewidth=0.9, linestyle="--", zorder=1)
+        axes.annotate(
+            text,
+            (1.0, height),
+            xycoords=("axes fraction", "data"),
+            xytext=(3, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=9,
+            color=INK,
+        )
+
+
+def _fit_to_part(axes: NDArray[Any], time: Array, described: TimeFigure) -> None:
+    """The scale of an enlarged part from what is seen in it."""
+    for panel, row in zip(described.panels, axes, strict=True):
+        low, high = row[-1].get_xlim()
+        seen = (time >= low) & (time <= high)
+        values = np.concatenate([curve.values[seen] for curve in panel.curves])
+        values = values[np.isfinite(values)]
+        if len(row) == 1 or values.size == 0:
+            continue
+        bottom, top = float(values.min()), float(values.max())
+        margin = max(0.05 * (top - bottom), 0.5 * panel.span, 1e-9 * abs(top)) or 0.5
+        row[-1].set_ylim(0.0 if panel.from_zero else bottom - margin, top + margin)
+
+
+def _thermometer(axes: Axes, ambient: float, factor: float) -> None:
+    """A second scale in degC beside an axis that shows the rise, factor times K."""
+    right = axes.secondary_yaxis(
+        "right",
+        functions=(
+            lambda rise: ambient + np.asarray(rise) / factor,
+            lambda degC: (np.asarray(degC) - ambient) * factor,
+        ),
+    )
+    in_full(right.yaxis)
+    right.set_ylabel("temperature [°C]")
+    right.spines["right"].set_visible(True)
+
+
+def _legend(figure: Figure, described: TimeFigure) -> None:
+    """Curves by name where a panel has several, and the shading."""
+    handles: list[Any] = []
+    named = set()
+    for panel in described.panels:
+        for curve in panel.curves if len(panel.curves) > 1 else ():
+            if curve.label in named:
+                continue
+            named.add(curve.label)
+            handles.append(
+                Patch(facecolor=curve.colour, label=curve.label)
+                if curve.fill
+                else Line2D(
+                    [],
+                    [],
+                    color=curve.colour,
+                    label=curve.label,
+                    dashes=(3, 2) if curve.dash else (1, 0),
+                )
+            )
+    handles.append(slip_patch())
+    columns = min(len(handles), MOST_IN_A_ROW)
+    if len(handles) < 3:
+        figure.legend(handles=handles, loc="outside upper right", ncols=columns)
+    else:
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns)
+
+
+def live(describe: Describe) -> Callable[[xr.Dataset], Live]:
+    """A function that gives a run's figure to the page, see `cosim.report.live`."""
+
+    def given(dataset: xr.Dataset) -> Live:
+        rows, events = through_events(dataset)
+        described = describe(rows)
+        ramp, time = ramp_end(dataset), dataset["time"].values
+        return over_time(
+            rows["time"].values,
+            described.panels,
+            keep=events,
+            phases=slip_intervals(dataset),
+            phase="slip",
+            marks=[(ramp, "speed ramp ends")] if time[0] < ramp < time[-1] else (),
+            part=zoom_of(dataset),
+            note=described.note,
+        )
+
+    return given
+
+
+#: Entries of a legend beside each other.
+MOST_IN_A_ROW = 6
 
 
 class Zoom(NamedTuple):

@@ -14,11 +14,23 @@ from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 
+from cosim.report.bounds import WIDTH
 from cosim.report.contents import mechanics_of, value_of
-from cosim.report.style import BLUE, GREY, INK, PALE_BLUE, PALE_GREY, RED, plain_ticks, styled
+from cosim.report.live import Live, packed
+from cosim.report.style import (
+    BLUE,
+    DARK_RED,
+    GREY,
+    INK,
+    PALE_BLUE,
+    PALE_GREY,
+    RED,
+    plain_ticks,
+    styled,
+)
 
 from .motion import SMALLEST_ANGLE_DEG
-from .over_time import title
+from .over_time import title, zoom_of
 
 Array = NDArray[np.float64]
 
@@ -58,9 +70,11 @@ def coil(begin: Array, end: Array, turns: int = 9, width: float = 0.006) -> Arra
 
 
 MARGIN = 0.03  # m around everything drawn
-FARTHEST_CENTRE = 1.0  # m; a slab's centre beyond it would shrink the rig to a dot
 SHEET_WIDTH, SHEET_HEIGHT = 11.0, 8.5  # inches at most
 ARROW = 0.06  # m, length of the arrow for the surface's direction
+WORDS = 0.015  # m, for what stands below the rig
+
+Box = tuple[float, float, float, float]
 
 
 @styled
@@ -116,25 +130,21 @@ def _told(row: xr.Dataset) -> str:
     ).replace("-", "−")
 
 
-def _centre(parameters: Parameters) -> tuple[float, float] | None:
-    """Centre of a turning slab, m; None for a belt or where it is too far to be shown."""
+def centre_of(parameters: Parameters) -> tuple[float, float] | None:
+    """Centre of a turning slab, m; None for a belt."""
     curvature = parameters.pack()[P_CURVATURE]
-    if curvature == 0.0 or abs(curvature) < 1.0 / FARTHEST_CENTRE:
-        return None
-    return 0.0, 1.0 / curvature
+    return (0.0, 1.0 / curvature) if curvature != 0.0 else None
 
 
-def _box(parameters: Parameters, poses: list[Pose]) -> tuple[float, float, float, float]:
-    """x from, to and y from, to of everything drawn, m."""
+def _box(parameters: Parameters, poses: list[Pose]) -> Box:
+    """x from, to and y from, to of block and springs, m; a slab's far centre is not part of it."""
     reach = max(parameters.rig.attachment_radius, parameters.rig.contact_radius)
     points = [*anchors(parameters)]
     for pose in poses:
         points += [(pose.x - reach, pose.y - reach), (pose.x + reach, pose.y + reach)]
-    centre = _centre(parameters)
-    if centre is not None:
-        points.append(centre)
     low, high = np.min(points, axis=0) - MARGIN, np.max(points, axis=0) + MARGIN
-    return low[0], high[0], low[1], high[1]
+    # room for the words on the surface below the rig
+    return low[0], high[0], low[1] - WORDS, high[1]
 
 
 def _sheet(width: float, height: float, panels: int, stacked: bool) -> tuple[float, float]:
@@ -149,7 +159,7 @@ def _sheet(width: float, height: float, panels: int, stacked: bool) -> tuple[flo
     return left * across + scale * across * width, sheet + over * down + scale * down * height
 
 
-def _frame(axes: Axes, text: str, box: tuple[float, float, float, float]) -> None:
+def _frame(axes: Axes, text: str, box: Box) -> None:
     axes.set_title(text)
     axes.set_xlim(box[0], box[1])
     axes.set_ylim(box[2], box[3])
@@ -158,67 +168,65 @@ def _frame(axes: Axes, text: str, box: tuple[float, float, float, float]) -> Non
     plain_ticks(axes)
 
 
-def _draw_surface(
-    axes: Axes, dataset: xr.Dataset, parameters: Parameters, box: tuple[float, float, float, float]
-) -> None:
-    """The belt as a band of its width (a slab fills the view) and where it moves to."""
-    speed = parameters.surface.speed
-    centre = _centre(parameters)
-    belt = parameters.pack()[P_CURVATURE] == 0.0
-    width = value_of(dataset, "belt", "width") if belt else None
+def belt_width(dataset: xr.Dataset) -> float | None:
+    """Width of the belt, m; None for a slab, or where it is not known."""
+    if mechanics_of(dataset).pack()[P_CURVATURE] != 0.0:
+        return None
+    width = dataset.attrs.get(WIDTH, value_of(dataset, "belt", "width"))
+    return float(width) if width else None
+
+
+def _draw_surface(axes: Axes, dataset: xr.Dataset, parameters: Parameters, box: Box) -> None:
+    """The belt as a band of its width (a slab fills the view), its name and where it moves to."""
+    width = belt_width(dataset)
     low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
     axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=PALE_GREY, zorder=0))
+    centre = centre_of(parameters)
     if centre is not None:
-        _draw_centre(axes, centre)
+        radius = abs(centre[1])
+        axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
+    # the lower left corner: neither springs nor block ever come there
+    left, y = box[0] + 0.012, box[2] + 0.012
+    speed = parameters.surface.speed
     if speed != 0.0:
-        # the lower left corner: neither springs nor block ever come there
-        left, y = box[0] + 0.012, box[2] + 0.014
-        ends = (left, left + ARROW) if speed > 0.0 else (left + ARROW, left)
-        axes.annotate(
-            "",
-            (ends[1], y),
-            (ends[0], y),
-            arrowprops={
-                "arrowstyle": "-|>",
-                "color": RED,
-                "linewidth": 1.8,
-                "shrinkA": 0,
-                "shrinkB": 0,
-            },
-        )
-        axes.annotate(
-            f"surface, {abs(speed):g} m/s" + _turning(parameters),
-            (left + ARROW, y),
-            xytext=(6, 0),
-            textcoords="offset points",
-            va="center",
-            color=RED,
-            fontsize=9,
-        )
-
-
-def _turning(parameters: Parameters) -> str:
-    """Where a slab turns whose centre is out of sight."""
-    curvature = parameters.pack()[P_CURVATURE]
-    if curvature == 0.0 or _centre(parameters) is not None:
-        return ""
-    return f", turning about y = {1.0 / curvature:.4g} m".replace("-", "−")
-
-
-def _draw_centre(axes: Axes, centre: tuple[float, float]) -> None:
-    """The slab's centre and the circle about it on which the block rests."""
-    radius = abs(centre[1])
-    axes.plot(*centre, marker="+", markersize=12, markeredgewidth=1.6, color=RED)
+        _draw_arrow(axes, left, y, forwards=speed > 0.0)
     axes.annotate(
-        "centre of the slab",
-        centre,
-        xytext=(9, 0),
+        surface_words(dataset, " (grey)"),
+        (left + (ARROW if speed else 0.0), y),
+        xytext=(6, 0),
         textcoords="offset points",
         va="center",
-        color=RED,
+        color=DARK_RED,
         fontsize=9,
     )
-    axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
+
+
+def _draw_arrow(axes: Axes, left: float, y: float, forwards: bool) -> None:
+    ends = (left, left + ARROW) if forwards else (left + ARROW, left)
+    look = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", (ends[1], y), (ends[0], y), arrowprops=look)
+
+
+def surface_words(dataset: xr.Dataset, look: str = "") -> str:
+    """What the surface is, and how fast it goes."""
+    parameters = mechanics_of(dataset)
+    centre, speed = centre_of(parameters), f"{abs(parameters.surface.speed):g} m/s"
+    if centre is not None:
+        return f"slab{look}, {speed}, turns about (0, {centre[1]:.4g} m)".replace("-", "−")
+    width = belt_width(dataset)
+    if width is None:
+        return f"belt{look}, of unknown width, {speed}"
+    block = 2.0 * parameters.rig.contact_radius
+    wide = f", below a block of {1e3 * block:g} mm" if block > width else ""
+    return f"belt{look}, {1e3 * width:g} mm wide{wide}; {speed}"
+
+
+def _compared(dataset: xr.Dataset) -> str:
+    """That the block is wider than the belt, where it is."""
+    width, block = belt_width(dataset), 2.0 * mechanics_of(dataset).rig.contact_radius
+    if width is None or block <= width:
+        return ""
+    return f"; the block stands {0.5e3 * (block - width):.3g} mm over each edge of the belt"
 
 
 def _draw_outline(axes: Axes, parameters: Parameters) -> None:
@@ -261,3 +269,42 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
     axes.plot(*middle, "o", color=BLUE, markersize=4, zorder=5)
     axes.plot(*moving.T, "o", color=INK, markersize=4, zorder=5)
     axes.plot(*fixed.T, "s", color=INK, markersize=7, zorder=5)
+
+
+#: Frames of an animation at most: ten a second of a run of five minutes, all rows of a short one.
+MOST_FRAMES = 3000
+
+
+def top_view_live(dataset: xr.Dataset) -> Live:
+    """The rig in motion, for the page: positions over time, and what does not change.
+
+    The belt's colours are taken from the map of its temperature, where the page has one.
+    """
+    parameters = mechanics_of(dataset)
+    poses = extreme_poses(dataset)
+    finite = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    known = dataset.isel(time=finite)
+    every = max(-(-known.sizes["time"] // MOST_FRAMES), 1)
+    rows = known.isel(time=slice(None, None, every))
+    curvature = parameters.pack()[P_CURVATURE]
+    return {
+        "kind": "top_view",
+        "time": packed(rows["time"].values, "f8"),
+        "x": packed(rows["x"].values),
+        "y": packed(rows["y"].values),
+        "phi": packed(rows["phi"].values),
+        "travel": packed(rows["surface_travel"].values),
+        "mode": packed(np.nan_to_num(rows["mode"].values), "u1"),
+        "anchors": anchors(parameters).ravel().tolist(),
+        "arms": attachments(parameters, REST).ravel().tolist(),
+        "radius": parameters.rig.contact_radius,
+        "width": belt_width(dataset),
+        # of a slab, of which the contact warms a ring
+        "ring": 2.0 * parameters.rig.contact_radius,
+        "curvature": float(curvature),
+        "speed": parameters.surface.speed,
+        "box": [float(edge) for edge in _box(parameters, [pose for _, pose in poses])],
+        "words": surface_words(dataset) + _compared(dataset),
+        "start": zoom.begin if (zoom := zoom_of(dataset)) else 0.0,
+        "map": "belt_temperature" if "belt_temperature" in dataset else None,
+    }

@@ -68,10 +68,12 @@ def test_all_files_of_a_run_are_there_data_first(written):
 
 def test_page_holds_everything_it_shows(written):
     page, references = read(written[0] / "report.html")
-    assert len(references.loaded) == 7
-    assert all(source.startswith("data:image/png;base64,") for source in references.loaded)
+    pictures = [source for source in references.loaded if source != "script"]
+    assert len(pictures) == 7
+    assert all(source.startswith("data:image/png;base64,") for source in pictures)
     assert not any(link.startswith(("http", "//", "file:")) for link in references.linked)
     assert not re.search(r"https?://|url\(|@import", re.sub(r"base64,[^\"]*", "", page))
+    assert "Leon Sorokin" in page, "uPlot's licence goes with it"
 
 
 def test_page_shows_scenario_ledger_numbers_and_versions(written):

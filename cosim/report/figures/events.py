@@ -1,0 +1,98 @@
+"""A run with its break-aways and re-sticks as rows: curves then reach their peaks.
+
+Between two events everything is smooth, so each side of an event is the parabola through the
+nearest three rows of that side, drawn out over less than one row. Without these rows a peak is cut
+at the last row before it, each time by another part: beats that are none. Friction jumps at an
+event; all else goes on, and is what it is on the side of stick, where nothing changes fast.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cosim.report.contents import SLIP, has_events, mode_changes
+
+Array = NDArray[np.float64]
+
+#: Means over the interval that ends at a row: of that interval on both sides of an event in it.
+MEANS = ("heat_flow", "melt_rate")
+#: What jumps at an event.
+FORCES = ("friction_force_x", "friction_force_y", "friction_moment")
+#: A side is drawn out by no more than this many times what its curve changed between rows.
+FARTHEST = 2.0
+
+
+def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
+    """What there is over time, with two rows at each event: before and after; and which those are.
+
+    The row after comes the smallest number later, so that time rises. Sides without rows (of phases
+    shorter than the interval) have none.
+    """
+    columns = [n for n, v in dataset.data_vars.items() if v.dims == ("time",)]
+    over_time = dataset[columns]
+    time = dataset["time"].values.astype(float)
+    times, modes = (known[1:] for known in mode_changes(dataset))
+    times, first = np.unique(times, return_index=True)
+    inside = (times > time[0]) & (times < time[-1]) if time.size else np.zeros(0, bool)
+    times, slips = times[inside], modes[first][inside] == SLIP
+    if times.size == 0:
+        return over_time, np.zeros(time.size, bool)
+    edges = np.searchsorted(time, times, side="left")
+    ends = np.append(edges[1:], time.size)
+    begins = np.append(0, edges[:-1])
+    before, after = edges - begins > 0, ends - edges > 0
+    on_row = time[np.minimum(edges, time.size - 1)] == times
+    after &= ~on_row  # the row itself is what comes after
+    added = np.concatenate([times[before], np.nextafter(times, np.inf)[after]])
+    rows = np.concatenate([time, added])
+    order = np.argsort(rows, kind="stable")
+    fixed = _positions(dataset, times)
+    filled = {}
+    for name in columns:
+        variable = dataset[name]
+        values = variable.values.astype(float)
+        if str(name) in fixed:
+            left = right = fixed[str(name)]
+        elif str(name) in MEANS:
+            left = right = values[np.minimum(edges, time.size - 1)]
+        elif variable.dtype.kind != "f" or str(name) == "mode":
+            left, right = values[np.maximum(edges - 1, 0)], values[np.minimum(edges, time.size - 1)]
+        else:
+            left = _drawn_out(time, values, times, edges - 1, -1, edges - begins)
+            right = _drawn_out(time, values, times, edges, 1, ends - edges)
+            if str(name) not in FORCES:
+                from_left = np.where(slips, before | ~after, before & ~after)
+                left = right = np.where(from_left, left, right)
+        filled[name] = ("time", np.concatenate([values, left[before], right[after]])[order])
+    new = xr.Dataset(filled, coords={"time": ("time", rows[order])}, attrs=dataset.attrs)
+    for name in columns:
+        new[name].attrs = dataset[name].attrs
+    return new, np.concatenate([np.zeros(time.size, bool), np.ones(added.size, bool)])[order]
+
+
+def _positions(dataset: xr.Dataset, times: Array) -> dict[str, Array]:
+    """What is known at the events themselves."""
+    if not has_events(dataset):
+        return {}
+    place = np.searchsorted(dataset["event_time"].values, times)
+    return {"x": dataset["event_x"].values[np.minimum(place, dataset.sizes["event_time"] - 1)]}
+
+
+def _drawn_out(
+    time: Array, values: Array, at: Array, nearest: NDArray[np.int64], step: int, count: Array
+) -> Array:
+    """The curve at times (k,), from the rows on one side; count: of rows on that side."""
+    last = time.size - 1
+    rows = [np.clip(nearest + step * n, 0, last) for n in range(3)]
+    t, v = [time[row] for row in rows], [values[row] for row in rows]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        first = (v[0] - v[1]) / (t[0] - t[1])
+        second = ((v[0] - v[2]) / (t[0] - t[2]) - first) / (t[2] - t[1])
+        linear = (at - t[0]) * first
+        bent = linear + (at - t[0]) * (at - t[1]) * second
+    reach = FARTHEST * np.maximum(np.abs(v[0] - v[1]), np.abs(v[1] - v[2]))
+    bent = np.clip(bent, -reach, reach)
+    out = np.select([count >= 3, count == 2], [bent, linear], 0.0)
+    return v[0] + np.where(np.isfinite(out), out, 0.0)

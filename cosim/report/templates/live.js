@@ -1,0 +1,132 @@
+// What all live pictures share: their numbers, their stage, and the time that they all show.
+"use strict";
+const live = (() => {
+  const KINDS = { f4: Float32Array, f8: Float64Array, u1: Uint8Array };
+
+  // Numbers as Python packed them: base64 of a little-endian array.
+  function numbers(packed) {
+    const text = atob(packed.data);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+    return new KINDS[packed.type](bytes.buffer);
+  }
+
+  function element(tag, attributes = {}, text = "") {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    made.textContent = text;
+    return made;
+  }
+
+  // Four significant digits with a true minus, as the rest of the page has them.
+  function told(value, digits = 4) {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e-", "e−");
+  }
+
+  // Each figure of a kind with its data and an empty stage in place of the PNG. A figure whose
+  // script fails keeps its PNG.
+  function each(kind, draw) {
+    for (const figure of document.querySelectorAll("figure.live")) {
+      const script = figure.querySelector("script");
+      if (!script) continue;
+      const data = JSON.parse(script.textContent);
+      if (data.kind !== kind) continue;
+      const still = figure.querySelector("img");
+      const stage = element("div", { class: "stage", role: "group", "aria-label": still.alt });
+      if (data.title) stage.append(element("h3", {}, data.title));
+      figure.insertBefore(stage, script);
+      figure.classList.add("on");
+      try {
+        draw(stage, data, figure);
+      } catch (error) {
+        stage.remove();
+        figure.classList.remove("on");
+        console.error(figure.dataset.name, error);
+      }
+    }
+  }
+
+  function dataOf(name) {
+    const figure = document.querySelector(`figure.live[data-name="${name}"]`);
+    return figure ? JSON.parse(figure.querySelector("script").textContent) : null;
+  }
+
+  // Call with the width of a box, at once and whenever it changes.
+  function onWidth(box, call) {
+    let width = 0;
+    const look = () => {
+      if (box.clientWidth && box.clientWidth !== width) call((width = box.clientWidth));
+    };
+    new ResizeObserver(look).observe(box);
+    look();
+  }
+
+  // A canvas for so many CSS pixels, sharp on any screen; its context, in CSS pixels.
+  function sized(canvas, width, height) {
+    const dense = window.devicePixelRatio || 1;
+    canvas.width = Math.round(width * dense);
+    canvas.height = Math.round(height * dense);
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
+    const context = canvas.getContext("2d");
+    context.setTransform(dense, 0, 0, dense, 0, 0);
+    return context;
+  }
+
+  // "rrggbb" after "rrggbb" as [r, g, b] after [r, g, b].
+  function colours(table) {
+    const found = [];
+    for (let i = 0; i < table.length; i += 6) {
+      found.push([0, 2, 4].map((at) => parseInt(table.slice(i + at, i + at + 2), 16)));
+    }
+    return found;
+  }
+
+  // The scale of a colour table: lowest value, colours, highest value.
+  function scale(map, words) {
+    const bar = element("div", { class: "bar" });
+    const stops = colours(map.colours).filter((_, i) => i % 15 === 0);
+    const ramp = element("span", { class: "ramp", role: "presentation" });
+    ramp.style.background = `linear-gradient(to right, ${stops.map((c) => `rgb(${c})`)})`;
+    bar.append(
+      element("span", {}, words), element("span", {}, told(map.low, 3)), ramp,
+      element("span", {}, `${told(map.high, 3)} ${map.unit}`));
+    return bar;
+  }
+
+  // The last place at which a rising array is not above a value.
+  function placeOf(array, value) {
+    let low = 0, high = array.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (array[middle] <= value) low = middle; else high = middle - 1;
+    }
+    return low;
+  }
+
+  // About so many round numbers from low to high.
+  function ticks(low, high, count) {
+    const raw = (high - low) / Math.max(count, 1) || 1;
+    const size = 10 ** Math.floor(Math.log10(raw));
+    const step = size * [1, 2, 5, 10].find((each) => each * size >= raw * 0.999);
+    const found = [];
+    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n++) found.push(n * step);
+    return found;
+  }
+
+  // The time that the animation shows, for whoever draws over time.
+  const listeners = [];
+  const clock = {
+    time: null,
+    show(time) {
+      clock.time = time;
+      for (const call of listeners) call(time);
+    },
+    follow(call) {
+      listeners.push(call);
+    },
+  };
+
+  return { numbers, element, told, each, dataOf, onWidth, sized, colours, scale, placeOf, ticks, clock };
+})();

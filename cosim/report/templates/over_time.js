@@ -1,0 +1,281 @@
+// Curves over time, drawn by uPlot: hover for values, drag or use the buttons and keys to zoom. All
+// figures of a page that are over the same time, from begin to end, zoom and point together.
+"use strict";
+(() => {
+  const HEIGHT = 190, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
+  const DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
+  const plots = [];
+  let sharing = false;
+
+  // The same stretch of time in all plots over the same time; within what there is.
+  function zoomTo(group, low, high) {
+    sharing = true;
+    for (const { plot, begin, end } of plots.filter((each) => each.group === group)) {
+      const span = Math.min(high - low, end - begin);
+      const from = Math.max(begin, Math.min(low, end - span));
+      plot.setScale("x", { min: from, max: from + span });
+    }
+    sharing = false;
+  }
+
+  function zoomBy(group, plot, factor, shift = 0) {
+    const { min, max } = plot.scales.x;
+    const middle = 0.5 * (min + max) + shift * (max - min), half = 0.5 * factor * (max - min);
+    zoomTo(group, middle - half, middle + half);
+  }
+
+  // Sums from below of the filled curves of a stacked panel; others as they are.
+  function stacked(curves, values) {
+    let below = null;
+    return curves.map((curve, n) => {
+      if (!curve.fill) return values[n];
+      const sum = Float64Array.from(values[n], (v, i) => (below ? below[i] : 0) + (v || 0));
+      return (below = sum);
+    });
+  }
+
+  // Shaded phases, behind the curves.
+  function shade(plot, phases) {
+    const { ctx, bbox } = plot, { min, max } = plot.scales.x;
+    ctx.save();
+    ctx.fillStyle = SHADE;
+    for (let i = 0; i < phases.length; i += 2) {
+      if (phases[i + 1] < min || phases[i] > max) continue;
+      const left = plot.valToPos(Math.max(phases[i], min), "x", true);
+      const right = plot.valToPos(Math.min(phases[i + 1], max), "x", true);
+      ctx.fillRect(left, bbox.top, Math.max(right - left, 0.5), bbox.height);
+    }
+    ctx.restore();
+  }
+
+  // Broken lines at levels, upright lines at marks and at the time that the animation shows.
+  function annotate(plot, panel, marks, named) {
+    const { ctx, bbox } = plot, dense = devicePixelRatio || 1;
+    const { min, max } = plot.scales.x;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, 0, bbox.width + 60 * dense, bbox.top + bbox.height);
+    ctx.clip();
+    ctx.lineWidth = dense;
+    ctx.font = FONT.replace("12px", `${12 * dense}px`);
+    ctx.fillStyle = INK;
+    function stroke(colour, dash, x0, y0, x1, y1) {
+      ctx.strokeStyle = colour;
+      ctx.setLineDash(dash.map((length) => length * dense));
+      ctx.beginPath();
+      ctx.moveTo(x0, y0);
+      ctx.lineTo(x1, y1);
+      ctx.stroke();
+    }
+    const bottom = bbox.top + bbox.height, right = bbox.left + bbox.width;
+    for (const [height, text] of panel.levels) {
+      const y = plot.valToPos(height, "y", true);
+      if (y < bbox.top || y > bottom) continue;
+      stroke(SOFT, DASH, bbox.left, y, right, y);
+      ctx.textAlign = "left";
+      ctx.fillText(text, right + 4 * dense, y + 4 * dense);
+    }
+    for (const [time, text] of marks) {
+      if (time < min || time > max) continue;
+      const x = plot.valToPos(time, "x", true);
+      stroke(INK, [1, 3], x, bbox.top, x, bottom);
+      ctx.textAlign = x > bbox.left + 0.8 * bbox.width ? "right" : "left";
+      if (named) ctx.fillText(text, x, bbox.top - 4 * dense);
+    }
+    const now = live.clock.time;
+    if (now !== null && now >= min && now <= max) {
+      const x = plot.valToPos(now, "x", true);
+      stroke("#b3261e", [], x, bbox.top, x, bottom);
+    }
+    ctx.restore();
+  }
+
+  function range(panel) {
+    return (plot, low, high) => {
+      if (low === null || high === null) return [0, 1];
+      for (const [height] of panel.levels) {
+        const room = 0.1 * (high - low);
+        if (height > high && height < high + room) high = height;
+        if (height < low && height > low - room) low = height;
+      }
+      if (panel.logarithmic) return [low / 1.5, high * 1.5];
+      if (high - low < panel.span) {
+        const middle = 0.5 * (low + high);
+        [low, high] = [middle - 0.5 * panel.span, middle + 0.5 * panel.span];
+      }
+      const margin = 0.06 * (high - low) || 0.05 * Math.abs(high) || 0.5;
+      const bottom = panel.from_zero ? 0 : low - margin;
+      return [bottom, panel.top !== null ? panel.top : high + margin];
+    };
+  }
+
+  function axisTold(_, values) {
+    return values.map((value) => (value === null ? "" : live.told(value, 6)));
+  }
+
+  const unitOf = (panel) => (panel.label.match(/\[(.*)\]/) || ["", ""])[1];
+
+  function options(panel, data, first, last, onCursor, holder) {
+    const unit = unitOf(panel);
+    const series = panel.curves.map((curve) => ({
+      label: curve.label,
+      stroke: curve.fill ? undefined : curve.colour,
+      fill: curve.fill ? curve.colour : undefined,
+      width: curve.fill || curve.dots ? 0 : curve.width + 0.1,
+      dash: curve.dash ? DASH : undefined,
+      pxAlign: 0,
+      points: { show: curve.dots || data.time.length < 3, size: 4, fill: curve.colour },
+      paths: curve.dots ? () => null : curve.steps ? uPlot.paths.stepped({ align: -1 }) : undefined,
+    }));
+    const look = { stroke: INK, font: FONT, labelFont: FONT, grid: { stroke: GRID, width: 1 },
+      ticks: { stroke: "#8a8a8a", width: 1, size: 5 }, values: axisTold };
+    return {
+      width: 300,
+      height: HEIGHT + (first ? 14 : 0) + (last ? 18 : 0),
+      padding: [first && data.marks.length ? 20 : 6, data.panels.some((each) => each.levels.length) ? 50 : 14, 0, 0],
+      legend: { show: false },
+      scales: { x: { time: false }, y: { range: range(panel), distr: panel.logarithmic ? 3 : 1 } },
+      axes: [
+        { ...look, size: 26, label: last ? "time [s]" : undefined, labelSize: 18 },
+        // of a long label the unit: the name stands above the plot
+        { ...look, size: 58, label: panel.label.length > 24 && unit ? `[${unit}]` : panel.label, labelSize: 18 },
+      ],
+      cursor: { sync: { key: data.group }, drag: { x: true, y: false }, points: { size: 7 } },
+      series: [{}, ...series],
+      hooks: {
+        drawClear: [(plot) => panel.shaded && shade(plot, data.phases)],
+        draw: [(plot) => annotate(plot, panel, data.marks, first)],
+        setCursor: [onCursor],
+        setScale: [(plot, key) => {
+          const { min, max } = plot.scales.x;
+          [holder.dataset.from, holder.dataset.to] = [min, max];
+          if (key === "x" && !sharing && min !== null) zoomTo(data.group, min, max);
+        }],
+      },
+    };
+  }
+
+  // A button for each curve that shows its value where the pointer is, and takes it away.
+  function keys(panel, box) {
+    const bar = live.element("div", { class: "bar" });
+    const found = panel.curves.map((curve) => {
+      const key = live.element("button", { type: "button", class: "key", "aria-pressed": "true" });
+      const swatch = live.element("span", { class: "swatch" });
+      swatch.style.background = curve.colour;
+      if (curve.dash) swatch.style.height = ".15rem";
+      const value = live.element("span");
+      key.append(swatch, `${curve.label} `, value);
+      bar.append(key);
+      return { key, value };
+    });
+    box.append(bar);
+    return found;
+  }
+
+  function makePanel(room, data, panel, number) {
+    const box = live.element("div", { class: "panel" });
+    const shown = keys(panel, box);
+    const unit = unitOf(panel);
+    const values = panel.curves.map((curve) => live.numbers(curve.values));
+    const last = number >= data.panels.length - data.columns;
+    const onCursor = (plot) => {
+      const at = plot.cursor.idx;
+      shown.forEach(({ value }, n) => {
+        value.textContent = at === null || at === undefined ? "" : `${live.told(values[n][at])} ${unit}`;
+      });
+    };
+    const drawn = panel.stacked ? stacked(panel.curves, values) : values;
+    // filled ones from the highest down, so that each covers the lower part of the one before
+    const order = panel.curves.map((_, n) => n);
+    if (panel.stacked) {
+      const filled = order.filter((n) => panel.curves[n].fill).reverse();
+      order.splice(0, order.length, ...filled, ...order.filter((n) => !panel.curves[n].fill));
+    }
+    const sorted = { ...panel, curves: order.map((n) => panel.curves[n]) };
+    const holder = live.element("div", {
+      class: "plot", tabindex: "0", role: "group",
+      "aria-label": `${panel.label} over time. Arrow keys move the pointer, plus and minus zoom, ` +
+        "shift and arrows move along, Home shows the whole run.",
+    });
+    box.append(holder);
+    room.append(box);
+    const columns = [data.time, ...order.map((n) => Array.from(drawn[n], (v) => (Number.isFinite(v) ? v : null)))];
+    const plot = new uPlot(options(sorted, data, number === 0, last, onCursor, holder), columns, holder);
+    const { time } = data;
+    const lone = time[0] === time[time.length - 1] ? 0.5 : 0;
+    plots.push({ plot, group: data.group, begin: time[0] - lone, end: time[time.length - 1] + lone });
+    live.onWidth(holder, (width) => plot.setSize({ width, height: plot.height }));
+    live.clock.follow(() => plot.redraw(false, false));
+    shown.forEach(({ key }, n) => key.addEventListener("click", () => {
+      const show = key.getAttribute("aria-pressed") !== "true";
+      key.setAttribute("aria-pressed", String(show));
+      plot.setSeries(order.indexOf(n) + 1, { show });
+    }));
+    holder.addEventListener("keydown", (event) => onKey(event, data.group, plot, time));
+    return plot;
+  }
+
+  function onKey(event, group, plot, time) {
+    const shift = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (shift && event.shiftKey) zoomBy(group, plot, 1, 0.25 * shift);
+    else if (shift) point(plot, time, shift);
+    else if (event.key === "+" || event.key === "=") zoomBy(group, plot, 0.5);
+    else if (event.key === "-") zoomBy(group, plot, 2);
+    else if (event.key === "Home" || event.key === "0" || event.key === "Escape") zoomTo(group, -Infinity, Infinity);
+    else return;
+    event.preventDefault();
+  }
+
+  // The pointer a hundredth of what is seen further; it begins in the middle.
+  function point(plot, time, step) {
+    const { min, max } = plot.scales.x, width = plot.bbox.width / (devicePixelRatio || 1);
+    const at = plot.cursor.left >= 0 ? plot.cursor.left : 0.5 * width;
+    const left = Math.max(0, Math.min(width, at + 0.01 * step * width));
+    plot.setCursor({ left, top: 0.5 * plot.bbox.height / (devicePixelRatio || 1) }, true);
+  }
+
+  function controls(stage, data, plot) {
+    const bar = live.element("div", { class: "bar" }), { group } = data;
+    const add = (text, label, call) => {
+      const button = live.element("button", { type: "button", "aria-label": label }, text);
+      button.addEventListener("click", call);
+      bar.append(button);
+    };
+    add("whole run", "show the whole run", () => zoomTo(group, -Infinity, Infinity));
+    if (data.part) add(data.part[2], `zoom to ${data.part[2]}`, () => zoomTo(group, data.part[0], data.part[1]));
+    add("+", "zoom in", () => zoomBy(group, plot(), 0.5));
+    add("−", "zoom out", () => zoomBy(group, plot(), 2));
+    add("◀", "earlier", () => zoomBy(group, plot(), 1, -0.5));
+    add("▶", "later", () => zoomBy(group, plot(), 1, 0.5));
+    if (data.phases.length && data.phase) {
+      const word = live.element("span");
+      const swatch = live.element("span", { class: "swatch" });
+      swatch.style.background = SHADE;
+      swatch.style.outline = "1px solid #c9b48a";
+      word.append(swatch, data.phase);
+      bar.append(word);
+    }
+    const [rows, all] = data.rows;
+    if (rows < all) bar.append(live.element("span", { class: "soft" },
+      `${rows} of ${all} rows; lowest, highest and all known events are among them`));
+    stage.append(bar);
+  }
+
+  function make(stage, data) {
+    data.time = live.numbers(data.time);
+    data.group = `${data.heading || "run"} ${data.time[0]} to ${data.time[data.time.length - 1]}`;
+    if (data.heading) stage.append(live.element("h3", {}, data.heading));
+    data.phases = live.numbers(data.phases);
+    let first = null;
+    controls(stage, data, () => first);
+    const room = live.element("div", { class: data.columns > 1 ? "columns" : "" });
+    stage.append(room);
+    const made = data.panels.map((panel, number) => makePanel(room, data, panel, number));
+    first = made[0];
+    if (data.note) stage.append(live.element("p", { class: "small" }, data.note));
+  }
+
+  live.each("over_time", (stage, data) => {
+    for (const one of data.figures || [data]) make(stage, one);
+  });
+})();

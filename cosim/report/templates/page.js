@@ -1,0 +1,27 @@
+// On every page: boxes that scroll can be reached with the keyboard, and paper shows what is folded.
+"use strict";
+(() => {
+  const boxes = document.querySelectorAll(".wide, pre");
+  function reachable() {
+    for (const box of boxes) {
+      if (box.scrollWidth > box.clientWidth + 1) {
+        box.tabIndex = 0;
+        box.setAttribute("role", "group");
+        box.setAttribute("aria-label", box.tagName === "PRE" ? "text, scrolls sideways" : "table, scrolls sideways");
+      } else {
+        for (const name of ["tabindex", "role", "aria-label"]) box.removeAttribute(name);
+      }
+    }
+  }
+  reachable();
+  addEventListener("resize", reachable);
+
+  let opened = [];
+  addEventListener("beforeprint", () => {
+    opened = [...document.querySelectorAll("details:not([open])")];
+    for (const each of opened) each.open = true;
+  });
+  addEventListener("afterprint", () => {
+    for (const each of opened) each.open = false;
+  });
+})();

@@ -1,0 +1,168 @@
+"""The page of a run in Chromium: it shows the run, for every eye, hand, screen and paper."""
+
+import numpy as np
+import pytest
+from browser import PHONE, WIDE
+from test_report_dataset import coupled_dataset
+
+from cosim.report import write_results
+from cosim.report.figures.over_time import zoom_of
+
+LIVE = 6  # figures of a coupled run of a short belt: all but the phase portrait
+SMALL = 3_000_000  # bytes
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    write_results(coupled_dataset(), folder, command="stickslip run")
+    return folder / "report.html"
+
+
+@pytest.fixture
+def opened(browser, page):
+    browser.open(page)
+    browser.errors()
+    return browser
+
+
+def bounds(browser):
+    """From and to of every plot over time, s."""
+    return np.array(
+        browser.js(
+            "return [...document.querySelectorAll('.plot')].map("
+            "(each) => [Number(each.dataset.from), Number(each.dataset.to)])"
+        )
+    )
+
+
+def press(browser, element, key):
+    """A key, as a browser tells its page of it."""
+    browser.js(
+        "arguments[0].focus(); arguments[0].dispatchEvent(new KeyboardEvent('keydown', "
+        "{key: arguments[1], bubbles: true, cancelable: true}))",
+        element,
+        key,
+    )
+
+
+def figure(name):
+    return f'figure[data-name="{name}"]'
+
+
+def test_it_is_small_asks_for_nothing_and_draws_everything(browser, page):
+    browser.open(page)
+    assert page.stat().st_size < SMALL
+    assert browser.outside() == [] and browser.errors() == []
+    assert len(browser.all("figure.live.on .stage")) == LIVE
+    hidden = browser.js(
+        "return [...document.querySelectorAll('figure.on .still')].map("
+        "(each) => getComputedStyle(each).display)"
+    )
+    assert set(hidden) == {"none"}
+
+
+def test_pointing_tells_the_value(opened):
+    dataset = coupled_dataset()
+    plot = opened.one(f"{figure('motion')} .plot")
+    for _ in range(3):
+        press(opened, plot, "ArrowRight")
+    told = opened.one(f"{figure('motion')} .key span:last-child").text
+    value, unit = told.replace("−", "-").split()
+    at = float(dataset["time"][-1]) * 0.53  # from the middle three hundredths on
+    near = dataset["x"].sel(time=slice(at - 0.05, at + 0.05)).values
+    assert unit == "mm" and 1e3 * near.min() <= float(value) <= 1e3 * near.max()
+
+
+def test_zoom_by_button_and_key_goes_for_all(opened):
+    dataset = coupled_dataset()
+    zoom = zoom_of(dataset)
+    end = float(dataset["time"][-1])
+    np.testing.assert_allclose(bounds(opened), [[0.0, end]] * len(bounds(opened)))
+    opened.one(f"{figure('heat')} button[aria-label^='zoom to']").click()
+    np.testing.assert_allclose(bounds(opened), [[zoom.begin, zoom.end]] * len(bounds(opened)))
+    plot = opened.one(f"{figure('motion')} .plot")
+    press(opened, plot, "+")
+    half = 0.5 * (zoom.end - zoom.begin)
+    np.testing.assert_allclose(np.ptp(bounds(opened), axis=1), half)
+    press(opened, plot, "Home")
+    np.testing.assert_allclose(bounds(opened), [[0.0, end]] * len(bounds(opened)))
+
+
+def test_a_curve_can_be_taken_away(opened):
+    key = opened.one(f"{figure('heat')} .key")
+    key.click()
+    assert key.get_attribute("aria-pressed") == "false"
+    assert opened.errors() == []
+
+
+def test_the_slider_moves_the_rig(opened):
+    """A key goes a row further; what stands below is the run's row."""
+    dataset = coupled_dataset()
+    slider = opened.one(f"{figure('top_view')} input")
+    opened.js("arguments[0].value = '2'; arguments[0].dispatchEvent(new Event('input'))", slider)
+    before = picture(opened)
+    press(opened, slider, "ArrowRight")
+    said = opened.one(f"{figure('top_view')} output").text.replace("−", "-")
+    row = dataset.sel(time=2.01, method="nearest")
+    x, phi = 1e3 * float(row["x"]), np.degrees(float(row["phi"]))
+    assert f"t = {float(row['time']):.2f} s" in said
+    assert ("slip" if row["mode"] else "stick") in said
+    assert f"x = {x:.3g} mm" in said and f"φ = {phi:.3g}°" in said
+    assert picture(opened) != before
+
+
+def picture(browser):
+    return browser.js(f"return document.querySelector('{figure('top_view')} canvas').toDataURL()")
+
+
+def test_it_plays_and_pauses(opened):
+    slider = opened.one(f"{figure('top_view')} input")
+    opened.js("arguments[0].value = '0'; arguments[0].dispatchEvent(new Event('input'))", slider)
+    press(opened, slider, " ")
+    assert "pause" in opened.one(f"{figure('top_view')} button").text
+    opened.until(lambda: float(slider.get_property("value")) > 0.1)
+    opened.one(f"{figure('top_view')} button").click()
+    stopped = slider.get_property("value")
+    assert "play" in opened.one(f"{figure('top_view')} button").text
+    assert slider.get_property("value") == stopped and opened.errors() == []
+
+
+def test_the_belt_is_warmer_behind_the_block(opened):
+    """In the first round: brighter to the right, where a belt that runs forwards goes."""
+    slider = opened.one(f"{figure('top_view')} input")
+    opened.js("arguments[0].value = '4'; arguments[0].dispatchEvent(new Event('input'))", slider)
+    left, right = opened.js(
+        f"""
+        const canvas = document.querySelector('{figure("top_view")} canvas');
+        const inside = canvas.getContext("2d"), row = Math.round(canvas.height * 0.42);
+        const mean = (from, to) => {{
+          const data = inside.getImageData(from * canvas.width, row, (to - from) * canvas.width, 1);
+          return data.data.reduce((sum, v, i) => sum + (i % 4 < 3 ? v : 0), 0) / data.width;
+        }};
+        return [mean(0.05, 0.35), mean(0.65, 0.95)];
+        """
+    )
+    assert right > left + 20.0
+
+
+@pytest.mark.parametrize("width", [WIDE, PHONE])
+def test_it_never_scrolls_sideways(browser, page, width):
+    browser.open(page, width)
+    assert browser.overhang() <= 0
+
+
+def test_paper_has_the_drawings(opened):
+    opened.command("Emulation.setEmulatedMedia", media="print")
+    shown = opened.js(
+        "return ['.still', '.stage'].map((name) => [...document.querySelectorAll("
+        "'figure.live ' + name)].map((each) => getComputedStyle(each).display))"
+    )
+    opened.command("Emulation.setEmulatedMedia", media="")
+    assert set(shown[0]) == {"block"} and set(shown[1]) == {"none"}
+
+
+@pytest.mark.parametrize("width", [WIDE, PHONE])
+def test_nobody_is_kept_out(browser, page, width):
+    browser.open(page, width)
+    assert browser.barriers() == []

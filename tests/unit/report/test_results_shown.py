@@ -1,0 +1,75 @@
+"""Results in a notebook: a line that says what they are, datasets with units, figures."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from stickslip import Parameters, simulate
+
+from cosim import read_scenario, run_scenario, simulate_scenario
+from cosim.report.dataset import MECHANICAL
+
+SHORT = {"run.duration": 1.0, "belt.length": 0.5}
+
+
+@pytest.fixture(scope="module")
+def coupled():
+    return run_scenario(read_scenario("reference").changed(SHORT))
+
+
+@pytest.fixture(scope="module")
+def simulated():
+    return simulate_scenario(read_scenario("reference").changed({"run.duration": 4.0}))
+
+
+def test_they_say_what_they_are_in_one_line(coupled, simulated, gap):
+    assert repr(coupled) == "<CoupledRun of reference, complete: 1 s in 100 steps>"
+    assert repr(coupled.result).startswith("<CoupledResult, complete: 1 s in 100 macro steps, 101 ")
+    assert repr(simulated).startswith("<SimulatedRun of reference: <Trajectory of 4 s, 401 rows: ")
+    assert repr(gap).startswith("<Gap of cold room, week 3: named velocity_weakening; fit ")
+    assert all(len(repr(one)) < 120 for one in (coupled, coupled.result, simulated, gap))
+
+
+def test_a_trajectory_that_was_cut_off_says_so():
+    run = simulate(Parameters(), duration=1.0)
+    broken = type(run)(run.time, run.columns, run.events, run.parameters, "KeyboardInterrupt")
+    assert repr(broken).endswith("; ended early: KeyboardInterrupt>")
+
+
+def test_a_trajectory_as_a_dataset_has_all_of_it(simulated):
+    run = simulated.trajectory
+    data = run.to_xarray()
+    for name, (unit, words) in MECHANICAL.items():
+        np.testing.assert_array_equal(data[name], run[name])
+        assert (data[name].attrs["units"], data[name].attrs["long_name"]) == (unit, words)
+    np.testing.assert_array_equal(data["event_time"], run.events[:, 0])
+    np.testing.assert_array_equal(data["event_mode"], run.events[:, 1])
+    assert data.sizes["time"] == run.time.size
+    assert Parameters.model_validate_json(data.attrs["parameters"]) == run.parameters
+
+
+def test_a_dataset_goes_to_disk_and_comes_back(simulated, coupled, tmp_path):
+    datasets = (simulated.trajectory.to_xarray(), simulated.to_xarray(), coupled.to_xarray())
+    for number, data in enumerate((*datasets, coupled.result.to_xarray())):
+        data.to_netcdf(tmp_path / f"{number}.nc", engine="h5netcdf")
+        with xr.open_dataset(tmp_path / f"{number}.nc") as read:
+            assert read.sizes == data.sizes
+
+
+def test_a_coupled_result_has_every_recorded_variable(coupled):
+    data = coupled.result.to_xarray()
+    assert set(data.data_vars) == {*coupled.result.values, "energy_residual"}
+    assert data["thermal.interface_temperature"].attrs["units"] == "degC"
+    np.testing.assert_array_equal(data["mechanics.x"], coupled.result["mechanics.x"])
+    assert coupled.to_xarray()["belt_temperature"].dims == ("snapshot_time", "belt_position")
+
+
+def test_they_draw_what_their_page_has(coupled, simulated):
+    for run, name in ((coupled, "temperatures"), (simulated, "motion")):
+        assert run.plot(name)._repr_png_().startswith(b"\x89PNG")
+
+
+def test_a_figure_that_there_is_not_is_refused_with_those_that_there_are(simulated):
+    with pytest.raises(ValueError, match="nearest: 'motion'"):
+        simulated.plot("motions")
+    with pytest.raises(ValueError, match="no figure of this run is named 'belt_temperature'"):
+        simulated.plot("belt_temperature")
