@@ -69,12 +69,17 @@ def collection(folder: str | Path, name: str = "temperature") -> Path:
     return Path(folder) / f"{name}.pvd"
 
 
+#: Thickness of the stretched belt as a part of its length.
+STRETCHED = 0.1
+
+
 class FieldSeries:
     """Writes `<name>.pvd` and `<name>_<number>.vtu` into a folder that exists.
 
-    Point data `temperature` (degC), cell data `part` (0 belt, 1 ice). An earlier series of that
-    name is replaced from its first file on. times: of the fields (s) that an earlier process wrote
-    and this one goes on from; then from the next one on.
+    Point data `temperature_degC`, `rise_K` over the air, and `stretch_m`: with the filter Warp By
+    Vector the belt, a line to the eye, becomes `STRETCHED` as thick as it is long. Cell data `part`
+    (0 belt, 1 ice). An earlier series of that name is replaced from its first file on. times: of
+    the fields (s) that an earlier process wrote and this one goes on from; then from the next one.
     """
 
     def __init__(
@@ -93,6 +98,7 @@ class FieldSeries:
         belt, ice = model.belt, model.ice
         self._below = grid_points(seen_belt(model)[0], -belt.depth)
         below = quadrilaterals(belt.cells + 1, belt.depth.size)
+        self._stretch = self._stretched()
         self._cells = [("quad", below), (ice.cell_type, ice.cells + len(self._below))]
         self._part = [
             np.full(len(cells), part, dtype=np.int32) for part, (_, cells) in enumerate(self._cells)
@@ -106,11 +112,24 @@ class FieldSeries:
         """The collection, the one file to open."""
         return collection(self.folder, self.name)
 
-    def _temperature(self) -> Array:
-        """degC at all points."""
+    def _point_data(self) -> dict[str, Array]:
+        """Arrays over all points, by names with units."""
         ambient = self._model.parameters.ambient.temperature_degC
-        belt = seen_belt(self._model)[1].ravel()
-        return np.concatenate((belt, ambient + self._model.ice.at_points()))
+        belt = seen_belt(self._model)[1].ravel() - ambient
+        rise = np.concatenate((belt, self._model.ice.at_points()))
+        return {
+            "temperature_degC": ambient + rise,
+            "rise_K": rise,
+            "stretch_m": self._stretch,
+        }
+
+    def _stretched(self) -> Array:
+        """Displacements (points, 3) m that thicken the belt; the ice stays."""
+        below = self._below
+        length, depth = np.ptp(below[:, 0]), -below[:, 2].min()
+        moved = np.zeros((len(below) + len(self._model.ice.points), 3))
+        moved[: len(below), 2] = (STRETCHED * length / depth - 1.0) * below[:, 2]
+        return moved
 
     def write(self, time: float) -> Path:
         """Add the model's present fields at time (s); returns the VTU file.
@@ -125,7 +144,7 @@ class FieldSeries:
         mesh = meshio.Mesh(
             points,
             self._cells,
-            point_data={"temperature": self._temperature()},
+            point_data=self._point_data(),
             cell_data={"part": self._part},
         )
         partial = path.with_suffix(".partial")

@@ -4,13 +4,17 @@ from .case import Case, Protocol, StudyError
 from .changes import Change, FrictionEffect, changes, friction_effect
 from .drift import CAMERA, Drift, Wait, drift, interface_drift, run_drift, steady_drift, wait
 from .lengths import DriftMap, empty_map, fill_map, shortest_belt
+from .own import Answer, Question, how_long
 from .result import Options, Row, Study
-from .study import AIR, cases, scenario_case, work_off
-from .uncertainty import FEWEST_SAMPLES, Uncertainty, uncertainty
-from .verdict import verdict
+from .rigs import FEWEST_SAMPLES
+from .said import scenario_case, with_ranges
+from .show.verdict import verdict
+from .study import AIR, answer_all, cases, work_off
+from .uncertainty import Uncertainty, uncertainty
 
 __all__ = [
     "AIR",
+    "Answer",
     "CAMERA",
     "Case",
     "Change",
@@ -20,17 +24,20 @@ __all__ = [
     "FrictionEffect",
     "Options",
     "Protocol",
+    "Question",
     "Row",
     "Study",
     "StudyError",
     "Uncertainty",
     "Wait",
+    "answer_all",
     "cases",
     "changes",
     "drift",
     "empty_map",
     "fill_map",
     "friction_effect",
+    "how_long",
     "interface_drift",
     "run_drift",
     "scenario_case",
@@ -39,5 +46,6 @@ __all__ = [
     "uncertainty",
     "verdict",
     "wait",
+    "with_ranges",
     "work_off",
 ]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from cosim.coupling.case.prepared_block import prepared_block
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
@@ -65,6 +65,15 @@ class Protocol:
         return f"{self.runs} runs of {each}, {self.pause:g} s between two"
 
 
+class Range(NamedTuple):
+    """Between what an unknown (`unknowns`) lies, where that is not usual; basis: why."""
+
+    key: str
+    low: float
+    high: float
+    basis: str
+
+
 #: Resolution of the study: 0.2 % of the rise, a tenth of the time of the model's own.
 ELEMENTS, STRIPS, RADIAL, AXIAL, WAVES_PER_METRE, COARSENESS = 3, 8, 4, 8, 150, 2.0
 #: Fewest and most waves of the series along the loop.
@@ -89,7 +98,8 @@ class Case:
     h: on both faces of the belt, W/m2K; None: that of a belt moving through still air, which
     follows speed and length. rig: everything else that the thermal model knows; conductivity,
     thickness, conductance: None where they are the rig's. ice_rise: of the ice above the air at the
-    start, K. static_over_kinetic friction and stiffness of one of four springs, N/m, make the
+    start, K. ranges: of what is not known of this rig, where they are not the usual ones.
+    static_over_kinetic friction and stiffness of one of four springs, N/m, make the
     stick-slip motion; those of the study's rig.
     """
 
@@ -107,6 +117,7 @@ class Case:
     ice_rise: float = 0.0
     static_over_kinetic: float = 0.2815 / 0.2086
     stiffness: float = 20.17
+    ranges: tuple[Range, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("speed", "mass", "friction"):

@@ -14,7 +14,7 @@ from joblib import Parallel, delayed
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from .case import Case
+from .case import Case, StudyError
 from .drift import run_drift
 from .uncertainty import INTERVAL, Uncertainty
 
@@ -41,12 +41,31 @@ class Length:
 
 
 def shortest_belt(
-    case: Case, limit: float, drift: Callable[[Case], float], longest: float = LONGEST
+    case: Case,
+    limit: float,
+    drift: Callable[[Case], float] = run_drift,
+    longest: float = LONGEST,
 ) -> float | None:
-    """Length, m; the shortest that has room when that does already, None when `longest` does not.
+    """The shortest belt of a drive on which a rise stays below a limit, m.
 
-    drift: of a case, K; it falls with the length. limit: K, > 0.
+    Parameters
+    ----------
+    case : everything but the length, which is tried
+    limit : K, > 0
+    drift : rise of a case, K, which falls with the length: `run_drift` (belt at entry, after the
+        runs), `steady_drift` (the same for ever) or `interface_drift`
+    longest : m, the longest that is tried
+
+    Returns the shortest that has room where that does already, None where `longest` does not.
+    Raises ParameterError, in one line, for a case that cannot be; NoSteadyState with
+    `steady_drift` where nothing takes the heat.
+
+    >>> from cosim.studies.belt_length import Case, shortest_belt
+    >>> shortest_belt(Case(length=1.0, speed=0.15), limit=0.07)
+    1.61...
     """
+    if not limit > 0.0:
+        raise StudyError(f"limit = {limit:g} K: must be above 0")
 
     def over_the_limit(log_length: float) -> float:
         return math.log(max(drift(case.with_length(math.exp(log_length))), 1e-9) / limit)
@@ -71,24 +90,28 @@ def shortest_in_doubt(
         return {rise: dict.fromkeys(levels, unknown) for rise, levels in QUANTILES.items()}
     return {
         rise: {
-            level: _between(lengths, [getattr(one, name) for one in doubts], limit, LEVELS[level])
+            level: between(lengths, [getattr(one, name) for one in doubts], limit, LEVELS[level])
             for level, name in levels.items()
         }
         for rise, levels in QUANTILES.items()
     }
 
 
-def _between(lengths: Sequence[float], rises: Sequence[float], limit: float, level: str) -> Length:
-    """Beyond the last belt that is above the limit; straight in the logarithms of both."""
+def between(lengths: Sequence[float], rises: Sequence[float], limit: float, level: str) -> Length:
+    """Shortest belt, m, for rises (K) on some lengths (m, increasing); limit in K.
+
+    Beyond the last belt that is above the limit; straight in the logarithms of both. Nothing is
+    told beyond the lengths. level: what the rises are called in the reason.
+    """
     above = [i for i, rise in enumerate(rises) if rise > limit]
     if not above:
-        return Length(lengths[0], f"<{lengths[0]:g}", "the shortest of the belts asked for")
+        return Length(lengths[0], f"<{lengths[0]:.3g}", "the shortest of the belts looked at")
     last = above[-1]
     if last == len(lengths) - 1:
         return Length(
             None,
-            f">{lengths[-1]:g}",
-            f"on {lengths[-1]:g} m, the longest belt asked for, the {level} is {rises[-1]:.2g} K",
+            f">{lengths[-1]:.3g}",
+            f"on {lengths[-1]:.3g} m, the longest belt looked at, the {level} is {rises[-1]:.2g} K",
         )
     # a rise that falls to nothing within a step would draw the place to the shorter belt
     below = max(rises[last + 1], 0.1 * limit)
@@ -114,11 +137,18 @@ def _column(case: Case, speeds: NDArray[np.float64]) -> list[float]:
     return [run_drift(replace(case, speed=float(speed))) for speed in speeds]
 
 
-def empty_map(points: int) -> DriftMap:
-    """points x points places, evenly in the logarithm, with nothing known."""
+def empty_map(points: int, case: Case | None = None) -> DriftMap:
+    """points x points places, evenly in the logarithm, with nothing known.
+
+    case: whose speed and shortest belt are to lie on it.
+    """
+    lengths, speeds = LENGTHS, SPEEDS
+    if case is not None:
+        lengths = (max(LENGTHS[0], case.shortest), max(LENGTHS[1], 5.0 * case.shortest))
+        speeds = (min(SPEEDS[0], 0.3 * case.speed), max(SPEEDS[1], 3.0 * case.speed))
     return DriftMap(
-        np.geomspace(*LENGTHS, points),
-        np.geomspace(*SPEEDS, points),
+        np.geomspace(*lengths, points),
+        np.geomspace(*speeds, points),
         np.full((points, points), np.nan),
     )
 

@@ -11,6 +11,7 @@ from .case import Case
 from .changes import Change, FrictionEffect
 from .drift import Drift, Wait
 from .lengths import Length, shortest_in_doubt
+from .own import Answer
 from .uncertainty import Uncertainty
 
 #: Field of a case -> column of the table.
@@ -116,7 +117,7 @@ class Row:
         case = {
             one.name: getattr(self.case, one.name)
             for one in fields(Case)
-            if one.name not in ("rig", "protocol")
+            if one.name not in ("rig", "protocol", "ranges")
         }
         h = {
             "h": self.case.film,
@@ -156,11 +157,12 @@ class Options:
 
 @dataclass
 class Study:
-    """Rows so far; `complete` when none is missing."""
+    """Rows so far; `complete` when none is missing. answers: of an own rig, one for each drive."""
 
     options: Options
     rows: list[Row] = field(default_factory=list)
     complete: bool = False
+    answers: list[Answer] = field(default_factory=list)
 
     def table(self) -> pd.DataFrame:
         """One row a case."""
@@ -183,6 +185,8 @@ class Study:
 
     def shortest_in_doubt(self) -> dict[Case, dict[str, dict[str, Length]]]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
+        if self.answers:
+            return {one.case.with_length(1.0): _of_answer(one) for one in self.answers}
         by_belt: dict[Case, dict[float, Row]] = {}
         for row in self.rows:
             by_belt.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
@@ -237,6 +241,7 @@ class Study:
             "complete": self.complete,
             "limit": self.options.limit,
             **first,
+            "answers": [one.as_dict() for one in self.answers],
             "cases": [
                 row.as_dict(self.options.limit)
                 | {
@@ -248,6 +253,14 @@ class Study:
                 for row in self.rows
             ],
         }
+
+
+def _of_answer(answer: Answer) -> dict[str, dict[str, Length]]:
+    unknown = Length(None, "", answer.reason)
+    return {
+        rise: {level: getattr(question, level) or unknown for level in ("low", "median", "high")}
+        for rise, question in (("run", answer.run), ("interface", answer.interface))
+    }
 
 
 def _shared(rigs: list[dict]) -> dict[str, object]:

@@ -15,16 +15,17 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
-from cosim.scenario import Scenario
 from thermal import Belt, ParameterError
 from thermal.steady_state import NoSteadyState
 
-from .case import OWN_KEYS, Case, Protocol, StudyError
+from .case import OWN_KEYS, Case, StudyError
 from .changes import changes, friction_effect
 from .drift import drift, endless_belt, interface_drift, run_drift, steady_drift, wait
 from .lengths import LONGEST, shortest_belt
+from .own import Answer, how_long
 from .result import Options, Row, Study
-from .uncertainty import FEWEST_SAMPLES, uncertainty
+from .rigs import FEWEST_SAMPLES
+from .uncertainty import uncertainty
 
 Progress = Callable[[int], None]
 #: In place of a number for h: that of a belt moving through still air.
@@ -64,7 +65,7 @@ def check_options(arguments: Namespace) -> None:
         raise StudyError(
             f"--samples = {samples}: must be a power of two from {FEWEST_SAMPLES}, or 0"
         )
-    if arguments.map < 0 or arguments.map == 1:
+    if arguments.map is not None and (arguments.map < 0 or arguments.map == 1):
         raise StudyError(f"--map = {arguments.map}: must be at least 2, or 0 for none")
     if arguments.jobs < 1:
         raise StudyError(f"--jobs = {arguments.jobs}: must be at least 1")
@@ -136,55 +137,27 @@ def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
 
 def _chosen(base: Case, values: dict[str, Any]) -> Case:
     said: dict[str, Any] = {name: None if v == AIR else v for name, v in values.items()}
-    return replace(base, **said)
+    # a range about another number is none of this one
+    other = {name for name, value in said.items() if value != getattr(base, name)}
+    ranges = tuple(one for one in base.ranges if one.key not in other)
+    return replace(base, **said, ranges=ranges)
 
 
-def scenario_case(scenario: Scenario) -> Case:
-    """The belt, ice, contact, block and protocol of a scenario; StudyError for one without a belt.
-
-    Its kinetic friction is taken as it is at the start: friction laws are the coupled run's.
-    """
-    surface, run, rig, friction = scenario.surface, scenario.run, scenario.rig, scenario.friction
-    if rig.surface == "slab":
-        raise StudyError('rig.surface = "slab": has no belt; allowed is "belt"')
-    constant = run.duration - surface.run_up_time
-    if friction.has_table:
-        raise StudyError("friction.table_speed: allowed is one coefficient mu_k, without a table")
-    if not friction.mu_k > 0.0:
-        raise StudyError(f"friction.mu_k = {friction.mu_k:g}: must be above 0, or there is no heat")
-    if surface.speed == 0.0:
-        raise StudyError("surface.speed = 0 m/s: must not be 0, or nothing slides")
-    if not constant > 0.0:
-        raise StudyError(
-            f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
-            f" surface.run_up_time = {surface.run_up_time:g} s"
-        )
-    thermal, belt = scenario.thermal, scenario.belt
-    # in still air it is that of each case's own speed
-    given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
-    return Case(
-        length=belt.length,
-        speed=abs(surface.speed),
-        mass=rig.mass,
-        h=belt.film if given else None,
-        friction=friction.mu_k,
-        ambient_degC=scenario.ambient.temperature_degC,
-        protocol=Protocol(surface.run_up_time, constant),
-        rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
-        static_over_kinetic=friction.mu_s / friction.mu_k,
-        stiffness=scenario.springs.stiffness,
-    )
-
-
-def _row(case: Case, options: Options) -> Row:
+def _row(case: Case, options: Options, answer: Answer | None = None) -> Row:
+    if answer is None:
+        shortest = _shortest(case.with_length(1.0), options.limit)
+    else:
+        shortest = (answer.run.shortest, answer.run.for_ever, answer.interface.shortest)
+    rigs = None if answer is None else answer.rigs
+    known = options.samples and (answer is None or rigs is not None)
     return Row(
         case,
         drift(case),
         friction_effect(case, options.sensitivity),
-        *_shortest(case.with_length(1.0), options.limit),
+        *shortest,
         wait(case, options.limit),
         tuple(changes(case)),
-        uncertainty(case, options.samples) if options.samples else None,
+        uncertainty(case, options.samples, rigs) if known else None,
     )
 
 
@@ -200,17 +173,35 @@ def _shortest(case: Case, limit: float) -> tuple[float | None, float | None, flo
 
 
 def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
-    """Fill the study's rows, in order; whatever interrupts it, the rows until then stay."""
-    for row in _in_processes(wanted, study.options, jobs):
+    """Fill the study's rows, in order; whatever interrupts it, the rows until then stay.
+
+    Where the study has answers, the doubt of a row is that of its drive's rigs.
+    """
+    answers = {one.case.with_length(1.0): one for one in study.answers}
+    calls = [(case, study.options, answers.get(case.with_length(1.0))) for case in wanted]
+    for row in _in_processes(calls, jobs):
         study.rows.append(row)
         progress(1)
     study.complete = True
 
 
-def _in_processes(wanted: list[Case], options: Options, jobs: int) -> Iterator[Row]:
-    if jobs == 1:
-        yield from (_row(case, options) for case in wanted)
+def answer_all(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
+    """Fill the study's answers, one for each drive among the cases that are wanted."""
+    drives: dict[Case, list[Case]] = {}
+    for case in wanted:
+        drives.setdefault(case.with_length(1.0), []).append(case)
+    for cases_of in drives.values():
+        lengths = [case.length for case in cases_of]
+        options = study.options
+        answer = how_long(
+            cases_of[0], options.limit, samples=options.samples, jobs=jobs, lengths=lengths
+        )
+        study.answers.append(answer)
+        progress(1)
+
+
+def _in_processes(calls: list[tuple[Case, Options, Answer | None]], jobs: int) -> Iterator[Row]:
+    if jobs == 1 or len(calls) == 1:
+        yield from (_row(*call) for call in calls)
         return
-    yield from Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_row)(case, options) for case in wanted
-    )
+    yield from Parallel(n_jobs=jobs, return_as="generator")(delayed(_row)(*call) for call in calls)

@@ -2,41 +2,22 @@
 
 Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order and total indices with
 bootstrapped 95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
-each of the three answers that a rise is made of (`unknowns`); how much of the variance it
-misses is measured on runs of the model that it has not seen.
-
-The polynomial: Legendre's on the unit cube, orthogonal under the even distribution of the points,
-up to a degree p in the hyperbolic norm (sum n_i^q)^(1/q) <= p, which has few mixed terms (Blatman
-and Sudret 2011, J. Comput. Phys. 230, 2345-2367); least squares; of the model's values or of their
-logarithms; degree, norm and logarithm are those with the least error when each point is left out.
+each of the three answers that a rise is made of (`rigs`).
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 from SALib.analyze import sobol as analyse
 from SALib.sample import sobol as sample
-from scipy.stats import qmc
 
-from cosim.studies.belt_length.case import Case
-from cosim.studies.belt_length.unknowns import (
-    ENTRY,
-    INTERFACE,
-    SHAPING,
-    UNKNOWNS,
-    Melts,
-    Unknown,
-    answers,
-    combined,
-    needs,
-    with_one,
-)
+from .case import Case
+from .rigs import Rigs
+from .unknowns import ENTRY, INTERFACE, Melts, Unknown, answers, combined, needs, with_one
 
 Array = NDArray[np.float64]
 
@@ -44,93 +25,6 @@ Array = NDArray[np.float64]
 INTERVAL = (0.05, 0.95)
 #: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
 SEQUENCE = 2**13
-#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
-FEWEST_SAMPLES = 32
-_TESTED = 0.25
-#: Degrees and norms that are tried; a fit takes at most this part of the points for its terms.
-_DEGREES, _NORMS, _MOST_TERMS = (1, 2, 3, 4, 5), (0.5, 0.75, 1.0), 0.6
-#: Points that are evaluated at once.
-_AT_ONCE = 20_000
-
-
-@dataclass(frozen=True)
-class Polynomial:
-    """indices (terms, dimensions), coefficients (terms,); of the logarithm if `logarithm`."""
-
-    indices: NDArray[np.intp]
-    coefficients: Array
-    logarithm: bool
-
-    def __call__(self, points: Array) -> Array:
-        """Values at points (n, dimensions) of the unit cube."""
-        values = np.concatenate(
-            [
-                _terms(points[i : i + _AT_ONCE], self.indices) @ self.coefficients
-                for i in range(0, len(points), _AT_ONCE)
-            ]
-        )
-        return np.exp(values) if self.logarithm else values
-
-
-def fitted(points: Array, values: Array) -> Polynomial:
-    """Through points (n, dimensions) of the unit cube with values (n,)."""
-    fits = [
-        _fit(points, values, indices, logarithm)
-        for logarithm in ((False, True) if np.all(values > 0.0) else (False,))
-        for indices in _index_sets(points.shape[1], int(_MOST_TERMS * len(points)))
-    ]
-    return min(fits, key=lambda fit: fit[1])[0]
-
-
-def _fit(
-    points: Array, values: Array, indices: NDArray[np.intp], logarithm: bool
-) -> tuple[Polynomial, float]:
-    """The fit, and the root mean square error of each point by a fit without it."""
-    terms = _terms(points, indices)
-    goal = np.log(values) if logarithm else values
-    q, r = np.linalg.qr(terms)
-    coefficients = np.linalg.solve(r, q.T @ goal)
-    fit = terms @ coefficients
-    left_out = goal - (goal - fit) / np.maximum(1.0 - np.sum(q**2, axis=1), 1e-6)
-    said = np.exp(np.minimum(left_out, 50.0)) if logarithm else left_out
-    return (
-        Polynomial(indices, coefficients, logarithm),
-        float(np.sqrt(np.mean((said - values) ** 2))),
-    )
-
-
-def _terms(points: Array, indices: NDArray[np.intp]) -> Array:
-    """The polynomials of the indices at points: (n, terms)."""
-    each = legvander(2.0 * points - 1.0, int(indices.max()))
-    terms = np.ones((len(points), len(indices)))
-    for dimension in range(points.shape[1]):
-        terms *= each[:, dimension, indices[:, dimension]]
-    return terms
-
-
-def _index_sets(dimensions: int, most: int) -> Iterator[NDArray[np.intp]]:
-    """Degrees of each dimension in each term: (terms, dimensions), at most `most` terms."""
-    seen = set()
-    for norm in _NORMS:
-        for degree in _DEGREES:
-            found = np.array(list(_within(dimensions, degree, norm, float(degree) ** norm)))
-            if len(found) > most:
-                break
-            if len(found) not in seen:
-                seen.add(len(found))
-                yield found
-
-
-def _within(dimensions: int, degree: int, norm: float, left: float) -> Iterator[tuple[int, ...]]:
-    if dimensions == 0:
-        yield ()
-        return
-    for n in range(degree + 1):
-        rest = left - n**norm
-        if rest < -1e-9:
-            break
-        for others in _within(dimensions - 1, degree, norm, rest):
-            yield (n, *others)
 
 
 @dataclass(frozen=True)
@@ -191,107 +85,59 @@ class Uncertainty:
         return [asdict(one) | indices[one.key] for one in self.single_changes]
 
 
-def uncertainty(case: Case, samples: int) -> Uncertainty | None:
-    """Over UNKNOWNS in place of the case's own numbers; None where the ice comes to melt.
+def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertainty | None:
+    """Over what is not known, in place of the case's own numbers; None where the ice comes to melt.
 
-    samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES.
+    samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES. rigs: those
+    that are there already, of belts between which the case's own is.
     """
-    tested = round(_TESTED * samples)
-    draws = qmc.Sobol(len(SHAPING), rng=1)
-    points = _levelled(np.concatenate((draws.random(samples), draws.random(tested))))
-    values = _values(SHAPING, points)
     try:
-        parts = np.array(
-            [
-                answers(case, {key: float(column[i]) for key, column in values.items()})
-                for i in range(len(points))
-            ]
-        )
-        single_changes = _single_changes(case)
+        rigs = Rigs(case, samples) if rigs is None else rigs
+        single_changes = _single_changes(case, rigs.unknowns)
     except Melts:
         return None
-    entry, interface = (
-        _in_place(points[:samples], parts[:samples, rise]) for rise in (ENTRY, INTERFACE)
-    )
-
     problem = {
-        "num_vars": len(UNKNOWNS),
-        "names": [one.key for one in UNKNOWNS],
-        "bounds": [[0.0, 1.0]] * len(UNKNOWNS),
+        "num_vars": len(rigs.unknowns),
+        "names": [one.key for one in rigs.unknowns],
+        "bounds": [[0.0, 1.0]] * len(rigs.unknowns),
     }
     drawn = sample.sample(problem, SEQUENCE, calc_second_order=False, seed=1)
-    drifts = entry(drawn)
-    low, median, high = _quantiles(drifts)
+    drifts = rigs.rise(ENTRY, drawn, case.length)
     # one point in each block of the sequence has all unknowns drawn anew
-    interface_low, interface_median, interface_high = _quantiles(
-        interface(drawn[:: len(UNKNOWNS) + 2])
-    )
+    interface = rigs.rise(INTERFACE, drawn[:: len(rigs.unknowns) + 2], case.length)
     return Uncertainty(
-        low,
-        median,
-        high,
+        *quantiles(drifts),
         _influences(problem, drifts),
         single_changes,
-        samples + tested + 2 * len(UNKNOWNS),
-        _unexplained(points[samples:], parts[samples:, ENTRY], entry),
-        interface_low,
-        interface_median,
-        interface_high,
-        _unexplained(points[samples:], parts[samples:, INTERFACE], interface),
+        rigs.evaluations + 2 * len(single_changes),
+        rigs.unexplained[ENTRY],
+        *quantiles(interface),
+        rigs.unexplained[INTERFACE],
     )
 
 
-def _in_place(points: Array, parts: Array) -> Callable[[Array], Array]:
-    """A rise, K, at points of the unit cube of all unknowns, from its A, B and C at some points."""
-    surrogates = [fitted(points, column) for column in parts.T]
-
-    def rise(shares: Array) -> Array:
-        shaping = _levelled(shares[:, [not one.linear for one in UNKNOWNS]])
-        return combined(
-            np.stack([one(shaping) for one in surrogates], axis=1), _values(UNKNOWNS, shares)
-        )
-
-    return rise
-
-
-def _quantiles(rises: Array) -> tuple[float, float, float]:
+def quantiles(rises: Array) -> tuple[float, float, float]:
+    """At the ends of INTERVAL and in its middle: low, median, high."""
     low, median, high = np.quantile(rises, [INTERVAL[0], 0.5, INTERVAL[1]])
     return float(low), float(median), float(high)
 
 
-def _values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
-    return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
-
-
-def _levelled(shares: Array) -> Array:
-    """Shares of SHAPING, those of an unknown with levels in the middle of its level."""
-    return np.stack([one.levelled(shares[:, i]) for i, one in enumerate(SHAPING)], axis=1)
-
-
-def _unexplained(points: Array, parts: Array, rise: Callable[[Array], Array]) -> float:
-    """Share of a rise's variance over unseen runs; the linear unknowns are drawn for each."""
-    drawn = np.random.default_rng(1).random((len(points), len(UNKNOWNS)))
-    drawn[:, [not one.linear for one in UNKNOWNS]] = points
-    true = combined(parts, _values(UNKNOWNS, drawn))
-    return float(np.mean((rise(drawn) - true) ** 2) / np.var(true))
-
-
-def _single_changes(case: Case) -> tuple[SingleChange, ...]:
-    found = []
-    for one in UNKNOWNS:
-        found.append(
-            SingleChange(
-                one.key,
-                one.says,
-                one.unit,
-                one.low,
-                one.high,
-                _drift_with(case, one, one.low),
-                _drift_with(case, one, one.high),
-                needs(case, one.key),
-                one.basis,
-            )
+def _single_changes(case: Case, unknowns: tuple[Unknown, ...]) -> tuple[SingleChange, ...]:
+    found = [
+        SingleChange(
+            one.key,
+            one.says,
+            one.unit,
+            one.low,
+            one.high,
+            _drift_with(case, one, one.low),
+            _drift_with(case, one, one.high),
+            needs(case, one.key),
+            one.basis,
         )
+        for one in unknowns
+        if not one.fixed
+    ]
     return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
 
 

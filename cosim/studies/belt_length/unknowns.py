@@ -46,10 +46,15 @@ class Unknown:
     levels: int = 0
     linear: bool = False
 
+    @property
+    def fixed(self) -> bool:
+        """Is there nothing to be drawn?"""
+        return self.low == self.high
+
     def at(self, share: Array) -> Array:
         """Values at shares 0 ... 1 of the range."""
         share = self.levelled(share)
-        if self.logarithmic:
+        if self.logarithmic and not self.fixed:
             return self.low * (self.high / self.low) ** share
         return self.low + (self.high - self.low) * share
 
@@ -183,6 +188,18 @@ SOME_FRICTION, SOME_CONDUCTANCE = 0.1, 100.0
 #: What A, B and C hang on.
 SHAPING = tuple(one for one in UNKNOWNS if not one.linear)
 
+
+def unknowns_of(case: Case) -> tuple[Unknown, ...]:
+    """UNKNOWNS, with the ranges that a case has of its own."""
+    own = {one.key: one for one in case.ranges}
+    return tuple(
+        replace(one, low=own[one.key].low, high=own[one.key].high, basis=own[one.key].basis)
+        if one.key in own
+        else one
+        for one in UNKNOWNS
+    )
+
+
 #: Rises that are answered: of the belt at entry, of the interface at constant speed.
 ENTRY, INTERFACE = 0, 1
 #: Columns of A, B and C.
@@ -267,8 +284,7 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
         "contact.conductance": values["conductance"],
         "contact.belt_side": values["belt_side"],
         "ice.conductivity": ice.conductivity * values["ice_conductivity"],
-        "belt.railing_length": belt.railing_length
-        or min(2.0 * contact.radius, _RAILING_PART * case.length),
+        "belt.railing_length": belt.railing_length or _room_for_railing(case),
         "belt.railing_conductance": values["railing_conductance"],
         "belt.railing_friction": 1.0,
         "belt.railing_share": 1.0,
@@ -283,6 +299,15 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
         keys["contact.length"] = footprint.length * values["contact_area"]
     shaped = replace(case, h=values["h"], ice_rise=0.0)
     return _with_belt(shaped, values["conductivity"], values["heat_capacity"]).changed(keys)
+
+
+def _room_for_railing(case: Case) -> float:
+    """As long as the sample, or as the rollers that a belt is said to have leave room for, m."""
+    belt, contact = case.rig.belt, case.rig.contact
+    length = min(2.0 * contact.radius, _RAILING_PART * case.length)
+    if not belt.rollers:
+        return length
+    return min(length, 0.95 * (case.length / belt.rollers - belt.roller_arc))
 
 
 def _with_belt(case: Case, conductivity: float, heat_capacity: float) -> Case:

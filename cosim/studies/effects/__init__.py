@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from stickslip import EFFECTS
 from stickslip.effects.effect import Effect
+from stickslip.friction.law_curves import axis_of
+from stickslip.plugins.load import file_of
 from stickslip.quantity import details
 
 from cosim.names import nearest
 
-__all__ = ["UnknownEffect", "allowed", "chosen", "described"]
+__all__ = ["UnknownEffect", "allowed", "chosen", "described", "snippet"]
 
 
 class UnknownEffect(ValueError):
@@ -18,8 +21,10 @@ class UnknownEffect(ValueError):
 
 
 def chosen(ids: list[str]) -> list[Effect]:
-    """Entries by their ids in the catalogue's order, all of them for none."""
+    """Entries by their ids or files in the catalogue's order, all of them for none."""
     known = [entry.id for entry in EFFECTS]
+    files = {file: entry.id for entry in EFFECTS if (file := file_of(entry)) is not None}
+    ids = [files.get(Path(name).resolve(), name) for name in ids]
     for name in ids:
         if name not in known:
             near = nearest(name, known, similarity=0.0)
@@ -34,6 +39,9 @@ def described(entry: Effect) -> dict[str, Any]:
         "sentence": entry.sentence,
         "enters": entry.enters,
         "source": entry.source,
+        "law": entry.law,
+        "axis": axis_of(entry),
+        "toml": snippet(entry),
         "parameters": [
             {
                 "key": f"{entry.id}.{name}",
@@ -47,6 +55,20 @@ def described(entry: Effect) -> dict[str, Any]:
             for name, field in entry.table.model_fields.items()
         ],
     }
+
+
+def snippet(entry: Effect) -> str:
+    """The lines of a scenario that have the effect as its figure has it.
+
+    >>> from stickslip import EFFECTS
+    >>> print(snippet(EFFECTS[0]))
+    [lateral_friction]
+    ratio = 1
+    """
+    file = file_of(entry)
+    named = [f'effects = ["{file.name}"]', ""] if file is not None else []
+    sizes = [f"{name} = {value:g}" for name, value in entry.case.effect.items()]
+    return "\n".join([*named, f"[{entry.id}]", *sizes])
 
 
 def allowed(parameter: dict[str, Any]) -> str:

@@ -1,16 +1,19 @@
-"""The catalogue as a page, with x(t) of the plain model and with each effect."""
+"""The catalogue as a page: each law as a curve, and the motion with and without it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
-from stickslip import EFFECTS, Parameters, simulate
-from stickslip.effects.effect import Case
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+from stickslip import EFFECTS, Parameters, Trajectory, simulate
+from stickslip.effects.effect import Case, Effect
+from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
-from cosim.report.page import Picture, render
-from cosim.report.style import BLUE, GREY, panels, picture
+from cosim.report.page import Picture, render, unit_text
+from cosim.report.style import BLUE, GREY, picture
 from cosim.studies.effects import allowed
 
 INTERVAL = 0.005  # s
@@ -20,22 +23,28 @@ PLAIN: dict[str, dict[str, Any]] = {
     "surface": {"speed": 0.15},
     "initial": {"vx": 0.15},
 }
+#: Channel -> label of its axis, and what makes its values of SI.
+CHANNELS = {"x": ("x [mm]", 1e3), "y": ("y [mm]", 1e3), "phi": ("phi [°]", 180.0 / np.pi)}
+#: Part of the largest difference between two motions that a channel must have to be shown.
+SHOWS = 0.2
 CASES: dict[str, Case] = {effect.id: effect.case for effect in EFFECTS}
 
 
 def page(entries: list[dict[str, Any]], pictures: dict[str, Picture]) -> str:
     """HTML of the entries of `described`, each with its picture inside."""
+    rooms = dict.fromkeys(entry["enters"] for entry in entries)
     return render(
         "effects.html.j2",
         "cosim.studies.effects",
         entries=entries,
+        rooms={room: [each for each in entries if each["enters"] == room] for room in rooms},
         pictures=pictures,
         allowed=allowed,
     )
 
 
 def effect_figure(effect_id: str) -> Picture:
-    """PNG of the two motions, with the numbers of the case in its caption."""
+    """PNG of the law and the two motions, with the numbers of the case in its caption."""
     case = CASES[effect_id]
     sizes = ", ".join(f"{name} = {value:g}" for name, value in case.effect.items())
     rig = ", ".join(
@@ -48,34 +57,102 @@ def effect_figure(effect_id: str) -> Picture:
         where += f"; interface {case.warmer:g} K above the reference"
     if case.water:
         where += f"; {1e6 * case.water:g} µm of water in the contact"
-    draw = picture(effect_id, f"Motion without and with the effect ({sizes}){where}.")(_draw)
-    return draw(effect_id)
+    curve = "its law, and " if axis_of(_effect(effect_id)) else ""
+    caption = f"Without and with the effect ({sizes}){where}: {curve}the motion where it shows."
+    return picture(effect_id, caption)(_draw)(effect_id)
+
+
+def _effect(effect_id: str) -> Effect:
+    return next(effect for effect in EFFECTS if effect.id == effect_id)
 
 
 def _draw(effect_id: str) -> Figure:
     begin, end = CASES[effect_id].window
-    figure, ((ax,),) = panels(1, 1, height=2.5, width=8.0)
-    for name, on, colour in (("without", False, GREY), ("with", True, BLUE)):
-        time, x = motion(effect_id, on)
-        shown = time >= begin
-        ax.plot(time[shown], 1e3 * x[shown], color=colour, label=name)
-    ax.set(xlabel="time [s]", ylabel="x [mm]", xlim=(begin, end), title=effect_id)
-    figure.legend(loc="outside right upper")
+    plain, shown = motion(effect_id, False), motion(effect_id, True)
+    channels = channels_shown(plain, shown, begin)
+    curves = [_curve(effect_id, on, shown) for on in (False, True)]
+    figure = Figure(figsize=(10.0, max(2.6, 0.6 + 1.8 * len(channels))), layout="constrained")
+    right: FigureBase = figure
+    if curves[1] is not None:
+        halves: Any = figure.subfigures(1, 2, width_ratios=(2, 3))
+        left, right = halves
+        _draw_law(left.subplots(), curves)
+    axes = right.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
+    for ax, name in zip(axes, channels, strict=True):
+        label, factor = CHANNELS[name]
+        for said, run, colour in (("without", plain, GREY), ("with", shown, BLUE)):
+            late = run.time >= begin
+            ax.plot(run.time[late], factor * run[name][late], color=colour, label=said)
+        ax.set(ylabel=label, xlim=(begin, end))
+    axes[0].set_title("motion")
+    axes[-1].set_xlabel("time [s]")
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper right", ncols=2)
     return figure
 
 
-def motion(effect_id: str, on: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n,) and x (n,), m; with the effect, the interface is as warm as its case says."""
+def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
+    for curve, colour in zip(curves, (GREY, BLUE), strict=True):
+        if curve is None:
+            continue
+        ax.plot(curve.x, curve.y, color=colour)
+        ax.set(
+            xlabel=f"{curve.axis} [{unit_text(curve.unit)}]",
+            ylabel=curve.quantity + (f" [{unit_text(curve.of)}]" if curve.of != "1" else ""),
+            title="law",
+        )
+        if curve.logarithmic:
+            ax.set_xscale("log")
+    if curves[1] is not None and curves[1].of == "1" and ax.get_ylim()[0] > 0.0:
+        ax.set_ylim(bottom=0.0)
+
+
+def _curve(effect_id: str, on: bool, run: Trajectory) -> LawCurve | None:
+    """The law as far as the motion with the effect goes."""
+    effect, case = _effect(effect_id), CASES[effect_id]
+    reach = {
+        "heat memory": float(run["heat"][-1]),
+        "distance": float(run["sliding_distance"][-1]),
+        "place": float(abs(run["surface_travel"][-1])),
+        "time": case.window[1] - case.window[0],
+        "sliding speed": 3.0 * run.parameters.surface.speed,
+    }.get(axis_of(effect), 0.0)
+    return law_curve(effect, case_parameters(effect_id, on), _warmth(effect_id), case.water, reach)
+
+
+def channels_shown(plain: Trajectory, shown: Trajectory, begin: float) -> list[str]:
+    """Those in which an effect shows: x, y and the way of the rim by phi, compared in metres.
+
+    begin : from when on, s
+    """
+    rows = min(plain.time.size, shown.time.size)
+    late = plain.time[:rows] >= begin
+    lever = {"phi": plain.parameters.rig.contact_radius}
+    differ = {
+        name: lever.get(name, 1.0)
+        * float(np.max(np.abs(plain[name][:rows][late] - shown[name][:rows][late])))
+        for name in CHANNELS
+    }
+    return [name for name in CHANNELS if differ[name] >= SHOWS * max(differ.values())]
+
+
+def motion(effect_id: str, on: bool) -> Trajectory:
+    """The run of a case; with the effect, the interface is as warm as the case says."""
     case = CASES[effect_id]
-    reference = case.effect.get("reference_degC")
-    run = simulate(
+    return simulate(
         case_parameters(effect_id, on),
         case.window[1],
         INTERVAL,
-        interface_temperature=reference + case.warmer if on and reference is not None else None,
+        interface_temperature=_warmth(effect_id) if on else None,
         film_thickness=case.water,
     )
-    return run.time, run["x"]
+
+
+def _warmth(effect_id: str) -> float | None:
+    """degC of the interface in a case; None where that has no say."""
+    case = CASES[effect_id]
+    reference = case.effect.get("reference_degC")
+    return None if reference is None else reference + case.warmer
 
 
 def case_parameters(effect_id: str, on: bool) -> Parameters:

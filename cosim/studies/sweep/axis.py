@@ -3,21 +3,33 @@
 from __future__ import annotations
 
 import math
+import re
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
+from pydantic.fields import FieldInfo
 from stickslip import Parameters
 from stickslip.quantity import details
 
 from cosim.names import nearest_key
+from cosim.scenario import Scenario
 from cosim.scenario.faults import known_keys
 
-from .combination import SweepError
+from .errors import SweepError
 
 LINK = "+"
-KEYS = {key: entry for key, entry in known_keys(Parameters).items() if "." in key}
+#: All keys of a scenario; those of the mechanics alone.
+KEYS = {key: entry for key, entry in known_keys(Scenario).items() if "." in key}
+MECHANICS = {key for key in known_keys(Parameters) if "." in key}
+#: In place of a key: a whole scenario.
+SCENARIO = "scenario"
+#: A key of one table of a list: the list's key, the table's number from 1, its own key.
+LIST_ENTRY = re.compile(r"^(\w+\.\w+)\[(\d+)\]\.(\w+)$")
+#: Longest label of a value on an axis.
+LONGEST_LABEL = 32
 
 
 @dataclass(frozen=True)
@@ -76,15 +88,43 @@ def labelled_axis(
     return Axis(name, tuple(settings), {name: coordinate})
 
 
+def scenario_axis(scenarios: Sequence[Scenario]) -> Axis:
+    """Whole scenarios, by their names; SweepError for two of one name."""
+    names = [scenario.name for scenario in scenarios]
+    for i, name in enumerate(names):
+        if name in names[:i]:
+            raise SweepError(f"two scenarios are named {name}, allowed is each name once")
+    settings = [{SCENARIO: scenario.to_tables()} for scenario in scenarios]
+    return labelled_axis(SCENARIO, "scenario", "1", names, settings)
+
+
+def list_entry(key: str) -> tuple[str, int, str] | None:
+    """The list's key, the number and the entry of `block.list[2].entry`; None for another key."""
+    found = LIST_ENTRY.match(key)
+    return None if found is None else (found[1], int(found[2]), found[3])
+
+
+def field_of(key: str) -> FieldInfo | None:
+    """What a key of a scenario holds; None where there is no such key."""
+    place = list_entry(key)
+    if place is None:
+        return KEYS.get(key)
+    name, _, entry = place
+    field = KEYS.get(name)
+    kind = get_args(field.annotation)[0] if field and get_args(field.annotation) else None
+    fields = getattr(kind, "model_fields", {})
+    return fields.get(entry)
+
+
 def _check_key(key: str) -> None:
-    if key in KEYS:
+    if field_of(key) is not None:
         return
     near = nearest_key(key, KEYS)
     block = key.partition(".")[0]
     siblings = [known for known in KEYS if known.partition(".")[0] == block]
     any_table = f"a key of {', '.join(dict.fromkeys(known.partition('.')[0] for known in KEYS))}"
     hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings) or any_table}"
-    raise SweepError(f"{key}: no such key of the mechanics, which a sweep runs alone, {hint}")
+    raise SweepError(f"{key}: no such key of a scenario, {hint}")
 
 
 def _listed(name: str, values: Any) -> list[Any]:
@@ -110,6 +150,8 @@ def _plain(value: Any) -> Any:
         return value.item()
     if isinstance(value, (list, tuple, np.ndarray)):
         return tuple(_plain(entry) for entry in value)
+    if isinstance(value, Mapping):
+        return {key: _plain(entry) for key, entry in value.items()}
     return value
 
 
@@ -120,7 +162,8 @@ def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
         labels = [":".join(_label(value) for value in row) for row in rows]
         coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
     for key, values in columns.items():
-        field = KEYS[key]
+        field = field_of(key)
+        assert field is not None, "checked before"
         attributes = {
             "units": details(field).get("unit", "1"),
             "long_name": field.description or key,
@@ -134,7 +177,10 @@ def _column(values: Sequence[Any], kind: type = float) -> np.ndarray:
     """Numbers as they are, anything else by its label."""
     if all(_is_number(value) for value in values):
         return np.array(values, dtype=kind)
-    return np.array([_label(value) for value in values], dtype=object)
+    labels = [_label(value) for value in values]
+    if any(len(label) > LONGEST_LABEL for label in labels):
+        labels = [f"{i}: {label}"[:LONGEST_LABEL] for i, label in enumerate(labels, 1)]
+    return np.array(labels, dtype=object)
 
 
 def _is_number(value: Any) -> bool:
@@ -151,6 +197,10 @@ def _is_finite(value: float) -> bool:
 def _label(value: Any) -> str:
     if isinstance(value, tuple):
         return " ".join(_label(entry) for entry in value)
+    if isinstance(value, Mapping):
+        return "(" + ", ".join(f"{key} {_label(entry)}" for key, entry in value.items()) + ")"
+    if isinstance(value, bool):
+        return str(value).lower()
     return format(value, "g") if _is_number(value) else str(value)
 
 
@@ -203,7 +253,7 @@ def _split(text: str, values: str, separator: str) -> list[str]:
         elif character in QUOTES:
             quote = character
         else:
-            depth += (character == "[") - (character == "]")
+            depth += (character in "[{") - (character in "]}")
         if character == separator and not quote and depth == 0:
             parts.append("")
         else:
@@ -214,8 +264,16 @@ def _split(text: str, values: str, separator: str) -> list[str]:
 
 
 def _value(text: str, part: str) -> Any:
-    """A number, a list in brackets, or a word with or without quotation marks."""
+    """A number, true or false, a list, a table, or a word with or without quotation marks."""
     part = part.strip()
+    if part in ("true", "false"):
+        return part == "true"
+    if part.startswith(("{", "[")):
+        try:
+            return _plain(tomllib.loads(f"value = {part}")["value"])
+        except tomllib.TOMLDecodeError as error:
+            if part.startswith("{") or "{" in part:
+                raise SweepError(f"--vary {text}: {part} is no TOML: {error}") from None
     if part.startswith("[") and part.endswith("]"):
         inner = part[1:-1]
         return tuple(_value(text, entry) for entry in _split(text, inner, ",") if entry.strip())

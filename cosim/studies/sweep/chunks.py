@@ -19,20 +19,19 @@ from types import TracebackType
 from typing import Self
 
 import joblib
+from stickslip.compiled import say_if_compiling
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 from cosim.processes import BrokenProcessPool, as_finished, is_stopped
 from cosim.studies.sweep.combination import (
     ERROR,
     Row,
-    SweepError,
-    SweepStopped,
     Task,
     Work,
-    WorkersLost,
     compute_chunk,
     model_version,
 )
+from cosim.studies.sweep.errors import SweepError, SweepStopped, WorkersLost
 
 FOLDER = "chunks"
 VERSION_DIGITS = 12
@@ -111,6 +110,7 @@ class LocalWorkers:
     def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Generator[list[Row], None, None]:
         """The rows of each chunk as it is finished; WorkersLost when a process died."""
         calls = [(work, chunk) for chunk in chunks]
+        say_if_compiling()
         try:
             yield from as_finished(min(self.count, len(chunks)), _compute, calls)
         except BrokenProcessPool as error:

@@ -6,7 +6,6 @@ import ast
 import hashlib
 import inspect
 import json
-import math
 import platform
 import threading
 import warnings
@@ -21,22 +20,12 @@ from stickslip.compiled import compiled_kernel
 from stickslip.generation.source import kernel_source
 
 from cosim.interrupts import held_interrupts
+from cosim.scenario import Scenario, ScenarioError
 
 from . import features as feature_module
+from .coupled import HEAT_FEATURES, changed, coupled_features, heat_version
+from .errors import SweepStopped
 from .features import FEATURES, features
-
-
-class SweepError(ValueError):
-    """A sweep that cannot be started; one line: key, what is wrong, what is allowed."""
-
-
-class SweepStopped(RuntimeError):
-    """A sweep that could not be finished; one line, with what is kept and how to go on."""
-
-
-class WorkersLost(RuntimeError):
-    """Worker processes ended in mid-work; what they had not returned is to be done again."""
-
 
 COMPLETE, FAILED, ERROR = 0, 1, 2
 STATUS_MEANINGS = "complete failed error"
@@ -44,10 +33,26 @@ KEY_DIGITS = 32
 
 
 class Run(NamedTuple):
-    """How every combination is run: duration and time between two rows, s."""
+    """How every combination is run: duration and time between two rows, s; coupled to the heat.
+
+    Where the combinations are whole scenarios, each has a duration and an interval of its own.
+    """
 
     duration: float
     output_interval: float
+    coupled: bool = False
+
+    def of(self, parameters: Parameters) -> Run:
+        """Of one combination."""
+        if not isinstance(parameters, Scenario):
+            return self
+        run = parameters.run
+        return self._replace(duration=run.duration, output_interval=run.output_interval)
+
+    @property
+    def features(self) -> dict[str, tuple[str, str]]:
+        """Name -> unit and long name of what is told of each run."""
+        return FEATURES | HEAT_FEATURES if self.coupled else FEATURES
 
 
 class Row(NamedTuple):
@@ -72,13 +77,22 @@ def model_version() -> str:
 
 def content_key(parameters: Parameters, run: Run) -> str:
     """Hash of all that the outcome depends on: two equal combinations have one key."""
-    content = [model_version(), *run, parameters.model_dump(mode="json")]
+    duration, output_interval, coupled = run.of(parameters)
+    whole = isinstance(parameters, Scenario)
+    # a name is none of what a run depends on
+    tables = parameters.model_dump(mode="json", exclude={"name"} if whole else None)
+    content: list[Any] = [model_version(), duration, output_interval, tables]
+    if coupled:
+        content.append(heat_version())
     text = json.dumps(content, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:KEY_DIGITS]
 
 
 def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
-    """``base`` with `block.key` -> value; raises pydantic's ValidationError."""
+    """``base`` with `block.key` -> value; raises pydantic's ValidationError, of a whole scenario
+    ScenarioError."""
+    if isinstance(base, Scenario):
+        return changed(base, changes)
     tables = base.model_dump()
     for key, value in changes.items():
         block, _, entry = key.partition(".")
@@ -95,7 +109,9 @@ def compute(
     progress: called with the time reached; it ends the run by what is no Exception.
     """
     try:
-        trajectory = simulate(parameters, *run, progress=progress)
+        if isinstance(parameters, Scenario):
+            return _of_scenario(key, parameters, run, progress)
+        trajectory = simulate(parameters, run.duration, run.output_interval, progress=progress)
         if not trajectory.complete:
             return without_values(key, FAILED, trajectory.reason)
         return Row(key, COMPLETE, "", _values(trajectory))
@@ -104,9 +120,30 @@ def compute(
         return without_values(key, ERROR, f"{type(error).__name__}: {text}")
 
 
+def _of_scenario(
+    key: str, scenario: Scenario, run: Run, progress: Callable[[float], None] | None
+) -> Row:
+    if run.coupled:
+        numbers, reason = coupled_features(scenario, progress)
+    else:
+        own = run.of(scenario)
+        trajectory = simulate(
+            scenario.mechanics,
+            own.duration,
+            own.output_interval,
+            interface_temperature=scenario.ambient.temperature_degC,
+            progress=progress,
+        )
+        reason = trajectory.reason
+        numbers = {} if reason else features(trajectory)
+    if reason:
+        return without_values(key, FAILED, reason)
+    return Row(key, COMPLETE, "", tuple(numbers[name] for name in run.features))
+
+
 def without_values(key: str, status: int, reason: str) -> Row:
     """The row of a combination that has no features."""
-    return Row(key, status, reason, (math.nan,) * len(FEATURES))
+    return Row(key, status, reason, ())
 
 
 def _values(trajectory: Trajectory) -> tuple[float, ...]:
@@ -173,6 +210,9 @@ class _Stop(BaseException):
 def _outcome(work: Work, task: Task, stop_if_told: Callable[[float], None]) -> Row:
     try:
         parameters = with_changes(work.base, task.changes)
-    except ValidationError as error:  # checked before: only a worker's other pydantic refuses
+    except (
+        ValidationError,
+        ScenarioError,
+    ) as error:  # checked before: only a worker's other pydantic refuses
         return without_values(task.key, ERROR, " ".join(str(error).split()))
     return compute(task.key, parameters, work.run, stop_if_told)

@@ -27,8 +27,10 @@ from cosim.scenario import Scenario, ScenarioError
 from cosim.scenario.faults import describe_faults
 from cosim.scenario.work import check_mechanics
 
-from .axis import Axis, axis, labelled_axis
-from .combination import Run, SweepError, content_key, with_changes
+from .axis import MECHANICS, SCENARIO, Axis, axis, labelled_axis, scenario_axis
+from .combination import Run, content_key, with_changes
+from .coupled import check_coupled, differ_in_heat, is_heat
+from .errors import SweepError
 
 #: More combinations than this are a slip of the product: hours of checking before the first run.
 MOST = 1_000_000
@@ -45,14 +47,16 @@ def merged(settings: Sequence[Settings]) -> dict[str, Any]:
 class Grid:
     """Combinations of ``axes`` around ``base``, the last axis running fastest.
 
-    combine: makes the changes of a combination (`block.key` -> value) out of one setting from
-    each axis. patience: longest that one of them may take, s.
+    base: mechanics, or a whole scenario. combine: makes the changes of a combination (`block.key`
+    -> value) out of one setting from each axis. patience: longest that one of them may take, s.
+    coupled: whether each is a coupled run.
     """
 
     base: Parameters
     axes: tuple[Axis, ...]
     combine: Callable[[Sequence[Settings]], dict[str, Any]] = merged
     patience: float = inf
+    coupled: bool = False
 
     def __post_init__(self) -> None:
         if not self.axes:
@@ -80,6 +84,18 @@ class Grid:
         """`block.key` -> value, for every combination in order."""
         return [self.combine(each) for each in product(*(each.settings for each in self.axes))]
 
+    def run_of(self, given: Mapping[str, float]) -> Run:
+        """How each combination is run; given: duration, output_interval, s."""
+        usual = {"duration": 30.0, "output_interval": 0.01}
+        if isinstance(self.base, Scenario):
+            if given:
+                raise SweepError(
+                    f"{next(iter(given))}: a scenario has run.{next(iter(given))}, set that"
+                )
+            own = self.base.run
+            usual = {"duration": own.duration, "output_interval": own.output_interval}
+        return Run(**(usual | dict(given)), coupled=self.coupled)
+
     def keys(self, run: Run) -> list[str]:
         """The content key of every combination; SweepError, in one line, for one that cannot be."""
         keys: list[str] = []
@@ -98,6 +114,10 @@ class Grid:
     def _parameters(self, changes: Settings) -> Parameters:
         try:
             return with_changes(self.base, changes)
+        except ScenarioError as error:
+            if any(str(error).startswith(key) for key in changes):
+                raise SweepError(str(error)) from None
+            raise SweepError(f"{_written(changes)}: {error}") from None
         except ValidationError as report:
             fault = describe_faults(report, Parameters)
             if any(fault.startswith(f"{key}: ") for key in changes):
@@ -106,19 +126,57 @@ class Grid:
 
     def _check_work(self, parameters: Parameters, changes: Settings, run: Run) -> None:
         try:
-            check_mechanics(parameters, run.duration, self.patience)
+            if self.coupled and isinstance(parameters, Scenario):
+                check_coupled(parameters)
+            else:
+                patience = _patience_of(parameters, self.patience)
+                check_mechanics(parameters, run.of(parameters).duration, patience)
         except ScenarioError as fault:
             raise SweepError(f"{_written(changes)}: {fault}") from None
 
 
 def _written(changes: Settings) -> str:
-    return ", ".join(f"{key} = {value}" for key, value in changes.items())
+    return ", ".join(
+        f"{key} = {value['name'] if key == SCENARIO else value}" for key, value in changes.items()
+    )
 
 
-def product_grid(parameters: Parameters, vary: Mapping[Any, Sequence[Any]]) -> Grid:
-    """The product of the varied keys; `axis` says how keys and values are given."""
+def product_grid(
+    parameters: Parameters | Sequence[Scenario],
+    vary: Mapping[Any, Sequence[Any]],
+    coupled: bool | None = None,
+) -> Grid:
+    """The product of the varied keys; `axis` says how keys and values are given.
+
+    parameters: several scenarios are the first axis. coupled: see `sweep`.
+    """
+    several = [parameters] if isinstance(parameters, Parameters) else list(parameters)
     axes = tuple(axis(*entry) for entry in vary.items())
-    return Grid(mechanics_of(parameters), axes, patience=_patience_of(parameters))
+    keys = [key for each in axes for setting in each.settings[:1] for key in setting]
+    scenarios = [one for one in several if isinstance(one, Scenario)]
+    heat = [key for key in keys if is_heat(key)]
+    whole = [key for key in keys if key not in MECHANICS]
+    if not scenarios and whole:
+        raise SweepError(f"{whole[0]}: is no key of the mechanics, allowed with a scenario")
+    if coupled is False and heat:
+        raise SweepError(f"{heat[0]}: does nothing in the mechanics alone, allowed is coupled")
+    if coupled is None:
+        coupled = bool(heat) or (len(scenarios) > 1 and differ_in_heat(scenarios))
+    if coupled and not scenarios:
+        raise SweepError("coupled: mechanics alone cannot be, allowed is a scenario")
+    if len(several) > 1:
+        axes = (scenario_axis(scenarios), *axes)
+    base = several[0]
+    if coupled or whole or len(several) > 1:
+        return Grid(base, axes, patience=_patience_of(base), coupled=coupled)
+    if isinstance(base, Scenario) and _feels_temperature(base):
+        return Grid(base, axes, patience=_patience_of(base))
+    return Grid(mechanics_of(base), axes, patience=_patience_of(base))
+
+
+def _feels_temperature(scenario: Scenario) -> bool:
+    """Whether the air's temperature is not the one that the mechanics takes by itself."""
+    return scenario.ambient.temperature_degC != Scenario().ambient.temperature_degC
 
 
 def mechanics_of(parameters: Parameters) -> Parameters:
@@ -127,8 +185,8 @@ def mechanics_of(parameters: Parameters) -> Parameters:
     return Parameters.model_construct(**tables)
 
 
-def _patience_of(parameters: Parameters) -> float:
-    return parameters.run.patience if isinstance(parameters, Scenario) else inf
+def _patience_of(parameters: Parameters, without: float = inf) -> float:
+    return parameters.run.patience if isinstance(parameters, Scenario) else without
 
 
 def _warn_once(warned: Counter[str]) -> None:

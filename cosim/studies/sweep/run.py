@@ -13,9 +13,10 @@ from typing import Any, Protocol
 
 import numpy as np
 import xarray as xr
-from stickslip import Parameters
+from stickslip import Parameters, simulate
 
 from cosim.report.files import provenance
+from cosim.scenario import Scenario
 
 from .chunks import DaskWorkers, LocalWorkers, Store
 from .combination import (
@@ -23,15 +24,12 @@ from .combination import (
     STATUS_MEANINGS,
     Row,
     Run,
-    SweepError,
-    SweepStopped,
     Task,
     Work,
-    WorkersLost,
     compute_chunk,
     model_version,
 )
-from .features import FEATURES
+from .errors import SweepError, SweepStopped, WorkersLost
 from .grid import Grid, product_grid
 
 #: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
@@ -63,11 +61,12 @@ class Workers(Protocol):
 
 
 def sweep(
-    parameters: Parameters,
+    parameters: Parameters | Sequence[Scenario],
     vary: Mapping[Any, Sequence[Any]],
     *,
-    duration: float = 30.0,
-    output_interval: float = 0.01,
+    coupled: bool | None = None,
+    duration: float | None = None,
+    output_interval: float | None = None,
     jobs: int | None = None,
     dask: str | None = None,
     folder: str | Path | None = None,
@@ -77,9 +76,13 @@ def sweep(
 
     Parameters
     ----------
-    parameters : the case that is varied (a scenario too: its mechanical part)
-    vary : `block.key` -> values; a tuple of keys -> tuples of values for keys that go together
-    duration, output_interval : of every run, s
+    parameters : the case that is varied: mechanics, or a scenario, or several of them, which are
+        then an axis of their own
+    vary : `block.key` -> values; a tuple of keys -> tuples of values for keys that go together;
+        `belt.layers[2].conductivity` for the second table of a list
+    coupled : whether every run is coupled to the heat in belt and ice; left out, it is where a key
+        of belt, ice, contact or coupling is varied, or differs between the scenarios
+    duration, output_interval : of every run, s; left out, 30 and 0.01, of scenarios their own
     jobs : processes on this machine (all cores when left out); dask : a scheduler's address instead
     folder : where finished chunks are kept, and found again by the next sweep (none: nothing kept)
     progress : called with the combinations done and their number
@@ -95,9 +98,11 @@ def sweep(
     >>> bool(done.x_mean[1] > 2.5 * done.x_mean[0])
     True
     """
+    grid = product_grid(parameters, vary, coupled)
+    given = {"duration": duration, "output_interval": output_interval}
     return run_grid(
-        product_grid(parameters, vary),
-        Run(duration, output_interval),
+        grid,
+        grid.run_of({name: value for name, value in given.items() if value is not None}),
         jobs=jobs,
         dask=dask,
         folder=folder,
@@ -130,7 +135,7 @@ def run_grid(
 
 
 def _check(run: Run) -> None:
-    for name, value in run._asdict().items():
+    for name, value in zip(run._fields, run[:2], strict=False):
         if not (math.isfinite(value) and value > 0.0):
             raise SweepError(f"{name}: out of range ({value:g}), allowed is above 0 s")
 
@@ -184,11 +189,17 @@ class _Sweeper:
         ) from lost
 
     def _first(self) -> float:
-        """Run the first combination here: how long one takes, s, the kernel's loading aside."""
+        """Run the first combination here: how long one takes, s, the kernel's loading aside.
+
+        A coupled one builds the unit where it is missing, before all workers would.
+        """
         task = self.missing()[:1]
         # one row of it: compiles the kernel before the workers would, all at the same time
         interval = self.work.run.output_interval
-        compute_chunk(self.work._replace(run=Run(interval, interval)), task)
+        if isinstance(self.work.base, Scenario):
+            simulate(Parameters(), 1e-3, 1e-3)
+        else:
+            compute_chunk(self.work._replace(run=Run(interval, interval)), task)
         start = time.perf_counter()
         self.keep(compute_chunk(self.work, task))
         return time.perf_counter() - start
@@ -202,10 +213,11 @@ def _chunk_size(missing: Sequence[Task], seconds: float, workers: int) -> int:
 
 def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
     """``rows``, in the grid's order, as variables over the grid's dimensions."""
-    table = np.array([row.values for row in rows])
+    blank = (math.nan,) * len(run.features)
+    table = np.array([row.values or blank for row in rows])
     variables: dict[str, Any] = {
         name: (grid.dims, table[:, i].reshape(grid.shape), {"units": unit, "long_name": text})
-        for i, (name, (unit, text)) in enumerate(FEATURES.items())
+        for i, (name, (unit, text)) in enumerate(run.features.items())
     }
     status = np.array([row.status for row in rows], dtype=np.int8)
     reason = np.array([row.reason for row in rows], dtype=object)
@@ -240,6 +252,7 @@ def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
     return {
         "title": " x ".join(f"{axis.name} ({len(axis)})" for axis in grid.axes),
         "status": "complete" if not failed else f"{failed} of {status.size} combinations failed",
+        "coupled": int(run.coupled),
         "duration": run.duration,
         "output_interval": run.output_interval,
         "parameters": json.dumps(grid.base.model_dump(mode="json")),

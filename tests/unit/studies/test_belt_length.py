@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from cosim.cli import belt_length as belt_length_command
+from cosim.cli.studies import belt_length as belt_length_command
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
@@ -154,6 +154,7 @@ def test_files_and_words(tmp_path, capsys):
     assert {path.name for path in tmp_path.glob("*.png")} == {"drift_over_length.png"}
 
 
+@pytest.mark.slow
 def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
     assert (
         call(
@@ -241,7 +242,7 @@ def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
 )
 def test_a_fault_of_a_scenario_names_file_and_key(tmp_path, table, options, says):
     file = tmp_path / "case.toml"
-    file.write_text(table)
+    file.write_text(f'defaults = "plain"\n{table}')
     with pytest.raises(belt_length_command.refused()) as refused:
         call(file, *options, "-o", tmp_path / "out")
     assert says in str(refused.value) and "\n" not in str(refused.value)

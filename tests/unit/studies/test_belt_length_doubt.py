@@ -7,7 +7,7 @@ import pytest
 
 from cosim.studies.belt_length import Case, Protocol, interface_drift, run_drift, uncertainty
 from cosim.studies.belt_length.lengths import shortest_in_doubt
-from cosim.studies.belt_length.uncertainty import fitted
+from cosim.studies.belt_length.polynomial import fitted
 from cosim.studies.belt_length.unknowns import (
     ENTRY,
     INTERFACE,
@@ -143,7 +143,7 @@ def test_shortest_belts_lie_between_the_lengths_or_are_not_told(found):
     told = shortest_in_doubt(lengths, doubts, 0.07)["run"]
     assert told["median"].length == pytest.approx((0.1 / 0.07) ** (1.0 / 1.5))
     assert told["high"].length is None and told["high"].says == ">4"
-    assert "on 4 m, the longest belt asked for, the 95% level is 0.12 K" in told["high"].reason
+    assert "on 4 m, the longest belt looked at, the 95% level is 0.12 K" in told["high"].reason
     told = shortest_in_doubt(lengths, doubts, 1.0)["interface"]
     assert told["median"].says == told["high"].says == "<1"
     untold = shortest_in_doubt(lengths, [None] * 3, 0.07)["run"]["high"]

@@ -20,12 +20,12 @@ def test_every_effect_has_a_case():
 @pytest.mark.parametrize("effect", IDS)
 def test_the_case_shows(effect):
     """The motion differs by more than a tenth of its swing: the figure has something to say."""
-    (times, plain), (_, shown) = (
-        effects_page.motion(effect, False),
-        effects_page.motion(effect, True),
-    )
-    assert times[-1] == CASES[effect].window[1]  # neither run gave up
-    assert np.max(np.abs(plain - shown)) > 0.1 * np.ptp(plain)
+    plain, shown = (effects_page.motion(effect, on) for on in (False, True))
+    begin, end = CASES[effect].window
+    assert plain.time[-1] == shown.time[-1] == end  # neither run gave up
+    assert np.max(np.abs(plain["x"] - shown["x"])) > 0.1 * np.ptp(plain["x"])
+    aside = effect in ("lateral_friction", "turning_surface", "spring_misalignment")
+    assert aside == bool({"y", "phi"} & set(effects_page.channels_shown(plain, shown, begin)))
 
 
 def test_command(tmp_path, capsys):

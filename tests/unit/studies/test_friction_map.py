@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from cosim import read_scenario
-from cosim.cli import friction_map as friction_regimes_command
+from cosim.cli.studies import friction_map as friction_regimes_command
 from cosim.studies.friction_map import (
     decade_slopes,
     friction_map,
@@ -72,6 +72,8 @@ def test_what_the_command_leaves(tmp_path, capsys):
         rows = list(csv.DictReader(table))
     assert [float(row["speed"]) for row in rows] == pytest.approx(speeds, rel=1e-3)
     assert (tmp_path / "friction_map.png").read_bytes().startswith(b"\x89PNG")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "-0.49" in page.replace("\u2212", "-") and "All 4 runs" in page
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
 
 from cosim.cli import main
-from cosim.cli import reproduce as reproduction_command
+from cosim.cli.studies import reproduce as reproduction_command
 from cosim.report.files import json_text
 from cosim.report.page import number
 from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
@@ -350,7 +350,7 @@ def test_command(tmp_path, capsys):
     assert captured.err == ""  # no progress bar where there is no terminal
     assert (folder / "report.html").exists()
     assert len(json.loads(result.read_text())["claims"]) == 2
-    assert not (folder / "reproduction.json").exists()
+    assert (folder / "reproduction.json").read_text() == result.read_text()
 
 
 @pytest.mark.parametrize("judged", [0, 1])

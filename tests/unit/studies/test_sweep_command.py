@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 from cosim import read_scenario
-from cosim.cli import sweep as sweep_command
+from cosim.cli.studies import sweep as sweep_command
 from cosim.studies.sweep import Run, SweepError
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.chunks import Store
@@ -28,7 +28,7 @@ def call(*argv):
 @pytest.fixture
 def case(tmp_path):
     file = tmp_path / "short.toml"
-    file.write_text("[run]\nduration = 1.0\noutput_interval = 0.05\n")
+    file.write_text('defaults = "plain"\n[run]\nduration = 1.0\noutput_interval = 0.05\n')
     return file
 
 
@@ -86,6 +86,8 @@ def test_files_and_last_lines(case, tmp_path, capsys):
     assert {file.name for file in out.iterdir()} == {
         "sweep.nc",
         "sweep.png",
+        "sweep.csv",
+        "report.html",
         "made_by.json",
         "chunks",
     }
@@ -131,7 +133,9 @@ def test_an_interrupted_sweep_says_how_to_go_on(case, tmp_path, monkeypatch, cap
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals reach a process group on POSIX only")
-@pytest.mark.parametrize("wanted, chunks", [(signal.SIGINT, 3), (signal.SIGTERM, 1)])
+@pytest.mark.parametrize(
+    "wanted, chunks", [pytest.param(signal.SIGINT, 3, marks=pytest.mark.slow), (signal.SIGTERM, 1)]
+)
 def test_a_signal_to_all_processes_loses_nothing(tmp_path, wanted, chunks):
     """As a terminal sends Ctrl-C: to this command and to its workers at once.
 

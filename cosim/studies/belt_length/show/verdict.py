@@ -1,18 +1,31 @@
-"""Whether 1 m of belt does, and the two questions, in plain words from a study's rows."""
+"""The answer in plain words: of an own rig, or of the study's, whether 1 m of belt does."""
 
 from __future__ import annotations
 
-from .drift import CAMERA
-from .lengths import LONGEST
-from .result import Row, Study
+from ..drift import CAMERA
+from ..lengths import LONGEST
+from ..own import Answer, Question
+from ..result import Row, Study
 
 ONE_METRE = 1.0
+#: Part of the variance that polynomials may miss without a word.
+MISSED = 0.1
 
 
 def verdict(study: Study) -> list[str]:
     """Some sentences; what is said holds for the cases that were computed."""
     if not study.rows:
+        if study.answers:
+            return _answered(study)
         return ["Nothing was computed, so nothing can be said."]
+    if study.answers:
+        return [
+            *_answered(study),
+            *_wait(study),
+            *_helps(study),
+            *_influence(study),
+            *_melting(study),
+        ]
     rows = [row for row in study.rows if row.case.length == ONE_METRE]
     return [
         *_one_metre(study, rows),
@@ -26,6 +39,101 @@ def verdict(study: Study) -> list[str]:
         *_influence(study),
         *_melting(study),
     ]
+
+
+def _answered(study: Study) -> list[str]:
+    """Of an own rig: what is needed, what the belt that is there does, for ever, the interface."""
+    return [sentence for answer in study.answers for sentence in answered(answer)]
+
+
+def answered(answer: Answer) -> list[str]:
+    """The answer for one drive, the shortest first."""
+    run, where = answer.run, f"At {answer.case.speed:g} m/s"
+    cold = f"comes round less than {answer.limit:g} K above the air"
+    return [
+        f"{where} a belt of {_needed(run.shortest, answer)} {cold} after"
+        f" {answer.case.protocol.in_words()}{_interval(run)}.",
+        f"The belt of {answer.case.length:g} m meets the ice {_on_own(run)}.",
+        f"For ever, {_for_ever(run)} {cold}.",
+        f"The interface warms by less than {answer.limit:g} K at constant speed on"
+        f" {_needed(answer.interface.shortest, answer)}"
+        f"{_interval(answer.interface)}; on {answer.case.length:g} m it gets"
+        f" {_on_own(answer.interface)}.",
+        *_how_sure(answer),
+    ]
+
+
+def _needed(nominal: float | None, answer: Answer) -> str:
+    """The length that is needed, at its nominal value."""
+    if nominal is None:
+        return f"no length up to {LONGEST:g} m"
+    least = " or less" if nominal <= answer.case.shortest else ""
+    return f"{nominal:.2g} m{least} (as the rig is said)"
+
+
+def _interval(question: Question) -> str:
+    """The same over what is not known; nothing where there is no doubt."""
+    if not (question.low and question.median and question.high):
+        return ""
+    return (
+        f"; over what is not known of the rig {question.low.says} to {question.high.says} m (5 to"
+        f" 95 % of the rigs), {question.median.says} m in half of them"
+    )
+
+
+def _on_own(question: Question) -> str:
+    if question.rises is None or question.share is None:
+        return f"{question.rise:.2g} K warmer"
+    low, _, high = question.rises
+    return (
+        f"{question.rise:.2g} K warmer ({_span(low, high)} K), below the limit in"
+        f" {_percent(question.share)} of the rigs"
+    )
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f} %"
+
+
+def _for_ever(run: Question) -> str:
+    return "no belt that was tried" if run.for_ever is None else f"a belt of {run.for_ever:.2g} m"
+
+
+def _how_sure(answer: Answer) -> list[str]:
+    """What is still warm on a belt of any length, and where the polynomials miss something."""
+    said = _why_not_nominal(answer)
+    for question, why in (
+        (answer.run, "what does not come round with the belt stays, such as warm rollers"),
+        (answer.interface, "the ice warms itself, whatever the belt"),
+    ):
+        if question.high is not None and question.high.length is None:
+            said.append(f"A longer belt does not help all rigs: {question.high.reason}; {why}.")
+    if (missed := max(answer.unexplained)) > MISSED:
+        said.append(
+            f"The intervals are rough: their polynomials miss {_percent(missed)} of the variance"
+            " of unseen runs; --samples 256 makes them better."
+        )
+    return said
+
+
+def _why_not_nominal(answer: Answer) -> list[str]:
+    """Why what is said may lie outside of the interval."""
+    low, nominal, belt = answer.run.low, answer.run.shortest, answer.case.rig.belt
+    if low is None or low.length is None or nominal is None or nominal >= low.length:
+        return []
+    lacks = [
+        what
+        for what, there in (
+            ("no rollers", belt.rollers > 0),
+            ("rollers no warmer than the air", belt.rollers == 0 or belt.roller_rise > 0.0),
+            ("no railing", belt.railing_length > 0.0),
+        )
+        if not there
+    ]
+    return [
+        f"As it is said the rig has {' and '.join(lacks)}, of which nothing else is known; the rigs"
+        " of the interval have what may be there, so they need more than the rig that is said."
+    ] * bool(lacks)
 
 
 def _by_speed(rows: list[Row]) -> list[tuple[float, list[Row]]]:

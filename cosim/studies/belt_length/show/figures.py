@@ -11,10 +11,10 @@ from matplotlib.patches import Patch
 
 from cosim.report.style import BLUE, GREY, INK, RED, SERIES, panels, picture
 
-from .case import Case
-from .drift import never_comes_round, steady_drift
-from .lengths import DriftMap
-from .result import Row, Study
+from ..case import Case
+from ..drift import endless_belt, never_comes_round, steady_drift
+from ..lengths import DriftMap
+from ..result import Row, Study
 
 #: Points along a curve.
 _CURVE = 40
@@ -30,10 +30,11 @@ def _title(cases: list[Case]) -> str:
     films = {case.film for case in cases}
     film = " to ".join(f"{h:.3g}" for h in sorted({min(films), max(films)}))
     where = f" (still air, {first.length:g} m)" if first.h is None else ""
-    belt = first.thermal().belt.stack[0]
+    stack = first.thermal().belt.stack
+    belt = f"{stack[0].conductivity:g} W/(m K)" if len(stack) == 1 else f"of {len(stack)} layers"
     said = (
-        f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt.conductivity:g}"
-        f" W/(m K), air {first.ambient_degC:g} °C\n{first.protocol.in_words()}"
+        f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt},"
+        f" air {first.ambient_degC:g} °C\n{first.protocol.in_words()}"
     )
     return said.replace("-", "−")
 
@@ -41,9 +42,11 @@ def _title(cases: list[Case]) -> str:
 @picture(
     "drift_over_length",
     "Above: rise of the belt where it enters the contact, over its "
-    "length: at the end of the runs, for ever, and the study's single pass. A curve falls to "
-    "nothing where a belt is so long that nothing comes round. Bars: 5 to 95 % over what is "
-    "not known of the rig. Below: what the interface warms by at constant speed.",
+    "length: at the end of the runs and for ever; of the source study's rig its single pass, too. "
+    "A curve ends at a triangle: from that length on no place that was heated comes round again "
+    "before the runs are over, and the belt enters as cold as the air. The curves begin at the "
+    "shortest belt on which contact and rollers have room. Bars and bands: 5 to 95 % over "
+    "what is not known of the rig. Below: what the interface warms by at constant speed.",
 )
 def draw_drift(study: Study) -> Figure:
     """Two panels for the first choice of everything but length and speed."""
@@ -51,10 +54,15 @@ def draw_drift(study: Study) -> Figure:
     lengths = sorted({row.case.length for row in study.rows})
     firsts = [_first(study, speed) for speed in speeds]
     low = max(0.5 * min(lengths), 1.2 * max(case.shortest for case in firsts))
-    curve = np.geomspace(low, 4.0 * max(lengths), _CURVE)
+    high = 4.0 * max(lengths)
+    for answer in study.answers:
+        low, high = min([low, *answer.lengths[:1]]), max([high, *answer.lengths[-1:]])
+    curve = np.geomspace(low, high, _CURVE)
     figure, axes = panels(2, 1, height=3.9, width=7.5, sharex=True)
     for i, case in enumerate(firsts):
-        _curves(axes[:, 0], case, curve, SERIES[i % len(SERIES)])
+        colour = SERIES[i % len(SERIES)]
+        _curves(axes[:, 0], case, curve, colour, own=bool(study.answers))
+        _bands(axes[:, 0], study, case, colour)
         aside = _ASIDE ** (i - 0.5 * (len(firsts) - 1))
         _bars(axes[0, 0], study, case, SERIES[i % len(SERIES)], aside)
     for ax in axes[:, 0]:
@@ -67,6 +75,8 @@ def draw_drift(study: Study) -> Figure:
             transform=ax.get_yaxis_transform(),
         )
         ax.set(xscale="log", yscale="log")
+        for length in lengths if study.answers else ():
+            ax.axvline(length, color=GREY, linestyle="-.", linewidth=1.0)
     axes[0, 0].set(ylabel="belt's rise at entry [K]", title=_title(firsts))
     axes[1, 0].set(
         xlabel="length of the belt [m]", ylabel="interface's rise\nat constant speed [K]"
@@ -80,8 +90,29 @@ def draw_drift(study: Study) -> Figure:
     return figure
 
 
-def _curves(axes, case: Case, curve, colour: str) -> None:
-    """Entry and interface of one speed over the lengths."""
+def _bands(axes, study: Study, case: Case, colour: str) -> None:
+    """5 to 95 % of the rigs over the lengths, of an own rig with this speed."""
+    for answer in study.answers:
+        if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
+            for ax, (low, _, high) in zip(axes, answer.levels, strict=True):
+                ax.fill_between(
+                    answer.lengths,
+                    np.maximum(low, 1e-2 * _FLOOR),
+                    high,
+                    color=colour,
+                    alpha=0.18,
+                    linewidth=0.0,
+                )
+
+
+def _curves(axes, case: Case, curve, colour: str, own: bool) -> None:
+    """Entry and interface of one speed over the lengths; own: not of the source study."""
+    travel = case.protocol.runs * case.protocol.moving * case.speed
+    if curve[0] < travel < curve[-1]:
+        # so that the curve falls where the last place comes round, not somewhere beyond
+        curve = np.sort([*curve, 0.98 * travel, travel, 1.03 * travel])
+        if never_comes_round(endless_belt(case)):
+            _mark_end(axes[0], travel, colour)
     belts = [case.with_length(float(length)) for length in curve]
     followed = [one.follow(one.sliding()) for one in belts]
     entry = [
@@ -90,15 +121,26 @@ def _curves(axes, case: Case, curve, colour: str) -> None:
     ]
     axes[0].plot(curve, _falling(entry), color=colour)
     axes[0].plot(curve, _falling([steady_drift(one) for one in belts]), "--", color=colour)
-    axes[0].plot(
-        curve,
-        [one.as_the_study().temperature_degC(one.length) - one.ambient_degC for one in belts],
-        ":",
-        color=colour,
-    )
+    if not own:
+        passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
+        axes[0].plot(curve, np.array(passed) - case.ambient_degC, ":", color=colour)
     axes[1].plot(
         curve,
         [after.mean_interface - before.mean_interface for before, after in followed],
+        color=colour,
+    )
+
+
+def _mark_end(ax, length: float, colour: str) -> None:
+    """Where nothing comes round any more: a triangle at the foot, with the length."""
+    ax.plot(length, _FLOOR, "v", color=colour, markersize=8.0, clip_on=False, zorder=5)
+    ax.annotate(
+        f"nothing comes\nround from {length:.3g} m",
+        (length, _FLOOR),
+        xytext=(8.0, 5.0),
+        textcoords="offset points",
+        ha="left",
+        fontsize=7.5,
         color=colour,
     )
 
@@ -117,8 +159,11 @@ def _key(speeds: list[float], study: Study) -> list[Artist]:
     handles += [
         Line2D([], [], color=INK, linestyle="-", label="after the runs"),
         Line2D([], [], color=INK, linestyle="--", label="for ever"),
-        Line2D([], [], color=INK, linestyle=":", label="study, one pass"),
     ]
+    if not study.answers:
+        handles.append(Line2D([], [], color=INK, linestyle=":", label="study, one pass"))
+    else:
+        handles.append(Line2D([], [], color=GREY, linestyle="-.", label="belt asked about"))
     if any(row.uncertainty for row in study.rows):
         handles.append(Patch(color=GREY, alpha=0.35, label="5–95 %, after the runs"))
     return handles
@@ -162,7 +207,8 @@ def draw_doubt(row: Row) -> Figure:
     doubt = row.uncertainty
     if doubt is None:
         raise ValueError(f"{row.case.length:g} m at {row.case.speed:g} m/s: no doubt was computed")
-    figure, axes = panels(1, 2, height=4.6, width=10.0, sharey=True)
+    height = 1.6 + 0.38 * len(doubt.single_changes)
+    figure, axes = panels(1, 2, height=height, width=10.0, sharey=True)
     left, right = axes[0]
     indices = {one.key: one for one in doubt.influences}
     single = sorted(doubt.single_changes, key=lambda one: indices[one.key].total)

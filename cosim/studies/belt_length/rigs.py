@@ -1,0 +1,145 @@
+"""All rigs that may be meant: what is not known of one is drawn, and polynomials answer for each.
+
+The model is run for some of them, evenly spread; through its answers, the three that a rise is made
+of (`unknowns`), polynomials are laid that stand in for it. How much of the variance they miss is
+measured on runs that they have not seen. On one belt, or with the length as one more dimension.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+import numpy as np
+from joblib import Parallel, delayed
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from .case import Case
+from .polynomial import fitted
+from .unknowns import ENTRY, INTERFACE, Unknown, answers, combined, unknowns_of
+
+Array = NDArray[np.float64]
+
+#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
+FEWEST_SAMPLES = 32
+_TESTED = 0.25
+
+
+class Rigs:
+    """The rigs of the doubt of a case, on its belt, or on belts between two lengths.
+
+    Attributes
+    ----------
+    unknowns : what is drawn, with the ranges of the case
+    evaluations : runs of the model
+    unexplained : share of the variance that the polynomials miss, of ENTRY and of INTERFACE
+
+    samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES. lengths:
+    (shortest, longest), m; left out, the case's own. floor: rises below it (K) are taken for it, so
+    that where a belt never comes round logarithms have an end; with lengths only. jobs: processes.
+    Raises `Melts` where the ice of one of them comes to melt.
+    """
+
+    def __init__(
+        self,
+        case: Case,
+        samples: int,
+        lengths: tuple[float, float] | None = None,
+        floor: float = 0.0,
+        jobs: int = 1,
+    ) -> None:
+        self.unknowns = unknowns_of(case)
+        self._shaping = tuple(one for one in self.unknowns if not (one.linear or one.fixed))
+        self._lengths = lengths
+        tested = round(_TESTED * samples)
+        self.evaluations = samples + tested
+        draws = qmc.Sobol(len(self._shaping) + (lengths is not None), rng=1)
+        drawn = np.concatenate((draws.random(samples), draws.random(tested)))
+        points = self._levelled(drawn)
+        parts = _in_processes([*map(partial(self._meant, case), points)], jobs)
+        kinds: tuple[bool, ...] = (False, True)
+        if lengths is not None:
+            # a rise falls by orders of magnitude with the length, and is needed at the limit
+            parts, kinds = np.maximum(parts, floor), (True,)
+        self._polynomials = {
+            rise: [fitted(points[:samples], column, kinds) for column in parts[:samples, rise].T]
+            for rise in (ENTRY, INTERFACE)
+        }
+        self.unexplained = {
+            rise: self._misses(points[samples:], parts[samples:, rise], rise)
+            for rise in self._polynomials
+        }
+
+    def rise(self, which: int, shares: Array, length: float | None = None) -> Array:
+        """ENTRY or INTERFACE, K: (n,), of rigs at shares (n, unknowns) of the ranges, 0 ... 1.
+
+        length: of the belt, m, where the rigs have several.
+        """
+        columns = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
+        points = shares[:, columns]
+        if self._lengths is not None:
+            if length is None:
+                raise ValueError("length: these rigs have belts of several, say which")
+            points = np.column_stack((points, np.full(len(points), self._share_of(length))))
+        return self._of(which, self._levelled(points), values(self.unknowns, shares))
+
+    def _of(self, which: int, points: Array, meant: dict[str, Array]) -> Array:
+        parts = np.stack([one(points) for one in self._polynomials[which]], axis=1)
+        return combined(parts, meant)
+
+    def _share_of(self, length: float) -> float:
+        low, high = self._lengths or (length, length)
+        return math.log(length / low) / math.log(high / low)
+
+    def _meant(self, case: Case, point: Array) -> tuple[Case, dict[str, float]]:
+        """The belt and the values that a point stands for."""
+        shares = np.zeros((1, len(self.unknowns)))
+        columns = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
+        shares[0, columns] = point[: len(columns)]
+        meant = {key: float(value[0]) for key, value in values(self.unknowns, shares).items()}
+        if self._lengths is None:
+            return case, meant
+        low, high = self._lengths
+        return case.with_length(low * (high / low) ** float(point[-1])), meant
+
+    def _levelled(self, points: Array) -> Array:
+        """Points, those of an unknown with levels in the middle of its level; the length's own."""
+        count = len(self._shaping)
+        levelled = [one.levelled(points[:, i]) for i, one in enumerate(self._shaping)]
+        return np.stack([*levelled, *points[:, count:].T], axis=1)
+
+    def _misses(self, points: Array, parts: Array, which: int) -> float:
+        """Share of a rise's variance over unseen runs; the linear unknowns are drawn for each."""
+        drawn = np.random.default_rng(1).random((len(points), len(self.unknowns)))
+        shaping = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
+        drawn[:, shaping] = points[:, : len(shaping)]
+        meant = values(self.unknowns, drawn)
+        true = combined(parts, meant)
+        return float(np.mean((self._of(which, points, meant) - true) ** 2) / np.var(true))
+
+
+def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
+    """Key -> values (n,) at shares (n, unknowns) of the ranges."""
+    return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
+
+
+def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Array:
+    """`answers` to each: (n, 2, 3), in as many processes."""
+    if jobs == 1:
+        return np.array([answers(*one) for one in meant])
+    # neighbours share blocks of ice, whose modes take time
+    order = sorted(
+        range(len(meant)),
+        key=lambda i: (meant[i][1]["ice_conductivity"], meant[i][1]["contact_area"]),
+    )
+    shares = [order[len(order) * i // jobs : len(order) * (i + 1) // jobs] for i in range(jobs)]
+    found = Parallel(n_jobs=jobs)(delayed(_each)([meant[i] for i in share]) for share in shares)
+    parts = np.empty((len(meant), 2, 3))
+    for share, part in zip(shares, found, strict=True):
+        parts[share] = part
+    return parts
+
+
+def _each(meant: list[tuple[Case, dict[str, float]]]) -> Array:
+    return np.array([answers(*one) for one in meant]).reshape(-1, 2, 3)

@@ -1,0 +1,171 @@
+"""The case of a scenario, and how sure it is: what it says is known as well as such figures are.
+
+An unknown whose keys a scenario holds is drawn from a range about what it says there; one whose
+keys it leaves out, from the usual range (`unknowns`). The tolerances are assumed. A range of one's
+own takes the place of either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from cosim.names import nearest
+from cosim.scenario import Scenario
+
+from .case import Case, Protocol, Range, StudyError
+from .unknowns import UNKNOWNS, Unknown
+
+
+class _Known(NamedTuple):
+    """Keys of a scenario that say an unknown, and between what it then lies, times what is said.
+
+    most: the largest value that there is.
+    """
+
+    keys: tuple[str, ...]
+    low: float
+    high: float
+    most: float = float("inf")
+
+
+_KNOWN = {
+    "h": _Known(("belt.air_heat_transfer",), 0.8, 1.25),
+    "friction": _Known(("friction.mu_k",), 0.8, 1.2),
+    "conductivity": _Known(("belt.conductivity", "belt.layers"), 0.7, 1.4),
+    "heat_capacity": _Known(("belt.heat_capacity", "belt.layers"), 0.9, 1.1),
+    "ice_conductivity": _Known(("ice.conductivity",), 0.95, 1.05),
+    "conductance": _Known(("contact.conductance",), 1.0 / 3.0, 3.0),
+    "belt_side": _Known(("contact.belt_side",), 0.8, 1.2, 1.0),
+    "contact_area": _Known(("contact.length",), 0.8, 1.0),
+    "railing_friction": _Known(("belt.railing_friction",), 0.7, 1.4),
+    "railing_share": _Known(("belt.railing_share",), 0.8, 1.2, 1.0),
+    "railing_conductance": _Known(("belt.railing_conductance",), 1.0 / 3.0, 3.0),
+    "roller_conductance": _Known(("belt.roller_conductance",), 1.0 / 3.0, 3.0),
+    "roller_rise": _Known(("belt.roller_rise",), 0.5, 1.5),
+}
+#: Least of what is a logarithm's: W/m2K.
+_LEAST = 1e-3
+
+
+def scenario_case(scenario: Scenario) -> Case:
+    """The belt, ice, contact, block and protocol of a scenario; StudyError for one without a belt.
+
+    Its kinetic friction is taken as it is at the start: friction laws are the coupled run's.
+    """
+    surface, run, rig, friction = scenario.surface, scenario.run, scenario.rig, scenario.friction
+    if rig.surface == "slab":
+        raise StudyError('rig.surface = "slab": has no belt; allowed is "belt"')
+    constant = run.duration - surface.run_up_time
+    if friction.has_table:
+        raise StudyError("friction.table_speed: allowed is one coefficient mu_k, without a table")
+    if not friction.mu_k > 0.0:
+        raise StudyError(f"friction.mu_k = {friction.mu_k:g}: must be above 0, or there is no heat")
+    if surface.speed == 0.0:
+        raise StudyError("surface.speed = 0 m/s: must not be 0, or nothing slides")
+    if not constant > 0.0:
+        raise StudyError(
+            f"run.duration = {run.duration:g} s: nothing is left at constant speed, must be above"
+            f" surface.run_up_time = {surface.run_up_time:g} s"
+        )
+    thermal, belt = scenario.thermal, scenario.belt
+    # in still air it is that of each case's own speed
+    given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
+    case = Case(
+        length=belt.length,
+        speed=abs(surface.speed),
+        mass=rig.mass,
+        h=belt.film if given else None,
+        friction=friction.mu_k,
+        ambient_degC=scenario.ambient.temperature_degC,
+        protocol=Protocol(surface.run_up_time, constant),
+        rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
+        static_over_kinetic=friction.mu_s / friction.mu_k,
+        stiffness=scenario.springs.stiffness,
+    )
+    return replace(case, ranges=said_ranges(scenario, case))
+
+
+def said_ranges(scenario: Scenario, case: Case) -> tuple[Range, ...]:
+    """The ranges of what a scenario says itself; case: that of the scenario."""
+    return tuple(_said(scenario, case))
+
+
+def _said(scenario: Scenario, case: Case) -> Iterator[Range]:
+    for unknown in UNKNOWNS:
+        known = _KNOWN[unknown.key]
+        keys = [key for key in known.keys if _holds(scenario, key)]
+        if not keys or (unknown.key == "h" and case.h is None):
+            continue
+        own = 1.0 if unknown.unit == "x" else _value(scenario, keys[0])
+        ends = [min(part * own, known.most) for part in sorted((known.low, known.high))]
+        if own < 0.0:
+            ends.reverse()
+        if unknown.logarithmic:
+            ends = [max(end, _LEAST) for end in ends]
+        low, high = ends
+        yield Range(
+            unknown.key,
+            low,
+            high,
+            f"{' and '.join(keys)} of the scenario, assumed to be good to"
+            f" {known.low:.2g} to {known.high:.2g} times",
+        )
+
+
+def _holds(scenario: Scenario, key: str) -> bool:
+    table, _, entry = key.partition(".")
+    return entry in getattr(scenario, table).model_fields_set
+
+
+def _value(scenario: Scenario, key: str) -> float:
+    table, _, entry = key.partition(".")
+    return float(getattr(getattr(scenario, table), entry))
+
+
+def with_ranges(case: Case, texts: Iterable[str]) -> Case:
+    """A case with ranges that are given as `unknown=low,high`, or `unknown=value` for what is
+    known; StudyError in one line.
+
+    >>> from cosim.studies.belt_length import Case
+    >>> with_ranges(Case(1.0, 0.5), ["roller_rise=0,0.1"]).ranges[0].high
+    0.1
+    """
+    own = {one.key: one for one in case.ranges}
+    for text in texts:
+        found = _given(text, {one.key: one for one in UNKNOWNS})
+        own[found.key] = found
+    return replace(case, ranges=tuple(own.values()))
+
+
+def _given(text: str, unknowns: Mapping[str, Unknown]) -> Range:
+    key, _, said = text.partition("=")
+    key = key.strip()
+    if key not in unknowns:
+        near = nearest(key, unknowns)
+        known = f"nearest: {near}" if near else f"allowed: {', '.join(unknowns)}"
+        raise StudyError(f"--doubt {text}: no unknown is named {key}, {known}")
+    unknown = unknowns[key]
+    try:
+        ends = [float(part) for part in said.split(",")]
+    except ValueError:
+        ends = []
+    least, most = _bounds(unknown)
+    if not (1 <= len(ends) <= 2 and least <= ends[0] <= ends[-1] <= most):
+        unit = "times the case's own" if unknown.unit == "x" else unknown.unit
+        raise StudyError(
+            f"--doubt {text}: allowed is {key}=LOW,HIGH or {key}=VALUE, {least:g} to {most:g}"
+            f"{'' if unit == '1' else f' {unit}'}"
+        )
+    return Range(key, ends[0], ends[-1], "as asked for")
+
+
+def _bounds(unknown: Unknown) -> tuple[float, float]:
+    """What an unknown may be at all."""
+    if unknown.key in ("belt_side", "railing_share"):
+        return 0.0, 1.0
+    if unknown.key == "contact_area":
+        return 0.05, 1.0
+    least = 0.01 if unknown.unit == "x" else _LEAST if unknown.logarithmic else 0.0
+    return least, {"W/m2K": 1e6, "x": 100.0, "K": 100.0}.get(unknown.unit, 10.0)

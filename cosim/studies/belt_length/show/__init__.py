@@ -1,0 +1,1 @@
+"""What is said and drawn of the study: the verdict in words, figures, the page."""

@@ -1,0 +1,154 @@
+"""A combination that is a whole scenario, any of its keys changed; its coupled run."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import numpy as np
+from stickslip import Trajectory
+
+from cosim.coupling import CoupledResult
+from cosim.scenario import Scenario, ScenarioError
+
+from .axis import SCENARIO, list_entry
+from .features import features
+
+#: Tables of a scenario that only a coupled run has a use for.
+HEAT_TABLES = ("belt", "ice", "contact", "coupling")
+
+# name -> (unit, long name)
+HEAT_FEATURES = {
+    "interface_rise": ("K", "rise of the interface over the air at the end of the run"),
+    "interface_drift": ("K", "what of it came at constant surface speed"),
+    "belt_entry_rise": ("K", "rise of the belt where it enters the contact, at the end"),
+    "ice_face_rise": ("K", "rise of the ice's face over the air at the end"),
+    "belt_share": ("1", "share of the friction heat that the belt has taken, at the end"),
+    "melted_mass": ("kg", "ice that has melted"),
+    "heat_residual": ("J", "largest error of the heat ledger in the whole run"),
+}
+
+
+def changed(base: Scenario, changes: Mapping[str, Any]) -> Scenario:
+    """A scenario with `block.key` -> value, `block.key[2].entry` for the second table of a list.
+
+    `SCENARIO` -> tables: of another scenario, in place of the base. ScenarioError in one line.
+    """
+    given = changes.get(SCENARIO)
+    tables = base.to_tables() if given is None else {k: _copied(v) for k, v in given.items()}
+    for key, value in changes.items():
+        if key != SCENARIO:
+            _set(tables, key, value)
+    return Scenario.from_tables(tables)
+
+
+def _copied(table: Any) -> Any:
+    return dict(table) if isinstance(table, Mapping) else table
+
+
+def _set(tables: dict[str, Any], key: str, value: Any) -> None:
+    if (place := list_entry(key)) is None:
+        block, _, entry = key.partition(".")
+        tables.setdefault(block, {})[entry] = value
+        return
+    name, number, entry = place
+    block, _, of_list = name.partition(".")
+    entries = [dict(one) for one in tables.get(block, {}).get(of_list, ())]
+    if not 1 <= number <= len(entries):
+        raise ScenarioError(f"{key}: the scenario has {len(entries)} of {name}, counted from 1")
+    entries[number - 1][entry] = value
+    tables[block] = tables[block] | {of_list: tuple(entries)}
+
+
+def is_heat(key: str) -> bool:
+    """Does a key act in a coupled run alone?"""
+    return key.partition(".")[0] in HEAT_TABLES
+
+
+def differ_in_heat(scenarios: list[Scenario]) -> bool:
+    """Whether scenarios differ in what a coupled run alone has a use for."""
+    first = scenarios[0]
+    return any(
+        getattr(one, table) != getattr(first, table) for one in scenarios for table in HEAT_TABLES
+    )
+
+
+@cache
+def heat_version() -> str:
+    """Hash of everything that a coupled run's numbers hang on beside the mechanics."""
+    found = hashlib.sha256()
+    for package in ("thermal", "cosim.coupling"):
+        root = resources.files(package)
+        for text in sorted(one.read_text(encoding="utf-8") for one in _sources(root)):
+            found.update(text.encode())
+    return found.hexdigest()
+
+
+def _sources(folder: Any) -> list[Any]:
+    found = []
+    for entry in folder.iterdir():
+        if entry.is_dir():
+            found += _sources(entry)
+        elif entry.name.endswith(".py"):
+            found.append(entry)
+    return found
+
+
+def coupled_features(
+    scenario: Scenario, progress: Callable[[float], None] | None
+) -> tuple[dict[str, float], str]:
+    """Features of motion and heat of a coupled run; and why it is not complete, "" where it is."""
+    from cosim.coupling.case import run_scenario
+
+    result = run_scenario(scenario, progress=progress).result
+    if result.status != "complete":
+        return {}, result.reason
+    trajectory = as_trajectory(result, scenario)
+    numbers = features(trajectory) | _heat(result, scenario)
+    late = trajectory.time >= scenario.surface.run_up_time
+    if np.count_nonzero(late) > 1:
+        # the unit counts break-aways that fall between two rows, too
+        count, time = trajectory["slip_count"][late], trajectory.time[late]
+        numbers["frequency"] = float((count[-1] - count[0]) / (time[-1] - time[0]))
+    return numbers, ""
+
+
+def as_trajectory(result: CoupledResult, scenario: Scenario) -> Trajectory:
+    """The block's motion of a coupled run; its events to one row."""
+    prefix = "mechanics."
+    columns = {
+        name.removeprefix(prefix): np.asarray(result[name])
+        for name in result.values
+        if name.startswith(prefix)
+    }
+    mode = columns["mode"]
+    changed_at = np.flatnonzero(np.diff(mode)) + 1
+    events = np.column_stack((result.time[changed_at], mode[changed_at], columns["x"][changed_at]))
+    return Trajectory(result.time, columns, events, scenario.mechanics)
+
+
+def _heat(result: CoupledResult, scenario: Scenario) -> dict[str, float]:
+    air = scenario.ambient.temperature_degC
+    interface = result["thermal.interface_temperature"] - air
+    late = interface[result.time >= scenario.surface.run_up_time]
+    return {
+        "interface_rise": float(interface[-1]),
+        "interface_drift": float(late[-1] - late[0]) if late.size > 1 else math.nan,
+        "belt_entry_rise": float(result["thermal.belt_entry_temperature"][-1] - air),
+        "ice_face_rise": float(result["thermal.ice_face_temperature"][-1] - air),
+        "belt_share": float(result["thermal.belt_share"][-1]),
+        "melted_mass": float(result["thermal.melted_mass"][-1]),
+        "heat_residual": float(np.max(np.abs(result["thermal.heat_residual"]))),
+    }
+
+
+def check_coupled(scenario: Scenario) -> None:
+    """ScenarioError where a coupled run cannot be, or would not end."""
+    from cosim.scenario.work import check_work
+
+    _ = scenario.record_every
+    check_work(scenario, coupled=True)

@@ -1,0 +1,94 @@
+"""The page of a sweep: what was asked, the figure, every run in a table, what failed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.report.page import Picture, number, render
+
+from .figure import SHOWN, still_sentence
+
+#: Runs that the page lists; the rest is in the file.
+MOST_ROWS = 500
+FILES = {
+    "sweep.nc": "all features of all runs, with units: netCDF 4, for xarray, Matlab",
+    "sweep.csv": "the same as a table, a line for each run",
+}
+
+
+def page(
+    dataset: xr.Dataset,
+    picture: Picture,
+    drawn: Sequence[str],
+    still: Sequence[str],
+    *,
+    name: str,
+    command: str,
+    scenario: str,
+) -> str:
+    """HTML of a sweep; drawn, still: features in the figure, and those that do not vary."""
+    dims = [str(dim) for dim in dataset["status"].dims]
+    rows = records(dataset)
+    return render(
+        "sweep.html.j2",
+        "cosim.studies.sweep",
+        name=name,
+        dims=[_varied(dataset, dim) for dim in dims],
+        coupled=bool(dataset.attrs["coupled"]),
+        total=len(rows),
+        complete=sum(row["status"] == "complete" for row in rows),
+        never_stick=sum(row["status"] == "complete" and row["frequency"] == 0.0 for row in rows),
+        still=still_sentence(dataset, still),
+        figure_of=picture,
+        heads=[*(_headed(dataset, dim) for dim in dims), *(SHOWN[one][0] for one in drawn)],
+        rows=[_row(row, dims, drawn) for row in rows[:MOST_ROWS]],
+        failed=[(_where(row, dims), row["reason"]) for row in rows if row["reason"]],
+        files=FILES,
+        command=command,
+        scenario=scenario,
+    )
+
+
+def records(dataset: xr.Dataset) -> list[dict[str, Any]]:
+    """A dictionary for each run: dimensions, linked keys, features, status, reason."""
+    table = dataset.to_dataframe().reset_index()
+    meanings = str(dataset["status"].attrs["flag_meanings"]).split()
+    found = []
+    for entries in table.to_dict("records"):
+        row = {str(key): _plain(value) for key, value in entries.items()}
+        found.append(row | {"status": meanings[int(row["status"])]})
+    return found
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _varied(dataset: xr.Dataset, dim: str) -> tuple[str, str, str]:
+    """Key, its values, what it is."""
+    values = ", ".join(number(_plain(value), 4) for value in dataset[dim].values)
+    return _headed(dataset, dim), values, str(dataset[dim].attrs["long_name"])
+
+
+def _headed(dataset: xr.Dataset, dim: str) -> str:
+    unit = dataset[dim].attrs["units"].replace("degC", "°C")
+    return dim if unit == "1" else f"{dim} [{unit}]"
+
+
+def _row(row: Mapping[str, Any], dims: Sequence[str], drawn: Sequence[str]) -> list[str]:
+    cells = [number(row[dim], 5) for dim in dims]
+    for name in drawn:
+        value = row[name]
+        if name == "frequency" and value == 0.0:
+            cells.append("no stick-slip")
+        else:
+            cells.append(number(value * SHOWN[name][1]))
+    return cells
+
+
+def _where(row: Mapping[str, Any], dims: Sequence[str]) -> str:
+    return ", ".join(f"{dim} = {number(row[dim], 5)}" for dim in dims)

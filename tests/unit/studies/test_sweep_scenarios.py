@@ -1,0 +1,185 @@
+"""Sweeps over any key of a scenario, and over scenarios; what the figure and the page say."""
+
+import argparse
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from cosim import Scenario, read_scenario, run_scenario
+from cosim.cli.studies import sweep as sweep_command
+from cosim.fmu.build import ensure_fmu
+from cosim.studies.sweep import Run, SweepError, features, sweep
+from cosim.studies.sweep.axis import parse_vary
+from cosim.studies.sweep.coupled import as_trajectory, changed
+from cosim.studies.sweep.figure import check_shown, shown_features, still_sentence
+from cosim.studies.sweep.grid import product_grid
+from cosim.studies.sweep.page import records
+
+LAYERS = [
+    {"thickness": 1e-3, "density": 2400.0, "heat_capacity": 800.0, "conductivity": 1.5},
+    {"thickness": 1e-3, "density": 1200.0, "heat_capacity": 1900.0, "conductivity": 0.2},
+]
+SHORT = Scenario.from_tables(
+    {
+        "name": "short",
+        "rig": {"degrees_of_freedom": ["x"]},
+        "surface": {"speed": 0.15, "run_up_time": 0.2},
+        "run": {"duration": 1.0, "output_interval": 0.01},
+        "belt": {"layers": LAYERS, "length": 0.4},
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def coupled():
+    """Two belts, coupled: the layers' conductivity is varied inside the list."""
+    ensure_fmu("build")
+    return sweep(SHORT, {"belt.layers[2].conductivity": [0.2, 5.0]}, jobs=1)
+
+
+def test_a_coupled_sweep_has_the_numbers_of_its_runs(coupled):
+    assert coupled.attrs["coupled"] == 1
+    one = SHORT.changed({"belt.layers": [LAYERS[0], LAYERS[1] | {"conductivity": 5.0}]})
+    run = run_scenario(one).result
+    rise = run["thermal.interface_temperature"][-1] - one.ambient.temperature_degC
+    assert coupled["interface_rise"].values[1] == pytest.approx(rise, rel=1e-12)
+    assert coupled["interface_rise"].values[0] != coupled["interface_rise"].values[1]
+    alone = features(as_trajectory(run, one))
+    assert coupled["x_mean"].values[1] == pytest.approx(alone["x_mean"], rel=1e-12)
+    slips = run["mechanics.slip_count"]
+    late = run.time >= 0.2
+    assert coupled["frequency"].values[1] == pytest.approx(
+        (slips[-1] - slips[late][0]) / (run.time[-1] - run.time[late][0])
+    )
+
+
+def test_the_unit_of_an_entry_of_a_list_is_told(coupled):
+    attributes = coupled["belt.layers[2].conductivity"].attrs
+    assert attributes == {"units": "W/(m.K)", "long_name": "thermal conductivity"}
+
+
+def test_what_does_not_vary_is_told_and_not_drawn(coupled):
+    drawn, still = shown_features(coupled)
+    assert "interface_rise" in drawn and "x_mean" in still and "phi_max" in still
+    assert "largest |φ| 0 °" in still_sentence(coupled, still)
+    never = coupled[["frequency"]] * 0.0
+    assert still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
+    assert shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])
+    with pytest.raises(SweepError, match="--show x_men: is no feature .*nearest: x_mean"):
+        check_shown(["x_men"], coupled)
+
+
+def test_scenarios_are_an_axis_of_their_own():
+    other = SHORT.changed({"name": "soft", "springs.stiffness": 10.0})
+    done = sweep([SHORT, other], {"surface.speed": [0.1, 0.2]}, jobs=1)
+    assert dict(done.sizes) == {"scenario": 2, "surface.speed": 2}
+    assert list(done["scenario"].values) == ["short", "soft"] and done.attrs["coupled"] == 0
+    alone = sweep(other, {"surface.speed": [0.2]}, duration=1.0, output_interval=0.01, jobs=1)
+    assert done.x_mean.values[1, 1] == alone.x_mean.values[0]
+
+
+def test_scenarios_that_differ_in_heat_are_run_coupled():
+    other = SHORT.changed({"name": "long", "belt.length": 1.0})
+    assert product_grid([SHORT, other], {}).coupled
+    assert not product_grid([SHORT, other], {}, coupled=False).coupled
+    with pytest.raises(SweepError, match="belt.length: does nothing in the mechanics alone"):
+        product_grid(SHORT, {"belt.length": [1.0, 2.0]}, coupled=False)
+    with pytest.raises(SweepError, match="two scenarios are named short"):
+        product_grid([SHORT, SHORT], {})
+
+
+@pytest.mark.parametrize(
+    ("vary", "coupled"),
+    [
+        ({"run.duration": [0.5, 1.0]}, False),
+        ({"ambient.temperature_degC": [-8.0, -2.0]}, False),
+        ({"rig.degrees_of_freedom": [("x",), ("x", "y", "phi")]}, False),
+        ({"belt.layers": [LAYERS[:1], LAYERS]}, True),
+        ({"coupling.scheme": ["gauss_seidel", "jacobi"]}, True),
+        ({"contact.conductance": [1e3, 1e4], "rig.mass": [0.5, 1.0]}, True),
+        ({"ice.height": [0.1]}, True),
+    ],
+)
+def test_any_key_may_be_varied(vary, coupled):
+    grid = product_grid(SHORT, vary)
+    assert grid.coupled is coupled
+    keys = grid.keys(grid.run_of({}) if isinstance(grid.base, Scenario) else Run(1.0, 0.01))
+    assert len(set(keys)) == len(grid)
+
+
+def test_the_length_of_the_run_may_be_varied():
+    done = sweep(SHORT, {"run.duration": [0.5, 1.0]}, jobs=1)
+    assert done["heat"].values[1] > done["heat"].values[0]
+
+
+@pytest.mark.parametrize(
+    ("texts", "line"),
+    [
+        (["belt.lenth=1"], "belt.lenth: no such key of a scenario, nearest: belt.length"),
+        (["belt.layers[3].conductivity=1"], "the scenario has 2 of belt.layers, counted from 1"),
+        (["belt.layers[0].conductivity=1"], "the scenario has 2 of belt.layers, counted from 1"),
+        (["belt.layers[1].colour=1"], r"belt.layers\[1\].colour: no such key of a scenario"),
+        (["belt.layers[1].conductivity=-1"], r"belt.layers\[1\].conductivity: out of range"),
+        (["belt.layers=[{thickness=1e-3}]"], r"belt.layers\[1\].density: missing"),
+        (["belt.layers=[{thickness=1]"], "is no TOML|is not closed"),
+        (["ice.height=true"], "ice.height: not a number"),
+        (["contact.conductance=high"], "contact.conductance: not"),
+        (["run.duration=0"], "run.duration: out of range"),
+        (["run.duration=1e9"], "run.duration"),
+        (["belt.length=0.01"], "belt.length"),
+        (["coupling.scheme=seidel"], "coupling.scheme: not known"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_anything_runs(texts, line, monkeypatch):
+    def never(*arguments, **options):
+        raise AssertionError("nothing is to be run")
+
+    monkeypatch.setattr("cosim.studies.sweep.combination.compute", never)
+    with pytest.raises(SweepError, match=line) as refused:
+        sweep(SHORT, parse_vary(texts), jobs=1)
+    assert "\n" not in str(refused.value)
+
+
+def test_values_are_those_of_toml():
+    text = "belt.layers=[{thickness=1e-3, density=700}],[]"
+    assert parse_vary([text]) == {("belt.layers",): [({"thickness": 1e-3, "density": 700},), ()]}
+    assert parse_vary(["a.b=true,false,'true'"]) == {("a.b",): [True, False, "true"]}
+
+
+def test_other_scenarios_tables_take_the_base_s_place():
+    slab = read_scenario("slab")
+    whole = changed(SHORT, {"scenario": slab.to_tables(), "rig.mass": 1.25})
+    assert whole.rig.surface == "slab" and whole.rig.mass == 1.25
+    assert SHORT.rig.surface == "belt"
+
+
+def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
+    """A block that never sticks has no frequency: neither a curve at 0 Hz nor a number."""
+    file, out = tmp_path / "short.toml", tmp_path / "out"
+    file.write_text(SHORT.changed({"run.duration": 3.0}).to_toml())
+    parser = argparse.ArgumentParser()
+    sweep_command.add_arguments(parser)
+    words = [str(file), "--vary", "surface.speed=0.15,5", "--jobs", "1", "-o", str(out), "--json"]
+    assert sweep_command.execute(parser.parse_args(words)) == 0
+    rows = json.loads(capsys.readouterr().out)["runs"]
+    assert [row["surface.speed"] for row in rows] == [0.15, 5.0]
+    assert rows[1]["frequency"] == 0.0 and rows[1]["slip_time"] is None
+    text = (out / "report.html").read_text()
+    assert "no stick-slip" in text and "In 1 of 2 runs the block does not stick and slip" in text
+    assert text.count("<img") == 1 and 'src="data:image/png' in text
+    assert len((out / "sweep.csv").read_text().splitlines()) == 3
+    with xr.open_dataset(out / "sweep.nc") as done:
+        assert records(done.load())[0]["surface.speed"] == 0.15
+        assert np.all(done["status"].values == 0)
+
+
+def test_nothing_varied_is_refused(tmp_path):
+    parser = argparse.ArgumentParser()
+    sweep_command.add_arguments(parser)
+    with pytest.raises(sweep_command.refused(), match="nothing is varied"):
+        sweep_command.execute(parser.parse_args(["reference", "-o", str(tmp_path / "out")]))
+    words = ["reference", "slab", "--test-plan", "-o", str(tmp_path / "out")]
+    with pytest.raises(sweep_command.refused(), match="--test-plan: is of one scenario"):
+        sweep_command.execute(parser.parse_args(words))
