@@ -12,6 +12,8 @@ from cosim.gap.answer.offered import offered
 from cosim.gap.camera.quantisation import find_quantisation, with_steps
 from cosim.gap.candidates.plain import moves_across, plain_free_parameters
 from cosim.gap.data import Campaign
+from cosim.gap.doubts import doubts_of
+from cosim.gap.doubts.below_noise import doubts_of_noise
 from cosim.gap.estimation.preparation import thinned
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.trial import Model
@@ -31,8 +33,10 @@ def find_gap(
     """What the plain model lacks in a campaign with tracks.
 
     Nothing is drawn: the same campaign gives the same answer. progress : called with 1 after every
-    model tried. Runs of which only figures are known are left to `find_summary_gap`.
+    model tried. Runs of which only figures are known are left to `find_summary_gap`. Beside doubts
+    that leave nothing to believe (`cosim.gap.doubts`) the verdict is "unknown".
     """
+    doubts = doubts_of(campaign)
     runs = tuple(thinned(run) if run.track is not None else run for run in campaign.runs)
     campaign = replace(campaign, runs=runs)
     steps = find_quantisation([run for run in runs if run.track is not None])
@@ -43,7 +47,11 @@ def find_gap(
         search = Search(bench.short, bench.runs, mapped, progress)
         finding = judge(search, model, partial(offered, bench))
         finding, powers = with_powers(finding, bench.short, bench.runs)
-        return answer(campaign, bench, finding, powers, steps, mapped)
+        gap = answer(campaign, bench, finding, powers, steps, mapped)
+    if not any(doubt.check == "sampling" for doubt in doubts):
+        estimated, nothing = "x" in campaign.noise_estimated, gap.verdict == "none"
+        doubts += tuple(doubts_of_noise(gap.model, estimated, nothing))
+    return gap.doubted(doubts)
 
 
 def _load(segmented: SegmentedRun) -> None:

@@ -15,6 +15,8 @@ from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segments import FRICTION
 from cosim.gap.result import FittedModel, FittedRun
 
+#: Steps of a free parameter within which it is at its bound.
+_NEAR = 1e-3
 _STATE = (layout.O_X, layout.O_Y, layout.O_PHI, layout.O_VX, layout.O_VY, layout.O_OMEGA)
 
 
@@ -44,7 +46,22 @@ def fitted_model(
         ),
         runs=tuple(runs[name] for name in by_name if name in runs),
         gap=(_gap(by_part[0]), _gap(by_part[-1])),
+        at_bound=_at_bound(problem, fitted),
     )
+
+
+def _at_bound(problem: Problem, fitted: Fitted) -> dict[str, float]:
+    """Numbers that a fit left at a bound, on the scale of the fit to `_NEAR` of a step.
+
+    Where a strength may not change its sign, nothing is no bound but the plain model.
+    """
+    found = {}
+    for free in problem.shared:
+        for bound in (free.low, free.high):
+            near = abs(free.scaled(fitted.values[free.key]) - free.scaled(bound)) < _NEAR
+            if near and (bound != 0.0 or not free.is_strength):
+                found[free.key] = bound
+    return found
 
 
 def _gap(runs: Sequence[FittedRun]) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from cosim.gap.data import Campaign
 from cosim.gap.diagnostics.model_track import ModelTrack
 from cosim.gap.diagnostics.regimes import RegimeAnalysis
 from cosim.gap.diagnostics.where import Where
+from cosim.gap.doubts.doubt import Doubt, unbelieved
 from cosim.gap.estimation.drive import (
     model_parameters,
     quantities_of,
@@ -155,6 +156,7 @@ class FittedModel:
     degrees_of_freedom : motions that the model has
     runs : in the campaign's order
     gap : (fit, held out), root mean square residual in units of the noise
+    at_bound : those of ``values`` that the fit would turn further -> the bound that they are at
     """
 
     values: Mapping[str, float]
@@ -163,6 +165,7 @@ class FittedModel:
     degrees_of_freedom: tuple[str, ...]
     runs: tuple[FittedRun, ...]
     gap: tuple[float, float]
+    at_bound: Mapping[str, float] = field(default_factory=dict)
 
     def of(self, name: str) -> FittedRun:
         """The run of that name; KeyError when there is none."""
@@ -215,6 +218,8 @@ class Gap:
     empirical : the formula proposed where the catalogue has no name, or None
     remarks : what the reader should know, a line each; the campaign's own are in the campaign
     lacks : what the data lack where no model fits, a line each
+    doubts : what of the record, or of the numbers stated, is not as it should be
+    believed : False where the verdict is "unknown" for a doubt alone, whatever was found
     """
 
     campaign: Campaign
@@ -241,6 +246,47 @@ class Gap:
     empirical: Mapping[str, Any] | None = None
     remarks: tuple[str, ...] = ()
     lacks: tuple[str, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
+    believed: bool = True
+
+    @property
+    def has_held_out(self) -> bool:
+        """Whether some run was kept from the fit; else held-out gaps are those of the fit."""
+        return any(run.track.run.hold_out for run in self.plain.runs)
+
+    @property
+    def explaining(self) -> tuple[str, ...]:
+        """Effects that may be the reason of a doubt: what fits, with numbers that are the data's.
+
+        What takes a part of the misfit alone, or stands at a bound, explains no figure.
+        """
+        if self.verdict not in ("named", "class"):
+            return ()
+        bounds = self.extended.at_bound if self.extended is not None else {}
+        return tuple(
+            effect for effect in self.effects
+            if not any(key == effect or key.startswith(f"{effect}.") for key in bounds)
+        )  # fmt: skip
+
+    def doubted(self, doubts: tuple[Doubt, ...]) -> Gap:
+        """The answer beside these doubts: "unknown" where one of them leaves nothing to believe.
+
+        The ladder and the ranking stay, as what was found; nothing is added to the model.
+        """
+        with_doubts = replace(self, doubts=doubts)
+        if self.verdict == "unknown" or not unbelieved(doubts, self.explaining):
+            return with_doubts
+        return replace(
+            with_doubts, verdict="unknown", effects=(), classes=(), extended=None, laws=(),
+            powers=(), remains=None, next_experiment=None, gap_after=self.gap_before,
+            believed=False,
+        )  # fmt: skip
+
+    def __repr__(self) -> str:
+        """Verdict and gap in one line; everything else is in its attributes."""
+        named = f" {', '.join(self.effects)}" if self.effects else ""
+        (fit, _), (left, _) = self.gap_before, self.gap_after
+        return f"<Gap of {self.campaign.name}: {self.verdict}{named}; fit {fit:.3g} -> {left:.3g}>"
 
     @property
     def model(self) -> FittedModel:

@@ -19,7 +19,8 @@ from cosim.gap.camera.camera import Camera
 from cosim.gap.camera.faults import QUANTITIES, fault_of
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.campaign_file import FILE_NAME
-from cosim.gap.data.csv_file import UNITS, read_columns
+from cosim.gap.data.reading.csv_file import read_columns
+from cosim.gap.data.reading.unit_names import SI
 
 #: Faults that cannot be undone.
 LASTING = ("measurement.smoothing", "measurement.quantisation")
@@ -53,7 +54,7 @@ def write_corrected(
             continue
         name = names[run.file.resolve()] = _free_name(run.file.name, number, names.values())
         written.append(target / name)
-        write_text(_csv(run.file, cameras[run.name]), target / name)
+        write_text(_csv(run, cameras[run.name]), target / name)
     tables = _tables(campaign, names, _undone(Camera.split(values)[1]))
     said = "\n".join(f"# {line}" for line in _said(Camera.split(values)[1]))
     write_text(f"{said}\n{tomli_w.dumps(tables)}", target / FILE_NAME)
@@ -89,10 +90,11 @@ def undone(
     return {name: values[order] for name, values in result.items()}
 
 
-def _csv(file: Path, camera: Camera) -> str:
-    """The file's rows, corrected, with a word on what was done."""
-    read = read_columns(file).values
-    columns = undone(camera, {name: read[name] for name in UNITS if name in read})
+def _csv(run: MeasuredRun, camera: Camera) -> str:
+    """The rows of a run's file in SI units, corrected, with a word on what was done."""
+    assert run.file is not None
+    read = read_columns(run.file, run.reading).values
+    columns = undone(camera, {name: read[name] for name in SI if name in read})
     rows = np.stack(list(columns.values()), axis=1)
     lines = [f"# {line}" for line in _said(camera)] + [",".join(columns)]
     for row in rows:

@@ -6,16 +6,17 @@ from collections.abc import Collection
 
 from stickslip import EFFECTS
 from stickslip.effects.candidate import Candidate, Scales
+from stickslip.plugins.load import file_of
 
 
 def candidates(scales: Scales, also: Collection[str] = ()) -> tuple[Candidate, ...]:
     """All laws of all effects, in the catalogue's order; several starts of one law are several.
 
-    also : effects that are not offered unless they are named
+    also : effects that are not offered unless they are named, as those of one's own files are
     """
     return tuple(
         candidate
         for effect in EFFECTS
-        if effect.offered or effect.id in also
+        if effect.offered or effect.id in also or file_of(effect) is not None
         for candidate in effect.candidates(scales)
     )

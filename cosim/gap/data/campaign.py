@@ -11,13 +11,14 @@ import numpy as np
 from pydantic import ValidationError
 from stickslip import Parameters
 
-from cosim.gap.data.campaign_file import FILE_NAME, RunTable, read_tables
-from cosim.gap.data.csv_file import read_columns
+from cosim.gap.data.campaign_file import FILE_NAME, CampaignTable, RunTable, read_tables
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.hold_out import choose_hold_outs, without_duplicates
 from cosim.gap.data.measured import CHANNELS, Campaign, MeasuredRun, Track
 from cosim.gap.data.noise import agree, difference_noise
 from cosim.gap.data.outliers import without_outliers
+from cosim.gap.data.reading.columns import Reading
+from cosim.gap.data.reading.csv_file import Columns, read_columns
 from cosim.gap.data.stick_remarks import stick_remarks
 from cosim.gap.data.sticks import find_sticks
 from cosim.gap.data.units import check_units
@@ -33,8 +34,13 @@ MOST_EMPTY, MOST_PLACES = 100, 5_000_000
 def read_campaign(path: str | Path) -> Campaign:
     """The campaign in a TOML file, or in a folder's campaign.toml; CSV files lie beside it.
 
-    Raises CampaignError in one line: file, key or column, what is wrong, what is allowed. What is
-    odd, yet can be used, is in the campaign's remarks.
+    Columns are t (s), x (m, along the surface's motion) and, where measured, y (m), phi (rad),
+    force (N, what the springs pull the block back with along x, positive where x is).
+    ``[columns]`` names them otherwise, ``[units]`` or the header (`x [mm]`, `t/ms`, `phi (deg)`)
+    states other units; both tables may stand in a ``[[run]]`` too, and hold there. What was
+    converted is among the remarks, and so is what is odd, yet can be used.
+
+    Raises CampaignError in one line: file, key or column, what is wrong, what is allowed.
     """
     path = Path(path)
     path = path / FILE_NAME if path.is_dir() else path
@@ -44,10 +50,15 @@ def read_campaign(path: str | Path) -> Campaign:
         friction=table.friction.given, errors=table.errors,
     )  # fmt: skip
     runs, remarks = [], []
+    converted: dict[str, list[str]] = {}
     for number, run_table in enumerate(run_tables, 1):
-        run, notes = _read_run(path, campaign, run_table, number)
+        reading = _reading(path, table, run_table, number)
+        run, notes, units = _read_run(path, campaign, run_table, number, reading)
         runs.append(run)
         remarks += notes
+        if units:
+            converted.setdefault("; ".join(units), []).append(run_table.file)
+    remarks += [f"{', '.join(who)}: converted: {what}" for what, who in converted.items()]
     kept, notes = without_duplicates(_unique_names(runs), str(path))
     remarks += notes
     kept, notes = _with_hold_outs(kept, path)
@@ -61,22 +72,38 @@ def read_campaign(path: str | Path) -> Campaign:
     )
 
 
+def _reading(path: Path, table: CampaignTable, run: RunTable, number: int) -> Reading:
+    """Columns and units of a run's file: its own, else those of the campaign."""
+    columns = {**table.columns.given, **run.columns.given}
+    channels = list(columns)
+    for place, channel in enumerate(channels):
+        for other in channels[:place]:
+            if columns[channel] == columns[other]:
+                raise CampaignError(
+                    f"{path}: run {number}: columns.{channel}: {columns[channel]} is "
+                    f"columns.{other} too, allowed is a column for each"
+                )
+    return Reading(columns, {**table.units.given, **run.units.given})
+
+
 def _read_run(
-    path: Path, campaign: Campaign, table: RunTable, number: int
-) -> tuple[MeasuredRun, list[str]]:
+    path: Path, campaign: Campaign, table: RunTable, number: int, reading: Reading
+) -> tuple[MeasuredRun, list[str], tuple[str, ...]]:
+    """A run, remarks on it, and which of its columns were in other units."""
     run = MeasuredRun(
         name=Path(table.file).stem if table.file else f"run {number}",
         file=path.parent / table.file if table.file else None,
         mass=table.mass, stiffness=table.stiffness, surface_speed=table.surface_speed,
         ambient_degC=table.ambient_degC, hold_out=table.hold_out,
-        summary=table.summary.given or None,
+        summary=table.summary.given or None, reading=reading,
     )  # fmt: skip
     _check_rig(f"{path}: run {number}", campaign, run)
     if run.file is None:
-        return run, []
-    track, remarks = read_track(run.file)
+        return run, [], ()
+    columns = read_columns(run.file, reading)
+    track, remarks = _track(run.file, columns)
     remarks += check_units(run.file, run, track, campaign.rig)
-    return replace(run, track=track), remarks
+    return replace(run, track=track), remarks, columns.converted
 
 
 def _check_rig(where: str, campaign: Campaign, run: MeasuredRun) -> None:
@@ -90,7 +117,10 @@ def _check_rig(where: str, campaign: Campaign, run: MeasuredRun) -> None:
 
 def read_track(file: Path) -> tuple[Track, list[str]]:
     """A tracker's file, outliers taken out, and remarks on it; CampaignError in one line."""
-    columns = read_columns(file)
+    return _track(file, read_columns(file))
+
+
+def _track(file: Path, columns: Columns) -> tuple[Track, list[str]]:
     time = columns.values.pop("t")
     _check_time(file, time, columns.lines)
     _check_holes(file, time, columns.lines)

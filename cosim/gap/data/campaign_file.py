@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 import stickslip
 from pydantic import AllowInfNan, BaseModel, BeforeValidator, Field, create_model, model_validator
+from stickslip.effects import PluginError, use
 from stickslip.parameters import FASTEST_SURFACE
 from stickslip.quantity import Table, quantity
 
 from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.reading.unit_names import SI, to_si
 from cosim.names import nearest
 from cosim.scenario.faults import ScenarioError, checked
 
@@ -38,6 +40,11 @@ class Model(Table):
 
     scheme: Literal["exact", "study"] = Field(
         "exact", description="exact geometry and events, or the source study's scheme as printed"
+    )
+    effects: tuple[str, ...] = Field(
+        (),
+        description="files of effects of one's own, beside campaign.toml, which are tried like "
+        "those of the catalogue: their code is run",
     )
 
 
@@ -105,7 +112,8 @@ def _expected(value: Any) -> Any:
 
 
 Coefficient = Annotated[
-    tuple[float, Annotated[float, AllowInfNan(True)]], BeforeValidator(_expected)
+    tuple[float, Annotated[float, AllowInfNan(True)]],
+    BeforeValidator(_expected, json_schema_input_type=float | tuple[float, float]),
 ]
 
 
@@ -176,6 +184,34 @@ class Summary(Measured):
         return self
 
 
+class ColumnNames(Table):
+    """Names of the columns in a run's file, where they are not t, x, y, phi and force."""
+
+    t: str = Field("", description="column of the times", min_length=1)
+    x: str = Field("", description="column of the place along the surface's motion", min_length=1)
+    y: str = Field("", description="column of the place across", min_length=1)
+    phi: str = Field("", description="column of the rotation", min_length=1)
+    force: str = Field("", description="column of the springs' force along x", min_length=1)
+
+    @property
+    def given(self) -> dict[str, str]:
+        """channel -> name, of those that the file names."""
+        return {key: getattr(self, key) for key in SI if key in self.model_fields_set}
+
+
+class UnitNames(ColumnNames):
+    """Units of the columns in a run's file, where they are not s, m, m, rad and N."""
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for channel, unit in self.given.items():
+            try:
+                to_si(channel, unit)
+            except ValueError as fault:
+                raise ValueError(f"{channel} = {fault}") from None
+        return self
+
+
 class RunTable(Table):
     """One [[run]]."""
 
@@ -188,6 +224,8 @@ class RunTable(Table):
     ambient_degC: float = quantity(-8.0, "degC", "temperature of the room", ge=-273.15, le=100)
     hold_out: bool = Field(False, description="never used for fitting")
     summary: Summary = Summary()
+    columns: ColumnNames = ColumnNames.model_construct()
+    units: UnitNames = UnitNames.model_construct()
     duration: float = quantity(20.0, "s", "of the record, while it is planned", gt=0)
     rate: float = quantity(100.0, "Hz", "samples a second, while it is planned", gt=0)
 
@@ -224,6 +262,8 @@ class CampaignTable(Table):
     noise: Noise = Noise()
     errors: Errors = Errors()
     friction: Friction = Friction()
+    columns: ColumnNames = ColumnNames.model_construct()
+    units: UnitNames = UnitNames.model_construct()
 
     @model_validator(mode="after")
     def _check_lengths(self) -> Self:
@@ -258,6 +298,10 @@ def read_tables(
     if "name" not in tables:
         tables["name"] = path.resolve().parent.name or "unnamed"
     campaign = _checked(CampaignTable, tables, str(path))
+    try:
+        use(*(path.parent / name for name in campaign.model.effects))
+    except PluginError as error:
+        raise CampaignError(f"{path}: model.effects: {error}") from None
     return campaign, [
         _checked(kind, run, f"{path}: run {number}") for number, run in enumerate(runs, 1)
     ]

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from cosim.gap.data.campaign_file import Errors, Rig
+from cosim.gap.data.reading.columns import Reading
 
 #: Measured quantities, in the order in which they are looked at.
 CHANNELS = ("x", "y", "phi", "force")
@@ -24,7 +25,8 @@ class Track:
     ----------
     time : (n,) array, s since the first row, strictly increasing; jitter and gaps as they are
     x, y, phi, force : (n,) arrays, m, m, rad, N; NaN is a missing sample or an outlier; None
-        where the channel was not measured
+        where the channel was not measured. force is what the springs pull the block back with along
+        x, positive where x is; it is compared with their stiffness, the model is fitted to places
     time_offset : time of the first row in the file, s
     outliers : channel -> number of samples that were taken out
     """
@@ -100,6 +102,7 @@ class MeasuredRun:
     track, summary : one of the two; summary is figure -> (value, standard deviation)
     noise : channel -> standard deviation of one sample of this run
     sticks : from the track alone, in order of time
+    reading : which column of the file is what, where its header does not say so
     """
 
     name: str
@@ -113,6 +116,7 @@ class MeasuredRun:
     summary: Mapping[str, tuple[float, float]] | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
     sticks: tuple[Stick, ...] = field(default=(), repr=False)
+    reading: Reading = field(default_factory=Reading, repr=False)
 
     @property
     def motion(self) -> Track:

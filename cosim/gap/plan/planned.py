@@ -16,12 +16,14 @@ import numpy as np
 from pydantic import ValidationError
 from stickslip import Parameters
 from stickslip.effects.candidate import FreeParameter
+from stickslip.packing import GRAVITY
 
 from cosim.gap.candidates.plain import CREEP, EXPONENT, TRANSITION, plain_free_parameters
 from cosim.gap.data import Campaign, MeasuredRun, Track, find_sticks
 from cosim.gap.data.campaign_file import FILE_NAME, RunTable, read_tables
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.units import COARSEST
+from cosim.gap.doubts.sampling import least_rate, vibration_leak
 from cosim.gap.estimation.columns import Columns
 from cosim.gap.estimation.drive import LOADING
 from cosim.gap.estimation.fit import fit
@@ -145,9 +147,26 @@ def read_plan(path: str | Path) -> PlannedCampaign:
         )
     if len(fitted) < len(runs):
         remarks.append(f"held out, and not counted: {len(runs) - len(fitted)} of {len(runs)} runs")
+    remarks += _too_slow(runs, expected["mu_s"], noise["x"])
     settings = tuple(run.setting for run in runs)
     campaign = replace(campaign, runs=settings, remarks=tuple(remarks))
     return PlannedCampaign(campaign, fitted, expected)
+
+
+def _too_slow(runs: Sequence[PlannedRun], mu_s: float, noise: float) -> list[str]:
+    """Of runs whose noise could not be told from their motion, were it not given."""
+    lines = []
+    for run in runs:
+        setting = run.setting
+        swing = mu_s * setting.mass * GRAVITY / setting.total_stiffness
+        wanted = least_rate(swing, setting.natural_frequency, noise)
+        if vibration_leak(swing, setting.natural_frequency, 1.0 / run.rate) > noise:
+            lines.append(
+                f"{setting.name}: at {run.rate:g} Hz noise of {1e3 * noise:g} mm cannot be told "
+                f"from the motion, expected are {wanted:.2g} Hz at least, or noise.x given once it "
+                "is measured"
+            )
+    return lines
 
 
 def _check_scheme(path: Path, campaign: Campaign) -> None:

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import tomli_w
+from stickslip.effects import EFFECTS
+from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.estimation.drive import SCATTERED, TABLE, driven_speed
@@ -88,7 +90,9 @@ def model_text(gap: Gap | SummaryGap) -> str:
         scenario, run = scenario_of(gap, shown), shown.name
     given = scenario.model_dump(exclude_unset=True)
     own = [] if isinstance(gap, SummaryGap) else _own_friction(gap, shown, scenario)
-    lines = [*_header(gap, run, own), "", *_entries({"name": given.pop("name")})]
+    beside = ("name", "defaults", "effects")
+    top: dict[str, Any] = {key: given.pop(key) for key in beside if key in given}
+    lines = [*_header(gap, run, own), "", *_entries(top)]
     for table in sorted(given, key=lambda table: table not in FIRST):
         if given[table]:
             lines += ["", f"[{table}]", *_entries(given[table], table)]
@@ -130,8 +134,11 @@ def _scenario(campaign: Campaign, tables: dict[str, dict[str, Any]]) -> Scenario
         table: {key: _rounded(value) for key, value in entries.items()}
         for table, entries in tables.items()
     }
+    own = [str(file) for effect in EFFECTS if effect.id in tables and (file := file_of(effect))]
+    first = {"name": f"{safe_name(campaign.name)}-model", **({"effects": own} if own else {})}
     with warnings.catch_warnings(action="ignore"):  # of friction that the fit decided on
-        return Scenario.from_tables({"name": f"{safe_name(campaign.name)}-model", **rounded})
+        # what was not found is not there: a file would else take it from its own defaults
+        return Scenario.from_tables({**first, "defaults": "plain", **rounded})
 
 
 def _rounded(value: Any) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.gap.doubts.doubt import unbelieved
 from cosim.gap.result import FittedModel, Gap, Law
 from cosim.report.files import json_text
 from cosim.studies.reproduction.summary import SummaryGap
@@ -38,11 +39,12 @@ def as_data(gap: Gap | SummaryGap, model: str) -> dict[str, Any]:
         "determined": {key: _interval(*value) for key, value in gap.determined.items()},
         "empirical": gap.empirical,
         "remarks": (*gap.campaign.remarks, *gap.remarks),
+        "doubts": _doubts(gap),
     }
     if isinstance(gap, SummaryGap):
         return _plain(data | _of_figures(gap))
     data = _plain(data | _of_runs(gap))
-    if not any(run.track.run.hold_out for run in gap.plain.runs):
+    if not gap.has_held_out:
         _forget_held_out(data)
     return data
 
@@ -53,6 +55,18 @@ def _forget_held_out(data: dict[str, Any]) -> None:
         pair["held_out"] = None
     for row in (*data["ranking"], *data["ladder"]):
         row["held_out_gap"] = None
+
+
+def _doubts(gap: Gap | SummaryGap) -> list[dict[str, Any]]:
+    """Of runs with a time series; ``decisive``: nothing is believed beside it."""
+    if isinstance(gap, SummaryGap):
+        return []
+    refused = unbelieved(gap.doubts, gap.explaining)
+    return [
+        {**asdict(doubt), "runs": doubt.run.split(", ") if doubt.run else []}
+        | {"decisive": doubt in refused}
+        for doubt in gap.doubts
+    ]
 
 
 def _of_runs(gap: Gap) -> dict[str, Any]:
@@ -70,6 +84,7 @@ def _of_runs(gap: Gap) -> dict[str, Any]:
         "share": gap.share if gap.effects else None,
         "reasons": gap.reasons,
         "lacks": gap.lacks,
+        "believed": gap.believed,
         "spreads": gap.spreads,
         "exponents": gap.powers,
         "curves": [_curve(law) for law in gap.laws],
@@ -91,6 +106,7 @@ def _fitted(fitted: FittedModel) -> dict[str, Any]:
         "parameters": fitted.values,
         "settings": fitted.settings,
         "intervals": fitted.intervals,
+        "at_bound": fitted.at_bound,
         "runs": [
             {"name": run.name, "hold_out": run.track.run.hold_out, "gap": run.gap, "own": run.own}
             for run in fitted.runs

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from cosim.gap.camera.faults import fault_of
+from cosim.gap.doubts.doubt import rounded
 from cosim.gap.result import Gap
 from cosim.report.page import Picture, render
 from cosim.studies.reproduction.summary import SummaryGap
@@ -16,10 +18,12 @@ from .reproduced import Reproduced
 from .words import (
     SENTENCES,
     TABLE_SENTENCE,
+    bound_lines,
     faults_of,
     fitted_quantities,
     formula,
     gap_line,
+    held_out,
     next_experiment,
     percent,
     powers_lines,
@@ -58,10 +62,19 @@ def page(
         sentences=SENTENCES,
         remarks=[*gap.campaign.remarks, *gap.remarks],
         percent=percent,
+        evidence=_evidence,
         probability=probability,
         corrected=corrected,
+        held_out=partial(held_out, gap),
+        bounds=bound_lines(gap),
+        doubts=gap.doubts if isinstance(gap, Gap) else (),
         **({} if isinstance(gap, SummaryGap) else _of_runs(gap)),
     )
+
+
+def _evidence(value: float | None) -> str:
+    """Without an exponent; a dash for none."""
+    return "–" if value is None else rounded(value).replace("-", "−")
 
 
 def _of_runs(gap: Gap) -> dict[str, Any]:

@@ -27,6 +27,8 @@ OFFSETS = {
 }
 #: Units of what a strength may go with.
 SCALES = {"mass": "kg", "speed": "m/s", "stiffness": "N/m"}
+#: Part of a number's own size that is rounding.
+ROUNDING = 1e-12
 PLAIN = ("friction.mu_s", "friction.mu_k")
 
 
@@ -77,10 +79,18 @@ def quantities(
 ) -> list[Quantity]:
     """Of the keys wanted (all when left out), in the order of ``values``."""
     wanted = values if keys is None else [key for key in values if key in set(keys)]
-    return [
-        Quantity(key, float(values[key]), _interval(intervals.get(key)), *unit_and_meaning(key))
-        for key in wanted
-    ]
+    found = []
+    for key in wanted:
+        pair = _interval(intervals.get(key))
+        size = max(map(abs, pair)) if pair else 1.0
+        shown = (_shown(pair[0], size), _shown(pair[1], size)) if pair else None
+        found.append(Quantity(key, _shown(float(values[key]), size), shown, *unit_and_meaning(key)))
+    return found
+
+
+def _shown(value: float, size: float) -> float:
+    """Without what is only rounding beside a size."""
+    return 0.0 if abs(value) <= ROUNDING * size else value
 
 
 def _interval(pair: tuple[float, float] | None) -> tuple[float, float] | None:

@@ -24,7 +24,7 @@ CAPTION = (
     "Where the misfit lives: what the model lacks, by run and over what it may depend on, "
     "with standard errors; zero is no misfit. Of each region the variables that tell most. p: "
     "chance of as clear a dependence (by run: of as large means), allowing for the number of "
-    f"panels that were looked at; red: below {CHANCE:g}."
+    f"panels that were looked at; dark orange: below {CHANCE:g}."
 )
 
 

@@ -1,4 +1,4 @@
-"""What the FMU did of a run."""
+"""What the FMU did of a run, from its start to its end."""
 
 from __future__ import annotations
 
@@ -9,17 +9,21 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Reproduced:
-    """A run's first segment, from one initial state, by the FMU.
+    """A run, from one initial state, by the FMU.
 
     Attributes
     ----------
     name : of the run
-    time : (n,) s, the data's samples up to where the fit started anew from the data
+    time : (n,) s, the data's samples
+    first : how many of them there are up to where the fit started anew from the data
     motion : channel -> (n,) by the FMU, the tracker's zero included, m or rad
     measured : channel -> (n,) the data
-    gap : root mean square of measured less FMU over all channels, units of the noise
-    plain_gap : of the plain model, fitted, in the same segment
-    apart : largest difference between the FMU and the compiled kernel in any channel, noise units
+    gap : root mean square of measured less FMU over all channels of the first segment, units of
+        the noise
+    whole : the same over the whole run, in which small errors of the period add up
+    plain_gap : of the plain model, fitted, in the first segment
+    apart : largest difference between the FMU and the compiled kernel in any channel of the first
+        segment, noise units
     """
 
     name: str
@@ -29,3 +33,5 @@ class Reproduced:
     gap: float
     plain_gap: float
     apart: float
+    first: int
+    whole: float

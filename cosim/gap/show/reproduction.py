@@ -29,11 +29,11 @@ def reproduced_runs(gap: Gap) -> tuple[FittedRun, ...]:
 
 
 def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
-    """Fly the first segment of a run in the FMU."""
+    """Fly a run in the FMU from its first sample to its last, without ever starting anew."""
     scenario = scenario_of(gap, run, begun=True)
     track, noise = run.track, run.track.run.noise
     rows = np.flatnonzero(track.segments == track.segments[0])
-    time = track.time[rows]
+    time, first = track.time, rows.size
     values = {**gap.model.settings, **gap.model.values, **run.own}
     exposure = _exposure(track, time[-1], Camera.split(values)[1])
     simulated = _in_fmu(fmu, scenario, exposure.moments)
@@ -43,15 +43,17 @@ def reproduce(gap: Gap, run: FittedRun, fmu: Path) -> Reproduced:
         name: written[: time.size, PLACES.index(name)] + values.get(f"offset.{name}", 0.0)
         for name in track.channels
     }
-    measured = {name: track.run.motion[name][rows] for name in track.channels}
+    measured = {name: track.run.motion[name] for name in track.channels}
+    begun = exposure.moments <= time[first - 1]
     apart = max(
-        np.max(np.abs(simulated[name] - own[name])) / noise[name] for name in track.channels
+        np.max(np.abs(simulated[name] - own[name])[begun]) / noise[name] for name in track.channels
     )
-    left = {name: (measured[name] - motion[name]) / noise[name] for name in track.channels}
+    left = [(measured[name] - motion[name]) / noise[name] for name in track.channels]
     plain = gap.plain.of(run.name).track
     return Reproduced(
-        run.name, time, motion, measured, _rms(left.values()),
+        run.name, time, motion, measured, _rms(each[:first] for each in left),
         _rms(plain.residual(name)[rows] for name in track.channels), float(apart),
+        first, _rms(left),
     )  # fmt: skip
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cosim.gap.estimation.preparation import period
 from cosim.gap.result import FittedRun, Gap
+from cosim.report.live import Curve, Live, Panel, over_time, several
 from cosim.report.page import Picture
 from cosim.report.style import BLUE, GREEN, GREY, INK, PALE_GREY, PURPLE, RED, panels, picture
 
@@ -40,17 +43,40 @@ def channels(gap: Gap) -> tuple[str, ...]:
 
 def overlays(gap: Gap) -> list[Picture]:
     """Of every channel: an excerpt and the whole of each run."""
-    return [_named(f"overlay_{channel}", _overlay(gap, channel)) for channel in channels(gap)]
+    return [
+        replace(
+            _overlay(gap, channel),
+            name=f"overlay_{channel}",
+            alt=f"{SCALES[channel][1]} over time: measured, and as the models have it.",
+            live=_overlay_live(gap, channel),
+        )
+        for channel in channels(gap)
+    ]
 
 
-def _named(name: str, drawn: Picture) -> Picture:
-    return Picture(name, drawn.caption, drawn.png)
+def _overlay_live(gap: Gap, channel: str) -> Live:
+    """The same for the page: a figure for each run, the excerpt a button away."""
+    found = {}
+    for name in shown_runs(gap):
+        plain = gap.plain.of(name)
+        track, (factor, label) = plain.track, SCALES[channel]
+        models = [("plain model", plain, BLUE)]
+        models += [("extended model", gap.extended.of(name), RED)] if gap.extended else []
+        curves = [Curve("measured", factor * track.run.motion[channel], INK, dots=True)]
+        curves += [
+            Curve(text, factor * getattr(run.track, channel), colour)
+            for text, run, colour in models
+        ]
+        panel = Panel(label.replace("(", "[").replace(")", "]"), curves)
+        part = (*excerpt(plain, channel), "where the plain model is farthest off")
+        found[title(plain)] = over_time(track.time, [panel], part=part)
+    return several(found)
 
 
 OVERLAY = (
-    "Measured (dots), the plain model (blue) and the extended one (red). Left: the cycles in which "
-    "the plain model is farthest off; right: the whole run. The models start anew from the data at "
-    "the dotted lines."
+    "Measured (dots), the plain model (blue) and the extended one (dark orange). Left: the cycles "
+    "in which the plain model is farthest off; right: the whole run. The models start anew from "
+    "the data at the dotted lines."
 )
 
 
@@ -156,7 +182,7 @@ def draw_residuals(gap: Gap) -> Figure:
                     color=colours[channel],
                     label=channel.replace("phi", "φ"),
                 )
-            _noise_scale(axis, np.max(np.abs(gap.plain.of(name).residuals())))
+            noise_scale(axis, np.max(np.abs(gap.plain.of(name).residuals())))
             axis.set_title(f"{name}, {label}: gap {run.gap:.3g}")
         row[0].set_ylabel("noise units")
     for axis in axes[-1]:
@@ -167,7 +193,8 @@ def draw_residuals(gap: Gap) -> Figure:
     return figure
 
 
-def _noise_scale(axis: Axes, largest: float) -> None:
+def noise_scale(axis: Axes, largest: float) -> None:
+    """An axis of residuals: linear near noise, logarithmic beyond, up to the largest."""
     axis.set_yscale("symlog", linthresh=LINEAR)
     limit = 1.4 * max(largest, LINEAR)
     ticks = [tick for tick in TICKS if abs(tick) <= limit and (abs(tick) != 2 or limit < 150.0)]

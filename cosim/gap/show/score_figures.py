@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +14,7 @@ from cosim.report.style import BLUE, DULL_GREY, GREY, INK, ORANGE, RED, panels, 
 from cosim.studies.reproduction.summary import SummaryGap
 
 from .quantities import unit_and_meaning
-from .words import TABLES, percent
+from .words import TABLES, held_out, percent
 
 COLUMNS = 4
 #: Label, colour, filling.
@@ -27,8 +27,9 @@ NARROW = 2.2
 
 @picture("ranking", (
     "Every effect that was fitted on top of the plain model, and those named together: the gap on "
-    "the runs that were held out. The dashed line is the plain model, the solid one measurement "
-    "noise."
+    "the runs that were held out, or, where none was, of the fit; its figure at the right. The "
+    "dashed line is the plain model, the solid one measurement noise. Dark orange: named; yellow: "
+    "one of a class."
 ))  # fmt: skip
 def draw_ranking(gap: Gap | SummaryGap) -> Figure:
     """A bar for each effect, its best law, and one for several that were named; best first."""
@@ -46,23 +47,20 @@ def draw_ranking(gap: Gap | SummaryGap) -> Figure:
     values = [min(best[name], limit) for name in names]
     colours = [RED if name == together else _colour(gap, name) for name in names]
     axis.barh(names, values, color=colours, height=0.7)
-    for place, name in enumerate(names):
-        over = "beyond " if best[name] > limit else ""
-        axis.text(
-            values[place],
-            place,
-            f" {over}{best[name]:.3g}",
-            va="center",
-            fontsize=8.0,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},
-        )
+    for place, name in enumerate(names):  # beside the panel: inside they would meet the lines
+        over = "> " if best[name] > limit else ""
+        axis.annotate(
+            f"{over}{best[name]:.3g}", (1.0, place), (6.0, 0.0), va="center", fontsize=8.0,
+            xycoords=axis.get_yaxis_transform(), textcoords="offset points", annotation_clip=False,
+        )  # fmt: skip
     axis.axvline(1.0, color=INK, linewidth=1.0, label="measurement noise")
     axis.axvline(gap.gap_before[1], color=GREY, linestyle="--", label="plain model")
     axis.invert_yaxis()
-    axis.set_xlim(0.0, 1.12 * max([*values, gap.gap_before[1], 1.0]))
+    axis.set_xlim(0.0, 1.04 * max([*values, gap.gap_before[1], 1.0]))
     axis.grid(visible=False, axis="y")
     unit = "standard deviations" if isinstance(gap, SummaryGap) else "noise units"
-    axis.set_xlabel(f"held-out gap ({unit})")
+    kept = held_out(gap, 1.0) is not None
+    axis.set_xlabel(f"{'held-out gap' if kept else 'gap of the fit, nothing held out'} ({unit})")
     figure.legend(loc="outside upper right", ncols=2)
     return figure
 
@@ -74,8 +72,8 @@ def _colour(gap: Gap | SummaryGap, effect: str) -> str:
 
 
 @picture("gaps", (
-    "The gap of each run, before (blue) and after (red): root mean square residual in units of the "
-    "noise, which the line at 1 stands for. Hollow: held out, never fitted."
+    "The gap of each run, before (blue) and after (dark orange): root mean square residual in "
+    "units of the noise, which the line at 1 stands for. Hollow: held out, never fitted."
 ))  # fmt: skip
 def draw_gaps(gap: Gap) -> Figure:
     """Before and after, joined by a line, a place for each run."""
@@ -90,7 +88,8 @@ def draw_gaps(gap: Gap) -> Figure:
             fill = "white" if run.track.run.hold_out else colour
             axis.plot(place, value, "o", color=colour, markerfacecolor=fill, markersize=6.5)
     axis.axhline(1.0, color=INK, linewidth=1.0, label="measurement noise")
-    for label, colour, fill in LEGEND[: 2 if gap.extended else 1] + LEGEND[2:]:
+    held = LEGEND[2:] if gap.has_held_out else []
+    for label, colour, fill in LEGEND[: 2 if gap.extended else 1] + held:
         axis.plot([], [], "o", color=colour, markerfacecolor=fill, label=label)
     figure.legend(loc="outside upper center", ncols=4)
     _log_ticks(axis, [run.gap for run in gap.plain.runs])
@@ -107,7 +106,7 @@ def draw_gaps(gap: Gap) -> Figure:
     "Above each step: the part of the misfit that is gone."
 ))  # fmt: skip
 def draw_ladder(gap: Gap) -> Figure:
-    """A place for each step; red up to the one that the verdict stands on, grey beyond."""
+    """A place for each step; dark orange up to what the verdict stands on, grey beyond."""
     figure, axes = panels(1, 1, height=3.0, width=max(5.0, 2.4 + 1.9 * len(gap.ladder)))
     axis, places = axes[0, 0], range(len(gap.ladder))
     fit = [step.fit_gap for step in gap.ladder]
@@ -116,7 +115,10 @@ def draw_ladder(gap: Gap) -> Figure:
     for place, step in enumerate(gap.ladder):
         colour = _step_colour(gap, step)
         axis.plot(place, fit[place], "o", color=colour, markersize=6.5)
-        axis.plot(place, held[place], "o", color=colour, markerfacecolor="white", markersize=6.5)
+        if gap.has_held_out:
+            axis.plot(
+                place, held[place], "o", color=colour, markerfacecolor="white", markersize=6.5
+            )
         if step.effects:
             top = max(fit[place], held[place])
             axis.annotate(
@@ -124,7 +126,7 @@ def draw_ladder(gap: Gap) -> Figure:
                 ha="center", fontsize=8.0,
             )  # fmt: skip
     axis.axhline(1.0, color=INK, linewidth=1.0, label="measurement noise")
-    for label, fill in (("fitted", GREY), ("held out", "white")):
+    for label, fill in (("fitted", GREY), ("held out", "white"))[: 1 + gap.has_held_out]:
         axis.plot([], [], "o", color=GREY, markerfacecolor=fill, label=label)
     figure.legend(loc="outside upper center", ncols=3)
     _log_ticks(axis, [*fit, *held])
@@ -163,12 +165,13 @@ def _log_ticks(axis: Axes, values: Sequence[float]) -> None:
 
 
 @picture("parameters", (
-    "Fitted numbers with 95 % intervals, in the plain model (blue) and in the extended one (red)."
+    "Fitted numbers with 95 % intervals, in the plain model (blue) and in the extended one (dark "
+    "orange). Dashed, with a triangle in place of a dot: the bound that a number is at."
 ))  # fmt: skip
 def draw_parameters(gap: Gap) -> Figure:
     """A panel for each number."""
     plain = SimpleNamespace(
-        label="plain", colour=BLUE, values=gap.plain.values,
+        label="plain", colour=BLUE, values=gap.plain.values, at_bound=gap.plain.at_bound,
         intervals={**gap.plain.intervals, **{k: v[1:] for k, v in gap.determined.items()}},
     )  # fmt: skip
     models = [plain]
@@ -178,6 +181,7 @@ def draw_parameters(gap: Gap) -> Figure:
                 label="extended",
                 colour=RED,
                 values=gap.extended.values,
+                at_bound=gap.extended.at_bound,
                 intervals=gap.extended.intervals,
             )
         )
@@ -190,7 +194,7 @@ def draw_parameters(gap: Gap) -> Figure:
     for axis, key in zip(axes.flat, keys, strict=False):
         for place, model in enumerate(models):
             if key in model.values:
-                _value(axis, place, model.values[key], model.intervals, key, model.colour)
+                _value(axis, place, model, key)
         axis.set_xlim(-0.6, len(models) - 0.4)
         axis.set_xticks(range(len(models)), [model.label for model in models])
         axis.grid(visible=False, axis="x")
@@ -200,9 +204,18 @@ def draw_parameters(gap: Gap) -> Figure:
     return figure
 
 
-def _value(axis: Axes, place: int, value: float, intervals: Mapping, key: str, colour: str) -> None:
-    axis.plot(place, value, "o", color=colour)
-    if key in intervals:
-        low, high = intervals[key]
+def _value(axis: Axes, place: int, model: SimpleNamespace, key: str) -> None:
+    value, bound = model.values[key], model.at_bound.get(key)
+    axis.plot(place, value, "o" if bound is None else "^", color=model.colour)
+    if bound is not None:
+        axis.axhline(bound, color=model.colour, linewidth=0.8, linestyle="--")
+        aside, align = (8.0, "left") if place == 0 else (-8.0, "right")
+        axis.annotate(
+            "at its bound", (place, value), (aside, 0.0), textcoords="offset points", ha=align,
+            va="center", fontsize=7.5,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
+        )  # fmt: skip
+    if key in model.intervals:
+        low, high = model.intervals[key]
         error = np.abs([[value - low], [high - value]])
-        axis.errorbar(place, value, error, color=colour, capsize=4.0)
+        axis.errorbar(place, value, error, color=model.colour, capsize=4.0)

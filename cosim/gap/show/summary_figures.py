@@ -11,7 +11,7 @@ from cosim.studies.reproduction.summary import SummaryGap
 CAPTION = (
     "How far each figure of the model is from the observed one, in the observation's standard "
     "deviations: with the numbers as they are known (grey), the plain model refitted (blue), the "
-    "extended model (red). Shaded: within two."
+    "extended model (dark orange). Shaded: within two."
 )
 
 

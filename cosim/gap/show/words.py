@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from stickslip import EFFECTS
 
 from cosim.gap.camera import faults
+from cosim.gap.doubts.doubt import rounded, unbelieved
 from cosim.gap.result import Gap, Power
 from cosim.studies.reproduction.summary import SummaryGap
 
@@ -28,6 +29,8 @@ def verdict(gap: Answer) -> str:
 
 def reason(gap: Answer) -> str:
     """What the verdict's word stands for here, one sentence."""
+    if isinstance(gap, Gap) and not gap.believed:
+        return _not_believed(gap)
     if isinstance(gap, Gap) and gap.verdict == "partial":
         return _partial(gap)
     if gap.verdict == "none":
@@ -35,6 +38,29 @@ def reason(gap: Answer) -> str:
     if gap.verdict == "named":
         return f"{' and '.join(map(described, gap.effects))}."
     return _class(gap) if gap.verdict == "class" else _unknown(gap)
+
+
+def _not_believed(gap: Gap) -> str:
+    """Whatever was found is not believed, for the first doubt that forbids it."""
+    first, *more = unbelieved(gap.doubts, ())
+    others = f" (and {len(more)} more doubts)" if len(more) > 1 else ""
+    return f"these data cannot tell. {first.text}{others or (' (and another doubt)' * len(more))}."
+
+
+def held_out(gap: Answer, value: float | None) -> float | None:
+    """A held-out gap; None where nothing was held out: it would be that of the fit."""
+    return None if isinstance(gap, Gap) and not gap.has_held_out else value
+
+
+def bound_lines(gap: Answer) -> list[str]:
+    """Numbers of the shown model that are at their bounds."""
+    if isinstance(gap, SummaryGap):
+        return []
+    return [
+        f"{key} is at its bound, {bound:.4g}: the fit would turn it further, and its value is the "
+        "bound's, not the data's"
+        for key, bound in gap.model.at_bound.items()
+    ]
 
 
 def described(effect: str) -> str:
@@ -106,6 +132,8 @@ def gap_line(gap: Answer) -> str:
     unit = "standard deviations" if figures else "noise units"
     one = "what the observations leave open" if figures else "measurement noise"
     (fit, held), (fit_after, held_after) = gap.gap_before, gap.gap_after
+    if isinstance(gap, Gap) and not gap.has_held_out:
+        return f"nothing was held out; fit {fit:.3g} → {fit_after:.3g} {unit} (1 is {one})"
     return (
         f"held out {held:.3g} → {held_after:.3g} {unit}, "
         f"fit {fit:.3g} → {fit_after:.3g} (1 is {one})"
@@ -185,6 +213,7 @@ def next_experiment(gap: Answer) -> str:
 def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[str]:
     """What is said at the end, on a terminal; the FMU's own runs where there were any."""
     lines = [f"{gap.campaign.name}: {verdict(gap)}", f"  gap        {gap_line(gap)}"]
+    lines += [f"  doubt      {doubt.text}" for doubt in gap.doubts] if isinstance(gap, Gap) else []
     lines.append(f"  where      {gap.where.text}")
     if isinstance(gap, Gap):
         lines += _of_runs(gap)
@@ -192,9 +221,9 @@ def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[st
     if numbers:
         unfit = ", of a model that does not fit" if gap.verdict == "unknown" else ""
         lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}{unfit}")
+    lines += [f"  bound      {line}" for line in bound_lines(gap)]
     if reproduced:
-        simulated = [f"{one.name} {one.gap:.3g} ({one.time[-1]:.3g} s)" for one in reproduced]
-        lines.append(f"  fmu        gap in its runs' first segments: {', '.join(simulated)}")
+        lines.append(f"  fmu        {'; '.join(map(flight, reproduced))}")
     if gap.empirical:
         lines.append(f"  formula    {formula(gap)}")
     if gap.next_experiment:
@@ -216,6 +245,15 @@ def _of_runs(gap: Gap) -> list[str]:
     return lines + [f"  lacks      {line}" for line in gap.lacks]
 
 
+def flight(one: Reproduced) -> str:
+    """What the FMU did of a run, from its start on."""
+    whole = f", {one.whole:.3g} over all {one.time[-1]:.3g} s" if one.first < one.time.size else ""
+    return (
+        f"{one.name}, from one initial state: gap {one.gap:.3g} in its first "
+        f"{one.time[one.first - 1]:.2g} s{whole}"
+    )
+
+
 #: Of a curve that is in the model.
 TABLE_SENTENCE = (
     "friction over the sliding speed is in the model as a table: a shape that no law of the "
@@ -226,8 +264,8 @@ TABLE_SENTENCE = (
 def ladder_lines(gap: Gap) -> list[str]:
     """A line for each step over the plain model."""
     return [
-        f"{' + '.join(step.effects)}: evidence {step.gain:.3g}, {percent(step.share)} of the "
-        f"misfit; held out {step.held_out_gap:.3g}, fit {step.fit_gap:.3g}"
+        f"{' + '.join(step.effects)}: evidence {rounded(step.gain)}, {percent(step.share)} of the "
+        f"misfit; {f'held out {step.held_out_gap:.3g}, ' * gap.has_held_out}fit {step.fit_gap:.3g}"
         for step in gap.ladder
         if step.effects
     ]

@@ -157,7 +157,7 @@ BAD_TEXT = {
     "ragged": ("t,x\n0,0\n1,0,5\n", "line 3 has 3 fields, the header has 2"),
     "rows too short": ("t,x,z\n0,0\n1,0\n", "line 2 has 2 fields, the header has 3"),
     "decimal commas": ("t,x\n0,0,1,5\n1,0,1,6\n", "decimal commas between commas"),
-    "millimetres in the header": ("t,x [mm]\n0,0\n", r"column x: unit mm, allowed is m"),
+    "furlongs in the header": ("t,x [furlong]\n0,0\n", r"column x: unit furlong is no unit"),
     "twice": ("t,x,x\n0,0,0\n", "column x: there twice"),
     "UTF-16": ("t,x\n0,0\n".encode("utf-16"), "is not text in UTF-8"),
 }

@@ -5,8 +5,8 @@ import json
 import pytest
 from gap_campaigns import write_campaign
 
-from cosim.cli import gap as gap_command
 from cosim.cli import main
+from cosim.cli.measurements import gap as gap_command
 from cosim.gap import read_campaign
 from cosim.gap.show import files
 
@@ -30,7 +30,7 @@ def test_command_leaves_its_files(found, tmp_path, capsys):
     out = capsys.readouterr().out
     assert out.startswith("cold room, week 3: Named: velocity_weakening")
     assert str(tmp_path / "out" / "model.toml") in out
-    assert "fmu        gap in its runs' first segments: run03" in out
+    assert "fmu        run03, from one initial state: gap " in out
 
 
 def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, monkeypatch):

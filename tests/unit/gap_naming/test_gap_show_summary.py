@@ -6,7 +6,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from cosim.cli.gap import CAMPAIGNS
+from cosim.cli.measurements.gap import CAMPAIGNS
 from cosim.gap import read_campaign
 from cosim.gap.result import Ranked
 from cosim.gap.show.files import write_page

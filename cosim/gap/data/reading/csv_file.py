@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,44 +12,61 @@ import numpy as np
 import pandas as pd
 
 from cosim.gap.data.errors import CampaignError
-from cosim.names import nearest
 
-TIME = "t"
-UNITS = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}
-ALIASES = {"time": "t"}
+from .columns import Column, Reading, find_columns, has_times, unused
+from .unit_names import SI
+
 #: What trackers write where they lost the mark.
 MISSING = ("", "-", "--", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "None", "inf", "-inf")
-#: `x`, `x [m]`, `x (m)`, `x/m`
-HEADER = re.compile(r"^\s*(?P<name>[^\[(/]*?)\s*(?:[\[(/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\s*$")
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Numbers of a file: channel -> (n,) array, `t` among them; ``lines`` are theirs in the file.
+    """Numbers of a file in SI units: channel -> (n,) array, `t` among them.
 
-    ``ignored`` are columns that nothing is known of.
+    ``lines`` are theirs in the file, ``ignored`` columns that nothing is known of, ``converted``
+    what was in another unit, "x from mm (its header)".
     """
 
     values: dict[str, np.ndarray]
     lines: np.ndarray
     ignored: tuple[str, ...]
+    converted: tuple[str, ...] = ()
 
 
-def read_columns(path: Path) -> Columns:
-    """Columns t, x [, y] [, phi] [, force] of a file; CampaignError in one line."""
+def read_columns(path: Path, reading: Reading | None = None) -> Columns:
+    """Columns t, x [, y] [, phi] [, force] of a file in SI units; CampaignError in one line.
+
+    reading : names and units of columns, where they are not those of the header
+    """
+    reading = reading or Reading()
     lines = _lines(path)
-    header, rows = _split_header(path, lines)
+    header, rows = _split_header(path, lines, reading)
     separator = _separator(header)
-    names, ignored = _names(path, _fields(header, separator))
-    decimal = _decimal(path, separator, len(names), [text for _, text in rows[:50]])
-    table = _parse(path, rows, separator, decimal, len(names))
+    cells = _fields(header, separator)
+    found = find_columns(path, cells, reading)
+    decimal = _decimal(path, separator, len(cells), [text for _, text in rows[:50]])
+    table = _parse(path, rows, separator, decimal, len(cells))
     numbers = np.array([number for number, _ in rows])
     values = {
-        name: _numbers(path, name, table[column], numbers)
-        for column, name in enumerate(names)
-        if name in UNITS
+        channel: _in_si(column, _numbers(path, channel, table[column.number], numbers))
+        for channel, column in found.items()
     }
-    return Columns(values, numbers, ignored)
+    return Columns(values, numbers, unused(cells, found), _converted(found))
+
+
+def _in_si(column: Column, values: np.ndarray) -> np.ndarray:
+    if column.to_si.is_identity:
+        return values
+    return column.to_si.factor * values + column.to_si.offset
+
+
+def _converted(found: Mapping[str, Column]) -> tuple[str, ...]:
+    return tuple(
+        f"{channel} from {column.unit} to {SI[channel]} ({column.by})"
+        for channel, column in found.items()
+        if not column.to_si.is_identity
+    )
 
 
 def _lines(path: Path) -> list[tuple[int, str]]:
@@ -67,7 +85,9 @@ def _lines(path: Path) -> list[tuple[int, str]]:
     return [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip()]
 
 
-def _split_header(path: Path, lines: list[tuple[int, str]]) -> tuple[str, list[tuple[int, str]]]:
+def _split_header(
+    path: Path, lines: list[tuple[int, str]], reading: Reading
+) -> tuple[str, list[tuple[int, str]]]:
     """Header row and data rows; a header may itself be a comment, as numpy writes it."""
     rows = [(number, line) for number, line in lines if not line.lstrip().startswith("#")]
     if not rows:
@@ -75,7 +95,7 @@ def _split_header(path: Path, lines: list[tuple[int, str]]) -> tuple[str, list[t
     if not _is_numeric(rows[0][1]):
         return rows[0][1], rows[1:]
     comments = [line.lstrip().lstrip("#") for number, line in lines if number < rows[0][0]]
-    if comments and TIME in _known(_fields(comments[-1], _separator(comments[-1]))):
+    if comments and has_times(_fields(comments[-1], _separator(comments[-1])), reading):
         return comments[-1], rows
     raise CampaignError(
         f"{path}: line {rows[0][0]} holds numbers where the header row is expected, allowed is a "
@@ -95,32 +115,6 @@ def _separator(header: str) -> str:
 def _fields(line: str, separator: str) -> list[str]:
     line = line.strip() if separator == r"\s+" else line.rstrip("\r\n")
     return [field.strip().strip("\"'") for field in re.split(separator, line)]
-
-
-def _known(fields: list[str]) -> list[str]:
-    """Names of the columns, as far as they can be read off."""
-    found = [HEADER.match(field) for field in fields]
-    names = [match["name"].lower() if match else "" for match in found]
-    return [ALIASES.get(name, name) for name in names]
-
-
-def _names(path: Path, fields: list[str]) -> tuple[list[str], tuple[str, ...]]:
-    names = _known(fields)
-    for name, field in zip(names, fields, strict=True):
-        unit = (HEADER.match(field) or {"unit": None})["unit"]
-        if name in UNITS and unit and unit != UNITS[name]:
-            raise CampaignError(f"{path}: column {name}: unit {unit}, allowed is {UNITS[name]}")
-        if names.count(name) > 1 and name in UNITS:
-            raise CampaignError(f"{path}: column {name}: there twice, allowed is once")
-    for needed in (TIME, "x"):
-        if needed not in names:
-            near = nearest(needed, [name for name in names if name and name not in UNITS])
-            hint = f"; is {near} meant?" if near else ""
-            raise CampaignError(
-                f"{path}: column {needed}: missing (there: {', '.join(fields)}), allowed is "
-                f"t,x[,y][,phi][,force]{hint}"
-            )
-    return names, tuple(f for n, f in zip(names, fields, strict=True) if f and n not in UNITS)
 
 
 def _decimal(path: Path, separator: str, width: int, rows: list[str]) -> str:
