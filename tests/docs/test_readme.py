@@ -1,9 +1,11 @@
-"""The README does what it says: its Python runs, its input is read, its commands print that.
+"""README and pages do what they say: Python runs, input is read, commands print what is shown.
 
-Commands that take long are run elsewhere (`stickslip gap` on its example in
-tests/interop/test_gap_example.py); here it is asked that they and their options exist.
+The pages are those of the site that are no notebooks: the cells of these are executed when the site
+is built (`test_site.py`). A session in a terminal that takes half a minute and more is run by
+`pytest -m slow`.
 """
 
+import os
 import re
 import subprocess
 import sys
@@ -13,41 +15,60 @@ import pytest
 
 from cosim import read_scenario
 from cosim.cli import main
+from cosim.cli.arguments import COMMANDS
 from cosim.fmu.build import NATIVE, THERMAL, ensure_fmu
 from cosim.gap import read_campaign
 from cosim.systems import read_system
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+SITE = Path(__file__).parent / "site"
+TEXTS = {"README.md": README} | {
+    str(file.relative_to(SITE)): file.read_text(encoding="utf-8") for file in SITE.rglob("*.md")
+}
+PAGES = {name: text for name, text in TEXTS.items() if "{code-cell}" not in text}
+BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+#: Lines that install; .ci/run is the second of them.
+SHELL = [
+    "python3 -m venv .venv && .venv/bin/pip install -q . && .venv/bin/stickslip run",
+    'python3 -m venv .venv && .venv/bin/pip install -q ".[test]" && .venv/bin/pytest -q -n 2',
+]
+#: Sessions that take long.
+SLOW = ("plan next_week", "gap cold_room")
 
 
 def blocks(language):
-    """Texts of the fenced blocks of a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+    """Name of a page and text of each of its fenced blocks of a language."""
+    return [
+        (name, text)
+        for name, page in PAGES.items()
+        for found, text in BLOCK.findall(page)
+        if found == language
+    ]
 
 
 def toml_with(table):
-    (found,) = [text for text in blocks("toml") if f"[{table}]" in text]
+    (found,) = [text for _, text in blocks("toml") if f"[{table}]" in text]
     return found
 
 
-#: Command -> options that the README gives it anywhere.
-COMMANDS = {}
-for command, rest in re.findall(r"`stickslip ([a-z][a-z-]*)([^`]*)`", README):
-    COMMANDS.setdefault(command, set()).update(re.findall(r"--[a-z][a-z-]+", rest))
+#: Command -> options that a page gives it anywhere.
+NAMED = {}
+for command, rest in re.findall(r"`stickslip ([a-z][a-z-]*)([^`]*)`", "\n".join(TEXTS.values())):
+    NAMED.setdefault(command, set()).update(re.findall(r"--[a-z][a-z-]+", rest))
 
 #: Sessions in a terminal: a command, and what it prints.
 SESSIONS = [
-    (command, printed)
-    for text in blocks("")
+    pytest.param(command, printed, marks=[pytest.mark.slow] * (command in SLOW), id=command)
+    for _, text in blocks("")
     for command, printed in re.findall(r"^\$ stickslip (.+)\n((?:(?!\$).*\n)*)", text, re.MULTILINE)
 ]
 
 
-@pytest.mark.parametrize("number", range(len(blocks("python"))))
-def test_python_runs(number, at_home):
+@pytest.mark.parametrize(("page", "code"), blocks("python"), ids=lambda text: text.split("\n")[0])
+def test_python_runs(page, code, at_home):
     ensure_fmu("build")
-    exec(compile(blocks("python")[number], f"README, Python block {number + 1}", "exec"), {})
+    exec(compile(code, page, "exec"), {})
 
 
 def test_the_scenario_is_one(at_home):
@@ -78,12 +99,26 @@ def test_the_system_is_one(tmp_path):
         assert [unit.file.name for unit in system.units] == [NATIVE, THERMAL]
 
 
+def test_there_are_no_other_blocks():
+    """Whatever is shown is run: a block of another kind needs a test of its own first."""
+    known = {"python", "toml", "sh", ""}
+    kinds = {kind for page in PAGES.values() for kind, _ in BLOCK.findall(page)}
+    assert {kind for kind in kinds if not kind.startswith("{")} == known
+    assert {text.strip() for _, text in blocks("sh")} == set(SHELL)
+    assert all(text.startswith("$ stickslip ") for _, text in blocks(""))
+    assert len(blocks("toml")) == 3
+
+
+def test_ci_runs_the_line_that_tests():
+    assert SHELL[1] in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+
+
 def timeless(line):
     """A line of output without the seconds that computing took."""
     return re.sub(r"[\d.e-]+ s of (wall time|them)", r"... s of \1", line).rstrip()
 
 
-@pytest.mark.parametrize(("command", "printed"), SESSIONS, ids=lambda text: text.split("\n")[0])
+@pytest.mark.parametrize(("command", "printed"), SESSIONS)
 def test_a_session_prints_what_is_shown(command, printed, at_home):
     done = subprocess.run(
         [sys.executable, "-m", "cosim", *command.split()], capture_output=True, text=True
@@ -93,18 +128,50 @@ def test_a_session_prints_what_is_shown(command, printed, at_home):
     assert said >= {timeless(line) for line in printed.splitlines()}
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+CELL = re.compile(r"^```\{code-cell\} python\n(?::[^\n]*\n)?(.*?)^```$", re.DOTALL | re.MULTILINE)
+TOLD = re.compile(r"^```text\n\$ stickslip (.+)\n((?:.*\n)*?)```$", re.MULTILINE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", [name for name, text in TEXTS.items() if TOLD.search(text)])
+def test_a_notebook_s_long_sessions_print_what_is_shown(page, tmp_path):
+    """Where the notebook's cells have left their files."""
+    tools = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    shell = {"cwd": tmp_path, "env": os.environ | {"PATH": tools, "MPLBACKEND": "Agg"}}
+    script = []
+    for cell in CELL.findall(TEXTS[page]):
+        magic, _, rest = cell.partition("\n")
+        if magic.startswith("%%writefile "):
+            (tmp_path / magic.split()[1]).write_text(rest, encoding="utf-8")
+        elif magic == "%%bash":
+            subprocess.run(["bash", "-ec", rest], check=True, **shell)
+        else:
+            script.append(cell)
+    subprocess.run([sys.executable, "-c", "\n".join(script)], check=True, **shell)
+    for command, printed in TOLD.findall(TEXTS[page]):
+        ask = [sys.executable, "-m", "cosim", *command.split()]
+        done = subprocess.run(ask, capture_output=True, text=True, **shell)
+        assert done.returncode == 0, done.stderr
+        said = {timeless(line) for line in done.stdout.splitlines()}
+        assert said >= {timeless(line) for line in printed.splitlines()}
+
+
+@pytest.mark.parametrize("command", NAMED)
 def test_commands_have_the_options_that_are_named(command, capsys):
     with pytest.raises(SystemExit) as end:
         main([command, "--help"])
     assert end.value.code == 0
-    assert COMMANDS[command] <= set(re.findall(r"--[a-z][a-z-]+", capsys.readouterr().out))
+    assert NAMED[command] <= set(re.findall(r"--[a-z][a-z-]+", capsys.readouterr().out))
 
 
-def test_the_readme_is_what_was_looked_at():
-    """There are blocks of every kind; a pattern that finds nothing passes always."""
-    assert len(blocks("python")) >= 3 and len(blocks("toml")) >= 2 and SESSIONS
-    assert {"run", "simulate", "build", "gap", "belt-length"} <= set(COMMANDS)
+def test_every_command_is_in_the_readme():
+    cells = re.findall(r"^\| (`stickslip [^|]+)\|", README, re.MULTILINE)
+    named = re.findall(r"`(?:stickslip )?([a-z-]+)", " ".join(cells))
+    assert set(named) == set(COMMANDS)
+
+
+def test_the_readme_is_two_screens():
+    assert len(README.split()) < 800
 
 
 def test_the_packaged_scenarios_that_are_named_are_there():
@@ -113,7 +180,11 @@ def test_the_packaged_scenarios_that_are_named_are_there():
         assert read_scenario(name).name == name
 
 
-def test_files_that_are_named_are_there():
-    named = re.findall(r"\]\((\.readme/[^)]+)\)", README)
-    named += re.findall(r"`((?:tests|cosim|thermal|build|fmu_src)/[\w/]+\.py)`", README)
-    assert named and [name for name in named if not (ROOT / name).exists()] == []
+@pytest.mark.parametrize("name", TEXTS)
+def test_files_that_are_named_are_there(name):
+    paths = r"`((?:tests|cosim|thermal|build|fmu_src)/[\w/]+\.(?:py|c))`"
+    named = re.findall(paths, TEXTS[name])
+    if name == "README.md":
+        named += re.findall(r"\]\(((?!http)[^)#]+)\)", README)
+        assert len(named) > 15
+    assert [path for path in named if not (ROOT / path).exists()] == []

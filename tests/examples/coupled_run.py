@@ -21,3 +21,5 @@ print(
     f"{time[-1]:g} s: the block is at {1e3 * x[-1]:.1f} mm, the interface {rise[-1]:.3f} K warmer"
 )
 print(f"friction heat {heat:.3f} J, of which {lost:.1e} J are unaccounted for")
+
+figure = run.plot("temperatures")  # as on the page of `stickslip run`; figure.savefig("t.png")

@@ -3,6 +3,7 @@
 `stickslip build` makes it. Here it is built from Python, for this machine.
 """
 
+import matplotlib.pyplot as plt
 from fmpy import read_model_description, simulate_fmu
 
 from cosim.fmu.build import ensure_fmu
@@ -22,3 +23,7 @@ result = simulate_fmu(
 slip_share = result["mode"].mean()  # mode: 0 stick, 1 slip
 print(f"{result['slip_count'][-1]:.0f} slips, {100 * slip_share:.0f} % of the time")
 print(f"friction heat {result['heat'][-1]:.3f} {units['heat']}")
+
+figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
+axes.plot(result["time"], 1e3 * result["x"])
+axes.set(xlabel="t [s]", ylabel="x [mm]")

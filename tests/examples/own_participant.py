@@ -7,6 +7,8 @@ so the force that the mass feels is one step old: the swing grows by pi^2 h / T 
 
 from math import pi, sqrt
 
+import matplotlib.pyplot as plt
+
 from cosim.coupling import Connection, CoupledSystem, GaussSeidel, inputs, outputs, port_table, run
 
 
@@ -74,3 +76,7 @@ end = float(result["mass.x"][-1])
 print(
     f"{result.status}: after a period of {PERIOD:.4f} s the mass is at {1e3 * end:.3f} mm of 10 mm"
 )
+
+figure, axes = plt.subplots(figsize=(7, 2.6), layout="constrained")
+axes.plot(result.time, 1e3 * result["mass.x"])
+axes.set(xlabel="t [s]", ylabel="x [mm]")
