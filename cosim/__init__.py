@@ -7,10 +7,10 @@ In a notebook:
 >>> run = run_scenario(scenario)
 >>> run.result.time.shape, run.result["mechanics.x"].shape
 ((101,), (101,))
->>> from cosim.report import run_dataset
->>> dataset = run_dataset(run.result, scenario, scenario.to_toml(), snapshots=run.snapshots)
->>> dataset["interface_temperature"].attrs["units"]
+>>> run.to_xarray()["interface_temperature"].attrs["units"]
 'degC'
+>>> run.plot("temperatures")
+<Figure size ... with 3 Axes>
 """
 
 from importlib import import_module
@@ -19,14 +19,24 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun, run_scenario
     from cosim.scenario import Scenario, read_scenario
+    from cosim.simulated import SimulatedRun, simulate_scenario
 
-__all__ = ["CoupledRun", "Scenario", "read_scenario", "run_scenario"]
+__all__ = [
+    "CoupledRun",
+    "Scenario",
+    "SimulatedRun",
+    "read_scenario",
+    "run_scenario",
+    "simulate_scenario",
+]
 
 _HOME = {
     "CoupledRun": "cosim.coupling.case",
     "run_scenario": "cosim.coupling.case",
     "Scenario": "cosim.scenario",
     "read_scenario": "cosim.scenario",
+    "SimulatedRun": "cosim.simulated",
+    "simulate_scenario": "cosim.simulated",
 }
 
 

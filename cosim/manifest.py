@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import shlex
 import sys
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -15,6 +16,7 @@ from warnings import warn
 
 from cosim.files import OutputRefused, watched, write_text
 
+LOG = logging.getLogger(__name__)
 #: What made the results beside it, and which files they are.
 MANIFEST = "made_by.json"
 COMPLETE, INCOMPLETE = "complete", "incomplete"
@@ -36,6 +38,7 @@ class ResultFolder:
         name = self._name(path)
         if name not in ("", MANIFEST) and name not in self._written:
             self._written.add(name)
+            LOG.info("writing %s", path)
             self._say(INCOMPLETE, self._earlier | self._written)
 
     def about_to_write(self, path: Path) -> None:
@@ -114,14 +117,15 @@ def require_own(folder: Path, files: Iterable[str], force: bool = False) -> None
 
 
 def require_json(path: Path, keys: Collection[str], force: bool = False) -> None:
-    """OutputRefused when a file is there that is no earlier JSON of ours, an object with `keys`."""
+    """OutputRefused for a file that is no earlier JSON of ours: an object with `keys`, or some."""
     if force or not path.exists():
         return
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         content = None
-    if not isinstance(content, dict) or not set(keys) <= set(content):
+    found = content if isinstance(content, list) and content else [content]
+    if not all(isinstance(entry, dict) and set(keys) <= set(entry) for entry in found):
         raise OutputRefused(
             f"{path}: is there and no result of this command, allowed is another name, or --force "
             "to overwrite it"

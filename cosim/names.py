@@ -34,6 +34,18 @@ def nearest_key(key: str, keys: Iterable[str]) -> str | None:
     return next(namesakes, None) or nearest(key, siblings) or nearest(key, keys)
 
 
+def listed(names: Iterable[str], most: int = 4) -> str:
+    """Names in a line, of many the first and how many more.
+
+    >>> listed("abcdefg")
+    'a, b, c, d and 3 more'
+    """
+    names = list(names)
+    if len(names) <= most + 1:
+        return ", ".join(names)
+    return f"{', '.join(names[:most])} and {len(names) - most} more"
+
+
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> str:
     """One line on a name that does not exist, with the nearest that does.
 

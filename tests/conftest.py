@@ -19,6 +19,20 @@ import pythonfmu  # noqa: E402, F401
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 
+def pytest_configure(config):
+    """Compile the model once, before there are workers, each of which would do so for itself.
+
+    Commands say when they compile; what tests look at is what they say otherwise.
+    """
+    if hasattr(config, "workerinput"):
+        return
+    from stickslip import Parameters, simulate
+    from stickslip.compiled import is_cached
+
+    if not is_cached():
+        simulate(Parameters(), 1e-3, 1e-3)
+
+
 @pytest.fixture(scope="session")
 def shared():
     """Name -> path of a file or folder beside the checkout; the test is skipped where it is not.
@@ -107,3 +121,13 @@ def at_home(home, monkeypatch):
     """Work as a user does, in a folder of one's own: nothing is left in the checkout's."""
     monkeypatch.chdir(home)
     return home
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """A browser for pages, one for all tests of a worker; skipped where there is none."""
+    from browser import start
+
+    found = start()
+    yield found
+    found.driver.quit()

@@ -15,6 +15,8 @@ from matplotlib.figure import Figure
 from cosim.report.page import DPI
 from cosim.report.style import BLUE, GREEN, GREY, INK, ORANGE, RC, RED
 
+#: Campaigns from which a share has an interval that says anything.
+FEW = 4
 KIND_COLOURS = {"effects": BLUE, "unknown": RED, "two": GREEN, "none": GREY}
 
 
@@ -22,6 +24,9 @@ def draw_confusion(axes: Axes, rows: Sequence[dict]) -> None:
     """Hidden against answered, counts in the cells, shade by the share of the row."""
     single = of_kind(rows, "none") + large(of_kind(rows, "effects") + of_kind(rows, "unknown"))
     labels, columns, counts = score.confusion(single)
+    answered = counts.any(axis=0)  # what nobody answered takes no place
+    columns = [name for name, some in zip(columns, answered, strict=True) if some]
+    counts = counts[:, answered]
     totals = np.maximum(counts.sum(axis=1, keepdims=True), 1)
     axes.imshow(counts / totals, cmap="Blues", vmin=0, vmax=1, aspect="auto")
     for i, j in zip(*np.nonzero(counts), strict=True):
@@ -33,6 +38,7 @@ def draw_confusion(axes: Axes, rows: Sequence[dict]) -> None:
     axes.set_xticks(range(len(columns)), words, rotation=50, ha="right", rotation_mode="anchor")
     axes.set_yticks(range(len(labels)), [name.replace("_", " ") for name in labels])
     axes.grid(False)
+    axes.set_xlim(-0.5, max(len(columns), 1) - 0.5)
     axes.set_xlabel("answered")
     axes.set_ylabel("hidden")
     axes.set_title(
@@ -41,7 +47,10 @@ def draw_confusion(axes: Axes, rows: Sequence[dict]) -> None:
 
 
 def draw_shares(axes: Axes, rows: Sequence[dict]) -> None:
-    """Right answers against the size of what is hidden, with 95 % intervals."""
+    """Right answers against the size of what is hidden, each with how many of how many.
+
+    From `FEW` campaigns on with a 95 % interval: that of one or two is nearly all there is.
+    """
     series = (
         ("effects", "right name or class", BLUE, score.is_right),
         ("effects", "right name alone", ORANGE, score.is_exact),
@@ -56,27 +65,33 @@ def draw_shares(axes: Axes, rows: Sequence[dict]) -> None:
     names = [name for name, _ in score.by_size([r for r in rows if r["truth"]["hidden"]], bool)]
     for k, (kind, label, colour, holds) in enumerate(series):
         shares = dict(score.by_size(of_kind(rows, kind), holds))
-        at = [i + 0.12 * (k - 1.5) for i, name in enumerate(names) if name in shares]
+        at = [i + 0.2 * (k - 1.5) for i, name in enumerate(names) if name in shares]
         kept = [shares[name] for name in names if name in shares]
         bounds = np.array([[s.value - s.interval[0], s.interval[1] - s.value] for s in kept])
         if kept:
-            axes.errorbar(
-                at,
-                [100 * s.value for s in kept],
-                100 * np.maximum(bounds.T, 0),
-                fmt="o",
-                capsize=2,
-                color=colour,
-                label=label,
-            )
+            heights = [100 * s.value for s in kept]
+            axes.plot(at, heights, "o", color=colour, label=label)
+            many = [i for i, s in enumerate(kept) if s.total >= FEW]
+            if many:
+                axes.errorbar(
+                    [at[i] for i in many], [heights[i] for i in many],
+                    100 * np.maximum(bounds[many].T, 0),
+                    fmt="none", capsize=2, color=colour, elinewidth=1.0,
+                )  # fmt: skip
+            for place, height, s in zip(at, heights, kept, strict=True):
+                axes.annotate(
+                    f"{s.hits}/{s.total}", (place, height), (3.5, 4.0), fontsize=6.5, rotation=60,
+                    textcoords="offset points", color=colour,
+                )  # fmt: skip
     axes.axhline(95, color=GREY, lw=0.8, ls="--")
     axes.set_xticks(range(len(names)), names)
-    axes.set_ylim(-3, 103)
+    axes.set_ylim(-3, 116)
+    axes.set_xlim(-0.5, len(names) - 0.3)
     axes.set_xlabel("size of what is hidden / noise")
     axes.set_ylabel("campaigns answered right / %")
-    axes.set_title("answers against size (bars: 95 % interval; dashed: 95 % wanted)")
-    if axes.containers:
-        axes.legend(loc="lower right")
+    axes.set_title("answers against size (bars: 95 % intervals)")
+    if axes.get_legend_handles_labels()[0]:
+        _legend_below(axes)
 
 
 def draw_gaps(axes: Axes, rows: Sequence[dict]) -> None:
@@ -97,7 +112,14 @@ def draw_gaps(axes: Axes, rows: Sequence[dict]) -> None:
     axes.set_xlabel("held-out gap before / noise")
     axes.set_ylabel("held-out gap after / noise")
     axes.set_title("gap of the right answers")
-    axes.legend()
+    _legend_below(axes)
+
+
+def _legend_below(axes: Axes) -> None:
+    """Under the panel, where it covers no point."""
+    axes.legend(
+        loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2, frameon=False, fontsize=8.0
+    )
 
 
 def score_figure(rows: Sequence[dict], file: Path) -> None:

@@ -46,7 +46,7 @@ COMMANDS = {
 #: Keys of JSON that say when, where, by what and of what input (its list grows with every effect),
 #: not what came out.
 VOLATILE = re.compile(
-    r"^(scenario|parameters)$|version|elapsed|seconds|created|history|date|path|folder|file|host|command|guid|started"
+    r"^(scenario|parameters|defaults)$|version|elapsed|seconds|created|history|date|path|folder|file|host|command|guid|started"
     r"|python|platform|packages|wall|build$|duration_of|took",
     re.IGNORECASE,
 )

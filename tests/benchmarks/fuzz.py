@@ -1,8 +1,10 @@
-"""Scenarios and campaigns that nobody would write, for as long as one likes.
+"""Scenarios, campaigns and systems that nobody would write, for as long as one likes.
 
     python tests/benchmarks/fuzz.py SECONDS [KIND ...] [--seed N]
 
-KIND: simulate, run, gap, plan, sweep (default: all, in turn). Each case runs in a child that is
+KIND: simulate, run, gap, plan, sweep, couple (systems as TOML), ssp (default: all, in turn). `gap`
+and `plan` go through to their answer, of a track or two of 3 s; --limit says when a case is given
+up, which is then no fault. Each case runs in a child that is
 killed after a time limit; what breaks is printed with the files that break it, which are kept under
 fuzz-found. Exit status 0: nothing broke.
 """
@@ -20,15 +22,18 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
 
 import fuzzed  # noqa: E402
+import fuzzed_systems  # noqa: E402
 from hypothesis import HealthCheck, Phase, given, seed, settings  # noqa: E402
 
-KINDS = ("simulate", "run", "gap", "plan", "sweep")
+KINDS = ("simulate", "run", "gap", "plan", "sweep", "couple", "ssp")
 #: s; none of the cases is large, and patience is short in all of them.
 LIMIT = {"simulate": 90.0, "run": 90.0, "gap": 240.0, "plan": 240.0, "sweep": 90.0}
+LIMIT |= {"couple": 60.0, "ssp": 60.0}
 #: Part of the runs of which the figures are drawn too.
 FIGURES = 0.15
 #: Cases of a kind before it is the next one's turn.
 BATCH = {"simulate": 40, "run": 20, "gap": 10, "plan": 5, "sweep": 20}
+BATCH |= {"couple": 60, "ssp": 60}
 FOUND = Path("fuzz-found")
 
 
@@ -38,6 +43,13 @@ def command(kind, case, folder):
     if kind in ("gap", "plan"):
         path = fuzzed.write_campaign(folder, *case)
         return path and [kind, path, "-o", out, "--no-page", "--jobs", "1"]
+    if kind == "couple":
+        path = fuzzed_systems.write_system(folder, case)
+        return path and [kind, path, "-o", out]
+    if kind == "ssp":
+        text, changes = case
+        path = fuzzed_systems.write_package(folder, text)
+        return ["couple", path, *fuzzed_systems.settings_of(changes), "-o", out]
     text = fuzzed.toml(case)
     if text is None:
         return None
@@ -52,6 +64,8 @@ def strategy(kind):
     """What a kind of command is given."""
     if kind in ("gap", "plan"):
         return fuzzed.campaigns(planned=kind == "plan")
+    if kind in ("couple", "ssp"):
+        return fuzzed_systems.systems() if kind == "couple" else fuzzed_systems.packages()
     return fuzzed.scenarios()
 
 
@@ -75,6 +89,9 @@ def cases(kind, number, count):
 def child(line):
     """Answer cases until there are no more."""
     warnings.simplefilter("ignore")
+    fuzzed.called("simulate", "none.toml")  # what is imported, and compiled, counts for no case
+    fuzzed_systems.made()
+    line.send("ready")
     while True:
         kind, case, folder = line.recv()
         argv = command(kind, case, Path(folder))
@@ -100,13 +117,16 @@ class Child:
             )
             self.process.start()
             theirs.close()
+            self.line.recv()
 
-    def answer(self, kind, case, folder):
-        """(status, (fault, what was printed))."""
+    def answer(self, kind, case, folder, limit=None):
+        """(status, (fault, what was printed)); limit: s, after which a case is given up."""
         self.start()
         self.line.send((kind, case, str(folder)))
-        if not self.line.poll(LIMIT[kind]):
+        if not self.line.poll(limit or LIMIT[kind]):
             self.stop()
+            if limit:
+                return "given up", None
             return None, (f"no end in {LIMIT[kind]:g} s", "")
         try:
             return self.line.recv()
@@ -126,6 +146,7 @@ def main():
     parser.add_argument("seconds", type=float)
     parser.add_argument("kinds", nargs="*", default=KINDS)
     parser.add_argument("--seed", type=int, default=None)
+    parser.add_argument("--limit", type=float, default=None, help="s of a case")
     arguments = parser.parse_args()
     first = random.randrange(10**6) if arguments.seed is None else arguments.seed
     end, answers, broken = time.monotonic() + arguments.seconds, {}, 0
@@ -138,7 +159,7 @@ def main():
                     break
                 folder = fuzzed.fresh(place / kind)
                 folder.mkdir(parents=True)
-                status, answer = one.answer(kind, case, folder)
+                status, answer = one.answer(kind, case, folder, arguments.limit)
                 fault, said = answer or (None, "")
                 answers[kind, status] = answers.get((kind, status), 0) + 1
                 if fault:

@@ -10,6 +10,7 @@ import numpy as np
 from .campaign import KINDS, SIZES, draw_campaign
 from .effects import EFFECTS
 from .out_of_catalogue import OUT_OF_CATALOGUE
+from .plug_ins import PLUG_INS
 from .writing import write_campaign
 
 
@@ -20,7 +21,9 @@ def main() -> None:
     parser.add_argument("--kind", choices=KINDS, default="effects")
     parser.add_argument("--count", type=int, default=1)
     parser.add_argument("--seed", type=int, help="of the first; drawn afresh if left out")
-    parser.add_argument("--hide", nargs="*", default=[], choices=[*EFFECTS, *OUT_OF_CATALOGUE])
+    parser.add_argument(
+        "--hide", nargs="*", default=[], choices=[*EFFECTS, *OUT_OF_CATALOGUE, *PLUG_INS]
+    )
     parser.add_argument("--sizes", nargs=2, type=float, default=SIZES, help="noise units")
     told = parser.parse_args()
     first = told.seed

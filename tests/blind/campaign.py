@@ -13,6 +13,7 @@ from .ingredients import Ingredient
 from .layouts import Plan, draw_plan
 from .motion import COARSE, FINE, Motion, move, needs_plane
 from .out_of_catalogue import OUT_OF_CATALOGUE
+from .plug_ins import PLUG_INS
 from .simulator.hidden import State
 from .tracker import Tracker, draw_tracker
 
@@ -77,7 +78,7 @@ def pick(kind: str, rng: np.random.Generator, ids: Sequence[str]) -> list[Ingred
             "single_speed": ["film_drag", "structural_damping"],
         }[kind]
         names = [str(rng.choice(pool))]
-    return [(EFFECTS | OUT_OF_CATALOGUE)[name](rng) for name in names]
+    return [(EFFECTS | OUT_OF_CATALOGUE | PLUG_INS)[name](rng) for name in names]
 
 
 def pick_plan(kind: str, rng: np.random.Generator, ingredients: Sequence[Ingredient]) -> Plan:

@@ -9,6 +9,7 @@ def places(name, *numbers):
 CURVE = places("springs.force_curve_extension", 0.0, 0.1, 0.2)
 TABLE = places("friction.table_speed", 0.0, 0.1, 0.2)
 MU = places("friction.table_mu", 0.3, 0.2, 0.1)
+DEGREES = "friction.table_temperature_degC"
 BRISTLES = {"friction.presliding_distance": 5e-5, "friction.transition_speed": 3e-3}
 STATE = {"rate_and_state.direct": 0.01}
 
@@ -65,6 +66,26 @@ CONTRADICTIONS = {
     "TABLE_BESIDE_DRY_LAW": [
         ({**TABLE, **MU, "velocity_weakening.linear": 0.1}, "friction.table_speed beside an effe"),
         ({**TABLE, **MU, "viscoelastic_peak.height": 0.1}, "give one of the two"),
+    ],
+    "TABLE_TEMPERATURES_GO_BACK": [
+        ({**TABLE, **MU, **places(DEGREES, -8.0, -9.0)}, "friction.table_temperature_degC must"),
+        # not ended by its last value: is 0 degC one of them, or none?
+        (
+            {
+                **TABLE,
+                **places("friction.table_mu", *[0.2] * 9),
+                **places(DEGREES, -9.0, -8.0, 0.0, -1.0),
+            },
+            "beyond the last one its value again",
+        ),
+    ],
+    "TABLE_ROW_WITHOUT_FRICTION": [
+        # a single temperature, and 0 degC in the places behind it
+        ({**TABLE, **MU, "friction.table_temperature_degC[1]": -8.0}, "places repeat its value"),
+        (
+            {**TABLE, **places("friction.table_mu", *[0.2] * 6), **places(DEGREES, -9.0, -8.0)},
+            "no friction at one of the temperatures",
+        ),
     ],
     "SURFACE_TURNS_UNDER_BLOCK": [
         ({"turning_surface.curvature": -20.0, "rig.contact_radius": 0.05}, "curvature = -20 1/m"),

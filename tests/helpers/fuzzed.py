@@ -96,9 +96,9 @@ def _is_within(value, field):
 class Wildness:
     """Decides what of a case is wild: nothing in some cases, one thing in most, much in a few."""
 
-    def __init__(self, draw):
+    def __init__(self, draw, chances=(0, 1, 1, 2, 4)):
         self._draw = draw
-        self._chance = draw(st.sampled_from([0, 1, 1, 2, 4]))
+        self._chance = draw(st.sampled_from(chances))
 
     def __call__(self):
         """Whether the next thing is."""
@@ -224,9 +224,10 @@ def called(*argv, figures=True):
         stack.enter_context(contextlib.redirect_stderr(err))
         stack.enter_context(warnings.catch_warnings())
         # whether a motion is stable is another question, which takes seconds
-        stack.enter_context(mock.patch("cosim.cli.running.PATIENCE", 0.5))
+        stack.enter_context(mock.patch("cosim.cli.runs.running.PATIENCE", 0.5))
         if not figures:
             stack.enter_context(mock.patch("cosim.report.figures.plates_of", return_value=()))
+            stack.enter_context(mock.patch("cosim.report.style.png", return_value=b""))
         try:
             status = main([str(word) for word in argv])
         except SystemExit as stop:
@@ -258,7 +259,9 @@ def fault_of(status, out, err, folder=None):
 #: Words of refusals that name the remedy in place of what is allowed.
 _SAYS_HOW = (
     r"no such key|not TOML|must|give one|leave|unknown|take a|take s|cuts the belt|too short"
-    r"|known (are|is)|did you mean|is shorter|already sets|needs|beside|both given"
+    r"|needed is|is given to an integer from|expected an|known (are|is)|known: |nearest: "
+    r"|a connection (starts|ends) at|only those wit|did you mean"
+    r"|is shorter|already sets|needs|beside|both given"
 )
 
 

@@ -91,7 +91,7 @@ def ramped(case, belt):
     )
 
 
-@pytest.mark.parametrize("speed", [0.15, 0.82])
+@pytest.mark.parametrize("speed", [pytest.param(0.15, marks=pytest.mark.slow), 0.82])
 def test_the_drift_of_a_ramped_scenario_is_what_its_coupled_run_shows(fmu, speed):
     """Railing heat and rollers and all; the ramp begins with sticks, the run ends in a cycle."""
     case = Case(1.2, speed)

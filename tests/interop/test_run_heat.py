@@ -12,6 +12,7 @@ from PIL import Image
 from skfem import MeshTet
 
 SHORT = """
+defaults = "plain"
 [surface]
 run_up_time = 0.2
 [run]

@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+#: As the model is before anything is added to it.
+PLAIN = 'defaults = "plain"\n'
 SLOW = "[surface]\nspeed = 0.2\nrun_up_time = 10.0\n[rig]\nspring_natural_length = 0.17\n"
 SLOW += "[lateral_friction]\nratio = 1.0\n"
 
@@ -54,7 +56,7 @@ def test_a_run_on_an_unstable_path_says_so(tmp_path):
 
 
 def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
-    (tmp_path / "fast.toml").write_text(SLOW)
+    (tmp_path / "fast.toml").write_text(PLAIN + SLOW)
     done = stickslip(tmp_path, "simulate", "fast.toml", "-o", "out")
     assert done.returncode == 0 and "  unstable" not in done.stdout
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("  regimes")]
@@ -77,7 +79,7 @@ def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
     ],
 )
 def test_odd_rigs_are_mapped_too(tmp_path, text):
-    (tmp_path / "odd.toml").write_text(text)
+    (tmp_path / "odd.toml").write_text(PLAIN + text)
     done = stickslip(tmp_path, "stability", "odd.toml", "--grid", "2", "-o", "out")
     assert (done.returncode, done.stderr) == (0, "") or "exceeds friction.mu_s" in done.stderr
     assert json.loads((tmp_path / "out" / "stability.json").read_text())["regimes"]["own"]["name"]

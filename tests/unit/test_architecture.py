@@ -23,8 +23,8 @@ FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rg
 #: Most files of a room, and modules of cosim without gap. A seventh of those make the units: two of
 #: the mechanics and two of the heat, each in its own way, and a compiler for two. Two fifths are
 #: the coupling: schemes and steps, units of two versions of FMI, processes of their own, what is on
-#: disk while a run goes, systems from files.
-MOST_FILES, MOST_OF_COSIM = 15, 205
+#: disk while a run goes, systems from files. A tenth is the command line, a file a command.
+MOST_FILES, MOST_OF_COSIM = 15, 250
 
 #: Parts of cosim that compute and write without knowing what.
 LEAVES = ("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes")
@@ -45,8 +45,10 @@ MAY_IMPORT = {
     ),
     "cosim.coupling.case": (
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.fmu"),
-        *LEAVES,
+        *("cosim.report", *LEAVES),
     ),
+    "cosim.explore": ("stickslip", "cosim.fmu", "cosim.scenario", "cosim.report", *LEAVES),
+    "cosim.simulated": ("stickslip", "cosim.scenario", "cosim.report"),
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
     "cosim.systems": ("stickslip.quantity", "cosim.coupling", "cosim.scenario", *LEAVES),
     "cosim.systems.show": ("cosim.systems", "cosim.coupling", "cosim.report", *LEAVES),
@@ -56,7 +58,7 @@ MAY_IMPORT = {
     ),
     "cosim.studies": (
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),
-        *("cosim.gap", *LEAVES),
+        *("cosim.fmu", "cosim.gap", *LEAVES),
     ),
     "cosim.cli": ("stickslip", "thermal", "cosim"),
     "cosim": ("cosim",),
@@ -70,7 +72,8 @@ MUST_NOT_IMPORT = {
 #: Part -> those who may import it; nobody else.
 KNOWN_BY = {
     "cosim.cli": ("cosim.cli", "cosim.__main__"),
-    "cosim.report": ("cosim.report", "cosim.cli"),
+    # and the results of whoever works in a notebook, which show themselves
+    "cosim.report": ("cosim.report", "cosim.cli", "cosim.coupling.case", "cosim.simulated"),
     "cosim.coupling.case": ("cosim.coupling.case", "cosim.gap", "cosim.studies", "cosim.cli"),
     "stickslip.kernel": ("stickslip",),
 }
@@ -78,7 +81,7 @@ KNOWN_BY = {
 #: where the kernel keeps which number.
 OPEN = {
     "cosim.report": (
-        *("cosim.report.style", "cosim.report.page", "cosim.report.files"),
+        *("cosim.report.style", "cosim.report.page", "cosim.report.live", "cosim.report.files"),
         "cosim.report.coupling",
     ),
     "stickslip.kernel": ("stickslip.kernel.layout",),
@@ -314,7 +317,9 @@ def test_cosim_without_gap_stays_small():
 COMPUTES = {
     "import cosim": {"matplotlib", "pandas", "xarray", "IPython", "numpy"},
     "from cosim import read_scenario, Scenario": {"matplotlib", "pandas", "xarray", "IPython"},
-    "from cosim import run_scenario": {"matplotlib", "pandas", "xarray", "IPython"},
+    "from cosim import run_scenario, simulate_scenario": {
+        *("matplotlib", "pandas", "xarray", "IPython"),
+    },
     "from cosim.coupling import CoupledSystem, run": {
         *("matplotlib", "pandas", "xarray", "IPython", "stickslip", "thermal"),
     },

@@ -125,6 +125,7 @@ def test_benchmark_does_only_what_is_missing(tmp_path, monkeypatch):
     assert (tmp_path / "scores.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_failures_are_asked_again_when_told(tmp_path, monkeypatch):
     cells = list(benchmark.cells(["none"], 1, 7, (), []))[:1]
     monkeypatch.setattr(benchmark, "ask", lambda *_: (None, "exit 1: broken", 0.1))

@@ -6,7 +6,7 @@ bump at rest that lifts mu from the kinetic to the static level.
 
 from __future__ import annotations
 
-from math import exp, log10, pi, sin, sqrt
+from math import exp, log1p, log10, pi, sin, sqrt
 
 from numba import njit
 
@@ -25,6 +25,20 @@ def weakened(p, slip):
     if p.weakening_form == 4.0:
         return 1.0 / sqrt(1.0 + p.weakening * slip)
     return 1.0
+
+
+@njit(inline="always")
+def flashed(p, slip):
+    """Factor on the kinetic level where contacts get hot before they part; sharpness 8.
+
+    Of a contact's life the part that it is still cool in is the smaller of 1 and flash_speed/slip,
+    rounded as the length of a vector is: the eighth norm of (1, slip / flash_speed), inverted.
+    """
+    if p.flash == 0.0:
+        return 1.0
+    low, high = min(slip, p.flash_speed), max(slip, p.flash_speed)
+    cool = p.flash_speed / high * exp(-log1p((low / high) ** 8) / 8.0)
+    return 1.0 - p.flash * (1.0 - cool)
 
 
 @njit(inline="always")
@@ -113,7 +127,7 @@ def remembered(p, memory, step, slip, power):
 @njit(inline="always")
 def steepness_at(p, level, static, slip, backwards):
     """Steepness with what the speed and the direction of sliding do to the levels, s/m."""
-    kinetic = level * weakened(p, slip)
+    kinetic = level * weakened(p, slip) * flashed(p, slip)
     held = max(static, kinetic)
     if backwards:
         kinetic *= 1.0 + p.asymmetry

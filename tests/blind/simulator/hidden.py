@@ -72,6 +72,8 @@ class Hidden(NamedTuple):
     shake: float = 0.0  # m, motion of the frame
     shake_hz: float = 5.0
     melting: float = 0.0  # part of the mass lost per second
+    flash: float = 0.0  # part of the kinetic level that flash heating takes away at last
+    flash_speed: float = 0.05  # m/s of sliding from which contacts are hot before they part
     lifting: float = 0.0  # N/m, normal force that the springs take away per displacement
 
 

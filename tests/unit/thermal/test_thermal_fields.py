@@ -32,7 +32,7 @@ def test_series_reads_back(model, tmp_path):
         (0.3, "temperature_00001.vtu"),
     ]
     mesh = meshio.read(tmp_path / "temperature_00001.vtu")
-    temperature = mesh.point_data["temperature"]
+    temperature = mesh.point_data["temperature_degC"]
     part = mesh.cell_data["part"][0]
     nodes = mesh.cells[0].data
     belt, ice = nodes[part == 0], nodes[part == 1]
@@ -41,6 +41,10 @@ def test_series_reads_back(model, tmp_path):
     assert mesh.points[belt][..., 2].max() == 0.0
     assert mesh.points[ice][..., 2].min() == 0.0
     assert mesh.points[ice][..., 0].min() == pytest.approx(-0.04)
+    np.testing.assert_allclose(mesh.point_data["rise_K"], temperature + 8.0, atol=1e-12)
+    warped = mesh.points + mesh.point_data["stretch_m"]
+    assert warped[belt][..., 2].min() == pytest.approx(-0.1), "a tenth of 1 m"
+    assert np.array_equal(warped[ice], mesh.points[ice])
 
 
 def test_cells_cover_belt_and_ice_once(model, tmp_path):
@@ -56,7 +60,7 @@ def test_cells_cover_belt_and_ice_once(model, tmp_path):
 def test_the_contact_is_seen_at_the_origin(model, tmp_path):
     mesh = meshio.read(FieldSeries(tmp_path, model).write(0.0))
     top = (mesh.points[:, 2] == 0.0) & (np.abs(mesh.points[:, 0]) > 0.06)
-    x, temperature = mesh.points[top, 0], mesh.point_data["temperature"][top]
+    x, temperature = mesh.points[top, 0], mesh.point_data["temperature_degC"][top]
     assert temperature[(x > 0.06) & (x < 0.1)].min() > -7.97, "behind the ice the belt is warm"
     assert temperature[x < -0.06].max() == pytest.approx(-8.0, abs=1e-6)
 

@@ -47,7 +47,7 @@ def test_ports_say_what_their_units_are_made_of_and_how_large_they_are(old, new)
 
 
 def test_capabilities_are_those_that_the_unit_declares(old, new, tmp_path):
-    every = Capabilities(waveforms=True, restores=True, saves=True)
+    every = Capabilities(waveforms=True, restores=True, saves=True, input_order=1)
     assert FmuParticipant(old).capabilities == every
     assert FmuParticipant(new).capabilities == Capabilities(
         restores=True, saves=True, ends_early=True

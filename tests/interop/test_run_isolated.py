@@ -1,0 +1,108 @@
+"""A coupled run whose mechanical unit has a process of its own: the same to the last bit."""
+
+import os
+import signal
+
+import numpy as np
+import pytest
+
+from cosim import read_scenario, run_scenario
+from cosim.cli import main
+from cosim.coupling import IsolatedParticipant
+from cosim.coupling import case as coupled
+from cosim.coupling.record import RunFolder
+from cosim.scenario import ScenarioError
+
+CASE = {"run.duration": 0.6, "run.output_interval": 0.01, "run.checkpoint_steps": 20}
+SCHEMES = {
+    "in turn": {},
+    "taken back": {"coupling.scheme": "iterated", "coupling.step_control": "doubling"},
+}
+
+
+def case(**more):
+    return read_scenario("reference").changed(CASE | more)
+
+
+@pytest.fixture
+def made(monkeypatch):
+    """The mechanical units of the runs of a test."""
+    units, make = [], coupled._mechanics
+
+    def keep(*given):
+        units.append(make(*given))
+        return units[-1]
+
+    monkeypatch.setattr(coupled, "_mechanics", keep)
+    return units
+
+
+def same(one, other):
+    assert one.result.status == other.result.status == "complete"
+    np.testing.assert_array_equal(one.result.time, other.result.time)
+    assert one.result.units == other.result.units
+    for name, values in one.result.values.items():
+        np.testing.assert_array_equal(values, other.result.values[name], err_msg=name)
+
+
+@pytest.fixture(
+    scope="module", params=["in turn", pytest.param("taken back", marks=pytest.mark.slow)]
+)
+def plain(request, fmu):
+    """A run in one process, and its keys."""
+    return run_scenario(case(**SCHEMES[request.param]), fmu=fmu), SCHEMES[request.param]
+
+
+def test_results_are_those_of_one_process(plain, fmu, made):
+    run, keys = plain
+    isolated = case(**keys, **{"coupling.isolate": True, "coupling.time_limit": 30.0})
+    done = run_scenario(isolated, fmu=fmu)
+    (unit,) = made
+    assert isinstance(unit, IsolatedParticipant) and unit.pid is None  # gone with the run
+    same(run, done)
+
+
+def test_results_of_one_that_was_cut_off_are_so_too(plain, fmu, tmp_path):
+    """Cut off isolated, gone on with in one process, cut off again, and ended isolated."""
+    run, keys = plain
+    folder = RunFolder.begun(tmp_path, {}, {})
+    goes_on_isolated = [True, False, True]
+    for isolate, until in zip(goes_on_isolated, [0.25, 0.45, 9.0], strict=True):
+
+        def cut_off(time, until=until):
+            if time > until:
+                raise KeyboardInterrupt
+
+        changes = keys | {"coupling.isolate": isolate}
+        done = run_scenario(case(**changes), fmu=fmu, folder=folder, progress=cut_off)
+    same(run, done)
+
+
+def test_a_unit_that_dies_takes_nothing_with_it(fmu, made):
+    """What was computed is there: the process was another's."""
+    ended = []
+
+    def end(time):
+        if time > 0.1 and not ended:
+            os.kill(made[0].pid, signal.SIGKILL)
+            ended.append(time)
+
+    done = run_scenario(case(**{"coupling.isolate": True}), fmu=fmu, progress=end)
+    assert done.result.status == "failed" and "mechanics: failed in the step" in done.result.reason
+    assert done.result.time[-1] == pytest.approx(ended[0])
+
+
+def test_a_limit_of_no_time_is_refused():
+    with pytest.raises(ScenarioError, match=r"coupling.time_limit: out of range \(0"):
+        case(**{"coupling.time_limit": 0.0})
+
+
+def test_a_unit_that_does_not_answer_in_time_is_said_in_one_line(fmu, tmp_path, capsys):
+    (tmp_path / "case.toml").write_text(
+        "[run]\nduration = 0.1\n[coupling]\nisolate = true\ntime_limit = 1e-4\n"
+    )
+    given = ["run", str(tmp_path / "case.toml"), "--fmu", str(fmu), "-o", str(tmp_path / "out")]
+    assert main(given) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("error: ") and "within 0.0001 s, its time limit" in line
+    assert "--debug" not in line
