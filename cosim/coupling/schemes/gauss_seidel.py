@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cosim.coupling.exchange import Course, Exchange
-from cosim.coupling.schemes.scheme import StepDone, against, degree_of, step_together
+from cosim.coupling.schemes.scheme import OnePass, StepDone, against, degree_of, step_together
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.waveform import Waveform
 
 
 @dataclass(frozen=True)
-class GaussSeidel:
+class GaussSeidel(OnePass):
     """Participants make each macro step in the stated order.
 
     The first steps with what is known at the step's start; each later one with the values that
@@ -22,21 +22,7 @@ class GaussSeidel:
     order: participant names, each once.
     """
 
-    order: tuple[str, ...]
-    extrapolation: str = "held"
-
-    needs_restore = False
     free_order = False
-
-    @property
-    def accuracy(self) -> int:
-        """Order of the error in the step's size."""
-        return degree_of(self.extrapolation) + 1
-
-    def check(self, system: CoupledSystem) -> None:
-        """Refuse a system that this order does not fit."""
-        system.check_order(self.order)
-        degree_of(self.extrapolation)
 
     def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
         """Those that go against the order."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.schemes.scheme import (
+    OnePass,
     StepDone,
     degree_of,
     ending_early_first,
@@ -16,7 +17,7 @@ from cosim.coupling.system import Address, CoupledSystem
 
 
 @dataclass(frozen=True)
-class Jacobi:
+class Jacobi(OnePass):
     """Nobody waits for anybody: inputs over the step come from the communication points before it.
 
     extrapolation : "held", "linear" or "quadratic", of order 1, 2 and 3 in the macro step where the
@@ -27,22 +28,9 @@ class Jacobi:
     such an output is of the step's start: cheaper, and unstable at smaller steps.
     """
 
-    order: tuple[str, ...]
-    extrapolation: str = "held"
     refresh: bool = True
 
-    needs_restore = False
     free_order = True
-
-    @property
-    def accuracy(self) -> int:
-        """Order of the error in the step's size."""
-        return degree_of(self.extrapolation) + 1
-
-    def check(self, system: CoupledSystem) -> None:
-        """Refuse a system that this order does not fit."""
-        system.check_order(self.order)
-        degree_of(self.extrapolation)
 
     def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
         """All connected outputs."""

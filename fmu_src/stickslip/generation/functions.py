@@ -16,6 +16,20 @@ from ..effects.effect import Effect
 NAMES = ("abs", "bool", "float", "int", "max", "min", "range")
 
 
+def named_numbers(file: ast.Module) -> dict[str, float]:
+    """Name -> number of what a file gives a name at its top, as it stands there."""
+    found = {}
+    for node in file.body:
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            try:
+                value = ast.literal_eval(node.value)
+            except ValueError:
+                continue
+            if isinstance(value, (int, float)):
+                found[node.targets[0].id] = value
+    return found
+
+
 class EffectFunctions:
     """What an effect's file defines, by name.
 
@@ -37,16 +51,7 @@ class EffectFunctions:
 
     @cached_property
     def _numbers(self) -> dict[str, float]:
-        found = {}
-        for node in self._file.body:
-            if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-                try:
-                    value = ast.literal_eval(node.value)
-                except ValueError:
-                    continue
-                if isinstance(value, (int, float)):
-                    found[node.targets[0].id] = value
-        return found
+        return named_numbers(self._file)
 
     @cached_property
     def _imported(self) -> set[str]:

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from ..effects.effect import Effect
 from ..generation.c import c_source
 from ..generation.c_program import BUILTINS, MATH, MATH_NUMBERS
-from ..generation.functions import NAMES
+from ..generation.functions import NAMES, named_numbers
 from ..generation.slots import functions_in_kernel, packed_terms
 from .errors import PluginError
 
@@ -31,7 +31,7 @@ def check_translatable(effect: Effect, file: Path, text: str) -> None:
     """
     tree = ast.parse(text)
     defined = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
-    numbers = set(_numbers(tree))
+    numbers = set(named_numbers(tree))
     imported = set(_imported(tree, file))
     wanted = [_name(function, defined, file) for function in _called_by_kernel(effect)]
     wanted = list(dict.fromkeys(wanted))
@@ -94,17 +94,6 @@ def _names_in(function: ast.FunctionDef) -> Iterator[ast.Name]:
     names = [node for node in inner if isinstance(node, ast.Name)]
     own |= {node.id for node in names if isinstance(node.ctx, ast.Store)}
     return (node for node in names if node.id not in own)
-
-
-def _numbers(tree: ast.Module) -> Iterator[str]:
-    for node in tree.body:
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            try:
-                value = ast.literal_eval(node.value)
-            except ValueError:
-                continue
-            if isinstance(value, (int, float)):
-                yield node.targets[0].id
 
 
 def _imported(tree: ast.Module, file: Path) -> Iterator[str]:

@@ -2,11 +2,8 @@
 
 from contextlib import contextmanager
 
-import fmpy
 import numpy as np
-from fmpy.fmi2 import FMU2Slave
-
-from cosim.coupling.fmu.log import FmuLog
+from fmpy_slave import fmpy_slave
 
 OUTPUTS = (
     "interface_temperature",
@@ -57,20 +54,8 @@ class Heat:
 
 @contextmanager
 def instance(fmu, directory):
-    description = fmpy.read_model_description(fmu)
-    folder = fmpy.extract(fmu, unzipdir=directory)
-    log = FmuLog()
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-    )
-    slave.instantiate(callbacks=log.callbacks, loggingOn=True)
-    try:
-        yield Heat(description, slave, log)
-    finally:
-        slave.freeInstance()
-        log.close()
+    with fmpy_slave(fmu, directory) as made:
+        yield Heat(*made)
 
 
 def constant(steps, heat_flow=0.3, surface_speed=0.15, x=0.0):

@@ -2,12 +2,10 @@
 
 from contextlib import contextmanager
 
-import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2Error
-
-from cosim.coupling.fmu.log import FmuLog
+from fmpy.fmi2 import fmi2Error
+from fmpy_slave import fmpy_slave
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED}
@@ -68,20 +66,8 @@ class Instance:
 @contextmanager
 def instance(fmu, directory, logging=True):
     directory.mkdir(exist_ok=True)
-    description = fmpy.read_model_description(fmu)
-    folder = fmpy.extract(fmu, unzipdir=directory)
-    log = FmuLog()
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-    )
-    slave.instantiate(callbacks=log.callbacks, loggingOn=logging)
-    try:
-        yield Instance(description, slave, log)
-    finally:
-        slave.freeInstance()
-        log.close()
+    with fmpy_slave(fmu, directory, logging) as made:
+        yield Instance(*made)
 
 
 def refused(call, *arguments, **values):

@@ -1,10 +1,12 @@
 """States and instances in fmpy: a run goes on from a state, and no instance knows of another."""
 
+import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import fmpy_slave
 import pytest
 from fmpy_instance import CREEPING, SHEARED, SPEED, instance
 
@@ -48,7 +50,7 @@ def test_a_serialised_state_continues_in_another_process(unit, block, tmp_path):
     (tmp_path / "state").write_bytes(block.slave.serializeFMUState(block.slave.getFMUState()))
     block.march(137, 100, 0.01)
     program = (
-        "import sys; from pathlib import Path; sys.path.insert(0, sys.argv[1]);"
+        "import os, sys; from pathlib import Path; sys.path[:0] = sys.argv[1].split(os.pathsep);"
         "from fmpy_instance import instance; directory = Path(sys.argv[3])\n"
         "with instance(Path(sys.argv[2]), directory / 'other') as other:\n"
         "    other.initialise()\n"
@@ -57,7 +59,9 @@ def test_a_serialised_state_continues_in_another_process(unit, block, tmp_path):
         "    other.march(137, 100, 0.01)\n"
         "    print(*other.everything())\n"
     )
-    command = [sys.executable, "-c", program, str(Path(__file__).parent), str(unit), str(tmp_path)]
+    helpers = (Path(__file__).parent, Path(fmpy_slave.__file__).parent)
+    places = (os.pathsep.join(map(str, helpers)), str(unit), str(tmp_path))
+    command = [sys.executable, "-c", program, *places]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout.split() == block.everything()
 
