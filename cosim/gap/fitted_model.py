@@ -11,6 +11,7 @@ from stickslip.kernel import layout
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.diagnostics.model_track import tracks_of
 from cosim.gap.estimation.fitted import Fitted
+from cosim.gap.estimation.intervals import undetermined
 from cosim.gap.estimation.problem import Problem
 from cosim.gap.estimation.segments import FRICTION
 from cosim.gap.result import FittedModel, FittedRun
@@ -47,6 +48,7 @@ def fitted_model(
         runs=tuple(runs[name] for name in by_name if name in runs),
         gap=(_gap(by_part[0]), _gap(by_part[-1])),
         at_bound=_at_bound(problem, fitted),
+        undetermined=undetermined(problem.shared, intervals or {}),
     )
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +22,14 @@ from cosim.gap.estimation.drive import (
     rig_parameters,
     with_strengths_scaled,
 )
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+#: What an answer is drawn by, which knows the answer: asked for by name, by who wants it drawn, so
+#: that nothing here waits for matplotlib.
+SHOWN = "cosim.gap.shown"
 
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "partial", "unknown")
@@ -42,6 +51,7 @@ class Ranked:
     intervals : `block.parameter` -> 95 % interval (low, high); of those that have one
     probability : that the effect is what is missing, were nothing or one effect of those tried
         missing, either as probable beforehand; None where it was not worked out
+    undetermined : those of ``parameters`` whose interval is all that they may be
     """
 
     effect: str
@@ -52,6 +62,7 @@ class Ranked:
     parameters: Mapping[str, float]
     intervals: Mapping[str, tuple[float, float]]
     probability: float | None = None
+    undetermined: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -157,6 +168,8 @@ class FittedModel:
     runs : in the campaign's order
     gap : (fit, held out), root mean square residual in units of the noise
     at_bound : those of ``values`` that the fit would turn further -> the bound that they are at
+    undetermined : those of ``values`` whose interval is all that they may be: the data say nothing
+        of them, and the value is only where the fit ended
     """
 
     values: Mapping[str, float]
@@ -166,6 +179,7 @@ class FittedModel:
     runs: tuple[FittedRun, ...]
     gap: tuple[float, float]
     at_bound: Mapping[str, float] = field(default_factory=dict)
+    undetermined: tuple[str, ...] = ()
 
     def of(self, name: str) -> FittedRun:
         """The run of that name; KeyError when there is none."""
@@ -220,6 +234,7 @@ class Gap:
     lacks : what the data lack where no model fits, a line each
     doubts : what of the record, or of the numbers stated, is not as it should be
     believed : False where the verdict is "unknown" for a doubt alone, whatever was found
+    searched : False where no effect was looked for, as nothing could explain that doubt
     """
 
     campaign: Campaign
@@ -248,6 +263,7 @@ class Gap:
     lacks: tuple[str, ...] = ()
     doubts: tuple[Doubt, ...] = ()
     believed: bool = True
+    searched: bool = True
 
     @property
     def has_held_out(self) -> bool:
@@ -287,6 +303,20 @@ class Gap:
         named = f" {', '.join(self.effects)}" if self.effects else ""
         (fit, _), (left, _) = self.gap_before, self.gap_after
         return f"<Gap of {self.campaign.name}: {self.verdict}{named}; fit {fit:.3g} -> {left:.3g}>"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Every run as measured and as the models have it over ``sample`` (n,), with units, and
+        figures of each run over ``run`` (r,); all of `gap.json` as the attribute `gap`."""
+        dataset: xarray.Dataset = import_module(SHOWN).gap_dataset(self)
+        return dataset
+
+    def plot(self, figure: str = "gaps") -> Figure:
+        """One of the figures of the page: gaps, ranking, overlay_x, residuals, ladder, ...
+
+        Raises ValueError for a name that is none, with the nearest that there is.
+        """
+        drawn: Figure = import_module(SHOWN).figure_of(self, figure)
+        return drawn
 
     @property
     def model(self) -> FittedModel:

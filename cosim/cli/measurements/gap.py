@@ -40,7 +40,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         "surface's motion) and, where they were measured, y (m), phi (rad) and force (N: what all "
         "springs pull the block back with along x, positive where x is; compared with their "
         'stiffness, not fitted). Other names: [columns] x = "pos"; other units: [units] x = '
-        '"mm", or in the header, x [mm], t/ms, phi (deg); both tables for a [[run]] too',
+        '"mm", or in the header, x [mm], t/ms, phi (deg); both tables for a [[run]] too. Friction '
+        'over the sliding speed, measured by itself: [friction] table = "mu_v.csv" (columns v in '
+        "m/s and mu), which the model sets out from in place of mu_k",
     )
     add_output(
         parser,

@@ -30,7 +30,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="?",
         help="TOML file, or a folder with campaign.toml: as for `stickslip gap`, but a [[run]] "
         "needs no file: `duration` (s, default 20) and `rate` (Hz, default 100) take its place; "
-        "effects of one's own that it names are code, and are run",
+        'effects of one\'s own that it names ([model] effects = ["brush.py"]) are code, and are '
+        'run and tried like those of the catalogue; [friction] table = "mu_v.csv" (columns v in '
+        "m/s and mu) is friction over the sliding speed, in place of mu_k",
     )
     add_output(parser, f"folder of {PAGE}, figures and {RESULT} (default: results/NAME-plan)")
     add_force(parser, ", or what is there of the example with other content")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from stickslip.effects.candidate import Candidate
 
-from cosim.gap.candidates.catalogue import candidates
+from cosim.gap.candidates.catalogue import candidates, laws_of_speed
 from cosim.gap.candidates.measurement import measurement_candidates
 from cosim.gap.candidates.scales import scales
 from cosim.gap.evidence.settled import Settled
@@ -25,4 +25,6 @@ def _is_felt(law: Candidate, bench: Bench) -> bool:
     """Whether the campaign could tell the law from the plain model at all."""
     if law.effect == "stick_stiffness":  # along x it is another mu_s
         return "mu_s" in bench.campaign.friction
+    if bench.campaign.friction_table is not None and law.effect in laws_of_speed():
+        return False
     return bench.planar or not law.lateral

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from cosim.gap.estimation.fitted import shared_of
-from cosim.gap.estimation.intervals import intervals
+from cosim.gap.estimation.intervals import intervals, undetermined
 from cosim.gap.estimation.trial import Trial
 from cosim.gap.evidence.products import Spreads
 from cosim.gap.result import Ranked
@@ -72,6 +72,7 @@ def _as_shown(tried: Tried, trial: Trial) -> Numbers:
 
 def _row(tried: Tried, gaps: Gaps, numbers: Numbers, probability: float) -> Ranked:
     fit, held_out = gaps
+    pairs = {key: (float(low), float(high)) for key, (_, low, high) in numbers.items()}
     return Ranked(
         effect=tried.candidate.effect,
         form=tried.candidate.form,
@@ -79,6 +80,7 @@ def _row(tried: Tried, gaps: Gaps, numbers: Numbers, probability: float) -> Rank
         fit_gap=fit,
         delta_bic=float(tried.gain),
         parameters={key: float(value) for key, (value, _, _) in numbers.items()},
-        intervals={key: (float(low), float(high)) for key, (_, low, high) in numbers.items()},
+        intervals=pairs,
         probability=probability,
+        undetermined=undetermined(shared_of(tried.candidate.free_parameters), pairs),
     )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from cosim.gap.camera.quantisation import Quantisation
+from cosim.gap.candidates.catalogue import laws_of_speed
 from cosim.gap.data import Campaign
 from cosim.gap.diagnostics.where import told_chance
 
@@ -24,6 +25,11 @@ def remarks(
             f"{100.0 * rounded.share:.3g} % of x lie on steps of {1e6 * rounded.step:.4g} µm, "
             "which is felt beside the noise (noise alone would scatter as much with probability "
             f"p {chance}): what rounding leaves is counted as noise"
+        )
+    if campaign.friction_table is not None:
+        lines.append(
+            f"{', '.join(laws_of_speed())}: not tried, as friction.table is the law of the sliding "
+            "speed; what it is wrong by is sought as a curve"
         )
     silent = [effect for effect in _ACROSS if effect not in tried]
     if silent:

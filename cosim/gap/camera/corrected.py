@@ -129,9 +129,18 @@ def _tables(campaign: Campaign, names: Mapping[Path, str], camera: Camera) -> di
         "rig": campaign.rig.model_dump(exclude_unset=True),
         "model": {"scheme": campaign.scheme},
         "noise": noise,
-        "friction": {key: list(pair) for key, pair in campaign.friction.items()},
+        "errors": campaign.errors.model_dump(exclude_unset=True),
+        "friction": _friction(campaign),
         "run": [_run_table(run, names) for run in campaign.runs],
     }
+
+
+def _friction(campaign: Campaign) -> dict[str, Any]:
+    """What is known of friction; a table stays where it is."""
+    known: dict[str, Any] = {key: list(pair) for key, pair in campaign.friction.items()}
+    if campaign.friction_table is not None:
+        known["table"] = str(campaign.friction_table.file.resolve())
+    return known
 
 
 def _run_table(run: MeasuredRun, names: Mapping[Path, str]) -> dict[str, Any]:

@@ -20,3 +20,14 @@ def candidates(scales: Scales, also: Collection[str] = ()) -> tuple[Candidate, .
         if effect.offered or effect.id in also or file_of(effect) is not None
         for candidate in effect.candidates(scales)
     )
+
+
+#: Where an effect enters the kernel that is a law of the sliding speed.
+_DRY = "dry_factor"
+
+
+def laws_of_speed() -> tuple[str, ...]:
+    """Effects that are the dry contact's law of the sliding speed, whose place a table takes."""
+    return tuple(
+        effect.id for effect in EFFECTS if any(each.__name__ == _DRY for each in effect.terms)
+    )

@@ -21,6 +21,7 @@ from cosim.gap.estimation.drive import (
     LOADING,
     SPEED_OFFSET,
     stiffness_offset,
+    table,
 )
 
 #: How a contact gives way before it slides: it creeps, and the faster it is loaded the sooner it
@@ -57,10 +58,16 @@ def plain_free_parameters(
     )
 
 
+def plain_settings(campaign: Campaign) -> dict[str, float]:
+    """What is set beside the free parameters: the campaign's own table of friction, as parts."""
+    own = campaign.friction_table
+    return {} if own is None else table(own.speeds, own.parts)
+
+
 def _friction(campaign: Campaign, runs, everywhere) -> list[FreeParameter]:
     free_parameters = []
     for name, guess in zip(("mu_s", "mu_k"), first_guess(runs, everywhere), strict=True):
-        value, deviation = campaign.friction.get(name, (guess, None))
+        value, deviation = campaign.known_friction.get(name, (guess, None))
         # without friction bristles have no length in slip, and the kernel would not get on
         low, high = (0.3 if name == "mu_s" else 0.1) * guess, 20.0
         if deviation is not None:  # what is known stays known

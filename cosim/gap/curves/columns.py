@@ -7,14 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 from stickslip.effects.candidate import Candidate
 from stickslip.kernel import layout
 from stickslip.packing import GRAVITY
 from stickslip.restarted import Force
 
 from cosim.gap.data import MeasuredRun
-from cosim.gap.estimation.drive import TABLE_PART, driven_speed
+from cosim.gap.estimation.drive import driven_speed, parts_at, table
 from cosim.gap.estimation.problem import STATE_STEP, Problem
 from cosim.gap.estimation.segmented_run import SegmentedRun
 from cosim.gap.estimation.segments import FRICTION, STATES
@@ -35,7 +34,6 @@ _FELT = 0.01
 FORCES = {"position": layout.O_X, "velocity": layout.O_VX, "sliding speed": layout.O_SLIDING_SPEED}
 #: Places at which a force is tabulated over its axis, which the block looks up.
 _LOOKED_UP = 400
-SPEED = "friction.table_speed["
 
 
 def of_stretches(base: Settled, along: Stretches, on: str) -> Columns | None:
@@ -81,27 +79,6 @@ def of_sliding_speed(
     held_out = [run.hold_out for run in runs]
     mixed = mixed_model(base.problem, base.fitted, laws, held_out, mapped)
     return Columns("sliding speed", "mu_k", mixed, spline, _FELT)
-
-
-def table(speeds: np.ndarray, values: np.ndarray, key: str = TABLE_PART) -> dict[str, float]:
-    """Settings of a table over the sliding speed, m/s: parts of mu_k, or coefficients."""
-    pairs = enumerate(zip(speeds, values, strict=True), 1)
-    return {
-        name: float(value)
-        for number, pair in pairs
-        for name, value in zip((f"{SPEED}{number}]", f"{key}{number}]"), pair, strict=True)
-    }
-
-
-def parts_at(settings: Mapping[str, float], speeds: np.ndarray) -> np.ndarray:
-    """mu at sliding speeds, m/s, as part of mu_k, by a model's settings: 1 without a table."""
-    numbers = range(1, layout.CURVE_LIMIT + 1)
-    points = [n for n in numbers if f"{TABLE_PART}{n}]" in settings]
-    if not points:
-        return np.ones(speeds.size)
-    known = [settings[f"{SPEED}{n}]"] for n in points]
-    curve = PchipInterpolator(known, [settings[f"{TABLE_PART}{n}]"] for n in points])
-    return curve(np.clip(speeds, known[0], known[-1]))
 
 
 def of_force(

@@ -16,13 +16,13 @@ import numpy as np
 
 from cosim.gap.candidates.plain import EXPONENT, TRANSITION
 from cosim.gap.data import MeasuredRun
-from cosim.gap.estimation.drive import TABLE
+from cosim.gap.estimation.drive import TABLE, parts_at, table
 from cosim.gap.estimation.trial import Model
 from cosim.gap.evidence.settled import Settled, settled
 from cosim.processes import Map
 
 from .axes import simulated
-from .columns import of_sliding_speed, parts_at, table
+from .columns import of_sliding_speed
 from .curve import Curve
 from .spline import KNOTS
 from .vote import counted, quick

@@ -13,11 +13,12 @@ from stickslip import Parameters
 
 from cosim.gap.data.campaign_file import FILE_NAME, CampaignTable, RunTable, read_tables
 from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.friction_table import read_friction_table
 from cosim.gap.data.hold_out import choose_hold_outs, without_duplicates
 from cosim.gap.data.measured import CHANNELS, Campaign, MeasuredRun, Track
 from cosim.gap.data.noise import agree, difference_noise
 from cosim.gap.data.outliers import without_outliers
-from cosim.gap.data.reading.columns import Reading
+from cosim.gap.data.reading.columns import Reading, named_with_unit
 from cosim.gap.data.reading.csv_file import Columns, read_columns
 from cosim.gap.data.stick_remarks import stick_remarks
 from cosim.gap.data.sticks import find_sticks
@@ -48,8 +49,12 @@ def read_campaign(path: str | Path) -> Campaign:
     campaign = Campaign(
         table.name, path.parent, table.rig, table.model.scheme, table.noise.given, (), (),
         friction=table.friction.given, errors=table.errors,
+        friction_table=read_friction_table(path, table, [one.surface_speed for one in run_tables]),
     )  # fmt: skip
     runs, remarks = [], []
+    if campaign.friction_table is not None:
+        _check_tracks(path, run_tables)
+        remarks.append(campaign.friction_table.text)
     converted: dict[str, list[str]] = {}
     for number, run_table in enumerate(run_tables, 1):
         reading = _reading(path, table, run_table, number)
@@ -70,6 +75,14 @@ def read_campaign(path: str | Path) -> Campaign:
     return replace(
         campaign, noise=noise, noise_estimated=estimated, runs=kept, remarks=tuple(remarks)
     )
+
+
+def _check_tracks(path: Path, runs: list[RunTable]) -> None:
+    if not any(run.file for run in runs):
+        raise CampaignError(
+            f"{path}: friction.table: of runs of which only figures are known the law is mu_s and "
+            "mu_k; allowed with a file in a [[run]]"
+        )
 
 
 def _reading(path: Path, table: CampaignTable, run: RunTable, number: int) -> Reading:
@@ -124,7 +137,7 @@ def _track(file: Path, columns: Columns) -> tuple[Track, list[str]]:
     time = columns.values.pop("t")
     _check_time(file, time, columns.lines)
     _check_holes(file, time, columns.lines)
-    remarks = [f"{file.name}: column {name} is not used" for name in columns.ignored]
+    remarks = [f"{file.name}: {_unused(name)}" for name in columns.ignored]
     channels: dict[str, np.ndarray] = {}
     outliers: dict[str, int] = {}
     for channel in CHANNELS:
@@ -143,6 +156,17 @@ def _track(file: Path, columns: Columns) -> tuple[Track, list[str]]:
         channels[channel], outliers[channel] = without_outliers(time, values)
     track = Track(time=time - time[0], time_offset=float(time[0]), outliers=outliers, **channels)
     return track, remarks
+
+
+def _unused(name: str) -> str:
+    """A column that nobody asked for; of one such as `phi_deg` how it would be."""
+    said = f"column {name} is not used"
+    for channel in CHANNELS:
+        meant = named_with_unit(channel, [name])
+        if meant:
+            column, unit = meant
+            return f'{said}; [columns] {channel} = "{column}", [units] {channel} = "{unit}" uses it'
+    return said
 
 
 def _check_time(file: Path, time: np.ndarray, lines: np.ndarray) -> None:

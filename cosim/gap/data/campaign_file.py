@@ -89,6 +89,9 @@ class Errors(Table):
         ge=1e-3,
         le=1e3,
     )
+    friction_table: float = quantity(
+        0.05, "1", "of the level of friction.table, part of it", ge=1e-6, le=0.2
+    )
 
 
 class Measured(Table):
@@ -125,20 +128,37 @@ class Friction(Measured):
 
     mu_s: Coefficient = _measured("1", "static friction coefficient")
     mu_k: Coefficient = _measured("1", "kinetic friction coefficient")
+    table: str = Field(
+        "",
+        description="CSV file beside campaign.toml with the columns v (m/s) and mu: kinetic "
+        "friction over the sliding speed as it was measured by itself, from which the model sets "
+        "out in place of mu_k; PCHIP, constant beyond its ends; errors.friction_table says how "
+        "well its level is known",
+    )
 
     @property
     def given(self) -> dict[str, tuple[float, float]]:
         """coefficient -> (value, standard deviation), of those that were measured."""
-        return {key: pair for key, pair in super().given.items() if math.isfinite(pair[1])}
+        return {key: pair for key, pair in self._named.items() if math.isfinite(pair[1])}
 
     @property
     def expected(self) -> dict[str, float]:
         """coefficient -> value, of those that the file names, measured or not."""
-        return {key: pair[0] for key, pair in super().given.items()}
+        return {key: pair[0] for key, pair in self._named.items()}
+
+    @property
+    def _named(self) -> dict[str, tuple[float, float]]:
+        """Coefficients that the file names."""
+        return {key: getattr(self, key) for key in sorted(self.model_fields_set - {"table"})}
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, (value, deviation) in super().given.items():
+        if self.table and "mu_k" in self.model_fields_set:
+            raise ValueError(
+                f'mu_k = {self.mu_k[0]:g} beside table = "{self.table}", which takes its place; '
+                "give one of the two"
+            )
+        for key, (value, deviation) in self._named.items():
             if not (value > 0.0 and deviation > 0.0):
                 raise ValueError(
                     f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation] "
@@ -249,7 +269,8 @@ class MeasuredRunTable(RunTable):
     def _check_source(self) -> Self:
         if bool(self.file) == bool(self.summary.given):
             what = "both" if self.file else "neither"
-            raise ValueError(f"file and summary: {what} given, allowed is one of the two")
+            plan = "" if self.file else " (a run that is still to be made: stickslip plan)"
+            raise ValueError(f"file and summary: {what} given, allowed is one of the two{plan}")
         return self
 
 

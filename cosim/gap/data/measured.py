@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from cosim.gap.data.campaign_file import Errors, Rig
+from cosim.gap.data.friction_table import FrictionTable
 from cosim.gap.data.reading.columns import Reading
 
 #: Measured quantities, in the order in which they are looked at.
@@ -154,6 +155,7 @@ class Campaign:
     remarks : what the reader should know, a line each
     friction : coefficient -> (value, standard deviation), of those that are known beforehand
     errors : how well the file's other numbers are known
+    friction_table : kinetic friction over the sliding speed that the model sets out from, if any
     """
 
     name: str
@@ -166,6 +168,15 @@ class Campaign:
     remarks: tuple[str, ...] = ()
     friction: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     errors: Errors = field(default_factory=Errors)
+    friction_table: FrictionTable | None = None
+
+    @property
+    def known_friction(self) -> dict[str, tuple[float, float]]:
+        """coefficient -> (value, standard deviation), the level of a table among them as mu_k."""
+        if self.friction_table is None:
+            return dict(self.friction)
+        level = self.friction_table.level
+        return {**self.friction, "mu_k": (level, self.errors.friction_table * level)}
 
     @property
     def fit_runs(self) -> tuple[MeasuredRun, ...]:

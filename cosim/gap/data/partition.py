@@ -38,10 +38,17 @@ def partition(
     omega : natural frequency, rad/s
     noise : standard deviation of a sample, m
     """
+    return partition_cost(time, x, speed, omega, noise)[0]
+
+
+def partition_cost(
+    time: np.ndarray, x: np.ndarray, speed: float, omega: float, noise: float
+) -> tuple[list[tuple[int, int, int]], float]:
+    """The partition and its penalised misfit, in units of the noise squared."""
     penalty = math.log(max(len(time), 3))
     period = 2.0 * math.pi / omega
     spans = (SHORTEST_SLIP * period, LONGEST_SLIP * period)
-    before_stick, before_slip, kinds = _least_cost(
+    before_stick, before_slip, kinds, cost = _least_cost(
         time, x / noise, speed / noise, omega, penalty, spans
     )
     pieces: list[tuple[int, int, int]] = []
@@ -51,7 +58,7 @@ def partition(
         pieces.append((kind, start, end))
         kind = SLIP if kind == STICK else int(kinds[start])
         end = start
-    return _joined(pieces[::-1])
+    return _joined(pieces[::-1]), float(cost)
 
 
 def _joined(pieces: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
@@ -67,7 +74,10 @@ def _joined(pieces: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
 
 @numba.njit(cache=True)
 def _least_cost(time, x, speed, omega, penalty, spans):
-    """Start of the last piece, if a stick or a slip ends before each sample, and the better one."""
+    """Start of the last piece, if a stick or a slip ends before each sample, and the better one.
+
+    And the least cost of all samples.
+    """
     n = len(time)
     stick_cost, slip_cost = np.full(n + 1, np.inf), np.full(n + 1, np.inf)
     stick_start, slip_start = np.zeros(n + 1, np.int64), np.zeros(n + 1, np.int64)
@@ -85,7 +95,7 @@ def _least_cost(time, x, speed, omega, penalty, spans):
         count = _promising(starts, sums, count, slip_cost, slip_cost[end])
         if stick_cost[end] < slip_cost[end]:
             kinds[end] = STICK
-    return stick_start, slip_start, kinds
+    return stick_start, slip_start, kinds, min(stick_cost[n], slip_cost[n])
 
 
 @numba.njit(cache=True)

@@ -28,8 +28,10 @@ def stick_remarks(run: MeasuredRun) -> list[str]:
     off = stick_speed_off(run)
     if off is not None:
         remarks.append(
-            f"in stick x moves at {off:.3g} of the surface_speed "
-            "given: creep, or the set-point or the scale of x is off"
+            f"in stick x moves at {off:.3g} of the surface_speed given: if the surface ran so, say "
+            f"surface_speed = {off * run.surface_speed:.4g} in this [[run]]; if it is as much in "
+            f"every run, the camera's scale may be off, and x is to be divided by {off:.3g}"
+            f"{'; else the contact creeps' if off < 1.0 else ''}"
         )
     scatter = line_scatter(run) / run.noise["x"]
     if scatter > SCATTER:

@@ -69,7 +69,7 @@ def _in_part(
     if len(time) < 8:
         return []
     samples = max(int(period / np.median(np.diff(time)) / DENSITY), 1)
-    coarse_time, coarse_x = _averaged(time, samples), _averaged(x, samples)
+    coarse_time, coarse_x = averaged(time, samples), averaged(x, samples)
     pieces = partition(coarse_time, coarse_x, speed, omega, noise / math.sqrt(samples))
     ranges = [
         (start * samples, min(end * samples, len(time)) if end < len(coarse_time) else len(time))
@@ -81,7 +81,8 @@ def _in_part(
     return [_refined(time, x, ranges, place, speed, omega, noise) for place in range(len(ranges))]
 
 
-def _averaged(values: np.ndarray, samples: int) -> np.ndarray:
+def averaged(values: np.ndarray, samples: int) -> np.ndarray:
+    """Means of so many neighbours; what is left over at the end is dropped."""
     whole = len(values) // samples * samples
     return values[:whole].reshape(-1, samples).mean(axis=1)
 

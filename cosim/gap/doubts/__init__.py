@@ -6,7 +6,7 @@ what would be expected of it. On campaigns that are as stated all checks togethe
 `LEVEL` of them at most, of campaigns whose noise, zeros and set-points scatter as said.
 """
 
-from cosim.gap.doubts.doubt import LEVEL, Doubt, unbelieved
+from cosim.gap.doubts.doubt import LEVEL, Doubt, hopeless, unbelieved
 from cosim.gap.doubts.looked_at import doubts_of
 
-__all__ = ["LEVEL", "Doubt", "doubts_of", "unbelieved"]
+__all__ = ["LEVEL", "Doubt", "doubts_of", "hopeless", "unbelieved"]

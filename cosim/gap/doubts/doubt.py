@@ -43,6 +43,20 @@ def unbelieved(doubts: Sequence[Doubt], effects: Sequence[str]) -> tuple[Doubt, 
     )
 
 
+def hopeless(doubts: Sequence[Doubt]) -> tuple[Doubt, ...]:
+    """The doubts beside which no answer can be believed, whatever is found."""
+    return tuple(doubt for doubt in doubts if doubt.decisive and not doubt.explained_by)
+
+
+def not_looked(doubts: Sequence[Doubt]) -> str:
+    """Why no effect was looked for."""
+    checks = ", ".join(dict.fromkeys(doubt.check for doubt in hopeless(doubts)))
+    return (
+        f"no effect was looked for: nothing that could be found explains the doubt ({checks}), and "
+        "nothing would be believed beside it"
+    )
+
+
 def far(count: int) -> float:
     """Standard deviations, either way, that one of ``count`` figures exceeds in `LEVEL` of cases.
 

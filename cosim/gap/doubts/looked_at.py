@@ -9,6 +9,7 @@ from .doubt import Doubt
 from .force import doubts_of_force
 from .record import doubts_of_record
 from .sampling import doubts_of_sampling
+from .short_sticks import doubts_of_short_sticks
 from .springs import doubts_of_springs
 from .stick_speed import doubts_of_stick_speed
 
@@ -26,7 +27,10 @@ def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
         doubted = {doubt.run for doubt in found}
         runs = [run for run in runs if run.name not in doubted]
         doubts += found
-    doubts += doubts_of_springs(campaign, runs)
+    springs = doubts_of_springs(campaign, runs)
+    doubted = {name for doubt in springs for name in doubt.run.split(", ")}
+    runs = [run for run in runs if run.name not in doubted]
+    doubts += [*springs, *doubts_of_short_sticks(campaign, runs)]
     every = [run for run in campaign.runs if run.track is not None]
     doubts += doubts_of_force(campaign, every)
     return (*doubts, *doubts_of_record(campaign, every))

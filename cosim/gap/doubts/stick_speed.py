@@ -67,15 +67,15 @@ def doubts_of_stick_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> li
     doubts = []
     for run in runs:
         here = next((slope for slope in slopes if slope.run is run), None)
-        off = here is not None and _is_off(here, slopes, runs, limit, known)
+        off = here is not None and is_off(here, slopes, runs, limit, known)
         if here is not None and off:
-            doubts.append(_doubt(run, here.value, limit * known))
+            doubts.append(doubt_of_speed(run, here.value, limit * known))
         elif run.name in faster:
-            doubts.append(_doubt(run, faster[run.name], limit * known))
+            doubts.append(doubt_of_speed(run, faster[run.name], limit * known))
     return doubts
 
 
-def _is_off(
+def is_off(
     here: Slope, slopes: Sequence[Slope], runs: Sequence[MeasuredRun], limit: float, known: float
 ) -> bool:
     """Whether a slope is another than the speed and the creep of the other runs allow."""
@@ -87,7 +87,8 @@ def _is_off(
     return not -error <= here.lack <= creep + error
 
 
-def _doubt(run: MeasuredRun, value: float, off: float) -> Doubt:
+def doubt_of_speed(run: MeasuredRun, value: float, off: float) -> Doubt:
+    """value : m/s along the surface; off : part of the speed within which it is expected."""
     along = math.copysign(1.0, run.surface_speed)
     return Doubt(
         "stick_speed", run.name, along * value, run.surface_speed, "m/s",
@@ -130,7 +131,7 @@ def stick_slope(run: MeasuredRun) -> Slope | None:
     straight = left < noise**2 * stats.chi2.ppf(0.99, size - 2) / (size - 2)
     straight &= np.abs(time[first + size - 1] - time[first] - STRAIGHT * period) < 0.3 * period
     sticks = [one for one in _stretches(x, slope, first, size, straight) if one[1] > TRAVEL * swing]
-    if not _throughout(np.array([at for *_, at in sticks]), x, swing):
+    if not throughout(np.array([at for *_, at in sticks]), x, swing):
         return None
     found = math.copysign(1.0, run.surface_speed) * np.array([value for value, *_ in sticks])
     middle = float(np.median(found))
@@ -167,7 +168,7 @@ def _stretches(
     ]
 
 
-def _throughout(sticks: np.ndarray, x: np.ndarray, swing: float) -> bool:
+def throughout(sticks: np.ndarray, x: np.ndarray, swing: float) -> bool:
     """Whether sticks (first samples) come in most cycles of both halves of a record.
 
     A vibration that dies out has straight stretches too, at its end.

@@ -8,10 +8,13 @@ to run. Each is a free parameter ``offset.*``, a part of the number that it belo
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+import numpy as np
+from scipy.interpolate import PchipInterpolator
 from stickslip.effects import EFFECTS
 from stickslip.effects.candidate import SECOND
+from stickslip.kernel import layout
 from stickslip.packing import GRAVITY
 
 from cosim.gap.data import MeasuredRun
@@ -31,9 +34,13 @@ LOADING = "offset.loading"
 _LEAST_STATIC = 0.3
 #: What friction of a run goes by.
 SCATTERED = ("friction.mu_s", "friction.mu_k")
-#: Coefficients of a table in place of mu_k, each with its number in brackets, and the same as parts
-#: of mu_k, which then says how large they are.
-TABLE, TABLE_PART = "friction.table_mu[", "friction.table_part["
+#: Speeds and coefficients of a table in place of mu_k, each with its number in brackets, and the
+#: coefficients as parts of mu_k, which then says how large they are.
+TABLE_SPEED, TABLE, TABLE_PART = (
+    "friction.table_speed[",
+    "friction.table_mu[",
+    "friction.table_part[",
+)
 
 #: Travel of the surface in one period of a ripple that a roller makes, m: at another speed it has
 #: another frequency.
@@ -69,6 +76,31 @@ def model_parameters(set_point: float, values: Mapping[str, float]) -> dict[str,
     for key in [key for key in flat if key.startswith(TABLE_PART)]:
         flat[TABLE + key.removeprefix(TABLE_PART)] = flat.pop(key) * flat["friction.mu_k"]
     return flat
+
+
+def table(
+    speeds: Sequence[float] | np.ndarray,
+    values: Sequence[float] | np.ndarray,
+    key: str = TABLE_PART,
+) -> dict[str, float]:
+    """Settings of a table over the sliding speed, m/s: parts of mu_k, or coefficients."""
+    pairs = enumerate(zip(speeds, values, strict=True), 1)
+    return {
+        name: float(value)
+        for number, pair in pairs
+        for name, value in zip((f"{TABLE_SPEED}{number}]", f"{key}{number}]"), pair, strict=True)
+    }
+
+
+def parts_at(settings: Mapping[str, float], speeds: np.ndarray) -> np.ndarray:
+    """mu at sliding speeds, m/s, as part of mu_k, by a model's settings: 1 without a table."""
+    numbers = range(1, layout.CURVE_LIMIT + 1)
+    points = [n for n in numbers if f"{TABLE_PART}{n}]" in settings]
+    if not points:
+        return np.ones(speeds.size)
+    known = [settings[f"{TABLE_SPEED}{n}]"] for n in points]
+    curve = PchipInterpolator(known, [settings[f"{TABLE_PART}{n}]"] for n in points])
+    return curve(np.clip(speeds, known[0], known[-1]))
 
 
 def strength_keys(effect: str) -> tuple[str, ...]:

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap.estimation.fitted import shared_of
 from cosim.gap.estimation.trial import Trial
@@ -13,6 +17,8 @@ _NINETY_FIVE = 1.96
 _UNFELT = 1e-12
 #: A parameter whose interval is wider than this part of its value is not determined.
 _DETERMINED = 0.5
+#: Steps of a free parameter within which an interval ends at its bound: it was cut off there.
+_AT_END = 1e-3
 
 
 def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
@@ -45,6 +51,29 @@ def intervals(trial: Trial) -> dict[str, tuple[float, float]]:
         )
         result[free.key] = (float(min(ends)), float(max(ends)))
     return result
+
+
+def undetermined(
+    free_parameters: Sequence[FreeParameter], pairs: Mapping[str, tuple[float, float]]
+) -> tuple[str, ...]:
+    """Keys whose 95 % interval, of ``pairs``, is all that they may be: the data say nothing.
+
+    A number that may be anything has no such range, and one that a bound cuts off on one side only
+    is known to be on the other's side of something.
+    """
+    return tuple(
+        free.key
+        for free in free_parameters
+        if free.key in pairs
+        and all(math.isfinite(end) for end in (free.low, free.high))
+        and _reaches(free, pairs[free.key])
+    )
+
+
+def _reaches(free: FreeParameter, pair: tuple[float, float]) -> bool:
+    """Whether an interval ends at both bounds, on the scale of the fit."""
+    ends = zip(sorted(pair), (free.low, free.high), strict=True)
+    return all(abs(free.scaled(end) - free.scaled(bound)) < _AT_END for end, bound in ends)
 
 
 def _information(trial: Trial) -> tuple[np.ndarray, np.ndarray]:

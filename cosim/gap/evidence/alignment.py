@@ -16,7 +16,13 @@ from stickslip.effects.candidate import FreeParameter
 from stickslip.packing import GRAVITY
 
 from cosim.gap.data import MeasuredRun, cycle_features
-from cosim.gap.estimation.drive import FRICTION_OFFSET, SCATTERED, SPEED_OFFSET, SPRINGS_OFFSET
+from cosim.gap.estimation.drive import (
+    FRICTION_OFFSET,
+    SCATTERED,
+    SPEED_OFFSET,
+    SPRINGS_OFFSET,
+    parts_at,
+)
 from cosim.gap.estimation.fit import fit, fit_runs, with_columns
 from cosim.gap.estimation.fitted import Fitted, Point, start
 from cosim.gap.estimation.phases import with_phases
@@ -141,7 +147,8 @@ def _balanced(segmented: SegmentedRun, run: MeasuredRun, problem: Problem) -> np
     """(segments, 8) states with friction where the balance of forces puts it."""
     states = segmented.starts
     values = {free.key: free.start for free in problem.shared}
-    mu_s, mu_k = values["friction.mu_s"], values["friction.mu_k"]
+    at_speed = float(parts_at(problem.settings, np.array([abs(run.surface_speed)]))[0])
+    mu_s, mu_k = values["friction.mu_s"], at_speed * values["friction.mu_k"]
     features = cycle_features(run)
     per_metre = run.total_stiffness / (run.mass * GRAVITY)
     high, low = features.break_away_x.value, features.restick_x.value

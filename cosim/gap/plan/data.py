@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import Any
 
 from cosim.report.files import json_text
+from cosim.report.page import unit_text
 
 from .next_run import NextRun
 from .plan import Plan, Size
@@ -78,7 +79,16 @@ def _plain(value: Any) -> Any:
 
 def size_text(size: Size) -> str:
     """A smallest size with its unit."""
-    return f"{size.value:.3g} {size.unit}".rstrip() if math.isfinite(size.value) else "not seen"
+    return _with_unit(size.value, size) if math.isfinite(size.value) else "not seen"
+
+
+def alone_text(size: Size) -> str:
+    """The size from which it is told from every other effect, with its unit."""
+    return _with_unit(size.alone, size) if math.isfinite(size.alone) else "never"
+
+
+def _with_unit(value: float, size: Size) -> str:
+    return f"{value:.3g} {unit_text(size.unit)}".rstrip()
 
 
 def percent_text(percent: float) -> str:
@@ -110,15 +120,14 @@ def closing_lines(plan: Plan) -> list[str]:
         f"{plan.planned.campaign.name}: {runs} run{'s' * (runs != 1)}; smallest sizes named with "
         f"{100 * plan.wanted:.0f} % (and something with {100 * plan.level:.2g} % where nothing is)"
     ]
-    width = max(len(size.effect) for size in plan.sizes)
+    width = max(map(len, [*(size.key for size in plan.sizes), *plan.silent]))
     for size in plan.sizes:
         percent = f"{percent_text(size.percent)} of friction"
         by_itself = ""
         if math.isfinite(size.value) and size.alone != size.value:
-            alone = f"{size.alone:.3g} {size.unit}".rstrip()
-            by_itself = f", by itself {alone if math.isfinite(size.alone) else 'never'}"
+            by_itself = f", told from every other effect at {alone_text(size)}"
         said = f"{percent}{by_itself}" if math.isfinite(size.value) else "whatever its size"
-        lines.append(f"  {size.effect:{width}}  {size_text(size):>16}  {said}")
+        lines.append(f"  {size.key:{width}}  {size_text(size):>16}  {said}")
     lines += [
         f"  {effect:{width}}  {'not tried':>16}  {why}" for effect, why in plan.silent.items()
     ]

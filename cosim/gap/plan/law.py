@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from stickslip.effects.candidate import Candidate, FreeParameter
 
-from cosim.gap.candidates.catalogue import candidates
+from cosim.gap.candidates.catalogue import candidates, laws_of_speed
 from cosim.gap.candidates.scales import scales
 from cosim.gap.estimation.fitted import Point, own_of, shared_of
 from cosim.gap.estimation.problem import Problem
@@ -126,6 +126,8 @@ def _silent(candidate: Candidate, plan: PlannedCampaign) -> str:
         return "y is not measured, or the rig allows x alone"
     if candidate.effect == "stick_stiffness" and "mu_s" not in plan.campaign.friction:
         return "along x the same as another mu_s, unless friction.mu_s is known"
+    if plan.campaign.friction_table is not None and candidate.effect in laws_of_speed():
+        return "friction.table is the law of the sliding speed"
     return ""
 
 
@@ -145,7 +147,7 @@ def with_law(
 
     also : other values of the law's shapes; turn : of its phases, in their steps
     """
-    settings = {**law.settings(part), **dict(also or {})}
+    settings = {**rehearsal.settings, **law.settings(part), **dict(also or {})}
     runs = tuple(
         replace(run, known={**run.known, **law.phase(number, turn)})
         for number, run in enumerate(rehearsal.runs)

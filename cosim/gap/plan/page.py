@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 from cosim.files import write_bytes, write_text
 from cosim.report.page import render
 
-from .data import percent_text, run_text, size_text
+from .data import alone_text, percent_text, run_text, size_text
 from .figures import draw_pairs, draw_sizes
 from .plan import Plan
 
@@ -25,8 +24,8 @@ def write_page(plan: Plan, folder: Path, file: Path) -> None:
         campaign=plan.planned.campaign,
         pictures={one.name: one for one in pictures},
         size_text=size_text,
+        alone_text=alone_text,
         percent_text=percent_text,
         run_text=run_text,
-        finite=math.isfinite,
     )
     write_text(text, file)

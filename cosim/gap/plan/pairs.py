@@ -96,7 +96,7 @@ def _misfit(data: Rehearsal, other: Visible) -> float:
     )
     keys = {free.key for free in added}
     kept = tuple(free for free in data.free_parameters if free.key not in keys)
-    problem = Problem(data.runs, (*kept, *added), dict(other.law.candidate.settings))
+    problem = Problem(data.runs, (*kept, *added), {**data.settings, **other.law.candidate.settings})
     at = {free.key: s for free, s in zip(data.problem.shared, data.point.shared, strict=True)}
     shared = [at.get(free.key, free.scaled(free.start)) for free in shared_of((*kept, *added))]
     own = tuple(

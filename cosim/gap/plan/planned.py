@@ -18,10 +18,17 @@ from stickslip import Parameters
 from stickslip.effects.candidate import FreeParameter
 from stickslip.packing import GRAVITY
 
-from cosim.gap.candidates.plain import CREEP, EXPONENT, TRANSITION, plain_free_parameters
+from cosim.gap.candidates.plain import (
+    CREEP,
+    EXPONENT,
+    TRANSITION,
+    plain_free_parameters,
+    plain_settings,
+)
 from cosim.gap.data import Campaign, MeasuredRun, Track, find_sticks
 from cosim.gap.data.campaign_file import FILE_NAME, RunTable, read_tables
 from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.friction_table import read_friction_table
 from cosim.gap.data.units import COARSEST
 from cosim.gap.doubts.sampling import least_rate, vibration_leak
 from cosim.gap.estimation.columns import Columns
@@ -68,12 +75,17 @@ class PlannedCampaign:
     ----------
     campaign : rig, noise and what is known of the friction; its runs have no track
     runs : those that are to be fitted
-    friction : coefficient -> value that is expected
+    friction : coefficient -> value that is expected; mu_k of a table, whose level it is
     """
 
     campaign: Campaign
     runs: tuple[PlannedRun, ...]
     friction: Mapping[str, float]
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """What is set in every model: the campaign's own table of friction, if it has one."""
+        return plain_settings(self.campaign)
 
     @property
     def planar(self) -> bool:
@@ -101,9 +113,14 @@ class Rehearsal:
     columns: tuple[Columns, ...]
 
     @property
+    def settings(self) -> dict[str, float]:
+        """What is set in the plain model: the campaign's own table of friction, if it has one."""
+        return plain_settings(self.campaign)
+
+    @property
     def problem(self) -> Problem:
         """The plain model's fit to its own motion."""
-        return Problem(self.runs, self.free_parameters)
+        return Problem(self.runs, self.free_parameters, self.settings)
 
     @property
     def rows(self) -> int:
@@ -124,8 +141,15 @@ def read_plan(path: str | Path) -> PlannedCampaign:
     given = table.noise.given
     noise = {"x": NOISE, **{name: given[name] for name in COLUMN if name in given}}
     remarks = [] if "x" in given else [f"noise.x is not given: {NOISE:g} m"]
-    expected = {**EXPECTED, **table.friction.expected}
-    if unnamed := sorted(set(EXPECTED) - set(table.friction.expected)):
+    own = read_friction_table(path, table, [run.surface_speed for run in tables])
+    named = table.friction.expected
+    if own is not None:
+        remarks.append(own.text)
+        # a block that holds no more than it slides with does not stick
+        named = {"mu_s": max(EXPECTED["mu_s"] / EXPECTED["mu_k"] * own.level, *own.mu), **named}
+        named["mu_k"] = own.level
+    expected = {**EXPECTED, **named}
+    if unnamed := sorted(set(EXPECTED) - set(named)):
         said = ", ".join(f"friction.{key} = {expected[key]:g}" for key in unnamed)
         remarks.append(f"{said}: not given, typical of ice")
     if expected["mu_s"] < expected["mu_k"]:
@@ -135,7 +159,7 @@ def read_plan(path: str | Path) -> PlannedCampaign:
         )
     campaign = Campaign(
         table.name, path.parent, table.rig, table.model.scheme, noise, (), (),
-        friction=table.friction.given,
+        friction=table.friction.given, errors=table.errors, friction_table=own,
     )  # fmt: skip
     _check_scheme(path, campaign)
     runs = [_planned(path, campaign, run, number) for number, run in enumerate(tables, 1)]
@@ -147,10 +171,20 @@ def read_plan(path: str | Path) -> PlannedCampaign:
         )
     if len(fitted) < len(runs):
         remarks.append(f"held out, and not counted: {len(runs) - len(fitted)} of {len(runs)} runs")
+    remarks += _not_read(tables)
     remarks += _too_slow(runs, expected["mu_s"], noise["x"])
     settings = tuple(run.setting for run in runs)
     campaign = replace(campaign, runs=settings, remarks=tuple(remarks))
     return PlannedCampaign(campaign, fitted, expected)
+
+
+def _not_read(tables: Sequence[RunTable]) -> list[str]:
+    """Of files that are named: their length and rate are not those that are planned with."""
+    taken = sorted({(table.duration, table.rate) for table in tables if table.file})
+    if not taken:
+        return []
+    said = ", ".join(f"{duration:g} s at {rate:g} Hz" for duration, rate in taken)
+    return [f"files of runs are not read: planned with duration and rate, {said}"]
 
 
 def _too_slow(runs: Sequence[PlannedRun], mu_s: float, noise: float) -> list[str]:
@@ -282,7 +316,7 @@ def motion(
         (Segment(0, run.time.size, state, (), 0.0),),
     )  # fmt: skip
     at = start([whole], free_parameters)
-    problem = Problem([whole], free_parameters, dict(settings or {}))
+    problem = Problem([whole], free_parameters, {**plan.settings, **(settings or {})})
     return problem.simulated(0, at.shared, at.own[0], state[None, :])[0]
 
 
@@ -292,11 +326,12 @@ def _differentiated(
     """Segments that start from the motion's own states, and derivatives there."""
     segmented = prepare(campaign, campaign.runs, planar)
     point = start(segmented, free_parameters)
-    problem = Problem(segmented, free_parameters)
+    settings = plain_settings(campaign)
+    problem = Problem(segmented, free_parameters, settings)
     point = fit(problem, point, _SETTLE, fixed=True).point
     point = replace(start(segmented, free_parameters), states=point.states)
     runs = tuple(own_data(problem, i, point) for i in range(len(segmented)))
-    problem = Problem(runs, free_parameters)
+    problem = Problem(runs, free_parameters, settings)
     columns = tuple(
         problem.columns(i, point, rows, range(point.shared.size))
         for i, rows in enumerate(problem.all_residuals(point))

@@ -24,8 +24,8 @@ from .page import page
 from .regime_figure import draw_regimes
 from .reproduced import Reproduced
 from .reproduction import reproduce, reproduced_runs
-from .reproduction_figure import draw_reproduction
-from .run_figures import draw_residuals, overlays
+from .reproduction_figure import reproduction
+from .run_figures import overlays, residuals
 from .score_figures import draw_gaps, draw_ladder, draw_parameters, draw_ranking
 from .summary_figures import draw_observations
 from .words import closing_lines as closing_lines
@@ -87,16 +87,17 @@ def _drawers(
     if isinstance(gap, SummaryGap):
         return [partial(_one, draw_observations, gap), partial(_one, draw_ranking, gap)]
     ladder = [partial(_one, draw_ladder, gap)] if len(gap.ladder) > 1 else []
+    ranking = [partial(_one, draw_ranking, gap)] if gap.ranking else []
     curves = [partial(_one, _curves, gap)] if gap.laws else []
     return [
         partial(overlays, gap),
         partial(_one, draw_gaps, gap),
         *ladder,
         *curves,
-        partial(_one, draw_residuals, gap),
-        partial(_one, draw_ranking, gap),
+        partial(_one, residuals, gap),
+        *ranking,
         partial(_one, draw_parameters, gap),
-        partial(_one, draw_reproduction, gap, reproduced),
+        partial(_one, reproduction, gap, reproduced),
         partial(_regimes, gap),
     ]
 

@@ -85,6 +85,7 @@ def _of_runs(gap: Gap) -> dict[str, Any]:
         "reasons": gap.reasons,
         "lacks": gap.lacks,
         "believed": gap.believed,
+        "searched": gap.searched,
         "spreads": gap.spreads,
         "exponents": gap.powers,
         "curves": [_curve(law) for law in gap.laws],
@@ -107,6 +108,7 @@ def _fitted(fitted: FittedModel) -> dict[str, Any]:
         "settings": fitted.settings,
         "intervals": fitted.intervals,
         "at_bound": fitted.at_bound,
+        "undetermined": fitted.undetermined,
         "runs": [
             {"name": run.name, "hold_out": run.track.run.hold_out, "gap": run.gap, "own": run.own}
             for run in fitted.runs

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from cosim.gap.camera.faults import fault_of
-from cosim.gap.doubts.doubt import rounded
+from cosim.gap.doubts.doubt import not_looked, rounded
 from cosim.gap.result import Gap
 from cosim.report.page import Picture, render
 from cosim.studies.reproduction.summary import SummaryGap
@@ -83,6 +83,7 @@ def _of_runs(gap: Gap) -> dict[str, Any]:
         "powers": powers_lines(gap),
         "spreads": spreads_line(gap),
         "faults": faults_of(gap),
+        "not_looked": "" if gap.searched else sentence(not_looked(gap.doubts)),
         "table": sentence(TABLE_SENTENCE) if any(law.in_model for law in gap.laws) else "",
     }
 
@@ -102,6 +103,6 @@ def _best_laws(gap: Gap | SummaryGap) -> list[dict[str, Any]]:
             for key in row.parameters
             if key.startswith(f"{row.effect}.") or fault_of(key) == row.effect
         ]
-        numbers = quantities(row.parameters, row.intervals, added)
+        numbers = quantities(row.parameters, row.intervals, added, row.undetermined)
         rows.setdefault(row.effect, {"row": row, "numbers": numbers})
     return list(rows.values())

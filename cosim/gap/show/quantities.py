@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,6 +25,13 @@ OFFSETS = {
     for effect in ("speed_ripple", "surface_pattern")
     for part, how in zip(SECOND, ("in phase", "a quarter of its period ahead"), strict=True)
 }
+#: The same in a word or two, for a line of a terminal; of springs by their set-up.
+BRIEFLY = {
+    "offset.x": "tracker's zero",
+    "offset.y": "tracker's zero",
+    "offset.speed": "surface faster by this part",
+    LOADING: "static friction lost to fast loading",
+}
 #: Units of what a strength may go with.
 SCALES = {"mass": "kg", "speed": "m/s", "stiffness": "N/m"}
 #: Part of a number's own size that is rounding.
@@ -34,22 +41,42 @@ PLAIN = ("friction.mu_s", "friction.mu_k")
 
 @dataclass(frozen=True)
 class Quantity:
-    """A fitted number with its 95 % interval (None: not known), unit "" for pure numbers."""
+    """A fitted number with its 95 % interval (None: not known), unit "" for pure numbers.
+
+    undetermined : the interval is all that the number may be, and the value only where a fit ended
+    """
 
     key: str
     value: float
     interval: tuple[float, float] | None
     unit: str
     meaning: str
+    undetermined: bool = False
 
     @property
     def text(self) -> str:
-        """`key = value unit (low to high)`."""
+        """`key = value unit (low to high)`, or `key not determined, anything from low to high`."""
         unit = f" {self.unit}" if self.unit else ""
+        if self.undetermined and self.interval is not None:
+            low, high = self.interval
+            return f"{self.key} not determined, anything from {low:.4g} to {high:.4g}{unit}"
         said = f"{self.key} = {self.value:.4g}{unit}"
         if self.interval is None:
             return said
         return f"{said} ({self.interval[0]:.4g} to {self.interval[1]:.4g})"
+
+    @property
+    def line(self) -> str:
+        """As `text`, with a word or two behind a name that is no key of a scenario."""
+        brief = _briefly(self.key)
+        return f"{self.text}, {brief}" if brief else self.text
+
+
+def _briefly(key: str) -> str:
+    if key.startswith(STIFFNESS_OFFSET):
+        setup = int(key.removeprefix(STIFFNESS_OFFSET)) + 1
+        return f"springs of set-up {setup} stiffer, logarithm"
+    return BRIEFLY.get(key, "")
 
 
 def unit_and_meaning(key: str) -> tuple[str, str]:
@@ -75,16 +102,23 @@ def unit_and_meaning(key: str) -> tuple[str, str]:
 
 
 def quantities(
-    values: Mapping[str, float], intervals: Mapping[str, Any], keys: Iterable[str] | None = None
+    values: Mapping[str, float],
+    intervals: Mapping[str, Any],
+    keys: Iterable[str] | None = None,
+    undetermined: Collection[str] = (),
 ) -> list[Quantity]:
-    """Of the keys wanted (all when left out), in the order of ``values``."""
+    """Of the keys wanted (all when left out), in the order of ``values``.
+
+    undetermined : keys whose interval is the whole range that a fit allows
+    """
     wanted = values if keys is None else [key for key in values if key in set(keys)]
     found = []
     for key in wanted:
         pair = _interval(intervals.get(key))
         size = max(map(abs, pair)) if pair else 1.0
         shown = (_shown(pair[0], size), _shown(pair[1], size)) if pair else None
-        found.append(Quantity(key, _shown(float(values[key]), size), shown, *unit_and_meaning(key)))
+        value, words = _shown(float(values[key]), size), unit_and_meaning(key)
+        found.append(Quantity(key, value, shown, *words, key in undetermined))
     return found
 
 

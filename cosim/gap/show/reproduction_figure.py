@@ -3,28 +3,67 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
+from cosim.report.live import Curve, Live, Panel, over_time, several
+from cosim.report.page import Picture
 from cosim.report.style import GREY, INK, PALE_GREY, RED, panels, picture
 
 from .reproduced import Reproduced
-from .run_figures import SCALES, channels, noise_scale
+from .run_figures import SCALES, channels, noise_scale, residual_panel
 
 CAPTION = (
     "The FMU StickSlip3DOF with the numbers of model.toml (dark orange), from the state at the "
     "first sample of each run to its end, stepped from sample to sample, and what was measured "
     "(dots). The fit starts anew from the data at the dotted line, the FMU never does: what it is "
     "off later is small errors of the period that add up, and friction that differs from stretch "
-    "to stretch. Right: measured less FMU in units of the noise, grey two standard deviations; "
-    "linear within ±3, logarithmic beyond."
+    "to stretch. Beside or below it: measured less FMU in units of the noise, with lines or a grey "
+    "band at two standard deviations; linear within ±3, logarithmic beyond where there is much."
 )
 
 
+def reproduction(gap: Gap, reproduced: Sequence[Reproduced]) -> Picture:
+    """Measured and flown, and what is left, of each run."""
+    return replace(
+        _reproduction(gap, reproduced),
+        alt="Each run over time as the FMU flies it, as it was measured, and what is left.",
+        live=_live(gap, reproduced),
+    )
+
+
+def _live(gap: Gap, reproduced: Sequence[Reproduced]) -> Live:
+    """The same for the page: a figure for each run, below each channel what is left of it."""
+    found = {}
+    for one in reproduced:
+        shown = []
+        for channel in channels(gap):
+            factor, label = SCALES[channel]
+            noise = gap.model.of(one.name).track.run.noise[channel]
+            shown += [
+                Panel(
+                    label.replace("(", "[").replace(")", "]"),
+                    [
+                        Curve("measured", factor * one.measured[channel], INK, dots=True),
+                        Curve("FMU", factor * one.motion[channel], RED),
+                    ],
+                ),
+                residual_panel(
+                    "measured less FMU",
+                    {channel: (one.measured[channel] - one.motion[channel]) / noise},
+                ),
+            ]
+        anew = one.first < one.time.size
+        marks = [(float(one.time[one.first]), "the fit starts anew")] if anew else ()
+        found[f"{one.name} by the FMU"] = over_time(one.time, shown, marks=marks)
+    return several(found)
+
+
 @picture("fmu", CAPTION)
-def draw_reproduction(gap: Gap, reproduced: Sequence[Reproduced]) -> Figure:
+def _reproduction(gap: Gap, reproduced: Sequence[Reproduced]) -> Figure:
     """A row for each run and channel."""
     rows = [(one, channel) for one in reproduced for channel in channels(gap)]
     figure, axes = panels(

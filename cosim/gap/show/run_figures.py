@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,9 @@ CYCLES = 5.0
 SCALES = {"x": (1e3, "x (mm)"), "y": (1e3, "y (mm)"), "phi": (1e3, "φ (mrad)")}
 #: Noise units: linear up to here, logarithmic beyond.
 LINEAR = 3.0
+#: On a page, which can be zoomed, only from here on.
+FAR = 30.0
+COLOURS = {"x": INK, "y": GREEN, "phi": PURPLE}
 TICKS = (-1000, -100, -10, -2, 0, 2, 10, 100, 1000)
 
 
@@ -45,7 +49,7 @@ def overlays(gap: Gap) -> list[Picture]:
     """Of every channel: an excerpt and the whole of each run."""
     return [
         replace(
-            _overlay(gap, channel),
+            draw_overlay(gap, channel),
             name=f"overlay_{channel}",
             alt=f"{SCALES[channel][1]} over time: measured, and as the models have it.",
             live=_overlay_live(gap, channel),
@@ -81,7 +85,7 @@ OVERLAY = (
 
 
 @picture("overlay", OVERLAY)
-def _overlay(gap: Gap, channel: str) -> Figure:
+def draw_overlay(gap: Gap, channel: str) -> Figure:
     names = shown_runs(gap)
     figure, axes = panels(
         len(names), 2, height=1.9, width=11.0, gridspec_kw={"width_ratios": (1.6, 1.0)}
@@ -154,9 +158,56 @@ def _motion(
 
 
 RESIDUALS = (
-    "What the models leave, measured less modelled in units of the noise, before (left) and after "
-    "(right). Grey: two standard deviations of the noise. Linear within ±3, logarithmic beyond."
+    "What the models leave, measured less modelled in units of the noise, before and after. "
+    "Grey, or broken lines: two standard deviations of the noise. Linear within ±3, logarithmic "
+    "beyond where there is much."
 )
+
+
+def residuals(gap: Gap) -> Picture:
+    """Of every run, before and after."""
+    return replace(
+        draw_residuals(gap),
+        alt="What the models leave of each run over time, in units of the noise.",
+        live=_residuals_live(gap),
+    )
+
+
+def _residuals_live(gap: Gap) -> Live:
+    """The same for the page: a figure for each run, a panel for each model."""
+    models = [("plain model", gap.plain)]
+    models += [("extended model", gap.extended)] if gap.extended else []
+    found = {}
+    for name in shown_runs(gap):
+        plain = gap.plain.of(name)
+        shown = [
+            residual_panel(
+                f"{label}, gap {model.of(name).gap:.3g}",
+                {
+                    channel: model.of(name).track.residual(channel)
+                    for channel in plain.track.channels
+                },
+            )
+            for label, model in models
+        ]
+        part = (*excerpt(plain, plain.track.channels[0]), "where the plain model is farthest off")
+        found[f"left of {title(plain)}"] = over_time(plain.track.time, shown, part=part)
+    return several(found)
+
+
+def residual_panel(of: str, left: Mapping[str, np.ndarray]) -> Panel:
+    """Channel -> what is left (n,), noise units, as dots; two standard deviations as levels."""
+    dots = [
+        Curve(f"{channel.replace('phi', 'φ')}, {of}", values, COLOURS[channel], dots=True)
+        for channel, values in left.items()
+    ]
+    largest = max(float(np.nanmax(np.abs(each), initial=0.0)) for each in left.values())
+    return Panel(
+        "left [noise units]",
+        dots,
+        levels=[(2.0, "2 σ"), (-2.0, "−2 σ")],
+        linear_to=LINEAR if largest > FAR else 0.0,
+    )
 
 
 @picture("residuals", RESIDUALS)
@@ -168,7 +219,6 @@ def draw_residuals(gap: Gap) -> Figure:
     figure, axes = panels(
         len(names), len(models), height=1.6, width=11.0, sharey="row", sharex="row"
     )  # fmt: skip
-    colours = {"x": INK, "y": GREEN, "phi": PURPLE}
     for row, name in zip(axes, names, strict=True):
         for axis, (label, model) in zip(row, models, strict=True):
             run = model.of(name)
@@ -179,7 +229,7 @@ def draw_residuals(gap: Gap) -> Figure:
                     run.track.residual(channel),
                     ".",
                     markersize=1.2,
-                    color=colours[channel],
+                    color=COLOURS[channel],
                     label=channel.replace("phi", "φ"),
                 )
             noise_scale(axis, np.max(np.abs(gap.plain.of(name).residuals())))

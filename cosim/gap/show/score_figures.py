@@ -166,12 +166,14 @@ def _log_ticks(axis: Axes, values: Sequence[float]) -> None:
 
 @picture("parameters", (
     "Fitted numbers with 95 % intervals, in the plain model (blue) and in the extended one (dark "
-    "orange). Dashed, with a triangle in place of a dot: the bound that a number is at."
+    "orange). Dashed, with a triangle in place of a dot: the bound that a number is at. Dotted, "
+    "without a dot: all that a number may be of which the data say nothing."
 ))  # fmt: skip
 def draw_parameters(gap: Gap) -> Figure:
     """A panel for each number."""
     plain = SimpleNamespace(
         label="plain", colour=BLUE, values=gap.plain.values, at_bound=gap.plain.at_bound,
+        undetermined=gap.plain.undetermined,
         intervals={**gap.plain.intervals, **{k: v[1:] for k, v in gap.determined.items()}},
     )  # fmt: skip
     models = [plain]
@@ -182,6 +184,7 @@ def draw_parameters(gap: Gap) -> Figure:
                 colour=RED,
                 values=gap.extended.values,
                 at_bound=gap.extended.at_bound,
+                undetermined=gap.extended.undetermined,
                 intervals=gap.extended.intervals,
             )
         )
@@ -204,8 +207,21 @@ def draw_parameters(gap: Gap) -> Figure:
     return figure
 
 
+def _range(axis: Axes, place: int, pair: tuple[float, float], colour: str) -> None:
+    """Of a number that the data say nothing of: all that it may be, without a dot."""
+    axis.plot([place, place], pair, color=colour, linestyle=":")
+    aside, align = (8.0, "left") if place == 0 else (-8.0, "right")
+    axis.annotate(
+        "not determined", (place, 0.5 * sum(pair)), (aside, 0.0), textcoords="offset points",
+        ha=align, va="center", fontsize=7.5,
+    )  # fmt: skip
+
+
 def _value(axis: Axes, place: int, model: SimpleNamespace, key: str) -> None:
     value, bound = model.values[key], model.at_bound.get(key)
+    if key in model.undetermined and key in model.intervals:
+        _range(axis, place, model.intervals[key], model.colour)
+        return
     axis.plot(place, value, "o" if bound is None else "^", color=model.colour)
     if bound is not None:
         axis.axhline(bound, color=model.colour, linewidth=0.8, linestyle="--")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from stickslip import EFFECTS
 
 from cosim.gap.camera import faults
-from cosim.gap.doubts.doubt import rounded, unbelieved
+from cosim.gap.doubts.doubt import not_looked, rounded, unbelieved
 from cosim.gap.result import Gap, Power
 from cosim.studies.reproduction.summary import SummaryGap
 
@@ -155,7 +155,9 @@ def fitted_quantities(gap: Answer) -> list[Quantity]:
     values = {**fitted.values, **fitted.settings}
     shown = [key for key in values if key not in ZEROS and not key.startswith(TABLES)]
     shown.sort(key=lambda key: key not in PLAIN)
-    return quantities({key: values[key] for key in shown}, intervals)
+    return quantities(
+        {key: values[key] for key in shown}, intervals, undetermined=fitted.undetermined
+    )
 
 
 def spreads_line(gap: Gap) -> str:
@@ -181,7 +183,10 @@ _EACH = {"mass": "kilogram", "speed": "metre per second", "stiffness": "newton p
 
 def _power(one: Power) -> str:
     low, high = one.low, one.high
-    said = f"its strength goes with {one.quantity}^{one.value:.2g} ({low:.2g} to {high:.2g})"
+    said = (
+        f"its strength goes with {one.quantity}^{one.value:.2g}"
+        f" (90 % interval {low:.2g} to {high:.2g})"
+    )
     if low <= -1.0 <= high:
         said = f"per {_EACH[one.quantity]}: {said}"
     elif low <= 1.0 <= high:
@@ -219,8 +224,9 @@ def closing_lines(gap: Answer, reproduced: Sequence[Reproduced] = ()) -> list[st
         lines += _of_runs(gap)
     numbers = fitted_quantities(gap)
     if numbers:
-        unfit = ", of a model that does not fit" if gap.verdict == "unknown" else ""
-        lines.append(f"  numbers    {'; '.join(one.text for one in numbers)}{unfit}")
+        how = "; of a model that does not fit" if gap.verdict == "unknown" else ""
+        how = f" (in brackets: 95 % intervals{how})"
+        lines.append(f"  numbers    {'; '.join(one.line for one in numbers)}{how}")
     lines += [f"  bound      {line}" for line in bound_lines(gap)]
     if reproduced:
         lines.append(f"  fmu        {'; '.join(map(flight, reproduced))}")
@@ -236,6 +242,8 @@ def _of_runs(gap: Gap) -> list[str]:
     lines = []
     if gap.remains and gap.verdict == "partial":
         lines.append(f"  remains    {gap.remains.text}")
+    if not gap.searched:
+        lines.append(f"  search     {not_looked(gap.doubts)}")
     lines += [f"  ladder     {line}" for line in ladder_lines(gap)]
     lines += [f"  scaling    {line}" for line in powers_lines(gap)]
     if any(law.in_model for law in gap.laws):

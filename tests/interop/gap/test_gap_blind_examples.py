@@ -14,7 +14,7 @@ from cosim.gap.camera.faults import is_fault
 from cosim.gap.candidates.catalogue import candidates
 
 #: Nothing hidden, and an effect. All five, at their whole length, take some minutes: they are asked
-#: in tests/benchmarks/blind_examples.py.
+#: in the benchmark `blind_examples`.
 NAMES = tuple(pytest.param(name, marks=pytest.mark.slow) for name in ("e1", "e2"))
 #: Held-out gap, 1 for noise, that counts as a gap and that counts as closed.
 OPEN, CLOSED = 2.0, 1.5

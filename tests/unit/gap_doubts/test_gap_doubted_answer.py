@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
+from cosim.gap.answer.below_noise import doubts_of_noise
 from cosim.gap.doubts import Doubt
-from cosim.gap.doubts.below_noise import doubts_of_noise
 from cosim.gap.show.numbers import as_data, as_json
 from cosim.gap.show.page import page
 from cosim.gap.show.score_figures import draw_parameters, draw_ranking
@@ -90,3 +90,56 @@ def test_where_nothing_was_held_out_it_is_said(gap):
         gap, []
     )
     assert draw_ranking(alone).png
+
+
+COARSE = Doubt(
+    "sampling", "run01", 4.7, 15.0, "samples a period", "run01: motion between the samples", True,
+)  # fmt: skip
+
+
+def test_where_nothing_could_be_believed_nothing_is_looked_for(gap, monkeypatch):
+    """Beside a doubt that no effect explains; one that some effect explains is searched."""
+    from cosim.gap import find
+
+    class Searched(Exception):
+        pass
+
+    class Plain:
+        def __init__(self, *_):
+            pass
+
+        def plain(self, model):
+            return model
+
+    def unsearched(campaign, bench, settled, doubts):
+        return replace(
+            gap, verdict="none", effects=(), ranking=(), ladder=(), extended=None, laws=(),
+            searched=False,
+        )  # fmt: skip
+
+    def searched(*_):
+        raise Searched
+
+    monkeypatch.setattr(find, "Search", Plain)
+    monkeypatch.setattr(find, "unsearched", unsearched)
+    monkeypatch.setattr(find, "judge", searched)
+    monkeypatch.setattr(find, "doubts_of", lambda campaign: (COARSE, WRONG))
+    found = find.find_gap(gap.campaign, jobs=1)
+    assert (found.verdict, found.believed, found.searched) == ("unknown", False, False)
+    monkeypatch.setattr(find, "doubts_of", lambda campaign: (WRONG,))
+    with pytest.raises(Searched):
+        find.find_gap(gap.campaign, jobs=1)
+
+
+def test_that_nothing_was_looked_for_is_said(gap):
+    alone = replace(
+        gap, verdict="none", effects=(), ranking=(), ladder=(), extended=None, laws=(),
+        searched=False,
+    ).doubted((COARSE,))  # fmt: skip
+    said = "no effect was looked for: nothing that could be found explains the doubt (sampling)"
+    assert said in "\n".join(closing_lines(alone))
+    html = page(alone, [])
+    assert said[1:] in html and "Every effect of the catalogue" not in html
+    written = as_data(alone, "")
+    assert written["searched"] is False and not written["ranking"]
+    assert as_data(gap, "")["searched"] is True

@@ -10,16 +10,19 @@ import pytest
 from gap_answers import ADDED, SPEEDS, TRUE
 from gap_campaigns import NOISE
 from stickslip import simulate
+from stickslip.effects.candidate import FreeParameter
 
 from cosim import read_scenario
 from cosim.cli import main
 from cosim.gap import read_campaign
+from cosim.gap.estimation.intervals import undetermined
 from cosim.gap.result import Power
 from cosim.gap.show.files import write_corrected_data, write_page
 from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_run
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
+from cosim.gap.show.page import page
 from cosim.gap.show.quantities import quantities
-from cosim.gap.show.score_figures import draw_ranking
+from cosim.gap.show.score_figures import draw_parameters, draw_ranking
 from cosim.gap.show.words import (
     closing_lines,
     fitted_quantities,
@@ -214,9 +217,16 @@ def test_what_is_partial_says_how_much_and_what_remains(gap):
 @pytest.mark.parametrize(
     ("quantity", "value", "low", "high", "instead", "said"),
     [
-        ("mass", -1.02, -1.15, -0.89, (), "per kilogram: its strength goes with mass^-1"),
+        (
+            "mass",
+            -1.02,
+            -1.15,
+            -0.89,
+            (),
+            "per kilogram: its strength goes with mass^-1 (90 % interval",
+        ),
         ("speed", 1.1, 0.9, 1.3, (), "in proportion to speed: "),
-        ("mass", 0.5, 0.4, 0.6, ("speed",), "(0.4 to 0.6); these runs cannot tell mass from speed"),
+        ("mass", 0.5, 0.4, 0.6, ("speed",), "0.4 to 0.6); these runs cannot tell mass from speed"),
     ],
 )
 def test_scaling_in_words(gap, quantity, value, low, high, instead, said):
@@ -287,6 +297,32 @@ def test_an_interval_that_says_nothing_is_not_shown():
     pairs = {"friction.mu_s": (0.3, 0.3), "friction.mu_k": (0.1, np.inf)}
     shown = quantities({"friction.mu_s": 0.3, "friction.mu_k": 0.2}, pairs)
     assert [one.text for one in shown] == ["friction.mu_s = 0.3", "friction.mu_k = 0.2"]
+
+
+def test_a_number_that_may_be_anything_is_not_shown_as_measured(gap):
+    """On the terminal, on the page and in gap.json; what the interval ends at decides."""
+    speed = FreeParameter("friction.transition_speed", 1.5e-3, 0.3, 3e-4, 0.05, log=True)
+    pairs = {speed.key: (3e-4, 0.05)}
+    assert undetermined([speed], pairs) == (speed.key,)
+    assert undetermined([speed], {speed.key: (3e-4, 0.04)}) == ()  # known from one side
+    assert undetermined([replace(speed, high=np.inf)], pairs) == ()  # no range to fill
+    extended = replace(
+        gap.extended,
+        values={**gap.extended.values, speed.key: 1.5e-3, "offset.loading": 0.03},
+        intervals={**gap.extended.intervals, **pairs, "offset.loading": (0.0, 0.4)},
+        undetermined=(speed.key,),
+    )
+    left = replace(gap, extended=extended)
+    said = next(line for line in closing_lines(left) if line.startswith("  numbers"))
+    assert "friction.transition_speed not determined, anything from 0.0003 to 0.05 m/s" in said
+    assert "offset.loading = 0.03 s^0.5 (0 to 0.4), static friction lost to fast loading" in said
+    html = page(left, ())
+    assert "not determined</td>" in html and "anything from 0.0003 to 0.05" in html
+    assert as_data(left, "")["extended"]["undetermined"] == [speed.key]
+    drawn = [
+        text.get_text() for axis in draw_parameters.__wrapped__(left).axes for text in axis.texts
+    ]
+    assert drawn == ["not determined"]
 
 
 def test_numbers_are_those_of_the_model_that_is_left(gap):

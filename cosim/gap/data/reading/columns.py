@@ -15,6 +15,8 @@ from .unit_names import SI, to_si
 
 ALIASES = {"time": "t"}
 #: `x`, `x [m]`, `x (m)`, `x/m`
+#: `x_mm`, `x mm`, `x.mm`
+SUFFIX = re.compile(r"^.*[^\W_][_ .-](?P<unit>[^\W\d_]+|°)$")
 HEADER = re.compile(r"^\s*(?P<name>[^\[(/]*?)\s*(?:[\[(/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\s*$")
 
 
@@ -47,6 +49,32 @@ def header_parts(cell: str) -> tuple[str, str]:
     """
     match = HEADER.match(cell)
     return (match["name"], match["unit"] or "") if match else (cell, "")
+
+
+def unit_in_name(channel: str, name: str) -> str:
+    """The unit that a column's name ends in, of those of a channel; "" where it ends in none.
+
+    >>> unit_in_name("x", "x_mm"), unit_in_name("phi", "angle deg"), unit_in_name("x", "x_left")
+    ('mm', 'deg', '')
+    """
+    match = SUFFIX.match(name.strip())
+    if match is None:
+        return ""
+    try:
+        to_si(channel, match["unit"])
+    except ValueError:
+        return ""
+    return match["unit"]
+
+
+def named_with_unit(channel: str, cells: Sequence[str]) -> tuple[str, str] | None:
+    """The first cell such as `x_mm`, and its unit."""
+    for cell in cells:
+        unit = unit_in_name(channel, cell)
+        name = cell.strip()[: -len(unit) - 1].lower() if unit else ""
+        if unit and ALIASES.get(name, name) == channel:
+            return cell.strip(), unit
+    return None
 
 
 def find_columns(path: Path, cells: Sequence[str], reading: Reading) -> dict[str, Column]:
@@ -108,6 +136,7 @@ def _column(path: Path, channel: str, number: int, cell: str, reading: Reading) 
     """With its unit: what the header says, what campaign.toml says, or SI."""
     stated, said = header_parts(cell)[1], reading.units.get(channel, "")
     if not (stated or said):
+        _refuse_unit_in_name(path, channel, cell)
         return Column(number, SI[channel])
     try:
         by_header = to_si(channel, stated) if stated else None
@@ -126,7 +155,26 @@ def _column(path: Path, channel: str, number: int, cell: str, reading: Reading) 
     return Column(number, unit, by_campaign, "campaign.toml" if said else "its header")
 
 
+def _refuse_unit_in_name(path: Path, channel: str, cell: str) -> None:
+    """A name that ends in a unit other than SI's is no word on it: which it is has to be said."""
+    unit = unit_in_name(channel, cell)
+    if unit and to_si(channel, unit) != IDENTITY:
+        raise CampaignError(
+            f"{path}: column {channel}: the name {cell} ends in {unit}, and no unit is stated; "
+            f'allowed is [units] {channel} = "{unit}" in campaign.toml, or "{SI[channel]}" where '
+            "it is that"
+        )
+
+
 def _refuse_missing(path: Path, channel: str, cells: Sequence[str]) -> None:
+    meant = named_with_unit(channel, cells)
+    if meant:
+        raise CampaignError(
+            f"{path}: column {channel}: missing (there: {', '.join(cells)}); is {meant[0]} meant? "
+            f'allowed is [columns] {channel} = "{meant[0]}" with [units] {channel} = "{meant[1]}" '
+            "in campaign.toml, or a header "
+            f"{channel} [{meant[1]}]"
+        )
     names = [header_parts(cell)[0].lower() for cell in cells]
     near = nearest(channel, [name for name in names if name and name not in SI])
     hint = f"; is {near} meant?" if near else ""

@@ -14,8 +14,10 @@ import pandas as pd
 from cosim.gap.data.errors import CampaignError
 
 from .columns import Column, Reading, find_columns, has_times, unused
-from .unit_names import SI
+from .unit_names import SI, is_unit
 
+#: A first line by which a spreadsheet says what separates its columns.
+SEPARATOR = re.compile(r'^"?sep=."?\s*$')
 #: What trackers write where they lost the mark.
 MISSING = ("", "-", "--", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "None", "inf", "-inf")
 
@@ -45,7 +47,7 @@ def read_columns(path: Path, reading: Reading | None = None) -> Columns:
     separator = _separator(header)
     cells = _fields(header, separator)
     found = find_columns(path, cells, reading)
-    decimal = _decimal(path, separator, len(cells), [text for _, text in rows[:50]])
+    decimal = _decimal(path, separator, len(cells), [text for _, text in rows])
     table = _parse(path, rows, separator, decimal, len(cells))
     numbers = np.array([number for number, _ in rows])
     values = {
@@ -81,8 +83,18 @@ def _lines(path: Path) -> list[tuple[int, str]]:
         raise CampaignError(f"{path}: cannot be read: {error.strerror}") from None
     if raw[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\x00" in raw[:1000]:
         raise CampaignError(f"{path}: is not text in UTF-8 (UTF-16 or binary?), allowed is UTF-8")
-    text = raw.decode("utf-8-sig", errors="replace")  # only comments can hold what is not ASCII
-    return [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip()]
+    numbered = enumerate(_decoded(raw).splitlines(), 1)
+    return [
+        (i, line) for i, line in numbered if line.strip() and not (i == 1 and SEPARATOR.match(line))
+    ]
+
+
+def _decoded(raw: bytes) -> str:
+    """UTF-8, or what Windows writes: there a unit in the header, µm or °, is no UTF-8."""
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("cp1252", errors="replace")
 
 
 def _split_header(
@@ -155,8 +167,21 @@ def _numbers(path: Path, name: str, column: pd.Series, lines: np.ndarray) -> np.
     strange = np.flatnonzero(np.isnan(values) & column.notna().to_numpy())
     if strange.size:
         row = strange[0]
+        _refuse_units(path, name, str(column.iloc[row]), row, lines)
         raise CampaignError(
             f'{path}: line {lines[row]}: {name} = "{str(column.iloc[row])[:40]}" is not a number, '
             "allowed is a number, or nothing for a missing sample"
         )
     return np.where(np.isfinite(values), values, np.nan)
+
+
+def _refuse_units(path: Path, name: str, text: str, row: int, lines: np.ndarray) -> None:
+    """A second header row of units is told from a sample that is no number."""
+    if row > 0 or not is_unit(text):
+        return
+    unit = text.strip().strip("[]()").strip()
+    raise CampaignError(
+        f'{path}: line {lines[row]}: {name} = "{text[:40]}" is a unit, not a number; allowed is no '
+        f'row of units: in the header as {name} [{unit}], or [units] {name} = "{unit}" in '
+        "campaign.toml"
+    )

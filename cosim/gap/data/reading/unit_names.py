@@ -5,6 +5,7 @@ from __future__ import annotations
 from cosim.coupling.conversion import BASE_UNITS, Affine, conversion
 from cosim.coupling.participant import Causality, CouplingError, Port, UnitDefinition
 from cosim.fmu.units import UNITS as DEFINED
+from cosim.names import nearest
 
 #: Channel -> what it is in inside.
 SI = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}
@@ -18,6 +19,11 @@ _WORDS = {
     "metre": "m", "metres": "m", "meter": "m", "meters": "m", "radian": "rad", "radians": "rad",
     "newton": "N", "newtons": "N",
 }  # fmt: skip
+#: Prefixes in full, and the signs for micro as they are shown.
+_SPELLED = {
+    "n": "nano", "u": "micro", "µ": "micro", "μ": "micro", "m": "milli", "c": "centi", "k": "kilo",
+}  # fmt: skip
+_ASCII = {"µ": "u", "μ": "u"}
 #: Minutes, by the second.
 _MINUTE = 60.0
 
@@ -33,13 +39,36 @@ def to_si(channel: str, unit: str) -> Affine:
     name = _WORDS.get(unit, unit)
     allowed = f"allowed is a {_WHAT[wanted]}: {', '.join(_of(wanted))}"
     if name not in known:
-        raise ValueError(f"{unit} is no unit that is known, {allowed}")
+        meant = _meant(unit, wanted)
+        hint = f" (nearest: {meant})" if meant else ""
+        raise ValueError(f"{unit} is no unit that is known, {allowed}{hint}")
     source = Port(channel, name, Causality.OUTPUT, definition=known[name])
     sink = Port(channel, wanted, Causality.INPUT, definition=known[wanted])
     try:
         return conversion(source, sink)[0]
     except CouplingError:
         raise ValueError(f"{unit} is of another kind, {allowed}") from None
+
+
+def is_unit(text: str) -> bool:
+    """Whether a text is a unit of any channel, in brackets or not.
+
+    >>> is_unit("mm"), is_unit("[ms]"), is_unit("lost")
+    (True, True, False)
+    """
+    bare = text.strip().strip("[]()").strip()
+    return _WORDS.get(bare, bare) in _definitions()
+
+
+def _meant(unit: str, wanted: str) -> str | None:
+    """The unit of one kind that a word is most like: `MM` is mm, `msec` and `millimetre` too."""
+    spelled = {name.lower(): name for name in _of(wanted)}
+    words = [wanted, *(word for word, name in _WORDS.items() if name == wanted and len(word) > 1)]
+    for prefix in _PREFIXED[wanted]:
+        for begin in {prefix, _SPELLED[prefix]}:
+            spelled |= {begin + word: _ASCII.get(prefix, prefix) + wanted for word in words}
+    near = nearest(unit.lower(), spelled)
+    return spelled[near] if near else None
 
 
 def _of(wanted: str) -> list[str]:

@@ -13,10 +13,9 @@ import math
 
 import numpy as np
 
+from cosim.gap.doubts.doubt import Doubt, far, listed, rounded
+from cosim.gap.doubts.sampling import HIDES
 from cosim.gap.result import FittedModel, FittedRun
-
-from .doubt import Doubt, far, listed, rounded
-from .sampling import HIDES
 
 #: Variance of an estimated noise, in parts of itself, times the number of samples.
 ESTIMATED = 2.3 / 2.0
