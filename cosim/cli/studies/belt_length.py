@@ -16,10 +16,12 @@ from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.saying import Bar as tqdm
+from cosim.cli.saying import note
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 from cosim.report.page import Picture
+from cosim.scenario import Scenario
 from cosim.scenario.faults import ScenarioError
 from cosim.studies.belt_length import (
     AIR,
@@ -31,9 +33,12 @@ from cosim.studies.belt_length import (
     StudyError,
     answer_all,
     cases,
+    check_slides,
     empty_map,
     fill_map,
+    remarks,
     scenario_case,
+    unheeded,
     verdict,
     with_ranges,
     work_off,
@@ -232,7 +237,7 @@ def execute(arguments: Namespace) -> int:
     require_own(folder, (RESULT, TABLE, PAGE, CHANGES, DOUBT), arguments.force)
     given = given_scenario(arguments.scenario, arguments.changes) if arguments.scenario else None
     if given is not None:
-        note_taken(given)
+        _look_at(given, wanted, arguments.scenario)
     study, status = Study(options), DONE
     own = wanted[0] if arguments.scenario else None
     grid = empty_map(arguments.map, own) if arguments.map else None
@@ -283,11 +288,29 @@ def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     for name, (field, values, _, _) in CHOICES.items():
         asked = getattr(arguments, name)
         own = (getattr(base, field),) if given or values is None else values
-        choices[field] = own if asked is None else asked
+        # of a value that is given twice one case
+        choices[field] = own if asked is None else tuple(dict.fromkeys(asked))
     wanted = cases(base, **choices)
     for case in wanted:
         check_case(case, arguments)
     return wanted, Options(arguments.limit, arguments.sensitivity, arguments.samples)
+
+
+def _look_at(scenario: Scenario, wanted: list[Case], source: str) -> None:
+    """Whether the block slides in every case; then what was taken, and is computed otherwise."""
+    try:
+        for case in wanted:
+            check_slides(scenario, case)
+    except StudyError as error:
+        raise StudyError(f"{source}: {error}") from None
+    note_taken(scenario)
+    for remark in remarks(scenario):
+        note(remark)
+    if keys := unheeded(scenario):
+        note(
+            f"{', '.join(keys)}: not heeded, belt-length has a resolution of its own;"
+            " `stickslip run` heeds them"
+        )
 
 
 def _from_file(arguments: Namespace) -> Case:
@@ -375,7 +398,8 @@ def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None
             print(sentence)
     if study.rows:
         _print_changes(study)
-    print(f"{len(study.rows)} cases in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
+    cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"
+    print(f"{cases} in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
 
 
 def _print_answers(study: Study) -> None:

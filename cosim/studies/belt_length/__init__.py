@@ -7,7 +7,7 @@ from .lengths import DriftMap, empty_map, fill_map, shortest_belt
 from .own import Answer, Question, how_long
 from .result import Options, Row, Study
 from .rigs import FEWEST_SAMPLES
-from .said import scenario_case, with_ranges
+from .said import check_slides, remarks, scenario_case, unheeded, with_ranges
 from .show.verdict import verdict
 from .study import AIR, answer_all, cases, work_off
 from .uncertainty import Uncertainty, uncertainty
@@ -33,17 +33,20 @@ __all__ = [
     "answer_all",
     "cases",
     "changes",
+    "check_slides",
     "drift",
     "empty_map",
     "fill_map",
     "friction_effect",
     "how_long",
     "interface_drift",
+    "remarks",
     "run_drift",
     "scenario_case",
     "shortest_belt",
     "steady_drift",
     "uncertainty",
+    "unheeded",
     "verdict",
     "wait",
     "with_ranges",

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
+from stickslip.trajectory import break_away_frequency
 
 from thermal.materials import MELTING_POINT_DEGC
 
@@ -22,6 +23,9 @@ from .drift import endless_belt, never_comes_round
 
 #: What the changes take: K, W/m2K, 1, and a roller's good contact, W/m2K, over 0.1 m of belt.
 COLDER_AIR, COLDER_SAMPLE, WARMER_SAMPLE, GOOD_ROLLER, ROLLER_ARC = 8.0, 1.0, 0.3, 1000.0, 0.1
+#: What they are called that are no part of the doubt.
+COLDER_START = f"sample {COLDER_SAMPLE:g} K colder than the air at the start"
+WARMER_START = f"sample {WARMER_SAMPLE:g} K warmer than the air at the start"
 #: PTFE on cloth; half of the heat enters the belt.
 RAILING_FRICTION = 0.1
 
@@ -68,14 +72,8 @@ def _changed(case: Case) -> Iterator[tuple[str, Case]]:
                     {"contact.radius": 1.5 * contact.radius, "contact.length": 1.5 * contact.length}
                 ),
             )
-    yield (
-        f"sample {COLDER_SAMPLE:g} K colder than the air at the start",
-        replace(case, ice_rise=-COLDER_SAMPLE),
-    )
-    yield (
-        f"sample {WARMER_SAMPLE:g} K warmer than the air at the start",
-        replace(case, ice_rise=WARMER_SAMPLE),
-    )
+    yield COLDER_START, replace(case, ice_rise=-COLDER_SAMPLE)
+    yield WARMER_START, replace(case, ice_rise=WARMER_SAMPLE)
     yield "twice the heat transfer to the air", replace(case, h=2.0 * case.film)
     yield "belt frosted all over", replace(case, h=case.film + case.frost.added)
     if belt.rollers == 0 and belt.railing_length + 2.0 * ROLLER_ARC < 0.5 * case.length:
@@ -145,14 +143,14 @@ def linear_sensitivity(ambient_degC: float) -> float:
 def stick_slip_frequency(
     speed: float, mass: float, stiffness: float, mu_s: float, mu_k: float
 ) -> float | None:
-    """Break-aways per second along x on a belt, Hz; None where there are none."""
+    """Of the break-aways along x on a belt, Hz; None where there are fewer than three."""
     run = simulate(
         mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION, output_interval=1.0
     )
     starts = run.slip_starts
     if len(starts) < 3:
         return None
-    return float((len(starts) - 1) / (starts[-1] - starts[0]))
+    return break_away_frequency(starts)
 
 
 def mechanics(speed: float, mass: float, stiffness: float, mu_s: float, mu_k: float) -> Parameters:

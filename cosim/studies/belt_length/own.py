@@ -19,7 +19,7 @@ from cosim.scenario import Scenario
 from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift, steady_drift
 from .lengths import LONGEST, Length, between, shortest_belt
-from .rigs import Rigs
+from .rigs import MOST_MELTING, Rigs
 from .said import scenario_case
 from .uncertainty import INTERVAL, quantiles
 from .unknowns import ENTRY, INTERFACE, Melts
@@ -35,6 +35,8 @@ POINTS, RIGS = 40, 2048
 _PART, _TIMES = 0.7, 16.0
 #: Smallest rise that is told apart from none, in parts of the limit.
 _FLOOR = 0.03
+#: Why there is no doubt where none was wanted.
+NOT_ASKED = "no doubt was asked for"
 #: The levels that are told, with what they are called.
 LEVELS = (f"{INTERVAL[0]:.0%} level", "median", f"{INTERVAL[1]:.0%} level")
 
@@ -79,6 +81,8 @@ class Answer:
     evaluations : runs of the model for the doubt; unexplained: share of the variance that is missed
         in its place, for both questions
     reason : why there is no doubt, "" where there is
+    melts : share of the rigs of the doubt, on the case's own belt, in which the ice comes to melt;
+        their rises are told as if it did not
     """
 
     case: Case
@@ -91,6 +95,7 @@ class Answer:
     unexplained: tuple[float, float] = (0.0, 0.0)
     reason: str = ""
     rigs: Rigs | None = None
+    melts: float = 0.0
 
     def as_dict(self) -> dict[str, object]:
         """Everything but the rigs, for JSON."""
@@ -103,6 +108,7 @@ class Answer:
             "evaluations": self.evaluations,
             "unexplained": list(self.unexplained),
             "reason": self.reason,
+            "melts": self.melts,
             "lengths": self.lengths.tolist(),
             "levels": self.levels.tolist(),
         }
@@ -130,7 +136,9 @@ def how_long(
     Parameters
     ----------
     asked : a scenario, whose belt (layers, width, rollers, railing), block, contact, air, ramp and
-        run are taken, what it does not say being in doubt; or a `Case`
+        run are taken, what it does not say being in doubt; or a `Case`. Elements, cells and strips
+        are the study's own; where no heat transfer to the air is said, it is that of a belt moving
+        through still air (`Case.film`), not the scenario's default
     limit : largest rise that is allowed, K, > 0, such as what a camera tells apart
     samples : runs of the model for the doubt, a power of two from 32; 0 for none
     jobs : processes
@@ -157,7 +165,7 @@ def how_long(
     )
     interface = Question(interface_drift(case), shortest, None)
     if not samples:
-        return _without(case, limit, run, interface, "no doubt was asked for")
+        return _without(case, limit, run, interface, NOT_ASKED)
     tried = run.shortest or LONGEST
     belts = [case.length, *lengths]
     low = max(case.shortest, min(_PART * tried, min(belts)))
@@ -166,21 +174,25 @@ def how_long(
     try:
         rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs)
     except Melts:
-        return _without(
-            case, limit, run, interface, "in some rigs of the doubt the ice comes to melt"
-        )
+        return _without(case, limit, run, interface, "the air is as warm as melting ice")
     return _doubted(case, limit, run, interface, rigs, np.geomspace(low, high, POINTS))
 
 
-def _without(case: Case, limit: float, run: Question, interface: Question, why: str) -> Answer:
+def _without(
+    case: Case, limit: float, run: Question, interface: Question, why: str, melts: float = 0.0
+) -> Answer:
     nothing = np.empty((2, 3, 0))
-    return Answer(case, limit, run, interface, np.empty(0), nothing, reason=why)
+    return Answer(case, limit, run, interface, np.empty(0), nothing, reason=why, melts=melts)
 
 
 def _doubted(
     case: Case, limit: float, run: Question, interface: Question, rigs: Rigs, lengths: Array
 ) -> Answer:
     drawn = qmc.Sobol(len(rigs.unknowns), rng=2).random(RIGS)
+    melts = rigs.melting(drawn, case.length)
+    if melts > MOST_MELTING:
+        why = f"in {melts:.0%} of the rigs of the doubt the ice comes to melt"
+        return _without(case, limit, run, interface, why, melts)
     levels = {
         rise: np.array([quantiles(rigs.rise(rise, drawn, length)) for length in lengths]).T
         for rise in QUESTIONS
@@ -211,4 +223,5 @@ def _doubted(
         rigs.evaluations,
         (rigs.unexplained[ENTRY], rigs.unexplained[INTERFACE]),
         rigs=rigs,
+        melts=melts,
     )

@@ -117,7 +117,7 @@ class Row:
         case = {
             one.name: getattr(self.case, one.name)
             for one in fields(Case)
-            if one.name not in ("rig", "protocol", "ranges")
+            if one.name not in ("rig", "protocol", "ranges", "drawn")
         }
         h = {
             "h": self.case.film,

@@ -17,13 +17,16 @@ from scipy.stats import qmc
 
 from .case import Case
 from .polynomial import fitted
-from .unknowns import ENTRY, INTERFACE, Unknown, answers, combined, unknowns_of
+from .unknowns import ENTRY, ICE, INTERFACE, Unknown, answers, combined, unknowns_of
 
 Array = NDArray[np.float64]
 
 #: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
 FEWEST_SAMPLES = 32
 _TESTED = 0.25
+#: Largest share of the rigs that may melt their ice: rises are as if none did, which is too much
+#: for those that do, and no answer where half of them are.
+MOST_MELTING = 0.5
 
 
 class Rigs:
@@ -33,12 +36,13 @@ class Rigs:
     ----------
     unknowns : what is drawn, with the ranges of the case
     evaluations : runs of the model
-    unexplained : share of the variance that the polynomials miss, of ENTRY and of INTERFACE
+    unexplained : share of the variance that the polynomials miss, of each rise; where the rigs have
+        several lengths, of the variance between rigs of one length, in the logarithm
 
     samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES. lengths:
     (shortest, longest), m; left out, the case's own. floor: rises below it (K) are taken for it, so
     that where a belt never comes round logarithms have an end; with lengths only. jobs: processes.
-    Raises `Melts` where the ice of one of them comes to melt.
+    Raises `Melts` where the air is as warm as melting ice.
     """
 
     def __init__(
@@ -51,7 +55,7 @@ class Rigs:
     ) -> None:
         self.unknowns = unknowns_of(case)
         self._shaping = tuple(one for one in self.unknowns if not (one.linear or one.fixed))
-        self._lengths = lengths
+        self._lengths, self._melts_at = lengths, -case.ambient_degC
         tested = round(_TESTED * samples)
         self.evaluations = samples + tested
         draws = qmc.Sobol(len(self._shaping) + (lengths is not None), rng=1)
@@ -64,7 +68,7 @@ class Rigs:
             parts, kinds = np.maximum(parts, floor), (True,)
         self._polynomials = {
             rise: [fitted(points[:samples], column, kinds) for column in parts[:samples, rise].T]
-            for rise in (ENTRY, INTERFACE)
+            for rise in (ENTRY, INTERFACE, ICE)
         }
         self.unexplained = {
             rise: self._misses(points[samples:], parts[samples:, rise], rise)
@@ -72,7 +76,7 @@ class Rigs:
         }
 
     def rise(self, which: int, shares: Array, length: float | None = None) -> Array:
-        """ENTRY or INTERFACE, K: (n,), of rigs at shares (n, unknowns) of the ranges, 0 ... 1.
+        """ENTRY, INTERFACE or ICE, K: (n,), of rigs at shares (n, unknowns) of the ranges, 0 ... 1.
 
         length: of the belt, m, where the rigs have several.
         """
@@ -83,6 +87,10 @@ class Rigs:
                 raise ValueError("length: these rigs have belts of several, say which")
             points = np.column_stack((points, np.full(len(points), self._share_of(length))))
         return self._of(which, self._levelled(points), values(self.unknowns, shares))
+
+    def melting(self, shares: Array, length: float | None = None) -> float:
+        """Share of the rigs, as of `rise`, in which the ice's face comes to melt."""
+        return float(np.mean(self.rise(ICE, shares, length) >= self._melts_at))
 
     def _of(self, which: int, points: Array, meant: dict[str, Array]) -> Array:
         parts = np.stack([one(points) for one in self._polynomials[which]], axis=1)
@@ -115,8 +123,13 @@ class Rigs:
         shaping = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
         drawn[:, shaping] = points[:, : len(shaping)]
         meant = values(self.unknowns, drawn)
-        true = combined(parts, meant)
-        return float(np.mean((self._of(which, points, meant) - true) ** 2) / np.var(true))
+        true, found = combined(parts, meant), self._of(which, points, meant)
+        if self._lengths is None:
+            return float(np.mean((found - true) ** 2) / np.var(true))
+        # what a length does is no doubt about a rig: all of them on the belt in the middle
+        same = np.column_stack((points[:, :-1], np.full(len(points), 0.5)))
+        spread = np.var(np.log(self._of(which, same, meant)))
+        return float(np.mean(np.log(found / true) ** 2) / spread)
 
 
 def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
@@ -125,7 +138,7 @@ def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
 
 
 def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Array:
-    """`answers` to each: (n, 2, 3), in as many processes."""
+    """`answers` to each: (n, 3, 3), in as many processes."""
     if jobs == 1:
         return np.array([answers(*one) for one in meant])
     # neighbours share blocks of ice, whose modes take time
@@ -135,11 +148,11 @@ def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Arra
     )
     shares = [order[len(order) * i // jobs : len(order) * (i + 1) // jobs] for i in range(jobs)]
     found = Parallel(n_jobs=jobs)(delayed(_each)([meant[i] for i in share]) for share in shares)
-    parts = np.empty((len(meant), 2, 3))
+    parts = np.empty((len(meant), 3, 3))
     for share, part in zip(shares, found, strict=True):
         parts[share] = part
     return parts
 
 
 def _each(meant: list[tuple[Case, dict[str, float]]]) -> Array:
-    return np.array([answers(*one) for one in meant]).reshape(-1, 2, 3)
+    return np.array([answers(*one) for one in meant]).reshape(-1, 3, 3)

@@ -1,18 +1,21 @@
 """The case of a scenario, and how sure it is: what it says is known as well as such figures are.
 
 An unknown whose keys a scenario holds is drawn from a range about what it says there; one whose
-keys it leaves out, from the usual range (`unknowns`). The tolerances are assumed. A range of one's
-own takes the place of either.
+keys it leaves out, from the usual range (`unknowns`). A key of what the scenario has not says
+nothing, as the conductance of no rollers does: a file that spells out every key knows no more than
+one that leaves such keys out. The tolerances are assumed. A range of one's own takes the place of
+either.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from cosim.names import nearest
 from cosim.scenario import Scenario
+from thermal.materials import GRAVITY
 
 from .case import Case, Protocol, Range, StudyError
 from .unknowns import UNKNOWNS, Unknown
@@ -21,15 +24,19 @@ from .unknowns import UNKNOWNS, Unknown
 class _Known(NamedTuple):
     """Keys of a scenario that say an unknown, and between what it then lies, times what is said.
 
-    most: the largest value that there is.
+    most: the largest value that there is. there: key that has to be above 0 or hold something, or
+    these say nothing.
     """
 
     keys: tuple[str, ...]
     low: float
     high: float
     most: float = float("inf")
+    there: str = ""
 
 
+_RAILING, _ROLLERS = "belt.railing_length", "belt.rollers"
+#: On which face heat arises nobody measures: a share that is said is a choice, no knowledge.
 _KNOWN = {
     "h": _Known(("belt.air_heat_transfer",), 0.8, 1.25),
     "friction": _Known(("friction.mu_k",), 0.8, 1.2),
@@ -37,16 +44,18 @@ _KNOWN = {
     "heat_capacity": _Known(("belt.heat_capacity", "belt.layers"), 0.9, 1.1),
     "ice_conductivity": _Known(("ice.conductivity",), 0.95, 1.05),
     "conductance": _Known(("contact.conductance",), 1.0 / 3.0, 3.0),
-    "belt_side": _Known(("contact.belt_side",), 0.8, 1.2, 1.0),
-    "contact_area": _Known(("contact.length",), 0.8, 1.0),
-    "railing_friction": _Known(("belt.railing_friction",), 0.7, 1.4),
-    "railing_share": _Known(("belt.railing_share",), 0.8, 1.2, 1.0),
-    "railing_conductance": _Known(("belt.railing_conductance",), 1.0 / 3.0, 3.0),
-    "roller_conductance": _Known(("belt.roller_conductance",), 1.0 / 3.0, 3.0),
-    "roller_rise": _Known(("belt.roller_rise",), 0.5, 1.5),
+    "belt_side": _Known(("contact.belt_side",), 0.0, 2.0, 1.0),
+    "contact_area": _Known(("contact.length",), 0.8, 1.0, there="contact.length"),
+    "railing_friction": _Known(("belt.railing_friction",), 0.7, 1.4, there=_RAILING),
+    "railing_share": _Known(("belt.railing_share",), 0.8, 1.2, 1.0, _RAILING),
+    "railing_conductance": _Known(("belt.railing_conductance",), 1.0 / 3.0, 3.0, there=_RAILING),
+    "roller_conductance": _Known(("belt.roller_conductance",), 1.0 / 3.0, 3.0, there=_ROLLERS),
+    "roller_rise": _Known(("belt.roller_rise",), 0.5, 1.5, there=_ROLLERS),
 }
 #: Least of what is a logarithm's: W/m2K.
 _LEAST = 1e-3
+#: Part of the friction that the springs of a block that never slips stay below.
+_SURELY = 0.5
 
 
 def scenario_case(scenario: Scenario) -> Case:
@@ -87,6 +96,61 @@ def scenario_case(scenario: Scenario) -> Case:
     return replace(case, ranges=said_ranges(scenario, case))
 
 
+def check_slides(scenario: Scenario, case: Case) -> None:
+    """StudyError for a block that springs cannot hold back: it is carried and makes no heat.
+
+    Springs that pull with less than `_SURELY` of the friction at the end of a run, and a contact
+    that feels no more than that of patterns and hold time. A block that begins to slide is held to
+    kinetic friction. Hardening springs pull more than is reckoned here, and are left to the run.
+    """
+    hardening, protocol = scenario.spring_hardening, case.protocol
+    if hardening.cubic or hardening.quintic:
+        return
+    sticks = protocol.ramp > 0.0 and scenario.initial.vx == 0.0
+    mu = case.friction * (case.static_over_kinetic if sticks else 1.0)
+    travel = case.speed * (0.5 * protocol.ramp + protocol.run)
+    pull, holds = 4.0 * case.stiffness * travel, mu * case.mass * GRAVITY
+    if pull < _SURELY * holds:
+        raise StudyError(
+            f"springs.stiffness = {case.stiffness:g} N/m: over the {travel:.3g} m that the belt "
+            f"goes in a run four springs pull with at most {pull:.3g} N, and friction holds "
+            f"{holds:.3g} N: the block is carried along and makes no heat; allowed are stiffer "
+            "springs, longer runs or less friction"
+        )
+
+
+def remarks(scenario: Scenario) -> list[str]:
+    """What is computed otherwise than a reader may think."""
+    width, radius = scenario.belt.width, scenario.rig.contact_radius
+    if scenario.ice.mesh or width >= radius:
+        return []
+    return [
+        f"belt.width = {width:g} m is less than half of the contact, 2 rig.contact_radius = "
+        f"{2.0 * radius:g} m: the ice touches it over the belt's width alone, with all its weight"
+    ]
+
+
+#: Keys of the resolution: a coupled run's, which lasts as long as a thousand runs of this study.
+_RESOLUTION = (
+    "belt.elements",
+    "belt.cell_length",
+    "ice.radial_elements",
+    "ice.axial_elements",
+    "contact.strips",
+)
+
+
+def unheeded(scenario: Scenario) -> list[str]:
+    """Keys that a scenario holds and its case leaves aside, for the study has its own resolution.
+
+    >>> from cosim import read_scenario
+    >>> from cosim.studies.belt_length import unheeded
+    >>> unheeded(read_scenario().changed({"belt": {"elements": 12}}))
+    ['belt.elements']
+    """
+    return [key for key in _RESOLUTION if _holds(scenario, key)]
+
+
 def said_ranges(scenario: Scenario, case: Case) -> tuple[Range, ...]:
     """The ranges of what a scenario says itself; case: that of the scenario."""
     return tuple(_said(scenario, case))
@@ -95,10 +159,11 @@ def said_ranges(scenario: Scenario, case: Case) -> tuple[Range, ...]:
 def _said(scenario: Scenario, case: Case) -> Iterator[Range]:
     for unknown in UNKNOWNS:
         known = _KNOWN[unknown.key]
-        keys = [key for key in known.keys if _holds(scenario, key)]
-        if not keys or (unknown.key == "h" and case.h is None):
+        keys = [key for key in known.keys if _holds(scenario, key) and _at(scenario, key) != ()]
+        absent = bool(known.there) and not _at(scenario, known.there)
+        if not keys or absent or (unknown.key == "h" and case.h is None):
             continue
-        own = 1.0 if unknown.unit == "x" else _value(scenario, keys[0])
+        own = 1.0 if unknown.unit == "x" else float(_at(scenario, keys[0]))
         ends = [min(part * own, known.most) for part in sorted((known.low, known.high))]
         if own < 0.0:
             ends.reverse()
@@ -119,9 +184,9 @@ def _holds(scenario: Scenario, key: str) -> bool:
     return entry in getattr(scenario, table).model_fields_set
 
 
-def _value(scenario: Scenario, key: str) -> float:
+def _at(scenario: Scenario, key: str) -> Any:
     table, _, entry = key.partition(".")
-    return float(getattr(getattr(scenario, table), entry))
+    return getattr(getattr(scenario, table), entry)
 
 
 def with_ranges(case: Case, texts: Iterable[str]) -> Case:

@@ -42,6 +42,8 @@ BOUNDS = {
     "conductance": ("conductance", "W/m2K", 0.0, False, 1e12),
     "thickness": ("thickness", "m", 0.0, False, 0.1),
 }
+#: Least of a belt's layer: a thin metal foil, and a tenth of still air.
+LEAST = (("thickness", "m", 1e-6), ("conductivity", "W/mK", 2e-3))
 #: Strongest fall of friction with temperature, 1/K: nothing is left one kelvin warmer.
 _MOST_SENSITIVE = 1.0
 #: Travel of the belt in a run, m: one that never comes round is longer, and must be a belt still.
@@ -92,9 +94,10 @@ def check_case(case: Case, arguments: Namespace) -> None:
             " for its steady state; allowed is above 0 W/m2K"
         )
     try:
-        case.thermal()
+        belt = case.thermal().belt
     except ParameterError as error:
         raise ParameterError(_in_their_words(str(error), arguments)) from None
+    _check_layers(belt, arguments)
 
 
 def _check_travel(case: Case, arguments: Namespace) -> None:
@@ -108,6 +111,18 @@ def _check_travel(case: Case, arguments: Namespace) -> None:
         f" at --speed = {case.speed:g} m/s (surface.run_up_time, run.duration, surface.speed of a"
         f" scenario): the belt would go {travel:.3g} m, allowed is at most {MOST_TRAVEL:g} m"
     )
+
+
+def _check_layers(belt: Belt, arguments: Namespace) -> None:
+    """StudyError for what is no belt: thinner than any foil, or insulating beyond any matter."""
+    for number, layer in enumerate(belt.stack, 1):
+        for name, unit, least in LEAST:
+            value = getattr(layer, name)
+            if value >= least:
+                continue
+            own = f"{arguments.scenario}: belt.layers[{number}].{name}"
+            said = own if belt.layers else _named(name, f"belt.{name}", arguments)
+            raise StudyError(f"{said} = {value:g} {unit}: must be at least {least:g} {unit}")
 
 
 def _named(option: str, key: str, arguments: Namespace) -> str:

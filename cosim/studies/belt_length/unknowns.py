@@ -13,6 +13,7 @@ conduct, from the conductance between them and from where the heat arises.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -200,31 +201,43 @@ def unknowns_of(case: Case) -> tuple[Unknown, ...]:
     )
 
 
-#: Rises that are answered: of the belt at entry, of the interface at constant speed.
-ENTRY, INTERFACE = 0, 1
+#: Rises that are answered: of the belt at entry, of the interface at constant speed, of the ice's
+#: face from the start, by which it is known whether it comes to melt.
+ENTRY, INTERFACE, ICE = 0, 1, 2
 #: Columns of A, B and C.
 CONTACT, RAILING, ROLLERS = 0, 1, 2
+
+
+#: Part of each unit of heat that the model is run with: so little melts no ice, and what is linear
+#: answers to a whole unit, which no rig may have, from it.
+_LITTLE = 1e-6
 
 
 class Melts(Exception):
     """The ice melts: the drift is not linear in the heat."""
 
 
-def answers(case: Case, values: dict[str, float]) -> Array:
-    """A, B, C of both rises of a case with values of SHAPING, K: (2, 3). Melts where ice does."""
+def answers(
+    case: Case, values: dict[str, float], columns: Sequence[int] = (CONTACT, RAILING, ROLLERS)
+) -> Array:
+    """A, B, C of the rises of a case with values of SHAPING, K: (3, 3), as if no ice melted.
+
+    columns: those that are wanted, the others are 0. Melts where the air is as warm as melting ice.
+    """
     sliding = _shaped(case, values).sliding()
-    force, found = sliding.force, np.empty((2, 3))
-    for column in (CONTACT, RAILING, ROLLERS):
-        sliding.force = force if column == CONTACT else 0.0
-        sliding.belt.railing_heat_factor = float(column == RAILING)
-        sliding.belt.roller_rise_factor = float(column == ROLLERS)
+    force, found = sliding.force, np.zeros((3, 3))
+    for column in columns:
+        sliding.force = force * _LITTLE * (column == CONTACT)
+        sliding.belt.railing_heat_factor = _LITTLE * (column == RAILING)
+        sliding.belt.roller_rise_factor = _LITTLE * (column == ROLLERS)
         sliding.reset()
         start, end = case.follow(sliding)
         if end.melting > 0.0:
             raise Melts
         found[ENTRY, column] = end.entry
         found[INTERFACE, column] = end.mean_interface - start.mean_interface
-    return found
+        found[ICE, column] = end.ice_face
+    return found / _LITTLE
 
 
 def combined(parts: Array, values: dict[str, Array]) -> Array:
@@ -297,7 +310,7 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
     }
     if not ice.mesh and values["contact_area"] != 1.0:
         keys["contact.length"] = footprint.length * values["contact_area"]
-    shaped = replace(case, h=values["h"], ice_rise=0.0)
+    shaped = replace(case, h=values["h"], ice_rise=0.0, drawn=True)
     return _with_belt(shaped, values["conductivity"], values["heat_capacity"]).changed(keys)
 
 

@@ -33,6 +33,8 @@ from thermal.belt.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
+#: A contact that holds, and starts with the belt.
+HELD = "[friction]\nmu_s = 200.0\n[surface]\nrun_up_time = 2.0"
 NO_RAMP = Protocol(ramp=0.0)
 
 
@@ -237,6 +239,11 @@ def test_bad_input_is_refused_in_one_line(tmp_path, arguments, says):
             "case.toml: belt.air_heat_transfer = 0: a belt that",
         ),
         ("[run]\nduration = 1000.0", (), "case.toml: --ramp = "),
+        ("[springs]\nstiffness = 0.0", (), "case.toml: springs.stiffness = 0 N/m: over the"),
+        (HELD, (), "the block is carried along and makes no heat; allowed"),
+        ("[belt]\nthickness = 1e-9", (), "case.toml: belt.thickness = 1e-09 m: must be at least"),
+        ("", ("--thickness", 1e-9), "--thickness = 1e-09 m: must be at least 1e-06 m"),
+        ("", ("--conductivity", 1e-30), "--conductivity = 1e-30 W/mK: must be at least 0.002"),
         ("", ("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
     ],
 )
@@ -246,6 +253,26 @@ def test_a_fault_of_a_scenario_names_file_and_key(tmp_path, table, options, says
     with pytest.raises(belt_length_command.refused()) as refused:
         call(file, *options, "-o", tmp_path / "out")
     assert says in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_what_is_given_twice_is_one_case_and_a_narrow_belt_is_told_of(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(belt_length_command, "answer_all", lambda *given: None)
+    seen = []
+
+    def stopped(study, wanted, jobs, progress):
+        seen.extend(case.length for case in wanted)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(belt_length_command, "work_off", stopped)
+    file = tmp_path / "case.toml"
+    for width, said in ((0.01, 1), (0.075, 0)):
+        seen.clear()
+        file.write_text(f"[belt]\nwidth = {width}")
+        call(file, "--length", 1, 1, 2, "-o", tmp_path / "out", *FAST)
+        assert seen == [1.0, 2.0]
+        assert capsys.readouterr().err.count("less than half of the contact") == said
 
 
 def test_the_rig_in_json_is_the_one_that_was_used():

@@ -5,6 +5,7 @@ import json
 from html.parser import HTMLParser
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from cosim.cli.studies import belt_length as belt_length_command
@@ -19,6 +20,7 @@ from cosim.studies.belt_length import (
     shortest_belt,
     with_ranges,
 )
+from cosim.studies.belt_length.show.verdict import answered
 from cosim.studies.belt_length.unknowns import UNKNOWNS, answers, as_it_is, unknowns_of
 
 STEEL = """
@@ -112,6 +114,42 @@ def test_the_verdict_is_its_own(numbers):
     assert "1 m of belt" not in said and "source study" not in said and "C13" not in said
 
 
+def test_the_verdict_says_what_film_it_took_and_how_the_samples_start(numbers, results):
+    said = " ".join(numbers["verdict"])
+    film = numbers["cases"][0]["case"]["h"]
+    assert (
+        f"The belt gives {film:.3g} W/m2K to the air on each face, which is that of a belt" in said
+    )
+    assert "belt.still_air_speed = 0.5" in said and "15 W/m2K where a scenario says neither" in said
+    rise = pd.read_csv(results / "changes.csv").set_index("what")["run"]
+    warmer = rise["sample 0.3 K warmer than the air at the start"]
+    assert "start at the air's temperature, which is not in the doubt: the entering" in said
+    assert f"are {warmer:.2g} K with a sample 0.3 K warmer" in said
+
+
+def test_a_resolution_that_is_not_heeded_is_told(steel, monkeypatch, capsys):
+    """Before anything is computed; so the rest is left out here."""
+
+    def stopped(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(belt_length_command, "answer_all", stopped)
+    parser = argparse.ArgumentParser()
+    belt_length_command.add_arguments(parser)
+    words = [str(steel), "--map", "0", "-o", str(steel.parent / "told")]
+    belt_length_command.execute(parser.parse_args(words))
+    assert "not heeded" not in capsys.readouterr().err
+    words += ["--set", "belt.elements=12", "--set", "contact.strips=16", "--force"]
+    belt_length_command.execute(parser.parse_args(words))
+    said = capsys.readouterr().err
+    assert "note: belt.elements, contact.strips: not heeded, belt-length has a resolution" in said
+
+
+def test_a_film_that_is_said_is_taken_as_it_is():
+    said = answered(how_long(Case(1.0, 0.15, h=10.0), samples=0))
+    assert "The belt gives 10 W/m2K to the air on each face, as is said." in said
+
+
 class Pictures(HTMLParser):
     """Addresses of everything that a page fetches."""
 
@@ -186,7 +224,31 @@ def test_without_a_doubt_there_is_an_answer_without_an_interval():
     assert repr(answer) == "<Answer: 1.6 m for 0.07 K at 0.15 m/s; on 1 m 0.11 K>"
 
 
+@pytest.mark.slow  # 12 s; that the doubt of the same rig is none stays in the suite (no indices)
 def test_ice_that_melts_in_some_rigs_leaves_no_interval_and_says_why():
     hot = Case(1.0, 3.0, mass=40.0, ambient_degC=-1.0)
     answer = how_long(hot, samples=32)
     assert answer.run.share is None and "the ice comes to melt" in answer.reason
+
+
+def test_a_key_of_what_is_not_there_says_nothing(steel):
+    """Spelled out, the conductance of no rollers and an empty list of layers are no knowledge."""
+    scenario = read_scenario(steel)
+    bare = scenario.changed({"belt.rollers": 0, "belt.roller_rise": 0.0, "belt.layers": []})
+    spelled = bare.changed(
+        {
+            "belt.roller_conductance": 100.0,
+            "belt.railing_friction": 0.0,
+            "belt.railing_conductance": 0.0,
+            "contact.length": 0.0,
+            "contact.belt_side": 0.5,
+        }
+    )
+    ranges = {one.key: one for one in unknowns_of(scenario_case(spelled))}
+    for usual in UNKNOWNS:
+        if usual.key not in ("friction", "belt_side"):
+            assert ranges[usual.key] == usual
+    assert (ranges["belt_side"].low, ranges["belt_side"].high) == (0.0, 1.0)
+    there = unknowns_of(scenario_case(scenario.changed({"belt.roller_conductance": 100.0})))
+    (conductance,) = (one for one in there if one.key == "roller_conductance")
+    assert (conductance.low, conductance.high) == (pytest.approx(100.0 / 3.0), 300.0)

@@ -109,7 +109,7 @@ def _row(row: Row) -> tuple[str, ...]:
         f"{drift.steady:.2g}",
         f"{drift.interface_drift:.2g}",
         _metres(row.shortest_run),
-        "–" if row.wait.begin is None else f"{row.wait.begin:.2g}",
+        "–" if row.wait.begin is None else f"{float(f'{row.wait.begin:.2g}'):g}",
     )
 
 

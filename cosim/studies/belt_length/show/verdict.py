@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from thermal import Belt
+
+from ..case import Case
+from ..changes import COLDER_START, WARMER_START
 from ..drift import CAMERA
 from ..lengths import LONGEST
-from ..own import Answer, Question
+from ..own import NOT_ASKED, Answer, Question
 from ..result import Row, Study
 
 ONE_METRE = 1.0
@@ -21,6 +25,7 @@ def verdict(study: Study) -> list[str]:
     if study.answers:
         return [
             *_answered(study),
+            *_start(study),
             *_wait(study),
             *_helps(study),
             *_influence(study),
@@ -60,7 +65,37 @@ def answered(answer: Answer) -> list[str]:
         f"{_interval(answer.interface)}; on {answer.case.length:g} m it gets"
         f" {_on_own(answer.interface)}.",
         *_how_sure(answer),
+        _film(answer.case),
     ]
+
+
+def _film(case: Case) -> str:
+    """Which heat transfer to the air was taken, and why; a coupled run may take another."""
+    gives = f"The belt gives {case.film:.3g} W/m2K to the air on each face"
+    if case.h is not None:
+        return f"{gives}, as is said."
+    return (
+        f"{gives}, which is that of a belt at {case.speed:g} m/s through still air, for no number"
+        " is said; `stickslip run` takes the same with belt.still_air_speed ="
+        f" {case.speed:g}, and else belt.air_heat_transfer, which is"
+        f" {Belt().air_heat_transfer:g} W/m2K where a scenario says neither."
+    )
+
+
+def _start(study: Study) -> list[str]:
+    """The interval is of rigs that start at the air's temperature: what it is worth to do so."""
+    said = []
+    for row in study.rows:
+        rises = {one.what: one.run for one in row.changes}
+        if row.uncertainty is not None and {COLDER_START, WARMER_START} <= rises.keys():
+            own, warmer, colder = row.drift.run, rises[WARMER_START], rises[COLDER_START]
+            said.append(
+                f"The interval on {row.case.length:g} m at {row.case.speed:g} m/s is of samples"
+                " that start at the air's temperature, which is not in the doubt: the entering"
+                f" belt's {own:.2g} K are {warmer:.2g} K with a {WARMER_START}, and {colder:.2g} K"
+                f" with a {COLDER_START}."
+            )
+    return said
 
 
 def _needed(nominal: float | None, answer: Answer) -> str:
@@ -102,6 +137,8 @@ def _for_ever(run: Question) -> str:
 def _how_sure(answer: Answer) -> list[str]:
     """What is still warm on a belt of any length, and where the polynomials miss something."""
     said = _why_not_nominal(answer)
+    if answer.reason not in ("", NOT_ASKED):
+        said.append(f"No interval is told: {answer.reason}, and then the answer is another.")
     for question, why in (
         (answer.run, "what does not come round with the belt stays, such as warm rollers"),
         (answer.interface, "the ice warms itself, whatever the belt"),
@@ -351,12 +388,27 @@ def _influence(study: Study) -> list[str]:
 
 
 def _melting(study: Study) -> list[str]:
+    said = _melting_rigs(study)
     melts = sum(row.drift.steady_melts for row in study.rows)
     if not melts:
-        return []
+        return said
     return [
+        *said,
         f"In {melts} of {len(study.rows)} cases the ice face comes to melt and stays at 0 degC;"
-        " the water between ice and belt is left out of these drifts."
+        " the water between ice and belt is left out of these drifts.",
+    ]
+
+
+def _melting_rigs(study: Study) -> list[str]:
+    """Of what may be meant, not of what is said: in how many of the rigs the ice melts in a run."""
+    most = max((row.uncertainty.melts for row in study.rows if row.uncertainty), default=0.0)
+    if not most:
+        return []
+    share = _percent(most) if most >= 0.01 else "less than 1 %"
+    return [
+        f"In {share} of the rigs of the doubt the ice comes to melt within the runs. Their rises"
+        " are told as if it did not, which is more than they are, for melting takes heat that the"
+        " belt does not get then; and less friction on the water is left out."
     ]
 
 
