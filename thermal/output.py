@@ -5,8 +5,9 @@ cut opposite the contact, its temperatures interpolated linearly to this frame),
 above: of a cylinder the section through its axis, of a sample all of it.
 
 The series of files is one VTU file (written by meshio) for each time and a PVD collection that
-names them. A file appears under its name only when it is complete and the collection is replaced
-as a whole, so whatever interrupts a run, what was written before stays readable.
+names them; beside it the same again with a belt so many times thicker, as its name says, that is
+no mere line to the eye. A file appears under its name only when it is complete and a collection is
+replaced as a whole, so whatever interrupts a run, what was written before stays readable.
 """
 
 from __future__ import annotations
@@ -69,17 +70,25 @@ def collection(folder: str | Path, name: str = "temperature") -> Path:
     return Path(folder) / f"{name}.pvd"
 
 
-#: Thickness of the stretched belt as a part of its length.
+#: Thickness of the stretched belt, about, as a part of its length.
 STRETCHED = 0.1
+
+
+def stretch_factor(length: float, thickness: float) -> float:
+    """By what the stretched view multiplies the depth of a belt (m): two digits, at least 1."""
+    return max(1.0, float(f"{STRETCHED * length / thickness:.2g}"))
 
 
 class FieldSeries:
     """Writes `<name>.pvd` and `<name>_<number>.vtu` into a folder that exists.
 
-    Point data `temperature_degC`, `rise_K` over the air, and `stretch_m`: with the filter Warp By
-    Vector the belt, a line to the eye, becomes `STRETCHED` as thick as it is long. Cell data `part`
-    (0 belt, 1 ice). An earlier series of that name is replaced from its first file on. times: of
-    the fields (s) that an earlier process wrote and this one goes on from; then from the next one.
+    Point data `temperature_degC`, `rise_K` over the air, and `stretch_m`, with which the filter
+    Warp By Vector thickens the belt. Cell data `part` (0 belt, 1 ice). Beside it the same fields
+    already stretched, `<name>_belt_<factor>x.pvd`: heights below the contact are `factor` times the
+    true ones (see `stretch_factor`), the ice and all lengths along the belt are true.
+
+    An earlier series of that name is replaced from its first file on. times: of the fields (s)
+    that an earlier process wrote and this one goes on from; then from the next one.
     """
 
     def __init__(
@@ -94,23 +103,34 @@ class FieldSeries:
             raise ValueError(f"{self.folder}: no such folder for the temperature fields")
         self.name = name
         self._model = model
-        self._written = [(time, self._file_name(n)) for n, time in enumerate(times)]
+        self._times = list(times)
         belt, ice = model.belt, model.ice
         self._below = grid_points(seen_belt(model)[0], -belt.depth)
         below = quadrilaterals(belt.cells + 1, belt.depth.size)
         self._stretch = self._stretched()
+        points = np.concatenate((self._below, ice.points))
+        self._views = {name: points}
+        if self.factor > 1.0:
+            self._views[f"{name}_belt_{self.factor:g}x"] = points + self._stretch
         self._cells = [("quad", below), (ice.cell_type, ice.cells + len(self._below))]
         self._part = [
             np.full(len(cells), part, dtype=np.int32) for part, (_, cells) in enumerate(self._cells)
         ]
 
-    def _file_name(self, number: int) -> str:
-        return f"{self.name}_{number:05d}.vtu"
+    @property
+    def factor(self) -> float:
+        """How many times thicker the belt of the stretched view is."""
+        return stretch_factor(float(np.ptp(self._below[:, 0])), float(-self._below[:, 2].min()))
 
     @property
     def path(self) -> Path:
         """The collection, the one file to open."""
         return collection(self.folder, self.name)
+
+    @property
+    def stretched_path(self) -> Path:
+        """The collection of the stretched view; the true one where nothing is stretched."""
+        return collection(self.folder, list(self._views)[-1])
 
     def _point_data(self) -> dict[str, Array]:
         """Arrays over all points, by names with units."""
@@ -125,44 +145,56 @@ class FieldSeries:
 
     def _stretched(self) -> Array:
         """Displacements (points, 3) m that thicken the belt; the ice stays."""
-        below = self._below
-        length, depth = np.ptp(below[:, 0]), -below[:, 2].min()
-        moved = np.zeros((len(below) + len(self._model.ice.points), 3))
-        moved[: len(below), 2] = (STRETCHED * length / depth - 1.0) * below[:, 2]
+        moved = np.zeros((len(self._below) + len(self._model.ice.points), 3))
+        moved[: len(self._below), 2] = (self.factor - 1.0) * self._below[:, 2]
         return moved
 
     def write(self, time: float) -> Path:
-        """Add the model's present fields at time (s); returns the VTU file.
+        """Add the model's present fields at time (s); returns the VTU file of the true view.
 
         ValueError when time is not after the last one written; OSError when the disk refuses.
         """
-        if not math.isfinite(time) or (self._written and time <= self._written[-1][0]):
-            last = f"{self._written[-1][0]:g} s" if self._written else "none"
+        if not math.isfinite(time) or (self._times and time <= self._times[-1]):
+            last = f"{self._times[-1]:g} s" if self._times else "none"
             raise ValueError(f"time = {time:g} s of a field must be after the last one ({last})")
-        path = self.folder / self._file_name(len(self._written))
-        points = np.concatenate((self._below, self._model.ice.points))
+        data = self._point_data()
+        files = [self._write_view(name, data) for name in self._views]
+        self._times.append(time)
+        for name in self._views:
+            self._write_collection(name)
+        return files[0]
+
+    def _write_view(self, name: str, data: dict[str, Array]) -> Path:
+        path = self.folder / _file_name(name, len(self._times))
+        if name != self.name:  # what would thicken it once more
+            data = {key: values for key, values in data.items() if key != "stretch_m"}
         mesh = meshio.Mesh(
-            points,
-            self._cells,
-            point_data=self._point_data(),
-            cell_data={"part": self._part},
+            self._views[name], self._cells, point_data=data, cell_data={"part": self._part}
         )
         partial = path.with_suffix(".partial")
         mesh.write(partial, file_format="vtu")
         os.replace(partial, path)
-        self._written.append((time, path.name))
-        self._write_collection()
         return path
 
-    def _write_collection(self) -> None:
+    def _write_collection(self, name: str) -> None:
         root = ElementTree.Element(
             "VTKFile", type="Collection", version="0.1", byte_order="LittleEndian"
         )
-        collection = ElementTree.SubElement(root, "Collection")
-        for time, file in self._written:
+        entries = ElementTree.SubElement(root, "Collection")
+        for number, time in enumerate(self._times):
             ElementTree.SubElement(
-                collection, "DataSet", timestep=repr(time), group="", part="0", file=file
+                entries,
+                "DataSet",
+                timestep=repr(time),
+                group="",
+                part="0",
+                file=_file_name(name, number),
             )
-        partial = self.path.with_suffix(".partial")
+        path = collection(self.folder, name)
+        partial = path.with_suffix(".partial")
         ElementTree.ElementTree(root).write(partial, encoding="utf-8", xml_declaration=True)
-        os.replace(partial, self.path)
+        os.replace(partial, path)
+
+
+def _file_name(name: str, number: int) -> str:
+    return f"{name}_{number:05d}.vtu"

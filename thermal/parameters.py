@@ -30,7 +30,7 @@ class Ambient(Table, strict=False):
     temperature_degC: float = quantity(
         -8.0,
         "degC",
-        "air temperature; the first of the test rig's two, -8 and -16",
+        "air temperature; the source study's runs were at -8 and at -16",
         ge=-100.0,
         lt=MELTING_POINT_DEGC,
     )

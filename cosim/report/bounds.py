@@ -29,6 +29,10 @@ WIDTH = "belt_width"
 SLACK = 0.05
 #: Times its installed length that a spring can be: no linear spring is one beyond that.
 LONGEST = 2.0
+#: Part of the work that may be missing from the mechanics' ledger: the default tolerance leaves
+#: some 1e-11. Below so many joules there was no work to tell.
+LEDGER_LIMIT = 1e-2
+LEDGER_JOULES = 1e-6
 
 
 def bounds_numbers(dataset: xr.Dataset) -> dict[str, Any]:
@@ -147,7 +151,7 @@ def _at(values: Array, row: int | None, unit: str) -> Quantity:
 
 
 def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:
-    """What a run does that its rig could not, a sentence each, from the summary; none is well."""
+    """What a run does that its rig could not, or its ledger does not hold, a sentence each."""
     told = []
     left, centre = numbers.get("left_belt", {}), numbers.get("slab_centre", {})
     if left.get("time") is not None:
@@ -163,6 +167,14 @@ def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:
         told.append(
             f"a spring is longer than it can be from t = {springs['time']:.4g} s on: up to "
             f"{_mm(springs['longest'])}, allowed is {_mm(springs['allowed'])}"
+        )
+    mechanics = numbers.get("ledger", {}).get("mechanics", {})
+    part, joules = mechanics.get("relative_residual"), mechanics.get("largest_residual", 0.0)
+    if part is not None and part > LEDGER_LIMIT and joules > LEDGER_JOULES:
+        told.append(
+            f"the ledger of the mechanics is off by {part:.1e} of the work, allowed is "
+            f"{LEDGER_LIMIT:g}: no number of this run can be believed; look at the initial state, "
+            "mass and stiffness, and at solver.tolerance"
         )
     return told
 

@@ -16,6 +16,7 @@ from stickslip.packing import GRAVITY
 from stickslip.steady_motion import Assessment
 from stickslip.steady_motion.regimes import CREEPING, DISTURBED, OWN, RAMP, REST, RIDING, STARTS
 from stickslip.steady_motion.stability import GUIDED, NEUTRAL, UNSTABLE
+from stickslip.trajectory import counted_break_aways
 
 from cosim.report.quantities import Quantity
 
@@ -197,16 +198,11 @@ def slip_share(dataset: xr.Dataset, begin: float, end: float) -> float | None:
 def break_aways(dataset: xr.Dataset) -> Array:
     """Times of break-away, s (k,).
 
-    Without located events: each count of `slip_count` is put in the middle of its interval, so
-    that a break-away whose slip ended before the next row is not lost.
+    Without located events: those that `slip_count` has, to half an interval of the rows.
     """
     if has_events(dataset):
         return dataset["event_time"].values[dataset["event_mode"].values == 1]
-    time, count = dataset["time"].values, dataset["slip_count"].values.astype(float)
-    known = np.isfinite(count)
-    time, count = time[known], count[known]
-    middles = 0.5 * (time[1:] + time[:-1])
-    return np.repeat(middles, np.maximum(np.diff(count), 0.0).astype(int))
+    return counted_break_aways(dataset["time"].values, dataset["slip_count"].values.astype(float))
 
 
 def attach_assessment(dataset: xr.Dataset, assessment: Assessment | None) -> None:

@@ -2,16 +2,24 @@
 
 A picture's ``live`` is a mapping of plain JSON with the name of its script as ``kind``
 (`templates/KIND.js`). Numbers travel as base64 of little-endian arrays, see `packed`.
+
+A figure that was drawn can be made alive by what stands on its axes, see `live_of`: curves with
+times of their own, as of several models, then share an axis.
 """
 
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
@@ -20,6 +28,8 @@ Live = Mapping[str, Any]
 #: Rows of a figure on a page: about three a pixel of a wide screen. Of more, each of so many
 #: stretches of time keeps its lowest and its highest point of every curve.
 MOST_ROWS = 5000
+#: Stretches there are at least, however many curves: about one for each two pixels.
+LEAST_STRETCHES = 600
 #: Known events of a figure: from more on they are rows like others.
 MOST_EVENTS = 4000
 
@@ -48,7 +58,8 @@ class Panel:
     levels: heights of broken lines, and what they are. stacked: each filled curve shows what is
     between it and the next, and hovering says that. from_zero: the scale begins at 0. span: the
     least that it spans. top: where it ends. shaded: the figure's phases show. logarithmic: of the
-    scale. thermometer: air temperature (degC) and factor to K, for a second scale of degrees.
+    scale. linear_to: linear up to here and logarithmic beyond, on both sides of 0 (0: all of it is
+    linear). thermometer: air temperature (degC) and factor to K, for a second scale of degrees.
     """
 
     label: str
@@ -60,6 +71,7 @@ class Panel:
     top: float | None = None
     shaded: bool = True
     logarithmic: bool = False
+    linear_to: float = 0.0
     thermometer: tuple[float, float] | None = None
 
 
@@ -106,7 +118,16 @@ def several(figures: Mapping[str, Live]) -> Live:
 def _panel(panel: Panel, rows: NDArray[np.int64]) -> dict[str, Any]:
     told = {
         key: getattr(panel, key)
-        for key in ("label", "stacked", "from_zero", "span", "top", "shaded", "logarithmic")
+        for key in (
+            "label",
+            "stacked",
+            "from_zero",
+            "span",
+            "top",
+            "shaded",
+            "logarithmic",
+            "linear_to",
+        )
     }
     curves = [
         {
@@ -139,7 +160,7 @@ def thinned(
     chosen[[0, -1]] = True
     if keep is not None and keep.sum() <= MOST_EVENTS:
         chosen |= keep
-    stretches = max(MOST_ROWS // (2 * len(curves)), 1)
+    stretches = max(MOST_ROWS // (2 * len(curves)), LEAST_STRETCHES)
     edges = np.searchsorted(time, np.linspace(time[0], time[-1], stretches + 1)[:-1])
     edges = np.unique(edges)
     for values in curves:
@@ -157,6 +178,126 @@ def _highest(values: Array, edges: NDArray[np.int64]) -> NDArray[np.int64]:
     top = values == np.maximum.reduceat(values, edges)[stretch]
     found = np.flatnonzero(top)
     return found[np.unique(stretch[found], return_index=True)[1]]
+
+
+class Series(NamedTuple):
+    """Values (n,) over the time (n,), s, of a curve; the curve's own values are not looked at."""
+
+    time: Array
+    curve: Curve
+
+
+def on_one_axis(series: Sequence[Series]) -> tuple[Array, list[Curve]]:
+    """All times of all series, rising, and the curves at them; NaN outside a curve's own.
+
+    Dots are at their own times only: none is made up between them.
+    """
+    times = np.unique(np.concatenate([one.time for one in series]))
+    return times, [replace(one.curve, values=_at(times, one)) for one in series]
+
+
+def _at(times: Array, one: Series) -> Array:
+    values = np.asarray(one.curve.values, float)
+    if not one.curve.dots:
+        return np.interp(times, one.time, values, left=np.nan, right=np.nan)
+    found = np.full(times.size, np.nan)
+    found[np.searchsorted(times, one.time)] = values
+    return found
+
+
+def live_of(figure: Figure) -> Live:
+    """What is drawn over time, axes by axes; axes without a title are panels below the one above.
+
+    Broken lines over the whole width are levels, upright ones marks. A curve without a label has
+    that of its colour elsewhere in the figure, else of its axis.
+    """
+    labels = _labels(figure)
+    rows = {round(axes.get_position().y0, 6): axes.get_ylabel() for axes in reversed(figure.axes)}
+    found: dict[str, list[Axes]] = {}
+    for axes in sorted(figure.axes, key=lambda each: each.get_position().x0):
+        title = axes.get_title() or axes.get_title(loc="left") or axes.get_title(loc="right")
+        key = title or next(reversed(found), "")
+        found.setdefault(key, []).append(axes)
+    return several({title: _figure(group, labels, rows) for title, group in found.items()})
+
+
+def _figure(group: Sequence[Axes], labels: dict[str, str], rows: dict[float, str]) -> Live:
+    """Axes below each other as panels."""
+    series: list[Series] = []
+    sizes, panels = [], []
+    for axes in group:
+        label = axes.get_ylabel() or rows[round(axes.get_position().y0, 6)]
+        own = [_series(line, labels, label) for line in axes.lines if _is_curve(axes, line)]
+        series += own
+        sizes.append(len(own))
+        panels.append(Panel(_with_brackets(label), [], levels=_levels(axes)))
+    times, curves = on_one_axis(series)
+    begin, end = group[0].get_xlim()
+    seen = (times >= begin) & (times <= end)
+    ends = np.cumsum(sizes)
+    full = [
+        replace(
+            panel,
+            curves=[
+                replace(curve, values=curve.values[seen]) for curve in curves[stop - size : stop]
+            ],
+        )
+        for panel, size, stop in zip(panels, sizes, ends, strict=True)
+    ]
+    return over_time(times[seen], full, marks=_marks(group[0]))
+
+
+def _is_curve(axes: Axes, line: Line2D) -> bool:
+    return line.get_transform() == axes.transData
+
+
+def _series(line: Line2D, labels: dict[str, str], axis: str) -> Series:
+    colour = to_hex(line.get_color())
+    own = str(line.get_label())
+    label = labels.get(colour, re.split(r"[\[,(]", axis)[0].strip()) if own[:1] == "_" else own
+    time, values = (np.asarray(each, float) for each in line.get_data())
+    dots = line.get_linestyle() in ("None", "", " ")
+    dash = line.get_linestyle() == "--"
+    width = min(float(line.get_linewidth()), 2.5)
+    return Series(time, Curve(label, values, colour, dots=dots, dash=dash, width=width))
+
+
+def _labels(figure: Figure) -> dict[str, str]:
+    """Colour -> what it stands for, of the lines that say so."""
+    return {
+        to_hex(line.get_color()): str(line.get_label())
+        for axes in figure.axes
+        for line in reversed(axes.lines)
+        if not str(line.get_label()).startswith("_") and _is_curve(axes, line)
+    }
+
+
+def _levels(axes: Axes) -> list[tuple[float, str]]:
+    """Lines over the whole width; one that is unnamed has the name of another, or none."""
+    return [
+        (float(np.asarray(line.get_ydata())[0]), _named(line))
+        for line in axes.lines
+        if line.get_transform() == axes.get_yaxis_transform(which="grid")
+    ]
+
+
+def _marks(axes: Axes) -> list[tuple[float, str]]:
+    """Upright lines over the whole height."""
+    return [
+        (float(np.asarray(line.get_xdata())[0]), _named(line))
+        for line in axes.lines
+        if line.get_transform() == axes.get_xaxis_transform(which="grid")
+    ]
+
+
+def _named(line: Line2D) -> str:
+    label = str(line.get_label())
+    return "" if label.startswith("_") else label
+
+
+def _with_brackets(label: str) -> str:
+    """ "x, cm" and "x (cm)" as the pages have it: "x [cm]"."""
+    return re.sub(r"^(.*?)(?:, | \()([^,()]+)\)?$", r"\1 [\2]", label)
 
 
 def packed(values: ArrayLike, kind: str = "f4") -> dict[str, str]:

@@ -120,7 +120,7 @@ UNITS = {
     "1": "",
 }
 # units that are read more easily with a prefix than with a power of ten
-PREFIXED = {"m", "K", "W", "N", "s"}
+PREFIXED = {"m", "K", "W", "N", "s", "J"}
 
 
 #: Unit -> what is rounding below it, beside what a rig's block, belt and ice are like: an atom's
@@ -128,6 +128,8 @@ PREFIXED = {"m", "K", "W", "N", "s"}
 ROUNDING = {
     "m": 1e-10,
     "m/s": 1e-13,
+    "rad": 1e-12,
+    "rad/s": 1e-11,
     "N": 1e-13,
     "N.m": 1e-14,
     "W": 1e-14,

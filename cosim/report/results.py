@@ -156,6 +156,8 @@ def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
         if value is not None:
             none = path == "after_run_up.frequency" and value == 0.0
             told_of = "none" if none else _told(numbers, path)
+            if path == "wall_time":  # of the machine's mood: two digits
+                told_of = told(float(f"{value:.2g}"), "s")
             found.append((words.get(path, worded(path.rsplit(".")[-1])), told_of))
     return found
 
@@ -175,7 +177,12 @@ def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
         "melting": "Melting, and the balance of the film in the last second",
     }
     for name, title in titles.items():
-        if name in numbers:
+        if name not in numbers:
+            continue
+        if name == "after_run_up" and not numbers[name]["duration"]:
+            begin = _told(numbers, f"{name}.begin")
+            yield Table(title, [("none: the run ends before the ramp does", begin)])
+        else:
             yield Table(title, _rows(numbers, name, numbers[name]))
     if "coupling" in numbers:
         coupling = numbers["coupling"]

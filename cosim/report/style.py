@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
-from functools import wraps
+from functools import partial, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib
@@ -18,6 +18,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter, StrMet
 from numpy.typing import NDArray
 from PIL import Image
 
+from .live import Live
 from .page import DPI, Picture
 
 if TYPE_CHECKING:
@@ -91,17 +92,38 @@ def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
     return drawn
 
 
-def picture(name: str, caption: str) -> Callable[[Callable[..., Figure]], Callable[..., Picture]]:
-    """Turn a function that draws a figure into one that returns its PNG."""
+def picture(
+    name: str, caption: str, *, alt: str = "", live: Callable[[Figure], Live] | None = None
+) -> Callable[[Callable[..., Figure]], Callable[..., Picture]]:
+    """Turn a function that draws a figure into one that returns its PNG.
+
+    alt: what a reader hears. live: makes it alive, as `live.live_of` does a figure over time.
+    """
 
     def wrap(draw: Callable[..., Figure]) -> Callable[..., Picture]:
         @wraps(draw)
         def drawn(*args: Any, **options: Any) -> Picture:
-            return Picture(name, caption, png(styled(draw)(*args, **options)))
+            figure = styled(draw)(*args, **options)
+            image = png(figure)
+            return Picture(name, caption, image, alt, live(figure) if live else None)
 
         return drawn
 
     return wrap
+
+
+def shown(drawn: Callable[..., Picture], *args: Any) -> Figure:
+    """The figure of a function of `picture`, before it is a PNG."""
+    return displayed(styled(drawn.__wrapped__)(*args))  # type: ignore[attr-defined]
+
+
+def displayed(figure: Figure) -> Figure:
+    """With what Jupyter asks an object for: a notebook shows it where it stands last in a cell.
+
+    Figures that pyplot does not know have nothing of the kind.
+    """
+    figure._repr_png_ = partial(png, figure)  # type: ignore[attr-defined]
+    return figure
 
 
 #: Of a PNG: half the bytes of true colour and less, and no eye sees the difference.

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from stickslip.trajectory import break_away_frequency
 
 from cosim.report.contents import assessment_numbers
 
@@ -32,8 +33,8 @@ def after_ramp(dataset: xr.Dataset) -> dict[str, Quantity]:
     starts = break_aways(dataset)
     starts = starts[(starts >= begin) & (starts <= end)]
     reached = window > 0.0
-    period = float(starts[-1] - starts[0]) / (starts.size - 1) if starts.size > 1 else None
-    frequency = 1.0 / period if period else None if starts.size else 0.0
+    frequency = break_away_frequency(starts)
+    period = 1.0 / frequency if frequency > 0.0 else None
     return {
         "begin": Quantity(begin, "s"),
         "duration": Quantity(window if reached else 0.0, "s"),

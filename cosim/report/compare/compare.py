@@ -3,33 +3,51 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
+from cosim.report.quantities import ROUNDING
+
 from .one_result import OneResult
+from .series import Apart, Series, apart, ends, matched
 
 #: What a summary has beside the numbers of the run itself, and how it was computed.
 NOT_NUMBERS = (
     *("units", "versions", "parameters", "name", "case", "status", "reason", "created"),
     *("scenario", "events", "wall_time", "rows", "coupling", "participants", "connections"),
+    *("outputs", "system", "source"),
 )
 #: Part by which two numbers differ that are the same to rounding.
 SAME = 1e-9
 #: Residual of a ledger, J or a part of it, below which it is nothing.
-ROUNDING = 1e-9
+RESIDUAL = 1e-9
+RESIDUALS = ("residual", "largest_difference", "relative_difference")
+#: Units whose zero is a convention: what is a part of such a value says nothing.
+NO_PARTS = ("degC",)
+SYSTEM = "system"
+CASES = {SYSTEM: "any system", "coupled": "a coupled run", "mechanics": "the mechanics alone"}
+#: Outputs of a system's summary: they are compared as series, in one unit.
+OUTPUTS = "outputs"
+#: Part of a curve's size that is its rounding.
+PART_OF_SIZE = 1e-12
+#: Part by which the rows of two runs may be apart in time and be as dense all the same.
+AS_DENSE = 0.01
 
 
 class Difference(NamedTuple):
     """One number of both runs, None where one has it not.
 
-    difference: b - a; relative: to a, None where that is 0.
+    difference: b - a; relative: to a, None where that is nothing beside rounding, or in degC.
+    size: of what it is taken from, such as a curve's largest value; 0 where it stands alone.
     """
 
     name: str
     unit: str
     a: float | None
     b: float | None
+    size: float = 0.0
 
     @property
     def difference(self) -> float | None:
@@ -37,18 +55,30 @@ class Difference(NamedTuple):
 
     @property
     def relative(self) -> float | None:
-        if self.a is None or self.difference is None or self.a == 0.0:
+        if self.a is None or self.difference is None or self.unit in NO_PARTS:
             return None
-        return self.difference / abs(self.a)
+        return None if self._is_nothing(self.a) else self.difference / abs(self.a)
+
+    def _is_nothing(self, value: float) -> bool:
+        least = max(ROUNDING.get(self.unit, 0.0), PART_OF_SIZE * self.size)
+        return value == 0.0 or abs(value) < least
+
+    @property
+    def in_both(self) -> bool:
+        return self.a is not None and self.b is not None
 
     @property
     def same(self) -> bool:
         """Whether both have it, and the same to rounding; a residual is all rounding."""
         if self.a is None or self.b is None:
             return self.a is self.b
-        if self.name.endswith("residual") and max(abs(self.a), abs(self.b)) < ROUNDING:
+        if self._is_nothing(self.a) and self._is_nothing(self.b):
             return True
-        return math.isclose(self.a, self.b, rel_tol=SAME)
+        residual = any(part.endswith(RESIDUALS) for part in self.name.split("."))
+        if residual and max(abs(self.a), abs(self.b)) < RESIDUAL:
+            return True
+        least = PART_OF_SIZE * self.size
+        return math.isclose(self.a, self.b, rel_tol=SAME, abs_tol=least)
 
 
 @dataclass(frozen=True)
@@ -59,18 +89,44 @@ class Comparison:
     ----------
     a, b : the results, with labels that tell them apart
     numbers : `group.key` of the summary, in its order
-    keys : of the scenarios, where they differ -> both values, None where one does not have it
+    keys : of the scenarios, or of the systems, where they differ -> both values, None where one
+        does not have it; none for a scenario beside a system
+    series : what both have over time, in one unit
+    not_compared : what has one name and is not one quantity, a line each
     """
 
     a: OneResult
     b: OneResult
     numbers: tuple[Difference, ...]
     keys: Mapping[str, tuple[Any, Any]]
+    series: tuple[Series, ...] = ()
+    not_compared: tuple[str, ...] = ()
 
     @property
     def different(self) -> list[Difference]:
-        """Numbers that are not the same."""
-        return [one for one in self.numbers if not one.same]
+        """Numbers that both have, and that are not the same."""
+        return [one for one in self.numbers if one.in_both and not one.same]
+
+    @property
+    def of_one(self) -> list[Difference]:
+        """Numbers that only one of them has."""
+        return [one for one in self.numbers if (one.a is None) is not (one.b is None)]
+
+    @cached_property
+    def apart(self) -> list[Apart]:
+        """Of each curve that both have, how far they are apart over the time of both."""
+        found = (apart(each, self.a.dataset, self.b.dataset) for each in self.series)
+        return [one for one in found if one is not None]
+
+    @property
+    def curves(self) -> list[Apart]:
+        """Of these, what is apart by more than rounding."""
+        return [
+            one
+            for one in self.apart
+            if not any(part.endswith(RESIDUALS) for part in one.name.split("."))
+            and abs(one.largest) > max(ROUNDING.get(one.unit, 0.0), SAME * one.span)
+        ]
 
     @property
     def remarks(self) -> list[str]:
@@ -78,16 +134,21 @@ class Comparison:
         said = [*self.a.remarks, *self.b.remarks]
         cases = [str(one.numbers["case"]) for one in (self.a, self.b) if "case" in one.numbers]
         if len(set(cases)) > 1:
-            said.append(
-                f"one is of {cases[0]}, the other of {cases[1]}: not all numbers are in both"
-            )
+            told = [CASES.get(case, case) for case in cases]
+            said.append(f"one is of {told[0]}, the other of {told[1]}: not all numbers are in both")
         ends = [float(one.dataset["time"][-1]) for one in (self.a, self.b)]
         if not math.isclose(*ends, rel_tol=SAME):
             said.append(
                 f"one run is {ends[0]:g} s long, the other {ends[1]:g} s: totals are of each run's"
                 " own time"
             )
-        return said
+        steps = [one.output_step for one in (self.a, self.b)]
+        if all(steps) and not math.isclose(*steps, rel_tol=AS_DENSE):
+            said.append(
+                f"the one's rows are {steps[0]:g} s apart, the other's {steps[1]:g} s: what is"
+                " found in rows, such as a largest value, may differ by what lies between"
+            )
+        return [*said, *self.not_compared]
 
     def as_dict(self) -> dict[str, Any]:
         """Everything but the time series, for JSON."""
@@ -106,6 +167,16 @@ class Comparison:
                 }
                 for one in self.numbers
             },
+            "curves": {
+                one.name: {
+                    "unit": one.unit,
+                    "largest": one.largest,
+                    "at": one.at,
+                    "rms": one.rms,
+                    "span": one.span,
+                }
+                for one in self.apart
+            },
         }
 
 
@@ -113,16 +184,29 @@ def compare(a: OneResult, b: OneResult) -> Comparison:
     """Two results beside each other, whatever they are of.
 
     Their numbers are those of `summary.json`, in SI units; what only one has is None in the other.
+    Outputs of a system are compared with what the other has of the same name, and in A's unit.
     """
     if a.label == b.label:
         a, b = replace(a, label=f"{a.label} (A)"), replace(b, label=f"{b.label} (B)")
     left, right = dict(_flat(a.numbers)), dict(_flat(b.numbers))
-    units = {**b.numbers.get("units", {}), **a.numbers.get("units", {})}
+    units = {**b.numbers.get("units", {}), **a.numbers.get("units", {}), "time_reached": "s"}
     names = [*left, *(name for name in right if name not in left)]
-    numbers = tuple(
+    series, refused = matched(a.dataset, b.dataset)
+    numbers = [
         Difference(name, units.get(name, ""), left.get(name), right.get(name)) for name in names
-    )
-    return Comparison(a, b, numbers, _differing(a, b))
+    ]
+    if SYSTEM in (a.numbers.get("case"), b.numbers.get("case")):
+        numbers += _outputs(a, b, series)
+    return Comparison(a, b, tuple(numbers), _differing(a, b), tuple(series), tuple(refused))
+
+
+def _outputs(a: OneResult, b: OneResult, series: Iterable[Series]) -> Iterator[Difference]:
+    """Where the outputs of both begin, end and go to."""
+    for each in series:
+        found = ends(each, a.dataset, b.dataset)
+        size = max(abs(value) for values in found.values() for value in values)
+        for key, values in found.items():
+            yield Difference(f"{OUTPUTS}.{each.name}.{key}", each.unit, *values, size)
 
 
 def _flat(tree: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, float]]:
@@ -136,6 +220,8 @@ def _flat(tree: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, float]
 
 
 def _differing(a: OneResult, b: OneResult) -> dict[str, tuple[Any, Any]]:
+    if bool(a.scenario) is not bool(b.scenario):
+        return {}
     left, right = a.tables, b.tables
     keys = [*left, *(key for key in right if key not in left)]
     return {key: (left.get(key), right.get(key)) for key in keys if left.get(key) != right.get(key)}

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.report.contents import break_aways
+from cosim.report.figures.events import through_events
+from cosim.report.live import Curve, Live, Panel, on_one_axis, over_time
+from cosim.report.live import Series as CurveInTime
+from cosim.report.page import Picture
+from cosim.report.quantities import ROUNDING
 from cosim.report.style import BLUE, ORANGE, panels, picture, readable
 
 from .compare import Comparison
+from .series import Series
 
 Array = NDArray[np.float64]
 
@@ -38,38 +46,70 @@ CHANNELS = (
 )
 #: Colour and width of A and of B.
 STROKES = ((ORANGE, 3.0), (BLUE, 1.1))
+#: Ports by which break-aways are found.
+COUNTED = ("mode", "slip_count")
+#: Letters of a name that stand beside a panel; a longer one stands above it.
+LONG_NAME = 18
 #: Periods at the end that are drawn enlarged, and the part of the run where there are none.
 CYCLES, PART = 4.0, 0.1
 
 
-def moving(both: Comparison) -> list[Channel]:
+class Drawn(NamedTuple):
+    """A channel with the values of A and of B, in its unit; None where a run has none of it."""
+
+    channel: Channel
+    values: tuple[Array | None, Array | None]
+
+
+def moving(both: Comparison) -> list[Drawn]:
     """Channels in which one of the runs moves at all; of any other system, what both have."""
-    known = [one for one in CHANNELS if _there(both, one.name)]
-    if not known:
-        known = [
-            Channel(str(name), str(name), str(series.attrs.get("units", "1")), 0.0)
-            for name, series in both.a.dataset.data_vars.items()
-            if series.dims == ("time",) and _there(both, str(name))
-        ][:8]
-    return [
-        one for one in known if max(_range(each, one.name) for each in _sets(both)) > one.nothing
-    ]
+    found = [_of_channel(both, one) for one in CHANNELS]
+    there = [one for one in found if any(each is not None for each in one.values)]
+    if not there:
+        there = [
+            _of_series(both, one, Channel(one.name, one.name, one.unit, ROUNDING.get(one.unit, 0)))
+            for one in both.series
+        ]
+    return [one for one in there if _range(one.values) > one.channel.nothing][: len(CHANNELS)]
 
 
 def _sets(both: Comparison) -> tuple[xr.Dataset, xr.Dataset]:
     return both.a.dataset, both.b.dataset
 
 
-def _there(both: Comparison, name: str) -> bool:
-    return any(name in one and one[name].dims == ("time",) for one in _sets(both))
+def _of_channel(both: Comparison, channel: Channel) -> Drawn:
+    """A known channel: of a run by its name, of a system by the name of its port."""
+    for one in both.series:
+        if one.name.rpartition(".")[2] == channel.name:
+            return _of_series(both, one, channel._replace(unit=one.unit))
+    a, b = (
+        np.asarray(one[channel.name].values, float)
+        if channel.name in one and one[channel.name].dims == ("time",)
+        else None
+        for one in _sets(both)
+    )
+    return Drawn(channel, (a, b))
 
 
-def _range(dataset: xr.Dataset, name: str) -> float:
-    if name not in dataset:
-        return 0.0
-    values = np.asarray(dataset[name].values, float)
-    values = values[np.isfinite(values)]
-    return float(np.ptp(values)) if values.size else 0.0
+def _of_series(both: Comparison, series: Series, channel: Channel) -> Drawn:
+    return Drawn(channel, (series.of_a(both.a.dataset), series.of_b(both.b.dataset)))
+
+
+def _range(values: tuple[Array | None, ...]) -> float:
+    """The larger span of the two."""
+    finite = [one[np.isfinite(one)] for one in values if one is not None]
+    return max((float(np.ptp(one)) for one in finite if one.size), default=0.0)
+
+
+def _starts(dataset: xr.Dataset) -> Array:
+    """Break-aways of a run, or of the one unit of a system that has any, s."""
+    modes = [str(name) for name in dataset.data_vars if str(name).rpartition(".")[2] == "mode"]
+    if not modes:
+        return np.zeros(0)
+    of = modes[0].rpartition("mode")[0]
+    if f"{of}slip_count" not in dataset:
+        return np.zeros(0)
+    return break_aways(dataset.rename({f"{of}{port}": port for port in COUNTED} if of else {}))
 
 
 def _window(both: Comparison) -> tuple[float, float]:
@@ -77,7 +117,7 @@ def _window(both: Comparison) -> tuple[float, float]:
     end = min(float(one["time"][-1]) for one in _sets(both))
     lengths = []
     for one in _sets(both):
-        starts = break_aways(one) if "mode" in one else np.zeros(0)
+        starts = _starts(one)
         starts = starts[starts <= end]
         if starts.size > 2:
             lengths.append(CYCLES * float(np.mean(np.diff(starts[-6:]))))
@@ -85,21 +125,66 @@ def _window(both: Comparison) -> tuple[float, float]:
     return end - min(max(lengths, default=PART * (end - begin)), end - begin), end
 
 
+def overlay(both: Comparison) -> Picture:
+    """Drawn, and alive: where both have other times, each on the straight lines of its rows."""
+    window, finer = _window(both), _with_events(both)
+    return replace(
+        _overlay(finer, window),
+        alt="Both runs over time, one over the other.",
+        live=_live(finer, window),
+    )
+
+
+def _live(both: Comparison, window: tuple[float, float]) -> Live:
+    labels = (f"A: {both.a.label}", f"B: {both.b.label}")
+    names, series = [], []
+    for channel, both_values in moving(both):
+        scale = readable(_all_values(both_values), channel.unit)
+        for one, values, label, (colour, width) in zip(
+            _sets(both), both_values, labels, STROKES, strict=True
+        ):
+            if values is not None:
+                curve = Curve(label, scale(values), colour, width=width)
+                series.append(CurveInTime(one["time"].values, curve))
+                names.append(f"{channel.says} [{scale.unit}]")
+    times, curves = on_one_axis(series)
+    panels = [
+        Panel(label, [curve for name, curve in zip(names, curves, strict=True) if name == label])
+        for label in dict.fromkeys(names)
+    ]
+    return over_time(times, panels, part=(*window, "the last cycles that both have"))
+
+
+def _all_values(values: tuple[Array | None, ...]) -> Array:
+    return np.concatenate([one for one in values if one is not None])
+
+
+def _with_events(both: Comparison) -> Comparison:
+    """With the events as rows, where it is a run of the block."""
+    a, b = (
+        replace(one, dataset=through_events(one.dataset)[0])
+        if "parameters" in one.dataset.attrs and "mode" in one.dataset and one.dataset.sizes["time"]
+        else one
+        for one in (both.a, both.b)
+    )
+    return replace(both, a=a, b=b)
+
+
 @picture(
     "overlay",
     "Both runs over time, the whole of them and the last cycles that both have. The wide, orange"
     " line is A, the thin, blue one B: where only blue is seen on orange they are the same. What is"
-    " flat in both is left out.",
+    " flat in both is left out; where there is one line only, the other has no such quantity.",
 )
-def draw_overlay(both: Comparison) -> Figure:
+def _overlay(both: Comparison, window: tuple[float, float]) -> Figure:
     """A row for each channel that moves, over all time and enlarged."""
     channels = moving(both)
-    begin, end = _window(both)
+    begin, end = window
     figure, axes = panels(
         max(len(channels), 1), 2, height=1.9, width=11.0, width_ratios=[1.6, 1.0], sharex="col"
     )
-    for row, channel in zip(axes, channels, strict=False):
-        _draw(row, both, channel, begin, end)
+    for row, drawn in zip(axes, channels, strict=False):
+        _draw(row, both, drawn, begin, end)
     axes[0, 1].set_xlim(begin, end)
     for ax in axes[-1]:
         ax.set_xlabel("time [s]")
@@ -110,13 +195,9 @@ def draw_overlay(both: Comparison) -> Figure:
     return figure
 
 
-def _draw(row: NDArray, both: Comparison, channel: Channel, begin: float, end: float) -> None:
-    series = [
-        np.asarray(one[channel.name].values, float) if channel.name in one else None
-        for one in _sets(both)
-    ]
-    there = np.concatenate([one for one in series if one is not None])
-    scale = readable(there, channel.unit)
+def _draw(row: NDArray, both: Comparison, drawn: Drawn, begin: float, end: float) -> None:
+    channel, series = drawn
+    scale = readable(_all_values(series), channel.unit)
     seen = []
     for one, values, (colour, width) in zip(_sets(both), series, STROKES, strict=True):
         time = one["time"].values
@@ -124,12 +205,21 @@ def _draw(row: NDArray, both: Comparison, channel: Channel, begin: float, end: f
         for ax in row:
             ax.plot(time, shown, color=colour, linewidth=width)
         seen.append(shown[(time >= begin) & (time <= end)])
-    row[0].set_ylabel(f"{channel.says} [{scale.unit}]")
+    _label(row[0], channel.says, scale.unit)
     inside = np.concatenate(seen)
     inside = inside[np.isfinite(inside)]
-    if inside.size and np.ptp(inside) > 0.0:
+    if inside.size and np.ptp(inside) > np.ptp(scale(np.array([0.0, channel.nothing]))):
         margin = 0.05 * float(np.ptp(inside))
         row[1].set_ylim(inside.min() - margin, inside.max() + margin)
+
+
+def _label(ax: Axes, says: str, unit: str) -> None:
+    """A long name above the panel: beside it, it would run into its neighbours."""
+    if len(says) <= LONG_NAME:
+        ax.set_ylabel(f"{says} [{unit}]")
+    else:
+        ax.set_ylabel(f"[{unit}]")
+        ax.set_title(says, loc="left", fontsize="small")
 
 
 @picture(
@@ -143,11 +233,16 @@ def draw_phases(both: Comparison) -> Figure:
     figure, axes = panels(1, 1, height=3.6, width=5.4)
     ax = axes[0, 0]
     labels = (both.a.label, both.b.label)
-    late = [one.sel(time=slice(begin, end)) for one in _sets(both)]
-    x = readable(np.concatenate([one["x"].values for one in late]), "m")
-    v = readable(np.concatenate([one["vx"].values for one in late]), "m/s")
-    for one, (colour, width), label in zip(late, STROKES, labels, strict=True):
-        ax.plot(x(one["x"].values), v(one["vx"].values), color=colour, lw=width, label=label)
+    place, speed = _phase_series(both)
+    late = [(one["time"].values >= begin) & (one["time"].values <= end) for one in _sets(both)]
+    xs, vs = (
+        [values[when] for values, when in zip(each.values, late, strict=True) if values is not None]
+        for each in (place, speed)
+    )
+    x = readable(np.concatenate(xs), place.channel.unit)
+    v = readable(np.concatenate(vs), speed.channel.unit)
+    for x_one, v_one, (colour, width), label in zip(xs, vs, STROKES, labels, strict=True):
+        ax.plot(x(x_one), v(v_one), color=colour, lw=width, label=label)
     ax.set(xlabel=f"x [{x.unit}]", ylabel=f"velocity along x [{v.unit}]")
     figure.legend(ncols=2, loc="outside upper center")
     return figure
@@ -155,4 +250,9 @@ def draw_phases(both: Comparison) -> Figure:
 
 def has_phases(both: Comparison) -> bool:
     """Whether both have what a phase portrait is drawn of."""
-    return all({"x", "vx"} <= set(one.data_vars) for one in _sets(both))
+    return all(one is not None for each in _phase_series(both) for one in each.values)
+
+
+def _phase_series(both: Comparison) -> tuple[Drawn, Drawn]:
+    place, speed = Channel("x", "x", "m", 0.0), Channel("vx", "velocity", "m/s", 0.0)
+    return _of_channel(both, place), _of_channel(both, speed)

@@ -9,11 +9,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from cosim.manifest import COMPLETE, MANIFEST
 
 DATA, NUMBERS = "result.nc", "summary.json"
+#: What a system's numbers have of how it was run, and of each of its units.
+SETTINGS = ("scheme", "order", "step_control", "macro_step")
+OF_A_UNIT = ("file", "isolated", "substeps")
 
 
 class NotAResult(ValueError):
@@ -43,7 +47,9 @@ class OneResult:
 
     @property
     def tables(self) -> dict[str, Any]:
-        """Every key of the scenario -> value, `table.key`; none without a scenario."""
+        """Every key of the scenario -> value, `table.key`; of a system, what it is made of."""
+        if not self.scenario:
+            return _of_system(self.numbers)
         found: dict[str, Any] = {}
         for name, entries in tomllib.loads(self.scenario).items():
             if isinstance(entries, dict):
@@ -51,6 +57,12 @@ class OneResult:
             else:
                 found[name] = entries
         return found
+
+    @property
+    def output_step(self) -> float:
+        """Time between rows, the median of all, s; 0 of a single row."""
+        time = np.asarray(self.dataset["time"].values, float)
+        return float(np.median(np.diff(time))) if time.size > 1 else 0.0
 
 
 def read_result(folder: Path) -> OneResult:
@@ -91,3 +103,15 @@ def _made_by(folder: Path) -> dict[str, Any]:
     except (OSError, ValueError):
         return {}
     return content if isinstance(content, dict) else {}
+
+
+def _of_system(numbers: Mapping[str, Any]) -> dict[str, Any]:
+    """How a system was coupled, its units and what they were set to, what feeds what."""
+    coupling = numbers.get("coupling", {})
+    found = {f"coupling.{key}": coupling[key] for key in SETTINGS if coupling.get(key) is not None}
+    for name, unit in numbers.get("participants", {}).items():
+        found |= {f"units.{name}.{key}": unit[key] for key in OF_A_UNIT if key in unit}
+        found |= {f"units.{name}.{key}": value for key, value in unit.get("set", {}).items()}
+    for each in numbers.get("connections", ()):
+        found[f"connections.{each['to']}"] = each["from"]
+    return found

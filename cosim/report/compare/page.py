@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from cosim.report.page import Picture, render
-from cosim.report.quantities import digits, told, worded
+from cosim.report.quantities import NONE, ROUNDING, digits, told, worded
 
 from .compare import Comparison, Difference
+from .series import Apart
 
+#: What a difference of two values in such a unit is in.
+DEGREES = {"degC": "K"}
+#: A difference by so many times the value is told as times the value.
+MANY = 10.0
 #: Titles of the summary's groups.
 TITLES = {
     "": "Run",
@@ -22,6 +27,8 @@ TITLES = {
     "regimes": "Regimes",
     "melting": "Melting",
     "outputs": "Outputs",
+    "overstretched": "How far springs are stretched",
+    "left_belt": "How far the block is off the middle",
 }
 
 
@@ -34,9 +41,12 @@ def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> st
         b=both.b,
         remarks=both.remarks,
         keys=[(key, _key(left), _key(right)) for key, (left, right) in both.keys.items()],
-        has_scenarios=bool(both.a.scenario and both.b.scenario),
-        groups=groups(both),
-        same=len(both.numbers) - len(both.different),
+        alike=bool(both.a.scenario) is bool(both.b.scenario),
+        systems=not (both.a.scenario or both.b.scenario),
+        groups=groups(both.different),
+        of_one=[(name, _of_one(both, side)) for name, side in (("A", "a"), ("B", "b"))],
+        curves=[curve_cells(one) for one in both.curves],
+        same=sum(one.same for one in both.numbers),
         different=len(both.different),
         pictures=pictures,
         command=command,
@@ -47,14 +57,34 @@ def _key(value: Any) -> str:
     return "(not there)" if value is None else digits(value) if value != [] else "[]"
 
 
-def groups(both: Comparison) -> list[tuple[str, list[tuple[str, ...]]]]:
-    """Title -> rows of the numbers that differ: name, A, B, difference, relative."""
+def groups(numbers: Iterable[Difference]) -> list[tuple[str, list[tuple[str, ...]]]]:
+    """Title -> rows of numbers: name, A, B, difference, relative."""
     found: dict[str, list[tuple[str, ...]]] = {}
-    for one in both.different:
+    for one in numbers:
         group, _, name = one.name.partition(".") if "." in one.name else ("", "", one.name)
         words = ", ".join(worded(part) for part in name.split("."))
         found.setdefault(TITLES.get(group, worded(group)), []).append((words, *cells(one)))
     return list(found.items())
+
+
+def _of_one(both: Comparison, side: str) -> list[tuple[str, list[tuple[str, str]]]]:
+    """Title -> names and values of what only one of them has."""
+    column = 1 if side == "a" else 2
+    those = [one for one in both.of_one if getattr(one, side) is not None]
+    return [(title, [(row[0], row[column]) for row in rows]) for title, rows in groups(those)]
+
+
+def curve_cells(one: Apart) -> tuple[str, str, str, str, str]:
+    """Name, largest difference, when, root of the mean square, the largest by A's span."""
+    unit = DEGREES.get(one.unit, one.unit)
+    nothing = ROUNDING.get(unit, 0.0)
+    return (
+        one.name,
+        told(one.largest, unit),
+        told(one.at, "s"),
+        told(one.rms, unit),
+        NONE if one.span <= nothing else f"{100.0 * abs(one.largest) / one.span:.3g} %",
+    )
 
 
 def cells(one: Difference) -> tuple[str, str, str, str]:
@@ -63,12 +93,12 @@ def cells(one: Difference) -> tuple[str, str, str, str]:
     return (
         told(one.a, one.unit, share),
         told(one.b, one.unit, share),
-        told(one.difference, one.unit, share),
-        "–" if one.relative is None else _percent(one.relative),
+        told(one.difference, DEGREES.get(one.unit, one.unit), share),
+        NONE if one.relative is None else _percent(one.relative),
     )
 
 
 def _percent(part: float) -> str:
-    if abs(part) >= 10.0:
-        return f"{part + 1.0:.3g} times".replace("-", "−")
+    if part >= MANY:
+        return f"{part + 1.0:.3g} times"
     return f"{100.0 * part:+.3g} %".replace("-", "−")

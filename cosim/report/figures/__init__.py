@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import xarray as xr
 from matplotlib.figure import Figure
@@ -12,15 +11,14 @@ from matplotlib.figure import Figure
 from cosim.names import unknown_name
 from cosim.report.live import Live
 from cosim.report.page import Picture
-from cosim.report.style import png
+from cosim.report.style import displayed, png
 
 from ..contents import mechanics_of
 from .belt_map import belt_temperature_live, draw_belt_temperature
 from .friction_table import draw_friction_table
-from .heat import heat, melting
+from .heat import heat, melting, temperatures
 from .motion import draw_phase_portrait, friction_force, motion
 from .over_time import Describe, drawn, live
-from .temperatures import temperatures
 from .top_view import draw_top_view, top_view_live
 
 
@@ -110,10 +108,9 @@ PLATES = (
     _over_time(
         "temperatures",
         "Temperatures",
-        "Rise of the temperatures over that of the air; the scale at the right is the"
-        " thermometer's. The face of the ice and the mean of both faces differ so little that"
-        " their difference is drawn. Before and behind the contact: an eighth of the contact's"
-        " length outside it.",
+        "Rise of the temperatures over that of the air. The face of the ice and the mean of both"
+        " faces differ so little that their difference is drawn. Before and behind the contact: an"
+        " eighth of the contact's length outside it.",
         "Temperatures of the contact and of the belt before and behind it over time.",
         temperatures,
         needs="interface_temperature",
@@ -166,17 +163,11 @@ def plates_of(dataset: xr.Dataset) -> list[Plate]:
 
 
 def figure_of(dataset: xr.Dataset, name: str) -> Figure:
-    """The figure of a name, of those that `plates_of` has; ValueError for a name that is none.
-
-    A notebook shows it where it stands last in a cell.
-    """
+    """The figure of a name, of those that `plates_of` has; ValueError for a name that is none."""
     plates = {plate.name: plate for plate in plates_of(dataset)}
     if name not in plates:
         raise ValueError(unknown_name("figure of this run", name, plates))
-    figure = plates[name].draw(dataset)
-    # what Jupyter asks an object for; figures that pyplot does not know have nothing of the kind
-    figure._repr_png_ = partial(png, figure)  # type: ignore[attr-defined]
-    return figure
+    return displayed(plates[name].draw(dataset))
 
 
 def _has(dataset: xr.Dataset, plate: Plate) -> bool:

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from cosim.report.contents import SLIP, has_events, mode_changes
 
+from .end_of_slip import moments
+
 Array = NDArray[np.float64]
 
 #: Means over the interval that ends at a row: of that interval on both sides of an event in it.
@@ -33,12 +35,11 @@ def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
     columns = [n for n, v in dataset.data_vars.items() if v.dims == ("time",)]
     over_time = dataset[columns]
     time = dataset["time"].values.astype(float)
-    times, modes = (known[1:] for known in mode_changes(dataset))
-    times, first = np.unique(times, return_index=True)
-    inside = (times > time[0]) & (times < time[-1]) if time.size else np.zeros(0, bool)
-    times, slips = times[inside], modes[first][inside] == SLIP
+    times, slips = _events(dataset)
     if times.size == 0:
         return over_time, np.zeros(time.size, bool)
+    over_time = _with_moments(dataset, over_time, times, slips)
+    time = over_time["time"].values.astype(float)
     edges = np.searchsorted(time, times, side="left")
     ends = np.append(edges[1:], time.size)
     begins = np.append(0, edges[:-1])
@@ -51,7 +52,7 @@ def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
     fixed = _positions(dataset, times)
     filled = {}
     for name in columns:
-        variable = dataset[name]
+        variable = over_time[name]
         values = variable.values.astype(float)
         if str(name) in fixed:
             left = right = fixed[str(name)]
@@ -61,6 +62,8 @@ def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
             left, right = values[np.maximum(edges - 1, 0)], values[np.minimum(edges, time.size - 1)]
         else:
             left = _drawn_out(time, values, times, edges - 1, -1, edges - begins)
+            if str(name) in FORCES:  # see `end_of_slip`: what no row knows is not made up
+                left = np.where(slips, left, values[np.maximum(edges - 1, 0)])
             right = _drawn_out(time, values, times, edges, 1, ends - edges)
             if str(name) not in FORCES:
                 from_left = np.where(slips, before | ~after, before & ~after)
@@ -70,6 +73,30 @@ def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
     for name in columns:
         new[name].attrs = dataset[name].attrs
     return new, np.concatenate([np.zeros(time.size, bool), np.ones(added.size, bool)])[order]
+
+
+def _events(dataset: xr.Dataset) -> tuple[Array, NDArray[np.bool_]]:
+    """Times (k,), s, within the rows, and whether a slip begins there."""
+    time = dataset["time"].values
+    times, modes = (known[1:] for known in mode_changes(dataset))
+    times, first = np.unique(times, return_index=True)
+    inside = (times > time[0]) & (times < time[-1]) if time.size else np.zeros(0, bool)
+    return times[inside], modes[first][inside] == SLIP
+
+
+def _with_moments(
+    dataset: xr.Dataset, over_time: xr.Dataset, times: Array, slips: NDArray[np.bool_]
+) -> xr.Dataset:
+    """The rows and, where the model can say them, the last moments of every slip."""
+    found = moments(dataset, over_time, times, slips)
+    if found.sizes["time"] == 0:
+        return over_time
+    time = over_time["time"].values
+    for name in MEANS:
+        if name in over_time:
+            row = np.searchsorted(time, found["time"].values)
+            found[name] = ("time", over_time[name].values[row])
+    return xr.concat([over_time, found], "time").sortby("time")
 
 
 def _positions(dataset: xr.Dataset, times: Array) -> dict[str, Array]:

@@ -54,7 +54,7 @@
     const { min, max } = plot.scales.x;
     ctx.save();
     ctx.beginPath();
-    ctx.rect(bbox.left, 0, bbox.width + 60 * dense, bbox.top + bbox.height);
+    ctx.rect(bbox.left, 0, plot.ctx.canvas.width - bbox.left, bbox.top + bbox.height);
     ctx.clip();
     ctx.lineWidth = dense;
     ctx.font = FONT.replace("12px", `${12 * dense}px`);
@@ -109,6 +109,18 @@
     };
   }
 
+  // Logarithmic, or linear near 0 and logarithmic beyond, or linear.
+  function scaleOf(panel) {
+    if (panel.linear_to) return { range: range(panel), distr: 4, asinh: panel.linear_to };
+    return { range: range(panel), distr: panel.logarithmic ? 3 : 1 };
+  }
+
+  // Room for the names of levels, the same for all panels of a figure.
+  function besidePlots(data) {
+    const names = data.panels.flatMap((each) => each.levels.map(([, text]) => text.length));
+    return names.length ? Math.max(28, 10 + 6.5 * Math.max(...names)) : 14;
+  }
+
   function axisTold(_, values) {
     return values.map((value) => (value === null ? "" : live.told(value, 6)));
   }
@@ -132,9 +144,9 @@
     return {
       width: 300,
       height: HEIGHT + (first ? 14 : 0) + (last ? 18 : 0),
-      padding: [first && data.marks.length ? 20 : 6, data.panels.some((each) => each.levels.length) ? 50 : 14, 0, 0],
+      padding: [first && data.marks.length ? 20 : 6, besidePlots(data), 0, 0],
       legend: { show: false },
-      scales: { x: { time: false }, y: { range: range(panel), distr: panel.logarithmic ? 3 : 1 } },
+      scales: { x: { time: false }, y: scaleOf(panel) },
       axes: [
         { ...look, size: 26, label: last ? "time [s]" : undefined, labelSize: 18 },
         // of a long label the unit: the name stands above the plot

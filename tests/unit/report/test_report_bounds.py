@@ -133,3 +133,14 @@ def test_a_force_curve_ends_where_it_was_measured():
     assert found["longest"] == pytest.approx(0.2 + float(dataset["x"].max()), abs=1e-4)
     assert (found["time"] is not None) == (found["longest"] > 0.21)
     assert found["time"] is not None
+
+
+def test_a_ledger_that_does_not_close_is_told_of():
+    """As of a block that begins at 1e30 m/s, whose energy drowns the work in its rounding."""
+    dataset = mechanics_dataset()
+    work = float(dataset["surface_work"][-1])
+    dataset["energy_residual"] = dataset["energy_residual"] + 0.5 * work
+    (said,) = bounds_sentences(summary(dataset))
+    assert "ledger of the mechanics is off by 5.0e-01 of the work" in said
+    dataset["energy_residual"] = 1e-4 * work + 0.0 * dataset["energy_residual"]
+    assert bounds_sentences(summary(dataset)) == []

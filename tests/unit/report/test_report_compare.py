@@ -82,7 +82,7 @@ def test_a_run_beside_itself_is_the_same(place, capsys):
 def test_what_is_flat_in_both_is_not_drawn(place):
     one = read_result(place / "results")
     both = compare(one, one)
-    assert [channel.name for channel in moving(both)] == ["x", "friction_force_x", "heat"]
+    assert [drawn.channel.name for drawn in moving(both)] == ["x", "friction_force_x", "heat"]
     assert (both.a.label, both.b.label) == ("light (A)", "light (B)")
     assert not both.different
 

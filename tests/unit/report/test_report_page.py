@@ -12,6 +12,7 @@ from cosim.report import write_results
 from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import digits, told
+from cosim.report.results import number_tables
 
 
 class References(HTMLParser):
@@ -161,3 +162,10 @@ def test_rounding_beside_a_channels_own_size_or_its_nominal_is_nought(value, siz
 def test_lists_and_words_of_parameters():
     assert digits([160.0, 20.0]) == "160, 20" and digits("disc") == "disc"
     assert told(0.947, "1", share=True) == "94.70 %"
+
+
+def test_a_run_that_ends_in_its_ramp_has_no_numbers_after_it():
+    """A sentence in place of a column of dashes."""
+    numbers = {"after_run_up": {"begin": 10.0, "duration": 0.0, "frequency": None}}
+    (table,) = number_tables(numbers | {"units": {"after_run_up.begin": "s"}})
+    assert table.rows == [("none: the run ends before the ramp does", "10 s")]

@@ -1,12 +1,16 @@
 """Results in a notebook: a line that says what they are, datasets with units, figures."""
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
+from lag_unit import lag_unit
 from stickslip import Parameters, simulate
 
 from cosim import read_scenario, run_scenario, simulate_scenario
 from cosim.report.dataset import MECHANICAL
+from cosim.systems import read_system, run_system
 
 SHORT = {"run.duration": 1.0, "belt.length": 0.5}
 
@@ -73,3 +77,65 @@ def test_a_figure_that_there_is_not_is_refused_with_those_that_there_are(simulat
         simulated.plot("motions")
     with pytest.raises(ValueError, match="no figure of this run is named 'belt_temperature'"):
         simulated.plot("belt_temperature")
+
+
+def test_an_answer_as_a_dataset_has_runs_models_and_numbers(gap, tmp_path):
+    data = gap.to_xarray()
+    runs = gap.extended.runs
+    assert data.sizes["sample"] == sum(run.track.time.size for run in runs)
+    for place, run in enumerate(runs):
+        rows = data.isel(sample=data["number"].values == place)
+        np.testing.assert_array_equal(rows["x"], run.track.run.motion.x)
+        np.testing.assert_array_equal(rows["x_extended"], run.track.x)
+        np.testing.assert_array_equal(rows["x_left_extended"], run.track.residual("x"))
+        assert float(data["gap_extended"][place]) == run.gap and str(data["run"][place].values)
+    assert data["x"].attrs["units"] == "m" and data["x_left_plain"].attrs["units"] == "1"
+    assert json.loads(data.attrs["gap"])["verdict"] == "named" == data.attrs["verdict"]
+    data.to_netcdf(tmp_path / "gap.nc", engine="h5netcdf")
+    with xr.open_dataset(tmp_path / "gap.nc") as read:
+        assert read.sizes == data.sizes
+
+
+def test_an_answer_draws_the_figures_of_its_page(gap):
+    for name in ("gaps", "overlay_x"):
+        assert gap.plot(name)._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(ValueError, match="no figure of this answer is named 'rankings'"):
+        gap.plot("rankings")
+
+
+#: y1 = 6 t, which a second unit follows.
+SYSTEM = """
+[units.ramp]
+file = "lag.fmu"
+parameters = { "part.gain" = 6.0 }
+inputs = { u = 1.0 }
+[units.lag]
+file = "lag.fmu"
+parameters = { "part.rate" = 2.0 }
+[[connections]]
+from = "ramp.y"
+to = "lag.u"
+[coupling]
+macro_step = 0.1
+[run]
+stop = 1.0
+"""
+
+
+@pytest.fixture(scope="module")
+def system(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("system")
+    lag_unit(folder / "lag.fmu")
+    (folder / "system.toml").write_text(SYSTEM, encoding="utf-8")
+    with read_system(folder / "system.toml") as specification:
+        return run_system(specification)
+
+
+def test_a_system_s_run_shows_itself(system):
+    data = system.to_xarray()
+    np.testing.assert_array_equal(data["lag.y"], system.result["lag.y"])
+    assert data["lag.u"].attrs["fed_by"] == "ramp.y" and data.sizes["step_time"] == 10
+    for name in ("signals", "system", "steps"):
+        assert system.plot(name)._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(ValueError, match="no figure of this run is named 'energy'"):
+        system.plot("energy")
