@@ -56,7 +56,7 @@ class Affine:
         return ", ".join(filter(None, parts)) or "as it is"
 
 
-IDENTITY = Affine()
+IDENTITY: Affine = Affine()
 
 
 def conversion(source: Port, sink: Port) -> tuple[Affine, str]:

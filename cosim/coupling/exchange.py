@@ -12,17 +12,54 @@ from time import perf_counter
 from typing import Any
 
 from cosim.coupling.conversion import converted
-from cosim.coupling.history import MOST_POINTS, History, Point
 from cosim.coupling.messages import WARNING
 from cosim.coupling.participant import CouplingError, ParticipantError, capabilities
 from cosim.coupling.statistics import Statistics
 from cosim.coupling.system import ENERGY_UNIT, Address, Connection, CoupledSystem
-from cosim.coupling.waveform import Waveform
+from cosim.coupling.waveform import Waveform, through
 
 #: Times that differ by less than this part of themselves are the same.
 SAME_TIME = 8 * sys.float_info.epsilon
 #: The source of a connection -> what it gives over the step under way.
 Course = Callable[[Address], Waveform]
+#: Points that a polynomial of the highest degree here takes.
+MOST_POINTS = 3
+#: Time in s; participant -> port -> value.
+Point = tuple[float, Mapping[str, Mapping[str, float]]]
+
+
+class History:
+    """The newest communication points: time (s), participant -> port -> value."""
+
+    def __init__(self) -> None:
+        self.points: deque[Point] = deque(maxlen=MOST_POINTS)
+
+    def add(self, time: float, outputs: Mapping[str, Mapping[str, float]]) -> None:
+        """A further point."""
+        self.points.append((time, dict(outputs)))
+
+    def forget_past(self) -> None:
+        """At an event values jump or bend: what was before says nothing of what follows."""
+        while len(self.points) > 1:
+            self.points.popleft()
+
+    def extrapolated(self, source: Address, degree: int, size: float) -> Waveform:
+        """The polynomial of a degree through the last points, over the step that begins now.
+
+        Of a lower degree while there are not enough points.
+        """
+        return through(self._of(source, degree + 1), size)
+
+    def interpolated(self, source: Address, degree: int, size: float, end: float) -> Waveform:
+        """The same with a value at the step's end in place of the oldest point."""
+        if degree == 0:
+            return Waveform((end,), size)
+        return through([*self._of(source, degree), (size, end)], size)
+
+    def _of(self, source: Address, count: int) -> list[tuple[float, float]]:
+        now = self.points[-1][0]
+        chosen = list(self.points)[-count:]
+        return [(t - now, values[source.participant][source.port]) for t, values in chosen]
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,16 @@ from typing import NamedTuple
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.initial import initial_exchange
-from cosim.coupling.participant import CouplingError, ParticipantError, capabilities
+from cosim.coupling.participant import CouplingError, ParticipantError
 from cosim.coupling.record.keeper import Keep, Keeper
 from cosim.coupling.result import CoupledResult, Recording, Status, ledger_of
-from cosim.coupling.schemes.scheme import Scheme, ending_early_first
-from cosim.coupling.step_control.control import HALVE, STOP, ConvergenceError, StepControl, Stepper
+from cosim.coupling.schemes.scheme import Scheme
+from cosim.coupling.step_control.beforehand import check_restore, remarks_of, try_restore
+from cosim.coupling.step_control.control import STOP, ConvergenceError, StepControl, Stepper
 from cosim.coupling.step_control.fixed import FixedStep
-from cosim.coupling.step_control.remarks import remarks_of
-from cosim.coupling.step_control.restore_check import restores_exactly
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt
-from cosim.names import listed
 
 Progress = Callable[[float], None]
 
@@ -79,39 +77,38 @@ def run(
     control.begin(start, stop, scheme)
     scheme.check(system)
     remarks = (*control.check(system), *remarks_of(system, scheme, control, stop - start))
-    marks = _check_restore(system, scheme, control, on_divergence)
+    marks = check_restore(system, scheme, control, on_divergence)
     exchange = Exchange(system)
     for remark in remarks:
         exchange.remark(remark, None)
     sweeps = _initialise(exchange, scheme.order, start, stop, exchange_tolerance, exchange_sweeps)
     if scheme.needs_restore or control.needs_restore or marks:
-        _try_restore(exchange, start, min(control.first_size, stop - start))
+        try_restore(exchange, start, min(control.first_size, stop - start))
     exchange.accept(start)
     goals = sorted({*(event for event in events if start < event < stop), stop})
     details = {"start": start, "goals": goals, "record_every": record_every}
     keeper = None if keep is None else Keeper(keep, exchange, scheme, control, details)
-    passed = None if keeper is None else keeper.passed()
-    recording = Recording(
-        system, None if keep is None else keep.folder, None if passed is None else passed.place
-    )
-    if passed is None:
-        recording.add(start, exchange)
+    rows = _Rows(exchange, start, keep, keeper, record_every, observe)
     stepper = Stepper(
         exchange, scheme, on_divergence=on_divergence, smallest=smallest_step, marks=marks
     )
-    began = clock.perf_counter() - (passed.seconds if passed else 0.0)
-    rows = _Rows(recording, keeper, record_every, began, observe, passed.rows if passed else 0)
     march = _march(stepper, control, goals, rows, progress)
-    values = recording.values()
+    return _result(march, exchange, rows, sweeps, remarks)
+
+
+def _result(
+    march: _March, exchange: Exchange, rows: _Rows, sweeps: int, remarks: tuple[str, ...]
+) -> CoupledResult:
+    recording, values = rows.recording, rows.recording.values()
     return CoupledResult(
         time=recording.time,
         values=values,
         units=recording.units,
-        ledger=ledger_of(system, values),
+        ledger=ledger_of(exchange.system, values),
         status=march.status,
         reason=_reason(march),
         error=march.error,
-        wall_time=clock.perf_counter() - began,
+        wall_time=rows.seconds(),
         sweeps=sweeps,
         steps=exchange.statistics.steps,
         statistics=exchange.statistics,
@@ -125,44 +122,6 @@ def _control(control: StepControl | None, macro_step: float | None) -> StepContr
     if control is None and macro_step is not None:
         return FixedStep(macro_step)
     raise CouplingError("name either macro_step or control, which says how long the steps are")
-
-
-def _check_restore(
-    system: CoupledSystem, scheme: Scheme, control: StepControl, on_divergence: str
-) -> bool:
-    """Whether steps are marked to be taken back; CouplingError where they must and cannot."""
-    able = {name: capabilities(each) for name, each in system.participants.items()}
-    cannot = [name for name, can in able.items() if not can.restores]
-    early = [name for name, can in able.items() if can.ends_early]
-    order = ending_early_first(system, scheme.order) if scheme.free_order else scheme.order
-    late = [name for name in early if name != order[0]]
-    reasons = {
-        f"the scheme {type(scheme).__name__}": scheme.needs_restore,
-        f"the step control {type(control).__name__}": control.needs_restore,
-        f"on_divergence = {on_divergence!r}": on_divergence == HALVE,
-        f"{listed(late)}, which may end a step that others have made,": bool(late),
-    }
-    for reason, needs in reasons.items():
-        if needs and cannot:
-            raise CouplingError(
-                f"{listed(cannot)}: cannot go back to an earlier state, and {reason} takes steps"
-                " back; allowed are Jacobi and GaussSeidel with fixed steps"
-            )
-    taken_back = bool(late) or (scheme.needs_restore and bool(early))
-    return taken_back or on_divergence == HALVE
-
-
-def _try_restore(exchange: Exchange, start: float, size: float) -> None:
-    """Refuse a participant that says that it can go back, and does not bit for bit."""
-    for name, participant in exchange.system.participants.items():
-        with exchange.blaming(name):
-            exact = restores_exactly(participant, start, size)
-        if not exact:
-            raise CouplingError(
-                f"{name}: says that it can go back to an earlier state, and tried with a step of "
-                f"{size:g} s it does not come back exactly; allowed are Jacobi and GaussSeidel "
-                "with fixed steps"
-            )
 
 
 def _initialise(
@@ -188,21 +147,31 @@ def _initialise(
 class _Rows:
     """What becomes of the communication points: rows, thinned out, and now and then a checkpoint.
 
-    began: when the run did, s, on a clock that stood still while it was cut off; observe: called
-    with each time; counted: of the points that count for `every`, those before.
+    Where `keeper` holds a checkpoint, the participants go on from it, and so do rows and clock,
+    which stood still meanwhile; else the start (s) is the first row. every: communication points
+    for a row; observe: called with each time.
     """
 
     def __init__(
         self,
-        recording: Recording,
+        exchange: Exchange,
+        start: float,
+        keep: Keep | None,
         keeper: Keeper | None,
         every: int,
-        began: float,
         observe: Progress | None,
-        counted: int,
     ):
-        self._recording, self._keeper, self._observe = recording, keeper, observe
-        self._every, self._began, self._counted = every, began, counted
+        passed = None if keeper is None else keeper.passed()
+        self.recording = Recording(
+            exchange.system,
+            None if keep is None else keep.folder,
+            None if passed is None else passed.place,
+        )
+        if passed is None:
+            self.recording.add(start, exchange)
+        self._keeper, self._every, self._observe = keeper, every, observe
+        self._counted = passed.rows if passed else 0
+        self._began = clock.perf_counter() - (passed.seconds if passed else 0.0)
 
     def begin(self, time: float) -> None:
         """The run stands where it starts from, or goes on from (s); that has a row."""
@@ -213,18 +182,19 @@ class _Rows:
         """A step was accepted and has come to a time (s)."""
         self._counted += is_row
         keep = is_row and self._counted % self._every == 0
-        self._recording.add(time, exchange, keep=keep)
+        self.recording.add(time, exchange, keep=keep)
         if self._observe is not None:
             self._observe(time)
         if self._keeper is not None:
-            self._keeper.look(self._recording.table, self._counted, self._seconds())
+            self._keeper.look(self.recording.table, self._counted, self.seconds())
 
     def save(self) -> None:
         """The run ends here for now."""
         if self._keeper is not None:
-            self._keeper.save(self._recording.table, self._counted, self._seconds())
+            self._keeper.save(self.recording.table, self._counted, self.seconds())
 
-    def _seconds(self) -> float:
+    def seconds(self) -> float:
+        """How long the run has taken."""
         return clock.perf_counter() - self._began
 
 

@@ -24,11 +24,12 @@ from cosim.coupling import (
 from cosim.coupling.conversion import BASE_UNITS, IDENTITY, NO_UNIT, conversion
 from cosim.coupling.fmu.description import describe, faults_of
 from cosim.coupling.fmu.variables import scalars, unit_of
+from cosim.coupling.methods import control_of, scheme_of
 from cosim.coupling.participant import Causality
 from cosim.coupling.system import Address, find_port
+from cosim.coupling.tolerance import Tolerance
 from cosim.names import unknown_name
-from cosim.systems.checks import check_coupling, naming
-from cosim.systems.faults import SystemFault
+from cosim.systems.faults import SystemFault, naming
 from cosim.systems.settings import NOT_GIVEN, unused
 from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
 
@@ -265,3 +266,25 @@ def record_every(specification: SystemSpecification, macro_step: float) -> int:
             f" macro steps, allowed is a multiple of coupling.macro_step = {macro_step:g} s"
         )
     return round(ratio)
+
+
+def check_coupling(
+    specification: SystemSpecification,
+    system: CoupledSystem,
+    order: tuple[str, ...],
+    macro_step: float,
+) -> None:
+    """Refuse an order, a tolerance, a bond or a step that cannot be; macro_step: s."""
+    source, settings, run = specification.source, specification.coupling, specification.run
+    with naming(source, "coupling.order"):
+        system.check_order(order)
+    with naming(source, "coupling.absolute_tolerances"):
+        Tolerance(absolute=settings.absolute_tolerances).check(system)
+    with naming(source, "coupling"):
+        scheme = scheme_of(settings, order)
+        scheme.check(system)
+    is_energy = settings.step_control == "energy"
+    with naming(source, "coupling.power_bonds" if is_energy else "coupling"):
+        control = control_of(settings, macro_step, settings.power_bonds)
+        control.begin(run.start, run.stop, scheme)
+        control.check(system)

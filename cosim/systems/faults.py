@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from cosim.coupling import CouplingError, FmuError
 from cosim.scenario.faults import ScenarioError, checked
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -25,3 +27,15 @@ def table_of(model: type[Model], entries: Any, place: str) -> Model:
     except ScenarioError as fault:
         line = str(fault)
         raise SystemFault(line if line.startswith(place) else f"{place}.{line}") from None
+
+
+@contextmanager
+def naming(source: str, key: str = "") -> Iterator[None]:
+    """Let a fault of a system say file and key, where it does not yet."""
+    try:
+        yield
+    except (SystemFault, CouplingError, FmuError) as fault:
+        said = str(fault)
+        if said.startswith(source):
+            raise
+        raise type(fault)(f"{source}: {key}: {said}" if key else f"{source}: {said}") from None

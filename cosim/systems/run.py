@@ -5,20 +5,27 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cosim.coupling import CoupledResult, Message, run
 from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.systems.assembly import Assembly, assemble, record_every
-from cosim.systems.checks import naming
-from cosim.systems.faults import SystemFault
+from cosim.systems.faults import SystemFault, naming
 from cosim.systems.specification import SystemSpecification
 from cosim.systems.ssp.reader import read_ssp
 from cosim.systems.steps import StepLog
 from cosim.systems.toml_file import read_toml
 
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+#: What a run is drawn by, which knows the run: asked for by name, by who wants it drawn, so that
+#: nothing here waits for matplotlib.
+SHOW = "cosim.systems.show"
 #: What a checkpoint has the log of the steps as; no unit has a name with a dot.
 STEPS = "steps.log"
 
@@ -38,6 +45,22 @@ class SystemRun:
     def __repr__(self) -> str:
         """How far it came, in one line."""
         return f"<SystemRun of {', '.join(self.assembly.system.participants)}: {self.result!r}>"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The dataset that `stickslip couple` writes as ``result.nc``: every output and connected
+        input as `unit.port` over ``time`` (n,), with units, and the macro steps over
+        ``step_time``."""
+        dataset: xarray.Dataset = import_module(f"{SHOW}.dataset").system_dataset(self)
+        return dataset
+
+    def plot(self, figure: str = "signals") -> Figure:
+        """One of the figures of the run's page: signals, system, energy or steps.
+
+        Raises ValueError for a name that is none, or of which the run has nothing to show.
+        """
+        figures = import_module(f"{SHOW}.figures")
+        drawn: Figure = figures.figure_of(self, self.to_xarray(), figure)
+        return drawn
 
 
 def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> SystemSpecification:

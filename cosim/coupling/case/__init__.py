@@ -21,9 +21,8 @@ from cosim.coupling import (
     Participant,
     run,
 )
-from cosim.coupling.case.prepared_block import prepared_block
 from cosim.coupling.case.snapshots import Snapshots
-from cosim.coupling.case.thermal_participant import ThermalParticipant
+from cosim.coupling.case.thermal_participant import ThermalParticipant, prepared_block
 from cosim.coupling.fmu.description import describe
 from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder

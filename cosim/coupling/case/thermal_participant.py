@@ -1,17 +1,24 @@
-"""Belt and ice as a participant of a coupled run."""
+"""Belt and ice as a participant of a coupled run; made ready by another process, if need be."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cosim.coupling import Waveform, inputs, outputs, port_table
-from thermal import BeltIceModel
+from cosim.processes import apart
+from thermal import BeltIceModel, ThermalParameters
+from thermal.ice.block import StandingBlock, standing_block
+from thermal.work import seconds_to_prepare
 
+#: What takes longer (s) is worth a process of its own, which takes two or three to start; so is a
+#: mesh whose file is larger (bytes): it holds some ten thousand elements.
+WORTH_A_PROCESS, LARGE_FILE = 10.0, 1_000_000
 #: Change of a total that is rounding, as a part of the total: it was added up from 1e4 steps.
 ROUNDING = 1e-12
 #: Heat (J) that may have been handed over in advance: an iteration ends where a step's total is as
@@ -193,3 +200,16 @@ class ThermalParticipant:
 
     def close(self) -> None:
         """Nothing is held open."""
+
+
+def prepared_block(parameters: ThermalParameters) -> StandingBlock:
+    """Contact and ice, as `standing_block`; a fine mesh, or one from a file, by another process.
+
+    Of such a mesh a single call of LAPACK takes minutes, and Ctrl-C would wait for its end.
+    """
+    mesh = Path(parameters.ice.mesh) if parameters.ice.mesh else None
+    if mesh is None:
+        long = seconds_to_prepare(parameters) > WORTH_A_PROCESS
+    else:
+        long = mesh.is_file() and mesh.stat().st_size > LARGE_FILE
+    return apart(standing_block, parameters) if long else standing_block(parameters)

@@ -9,8 +9,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple
 
-from cosim.coupling.exchange import Exchange
-from cosim.coupling.history import MOST_POINTS
+from cosim.coupling.exchange import MOST_POINTS, Exchange
 from cosim.coupling.participant import Saved, capabilities
 from cosim.coupling.record.checkpoint import (
     Checkpoint,

@@ -70,29 +70,6 @@ class Scheme(Protocol):
         """One macro step from exchange.time, of length size (s); may raise EndedEarly."""
 
 
-@dataclass(frozen=True)
-class OnePass:
-    """What the schemes share that make each step once.
-
-    order : participant names, each once; extrapolation : of inputs over a step, of EXTRAPOLATIONS.
-    """
-
-    order: tuple[str, ...]
-    extrapolation: str = "held"
-
-    needs_restore = False
-
-    @property
-    def accuracy(self) -> int:
-        """Order of the error in the step's size."""
-        return degree_of(self.extrapolation) + 1
-
-    def check(self, system: CoupledSystem) -> None:
-        """Refuse a system that this order does not fit."""
-        system.check_order(self.order)
-        degree_of(self.extrapolation)
-
-
 def degree_of(extrapolation: str) -> int:
     """Degree of the polynomial; CouplingError for an extrapolation that there is not."""
     if extrapolation not in EXTRAPOLATIONS:

@@ -1,5 +1,51 @@
-"""What a run of a system leaves: dataset, summary, figures, page and files."""
+"""A system's run to the files of its output folder: data, summary, figures and one page."""
 
-from .files import write_system
+from __future__ import annotations
 
-__all__ = ["write_system"]
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from cosim.coupling.record import LOG
+from cosim.files import write_bytes, write_text
+from cosim.report.files import write_csv, write_json, write_netcdf
+from cosim.systems.run import SystemRun
+from cosim.systems.show.dataset import system_dataset
+from cosim.systems.show.page import page
+from cosim.systems.show.summary import summary
+
+__all__ = ["FILES", "write_system"]
+
+FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)
+
+
+def write_system(
+    run: SystemRun,
+    folder: Path,
+    *,
+    command: str = "",
+    files: Mapping[str, str] | None = None,
+    progress: Callable[[str], None] = lambda name: None,
+) -> dict[str, Any]:
+    """Write everything into a folder that exists, the data first; the numbers of the summary.
+
+    command: how the run was asked for, shown on the page. files: further files of
+    the run -> what they are, to be listed there. progress: called with the name of each
+    file once it is written. Raises OutputError where the disk refuses.
+    """
+    dataset = system_dataset(run)
+    numbers = summary(run, dataset)
+    for path in (
+        write_netcdf(dataset, folder / "result.nc"),
+        write_csv(dataset, folder / "result.csv"),
+        write_json(numbers, folder / "summary.json"),
+    ):
+        progress(path.name)
+    from cosim.systems.show.figures import pictures  # matplotlib: after the data are on disk
+
+    figures = pictures(run, dataset)
+    for name, picture in figures.items():
+        progress(write_bytes(picture.png, folder / f"{name}.png").name)
+    text = page(numbers, figures, command=command, files=files or {})
+    progress(write_text(text, folder / "report.html").name)
+    return numbers

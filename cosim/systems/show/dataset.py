@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from cosim.coupling import Causality
+from cosim.coupling.conversion import told_dimension
 from cosim.report.files import provenance
 from cosim.systems.run import SystemRun
 
@@ -17,7 +18,8 @@ RESIDUAL = "coupling_residual"
 def system_dataset(run: SystemRun) -> xr.Dataset:
     """All outputs and connected inputs as `unit.port` over ``time`` (n,), steps over ``step_time``.
 
-    Attributes of a variable: units, participant, causality, and fed_by for an input.
+    Attributes of a variable: units, participant, causality, fed_by for an input; where its unit is
+    defined, base_units, si_factor and si_offset (value in them = factor * value + offset).
     """
     result, sources = run.result, _sources(run)
     variables = {
@@ -25,7 +27,7 @@ def system_dataset(run: SystemRun) -> xr.Dataset:
         for name, values in result.values.items()
     }
     if result.ledger.flows or result.ledger.residuals:
-        attributes = {
+        attributes: dict[str, str | float] = {
             "units": "J",
             "long_name": "energy handed over and not taken up, and what units state to be off by",
         }
@@ -50,10 +52,11 @@ def column(name: str) -> str:
     return name.replace("/", "|")
 
 
-def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str, str]:
+def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str, str | float]:
     participant, _, port = name.partition(".")
-    causality = run.assembly.system.participants[participant].ports[port].causality
-    found = {
+    described = run.assembly.system.participants[participant].ports[port]
+    causality, unit = described.causality, described.definition
+    found: dict[str, str | float] = {
         "units": run.result.units[name],
         "long_name": name,
         "participant": participant,
@@ -61,6 +64,10 @@ def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str,
     }
     if causality is Causality.INPUT:
         found["fed_by"] = sources.get(name, "")
+    if unit is not None:
+        # for whoever has the same quantity in another unit
+        base = told_dimension(unit.exponents)
+        found |= {"base_units": base, "si_factor": unit.factor, "si_offset": unit.offset}
     return found
 
 

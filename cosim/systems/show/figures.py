@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.coupling import Ledger
+from cosim.names import unknown_name
 from cosim.report.live import Curve, Live, Panel, over_time
 from cosim.report.page import Picture, number
 from cosim.report.style import (
@@ -28,7 +29,11 @@ from cosim.report.style import (
     picture,
     plain_ticks,
     readable,
+    shown,
 )
+from cosim.systems.run import SystemRun
+from cosim.systems.show.diagram import diagram, is_legible
+from cosim.systems.show.matrix import matrix
 
 #: Panels of a figure; of more signals the first are drawn.
 MOST_PANELS = 24
@@ -37,6 +42,46 @@ COLUMNS = 3
 PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/s", "N.m", "J/kg")
 #: Change of a signal that is none, as a part of it.
 NOTHING = 1e-6
+
+#: What makes a picture of these arguments.
+Drawer = tuple[Callable[..., Picture], tuple[Any, ...]]
+
+
+def pictures(run: SystemRun, dataset: xr.Dataset) -> dict[str, Picture]:
+    """Every figure that the run has something for: name -> picture, in the page's order."""
+    alive: dict[str, Callable[..., Picture]] = {
+        "signals": signals,
+        "energy": energy,
+        "steps": steps,
+    }
+    return {
+        name: alive.get(name, draw)(*arguments)
+        for name, (draw, arguments) in _drawers(run, dataset).items()
+    }
+
+
+def figure_of(run: SystemRun, dataset: xr.Dataset, name: str) -> Figure:
+    """One of them for a notebook; ValueError for a name that is none of this run's."""
+    found = _drawers(run, dataset)
+    if name not in found:
+        raise ValueError(unknown_name("figure of this run", name, found))
+    draw, arguments = found[name]
+    return shown(draw, *arguments)
+
+
+def _drawers(run: SystemRun, dataset: xr.Dataset) -> dict[str, Drawer]:
+    """Name -> what draws it, of what."""
+    system, order = run.assembly.system, run.assembly.order
+    found: dict[str, Drawer] = {
+        "system": (diagram if is_legible(system, order) else matrix, (system, order))
+    }
+    if any(each.attrs.get("causality") == "output" for each in dataset.data_vars.values()):
+        found["signals"] = _signals, (dataset,)
+    if run.result.ledger.flows:
+        found["energy"] = _energy, (run.result.time, run.result.ledger)
+    if run.steps.count:
+        found["steps"] = _steps, (dataset, run.specification.run.start)
+    return found
 
 
 def signals(dataset: xr.Dataset) -> Picture:

@@ -78,7 +78,8 @@ def test_pictures_at_every_interval_and_at_the_end(fmu, tmp_path):
         for entry in ElementTree.parse(run.snapshots.file).iter("DataSet")
     ]
     assert times == run.snapshots.time.tolist()
-    assert len(list(tmp_path.glob("*.vtu"))) == 4
+    true, thicker = (len(list(tmp_path.glob(name))) for name in ("*e_0*.vtu", "*x_0*.vtu"))
+    assert true == thicker == 4 and len(list(tmp_path.glob("*.vtu"))) == 8
 
 
 def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(

@@ -15,7 +15,7 @@ from cosim.coupling import GaussSeidel, run
 from cosim.coupling.record import CheckpointError, Keep, RunFolder, load_checkpoint, read_columns
 from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
 from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.jacobi import Jacobi
+from cosim.coupling.schemes.one_pass import Jacobi
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.estimates import Defect, Doubling
 from cosim.coupling.tolerance import Tolerance
