@@ -70,7 +70,10 @@ def compiled_kernel() -> ModuleType:
     say_if_compiling()
     source = kernel_source()
     name = _name(source)
-    loader = SourceFileLoader(name, str(_write_module(name, source)))
+    file = _write_module(name, source)
+    kept = "there from an earlier run" if is_cached() else "made as it is needed"
+    LOG.info("mechanical model: machine code %s, beside %s", kept, file)
+    loader = SourceFileLoader(name, str(file))
     spec = importlib.util.spec_from_loader(name, loader)
     assert spec is not None  # there is a loader
     module = importlib.util.module_from_spec(spec)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import inf, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from .kernel.bristles.step import STABLE
 from .kernel.layout import (
+    GRAVITY,
     NOT_FINITE,
     P_BRISTLE_STIFFNESS,
     P_LONGEST_STEP,
@@ -24,7 +25,8 @@ if TYPE_CHECKING:
 
 WHY_NOT = {
     STEP_VANISHED: "the integrator's step fell below the resolution of time; check mass, "
-    "stiffness and initial state, or raise solver.tolerance",
+    "stiffness, initial state and what is next to nothing, such as rig.contact_radius or "
+    "friction.transition_speed, or raise solver.tolerance",
     NOT_FINITE: "the motion grew beyond all numbers",
     SPRING_COLLAPSED: "the block was carried into the anchor of a spring; use stiffer or longer "
     "springs, or less friction",
@@ -89,11 +91,15 @@ def longest_step(parameters: Parameters) -> LongestStep:
     return found
 
 
+#: Of mu_k N, which a contact bears without sliding: laws of age and rate take some of it.
+PART_OF_FRICTION = 0.5
+
+
 def likely_step(parameters: Parameters) -> LongestStep:
     """As `longest_step`, or what laws of friction ask for while the block slides.
 
     The steps are counted as if it slid all along: a contact that is about to break away takes as
-    many. A block that never does takes far fewer.
+    many. A block that is carried takes far fewer: `time_to_slide` says how long it is.
     """
     found = longest_step(parameters)
     pattern, law = parameters.surface_pattern, parameters.rate_and_state
@@ -116,3 +122,23 @@ def likely_step(parameters: Parameters) -> LongestStep:
         )
         found = min(found, LongestStep(OF_AGE * renewed, reason))
     return found
+
+
+def time_to_slide(parameters: Parameters) -> float:
+    """Before this time, s, a block that is carried cannot have broken away; 0: it slides already.
+
+    A block that moves with the surface stretches its springs by what the surface travels; until
+    they pull with half of mu_k N, the friction of no effect here lets go. inf where they never do.
+    """
+    surface, initial, rig = parameters.surface, parameters.initial, parameters.rig
+    speed, ramp = abs(surface.speed), surface.run_up_time
+    if initial.vx != (0.0 if ramp > 0.0 else surface.speed):
+        return 0.0
+    stiffness = 4.0 * parameters.springs.stiffness
+    if stiffness == 0.0 or speed == 0.0:
+        return inf
+    bears = PART_OF_FRICTION * parameters.friction.mu_k * GRAVITY * rig.mass / stiffness
+    travel = max(bears - abs(initial.x), 0.0)
+    if 2.0 * travel < speed * ramp:
+        return sqrt(2.0 * travel * ramp / speed)
+    return travel / speed + 0.5 * ramp

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -110,3 +111,29 @@ def slip_share(time: np.ndarray, mode: np.ndarray, events: np.ndarray) -> float:
     modes = np.concatenate([[mode[0]], inside[:, 1]])
     duration = time[-1] - time[0]
     return float(np.sum(np.diff(edges) * modes) / duration) if duration > 0.0 else 0.0
+
+
+def break_away_frequency(starts: np.ndarray) -> float:
+    """Stick-slip frequency, Hz: one over the mean period from the first break-away to the last.
+
+    starts: times of break-away, s (k,), in order. 0 without any; NaN of a single one, which has no
+    period. Counts in a window of time, which cuts the first and the last cycle, are not this.
+
+    >>> break_away_frequency(np.array([10.2, 10.7, 11.2]))
+    2.0
+    """
+    if starts.size < 2:
+        return 0.0 if starts.size == 0 else math.nan
+    return float((starts.size - 1) / (starts[-1] - starts[0]))
+
+
+def counted_break_aways(time: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """Times of break-away, s (k,), of rows (n,) that carry how many there were until then.
+
+    Each is put in the middle of its interval, so that one whose slip ended before the next row is
+    not lost. Rows without a number are left out.
+    """
+    known = np.isfinite(count)
+    time, count = time[known], count[known]
+    middles = 0.5 * (time[1:] + time[:-1])
+    return np.repeat(middles, np.maximum(np.diff(count), 0.0).astype(int))

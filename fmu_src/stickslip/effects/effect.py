@@ -34,6 +34,9 @@ AXES = (
     "velocity",
 )
 
+#: Where in the model an effect can enter, for the reader.
+ENTERS = ("friction", "springs", "surface", "contact")
+
 #: What a random number can be.
 DRAWN = ("normal", "uniform")
 
@@ -98,7 +101,7 @@ class Effect:
     id : name of the scenario's table, of the FMU's parameter group and of the candidate in `gap`
     table : the parameters: names, units, defaults, bounds
     switch : the parameters any of which turns it on, most telling first
-    enters : where in the model: friction, springs, surface, contact
+    enters : where in the model, one of ENTERS
     axis : of AXES, over what its law is a curve; "" where it is none
     source : where the effect is named or its law comes from
     case : how it is shown
@@ -144,6 +147,11 @@ class Effect:
         if self.axis and self.axis not in AXES:
             raise ValueError(
                 f"effect {self.id}: axis {self.axis!r} is none; there are {', '.join(AXES)}"
+            )
+        if self.enters not in ENTERS:
+            raise ValueError(
+                f"effect {self.id}: enters {self.enters!r}, which is no part of the model; there "
+                f"are {', '.join(ENTERS)}"
             )
         fields = self.table.model_fields
         self._check_draws()

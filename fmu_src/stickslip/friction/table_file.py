@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Mapping
-from itertools import product
+from itertools import pairwise, product
 from pathlib import Path
 
 from ..kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
@@ -13,6 +14,10 @@ from ..kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
 #: Columns of a file: sliding speed, m/s, and coefficient; and of one over the temperature, too.
 COLUMNS = ("v", "mu")
 TEMPERATURE = "T_degC"
+#: What each column may be: least, most, and the unit. More is a slip of the unit (mm/s, kelvin).
+RANGES = {"v": (0.0, 1000.0, "m/s"), "mu": (0.0, 100.0, ""), TEMPERATURE: (-273.15, 100.0, "degC")}
+#: Columns that would be the temperature, were they called so; others are comments.
+_ALIKE = re.compile(r"t\b.*|t_.*|temp.*", re.IGNORECASE)
 #: Speeds, temperatures, and coefficients: at all speeds of the first temperature, and so on.
 FrictionTable = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
 
@@ -52,14 +57,11 @@ def read_table(file: Path) -> FrictionTable:
     Without the column T_degC there are no temperatures. With it, there is a row for every speed at
     every temperature, in any order. ValueError in one line for a file that is none, a column that
     is missing, what is no number, a row that is missing or given twice, and more points than a
-    table takes.
+    table takes, a column given twice, a row with more fields than the header, what is out of range,
+    and, without temperatures, speeds that do not grow.
     """
     rows = _rows(file)
     over_temperature = TEMPERATURE in rows[0]
-    for column in COLUMNS:
-        if column not in rows[0]:
-            there = ", ".join(map(str, rows[0]))
-            raise ValueError(f'table = "{file}": no column {column} (there are {there})')
     wanted = (*COLUMNS, *([TEMPERATURE] if over_temperature else []))
     numbers = [
         [_number(file, line, column, row[column]) for column in wanted]
@@ -70,20 +72,55 @@ def read_table(file: Path) -> FrictionTable:
     if not 2 <= len(rows) <= CURVE_LIMIT:
         raise ValueError(f'table = "{file}": {len(rows)} points, allowed are 2 to {CURVE_LIMIT}')
     speed, mu = zip(*numbers, strict=True)
+    for line, (before, now) in enumerate(pairwise(speed), 3):
+        if now <= before:
+            raise ValueError(
+                f'table = "{file}": line {line}: v = {now:g} after {before:g}; allowed is a speed '
+                "that grows from row to row"
+            )
     return speed, (), mu
 
 
 def _rows(file: Path) -> list[dict[str, str]]:
+    if file.exists() and not (file.is_file() or file.is_dir()):  # a device may never end
+        raise ValueError(f'table = "{file}": cannot be read: no regular file')
     try:
         with file.open(encoding="utf-8-sig", newline="") as lines:
-            rows = list(csv.DictReader(lines, skipinitialspace=True))
+            reader = csv.DictReader(lines, skipinitialspace=True)
+            rows = list(reader)
+            _check_columns(file, list(reader.fieldnames or ()))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         why = getattr(error, "strerror", None) or "no CSV in UTF-8"
         raise ValueError(f'table = "{file}": cannot be read: {why}') from None
     if not 2 <= len(rows) <= TABLE_LIMIT:
         limit = TABLE_LIMIT if rows and TEMPERATURE in rows[0] else CURVE_LIMIT
         raise ValueError(f'table = "{file}": {len(rows)} points, allowed are 2 to {limit}')
+    for line, row in enumerate(rows, 2):
+        if None in row:
+            raise ValueError(
+                f'table = "{file}": line {line} has more fields than the header; allowed is the '
+                "same number, commas between columns and a decimal point in numbers"
+            )
     return rows
+
+
+def _check_columns(file: Path, there: list[str]) -> None:
+    """That the header has what is wanted, once, and no temperature by another name."""
+    named = f"(there are {', '.join(there)})"
+    for column in (*COLUMNS, TEMPERATURE):
+        if there.count(column) > 1:
+            raise ValueError(f'table = "{file}": column {column} is there twice {named}')
+        if column in COLUMNS and there and column not in there:
+            raise ValueError(
+                f'table = "{file}": no column {column} {named}; allowed is a header row v,mu or '
+                f"v,{TEMPERATURE},mu with commas"
+            )
+    alike = [] if TEMPERATURE in there else [name for name in there if _ALIKE.fullmatch(name)]
+    if alike:
+        raise ValueError(
+            f'table = "{file}": column {alike[0]} is not read {named}; allowed is {TEMPERATURE}, '
+            "in degC, or none of the temperature"
+        )
 
 
 def _on_grid(file: Path, numbers: list[list[float]]) -> FrictionTable:
@@ -120,4 +157,10 @@ def _number(file: Path, line: int, column: str, text: str | None) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise ValueError(f'table = "{file}": line {line}, {column} = "{text}": not a finite number')
+    least, most, unit = RANGES[column]
+    if not least <= value <= most:
+        raise ValueError(
+            f'table = "{file}": line {line}, {column} = {value:g}: allowed is {least:g} to {most:g}'
+            + (f" {unit}" if unit else "")
+        )
     return value

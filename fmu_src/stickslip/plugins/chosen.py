@@ -15,6 +15,8 @@ from .errors import PluginError
 VARIABLE = "STICKSLIP_EFFECTS"
 #: Entry points of installed distributions: each names a module with an EFFECT.
 GROUP = "stickslip.effects"
+#: Name of a file on the machine that sent it -> where it is here.
+_ELSEWHERE: dict[str, Path] = {}
 #: What is there once the effects have been read.
 _READ = "stickslip.plugins.load"
 
@@ -30,6 +32,11 @@ def is_read() -> bool:
     return _READ in sys.modules
 
 
+def known_as(name: str, file: Path) -> None:
+    """Take the name that a file has on another machine for the one that was made of it here."""
+    _ELSEWHERE[name] = file
+
+
 def use(*names: str | Path) -> None:
     """Have the effects of these files, too, in this process and in those that it starts.
 
@@ -37,7 +44,8 @@ def use(*names: str | Path) -> None:
     Raises PluginError where that is past and a file is not among those that are there.
     As in `from stickslip.effects import use; use("brush.py")`.
     """
-    wanted = dict.fromkeys((*files(), *(Path(name).resolve() for name in names)))
+    resolved = (_ELSEWHERE.get(str(name), Path(name).resolve()) for name in names)
+    wanted = dict.fromkeys((*files(), *resolved))
     if len(wanted) == len(files()):
         return
     late = next(file for file in wanted if file not in files())

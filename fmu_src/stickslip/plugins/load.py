@@ -9,6 +9,7 @@ import sys
 import traceback
 from collections.abc import Iterator
 from importlib.metadata import EntryPoint, entry_points
+from keyword import iskeyword
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -22,6 +23,7 @@ from ..quantity import Table
 from .check import check_translatable
 from .chosen import GROUP, files
 from .errors import PluginError
+from .trial import try_terms
 
 #: The tables of a scenario that are no effects.
 TABLES = (
@@ -131,7 +133,8 @@ def _execute(module: ModuleType, file: Path, text: str) -> None:
     try:
         exec(compile(text, str(file), "exec"), vars(module))
     except SyntaxError as error:
-        raise PluginError(f"{file}, line {error.lineno}: {error.msg}") from None
+        where = f", line {error.lineno}" if error.lineno else ""  # a null byte has none
+        raise PluginError(f"{file}{where}: {error.msg}") from None
     except (Exception, SystemExit) as error:
         raise PluginError(f"{file}{_line(error, file)}: {_said(error)}") from error
 
@@ -155,10 +158,11 @@ def _said(error: BaseException) -> str:
 def _check(effect: Effect, file: Path, text: str) -> None:
     """All that the catalogue's tests hold of its own entries; PluginError."""
     where = f"{file}, line {_declared(text)}"
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", effect.id) or effect.id in TABLES:
+    named = re.fullmatch(r"[a-z][a-z0-9_]*", effect.id) and not iskeyword(effect.id)
+    if not named or effect.id in TABLES:
         raise PluginError(
             f"{where}: effect id {effect.id!r} cannot be the name of a table of its own; allowed "
-            f"are small letters, digits and _, but none of {', '.join(TABLES)}"
+            f"are small letters, digits and _, but no word of Python, none of {', '.join(TABLES)}"
         )
     if effect.table.__module__ not in sys.modules or not issubclass(effect.table, Table):
         raise PluginError(f"{where}: table is no Table of this file")
@@ -171,6 +175,7 @@ def _check(effect: Effect, file: Path, text: str) -> None:
         raise PluginError(f"{where}: case: {_said(error)}") from None
     except ValueError as error:
         raise PluginError(f"{where}: {_said(error)}") from None
+    try_terms(effect, file)
     _check_candidates(effect, file, where)
 
 
@@ -200,6 +205,12 @@ def _check_table(effect: Effect, file: Path, text: str) -> None:
             raise PluginError(f"{where} is neither float nor int, which a parameter has to be")
         if field.is_required():
             raise PluginError(f"{where} has no default; needed is one, 0 for a switch")
+    try:
+        effect.table.model_validate(effect.table().model_dump())
+    except ValidationError as error:
+        raise PluginError(
+            f"{file}: default of {_said(error)}; allowed is one in its bounds"
+        ) from None
 
 
 def _check_candidates(effect: Effect, file: Path, where: str) -> None:

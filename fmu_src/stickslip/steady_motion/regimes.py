@@ -10,6 +10,7 @@ aside and turned a little, as every rig is.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -17,7 +18,7 @@ import numpy as np
 
 from ..parameters import Parameters
 from ..simulation import simulate
-from ..trajectory import Trajectory, slip_share
+from ..trajectory import Trajectory, break_away_frequency, slip_share
 from .live import DRY, Interface, RunEnded
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
@@ -50,7 +51,7 @@ class Regime:
     ----------
     name : stick-slip, sliding (does not stick), sticking (does not slip) or creeping (its contact
         is sheared at nearly the surface's speed and never breaks away)
-    frequency : of the break-aways, from the first to the last; Hz
+    frequency : of the break-aways, from the first to the last, Hz; 0 of fewer than two
     slip_share : part of the time in slip
     mean_x, half_range_x : m
     max_y : largest distance from the line, m
@@ -154,21 +155,17 @@ def read_regime(run: Trajectory, begin: float) -> Regime:
     time, mode = run.time[late], run["mode"][late]
     share = slip_share(time, mode, run.events)
     starts = run.slip_starts
+    frequency = break_away_frequency(starts[(starts >= time[0]) & (starts <= time[-1])])
     x = run["x"][late]
     return Regime(
         name=_name(run, late, share),
-        frequency=_frequency(starts[(starts >= time[0]) & (starts <= time[-1])]),
+        frequency=0.0 if math.isnan(frequency) else frequency,
         slip_share=share,
         mean_x=float(np.trapezoid(x, time) / np.ptp(time)),
         half_range_x=0.5 * float(np.ptp(x)),
         max_y=float(np.abs(run["y"][late]).max()),
         max_rotation_deg=float(np.degrees(np.abs(run["phi"][late]).max())),
     )
-
-
-def _frequency(starts: np.ndarray) -> float:
-    """One over the mean period, Hz; 0 of fewer than two."""
-    return float((starts.size - 1) / (starts[-1] - starts[0])) if starts.size > 1 else 0.0
 
 
 def _name(run: Trajectory, late: np.ndarray, share: float) -> str:

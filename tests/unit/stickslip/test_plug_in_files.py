@@ -64,6 +64,28 @@ def test_a_term_keeps_to_what_becomes_c(said, instead, what):
     assert what in message and "allowed in a term: numbers" in message and "exp" in message
 
 
+@pytest.mark.parametrize(
+    ("instead", "what"),
+    [
+        ("    return dry_factor(speed, fall, onset)\n", "maximum recursion depth"),
+        ("    return 1.0 - fall * onset / speed\n", "at speed = 0, fall = 0.3, onset = 0.05: "),
+        ("    return 1.0 + (1e308 * 10.0 - 1e308 * 10.0) * fall\n", "is nan at speed = 0"),
+        ("    return 1.0 - 20.0 * fall\n", "is -5 at speed = 0"),
+    ],
+)
+def test_a_term_is_a_number_that_does_not_drive_the_block(said, instead, what):
+    """Else the kernel's comparisons are all false, and a block sticks for ever in silence."""
+    message = said(GOOD.replace(TERM, instead))
+    assert message.startswith(f", line {line_of(GOOD, 'def dry_factor')}: dry_factor "), message
+    assert what in message and "allowed is" in message
+
+
+@pytest.mark.skipif(sys.gettrace() is not None, reason="another watches the lines")
+def test_a_term_comes_to_its_end(said):
+    endless = "    x = 1.0\n    while x > 0.0:\n        x = x + 1.0\n    return x\n"
+    assert "no end after" in said(GOOD.replace(TERM, endless))
+
+
 def test_a_term_s_numbers_are_declared(said):
     message = said(GOOD.replace("speed: float, fall", "speed, fall"))
     assert "speed of dry_factor is not declared as float" in message
@@ -80,11 +102,14 @@ def test_a_term_s_numbers_are_declared(said):
         ('switch=("fall",)', 'switch=("rise",)', "switch 'rise' is no parameter"),
         ('switch=("fall",)', 'switch=("onset",)', "onset is not off at 0"),
         ('axis="sliding speed"', 'axis="temperament"', "'temperament' is none"),
+        ('enters="friction"', 'enters="magic"', "enters 'magic', which is no part of the model"),
+        ('0.05, "m/s"', '-0.05, "m/s"', "default of onset: Input should be greater than 0"),
         ("terms=(dry_factor,)", "terms=(dry_factor)", "terms is no tuple"),
         ("def dry_factor(", "def wet_factor(", "wet_factor"),
         ("speed: float, fall", "speed: float, mood: float, fall", "'mood'"),
         ('{"fall": 0.3, "onset": 0.05}', '{"fall": 3.0}', "case: fall"),
         ('id="brush"', 'id="rig"', "'rig' cannot be the name of a table"),
+        ('id="brush"', 'id="class"', "'class' cannot be the name of a table"),
         ('id="brush"', 'id="Brush"', "'Brush' cannot be the name of a table"),
         ('"brush.onset", s.speed', '"brush.start", s.speed', "brush.start is no parameter"),
         ("s.speed, 0.3", "s.mood, 0.3", "AttributeError"),
@@ -117,6 +142,9 @@ def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(PluginError, match="No such file"):
         effect_in(tmp_path / "none.py")
     (tmp_path / "latin.py").write_bytes(b"# \xff")
+    (tmp_path / "binary.py").write_bytes(b"x = 1\x00")
+    with pytest.raises(PluginError, match=r"binary\.py: .*null bytes"):
+        effect_in(tmp_path / "binary.py")
     with pytest.raises(PluginError, match="byte 3 is not UTF-8"):
         effect_in(tmp_path / "latin.py")
 

@@ -1,0 +1,31 @@
+"""A CSV file of friction that would be misread is refused, with its line."""
+
+from pathlib import Path
+
+import pytest
+from stickslip.friction.table_file import read_table
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("v,mu,mu\n0.1,0.2,0.9\n0.2,0.3,0.9\n", "column mu is there twice"),
+        ("v,mu\n0,1,0,2\n0,2,0,3\n", "line 2 has more fields than the header"),
+        ("v;mu\n0,1;0,2\n0,2;0,3\n", "no column v (there are v;mu); allowed is a header row v,mu"),
+        ("v,T_K,mu\n0.1,263,0.2\n0.2,268,0.3\n", "column T_K is not read"),
+        ("v,mu\n0.2,0.3\n0.1,0.2\n", "line 3: v = 0.1 after 0.2"),
+        ("v,mu\n0.1,0.2\n0.2,-0.3\n", "line 3, mu = -0.3: allowed is 0 to 100"),
+        ("v,mu\n-0.1,0.2\n0.2,0.3\n", "line 2, v = -0.1: allowed is 0 to 1000 m/s"),
+    ],
+)
+def test_a_file_that_would_be_misread_is_refused_with_its_line(text, what, tmp_path):
+    (tmp_path / "mu.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError) as refusal:
+        read_table(tmp_path / "mu.csv")
+    assert what in str(refusal.value)
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no such device here")
+def test_a_device_is_no_table():
+    with pytest.raises(ValueError, match="no regular file"):
+        read_table(Path("/dev/zero"))
