@@ -121,7 +121,8 @@ def require_json(path: Path, keys: Collection[str], force: bool = False) -> None
     if force or not path.exists():
         return
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        # of a device there is no end, and nothing that could be lost
+        content = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
     except (OSError, ValueError):
         content = None
     found = content if isinstance(content, list) and content else [content]

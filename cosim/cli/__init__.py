@@ -13,6 +13,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from errno import ENAMETOOLONG
 from typing import TextIO
 
 from cosim.cli.plug_ins import handed_on, is_of_an_effect
@@ -85,6 +86,9 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
     except Exception as error:
         if is_of_an_effect(error):
             return _give_up(error, BAD_INPUT, debug)
+        if isinstance(error, OSError) and error.errno == ENAMETOOLONG:  # of whoever gave the name
+            text = f"{error.filename}: is too long for a file's name, allowed is a shorter one"
+            return _give_up(error, BAD_INPUT, debug, text)
         said = " ".join(str(error).split()) or type(error).__name__
         return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
 

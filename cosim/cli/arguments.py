@@ -79,6 +79,8 @@ COMMANDS = {
 }
 
 
+#: Commands that run units, which say things themselves.
+OF_UNITS = ("run", "couple")
 #: As a FILE of --json: standard output.
 STDOUT = "-"
 
@@ -123,7 +125,7 @@ def _declare(command: Parser, name: str, does: str) -> None:
         "--debug", action="store_true", default=argparse.SUPPRESS, help="show tracebacks"
     )
     module.add_arguments(command)
-    _add_saying(command)
+    _add_saying(command, name)
 
 
 def command_module(name: str) -> ModuleType:
@@ -150,7 +152,16 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
 
 def add_output(command: argparse.ArgumentParser, said: str, default: str | None = None) -> None:
     """`-o`: the folder that a command writes to."""
-    command.add_argument("-o", "--output", metavar="DIR", default=default, help=said)
+    command.add_argument("-o", "--output", metavar="DIR", type=_folder, default=default, help=said)
+
+
+def _folder(text: str) -> str:
+    """A folder's name; an empty one, such as of a shell's unset variable, is none."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError(
+            "'' is no name of a folder, allowed is one such as results"
+        )
+    return text
 
 
 def add_force(command: argparse.ArgumentParser, said: str = "") -> None:
@@ -197,8 +208,14 @@ def _json_file(text: str) -> str:
     return text
 
 
-def _add_saying(command: argparse.ArgumentParser) -> None:
+def _add_saying(command: argparse.ArgumentParser, name: str) -> None:
     """`-q` and `-v`: how much is said beside the results."""
+    units = (
+        "; also what the units say, as it comes, and ask them for more of it (messages.log has "
+        "it, too)"
+        if name in OF_UNITS
+        else ""
+    )
     how_much = command.add_mutually_exclusive_group()
     how_much.add_argument(
         "-q", "--quiet", action="store_true", help="say nothing but results, warnings and errors"
@@ -207,6 +224,5 @@ def _add_saying(command: argparse.ArgumentParser) -> None:
         "-v",
         "--verbose",
         action="store_true",
-        help="say more on stderr: what is read, compiled and written; of run and couple also what "
-        "the units say, as it comes, and ask them for more of it (messages.log has it, too)",
+        help=f"say more on stderr: what is read, compiled and written{units}",
     )

@@ -87,9 +87,10 @@ def files_named(argv: Sequence[str]) -> list[Path]:
         path = Path(word)
         if takes_files and word.endswith(SUFFIX) and not word.startswith("-"):
             found.append(path)
-        elif path.suffix == ".toml" and path.is_file():
+        # not Path.is_file: it raises where a word is too long for a name, as many values can be
+        elif path.suffix == ".toml" and os.path.isfile(word):
             found += _in_toml(path)
-        elif path.is_dir():
+        elif os.path.isdir(word):
             found += [file for name in INSIDE for file in _in_toml(path / name)]
     return list(dict.fromkeys(found))
 

@@ -13,10 +13,17 @@ if TYPE_CHECKING:
 
 def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:
     """Read a scenario with `key=value` settings put in; ScenarioError in one line for none."""
-    from cosim.scenario import read_scenario
+    from cosim.scenario import ScenarioError, read_scenario
     from cosim.scenario.changes import changes_of
 
-    return read_scenario(source, changes_of(settings))
+    changes = changes_of(settings)
+    if "effects" in changes:  # code is read before the settings are, and from a file's own folder
+        raise ScenarioError(
+            f"--set effects={changes['effects']}: effects of one's own cannot be set; allowed is "
+            'effects = ["brush.py"] at the top of the scenario, or STICKSLIP_EFFECTS=brush.py in '
+            "the environment"
+        )
+    return read_scenario(source, changes)
 
 
 def note_taken(scenario: Scenario) -> None:

@@ -34,7 +34,7 @@ from cosim.files import write_bytes
 from cosim.fmu import description
 from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts, fmi2
-from cosim.fmu.description.cross_check import of_mechanics
+from cosim.fmu.description.documentation import of_mechanics
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected

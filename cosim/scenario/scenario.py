@@ -10,7 +10,9 @@ is off; what a file leaves out is as of a rig (`cosim.scenario.defaults`), unles
 
 from __future__ import annotations
 
+import logging
 import math
+import os
 from collections.abc import Mapping
 from functools import cached_property
 from importlib import resources
@@ -31,6 +33,8 @@ from cosim.scenario.faults import ScenarioError, checked
 from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
+
+LOG = logging.getLogger(__name__)
 
 SUFFIX = ".toml"
 #: More output times or macro steps than this are a slip of the unit, and would fill the memory.
@@ -169,8 +173,17 @@ class Scenario(Parameters):
                 }
             )
         except ParameterError as error:
-            raise ValueError(str(error).replace("contact.radius", "rig.contact_radius")) from None
+            raise ValueError(self._in_keys_of_block(str(error))) from None
         return self
+
+    def _in_keys_of_block(self, fault: str) -> str:
+        """A fault of the contact in the keys that it was made from."""
+        if (
+            not math.isfinite(GRAVITY * self.rig.mass)
+            and "load" not in self.contact.model_fields_set
+        ):
+            return f"rig.mass = {self.rig.mass:g} kg: its weight is beyond all numbers"
+        return fault.replace("contact.radius", "rig.contact_radius")
 
     def _belt_under_block(self) -> Belt:
         """The belt as the thermal model sees it: a railing carries the block's weight."""
@@ -291,6 +304,7 @@ def read_scenario(
     >>> read_scenario("reference", {"springs.stiffness": 38.5}).springs.stiffness
     38.5
     """
+    LOG.info("reading %s", source)
     return scenario_of(parsed(source_text(source), source), source, changes)
 
 
@@ -334,10 +348,10 @@ def _found(name: Any, folder: Path) -> Any:
 
 def source_text(source: str | Path) -> str:
     """The text of a file, or of a packaged scenario by its name; ScenarioError for none."""
-    if str(source) in packaged_scenarios() and not Path(source).is_file():
+    if str(source) in packaged_scenarios() and not os.path.isfile(source):
         file = resources.files("cosim.scenario") / "packaged" / f"{source}{SUFFIX}"
         return file.read_text(encoding="utf-8")
-    if not Path(source).exists():
+    if not os.path.exists(source):
         known = packaged_scenarios()
         near = nearest(str(source), known)
         hint = f"did you mean {near}?" if near else f"packaged: {', '.join(known)}"

@@ -9,7 +9,13 @@ from __future__ import annotations
 
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
-from stickslip.status import MOST_STEPS_PER_SECOND, SECONDS_PER_STEP, likely_step, longest_step
+from stickslip.status import (
+    MOST_STEPS_PER_SECOND,
+    SECONDS_PER_STEP,
+    likely_step,
+    longest_step,
+    time_to_slide,
+)
 
 from cosim.scenario.faults import ScenarioError
 from cosim.scenario.scenario import Scenario
@@ -31,8 +37,10 @@ def check_mechanics(parameters: Parameters, duration: float, patience: float) ->
             f"{step.reason}, followed in steps of {step.size:.2g} s; allowed are steps from "
             f"{1.0 / MOST_STEPS_PER_SECOND:.2g} s: make it slower"
         )
+    carried = min(time_to_slide(parameters), duration)
+    steps = carried * step.per_second
     step = likely_step(parameters)
-    steps = duration * step.per_second
+    steps += (duration - carried) * step.per_second
     seconds = steps * SECONDS_PER_STEP
     if seconds > patience:
         raise ScenarioError(

@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from command_line import stickslip_here
 
 from cosim.fmu.platforms import this_platform
 
@@ -146,7 +147,7 @@ def test_what_may_be_odd_is_run(tmp_path):
         'defaults = "plain"\n'
         "[friction]\nmu_s = 0.2\nmu_k = 0.3\n[surface]\nspeed = -0.15\n[run]\nduration = 1.0\n"
     )
-    done = stickslip(tmp_path, "simulate", "odd.toml")
+    done = stickslip_here(tmp_path, "simulate", "odd.toml")
     assert done.returncode == 0
     assert done.stderr.startswith("warning: friction.mu_k = 0.3 exceeds friction.mu_s = 0.2")
     assert done.stderr.count("\n") == 1
@@ -174,7 +175,7 @@ def test_what_the_master_remarks_is_in_a_file(place):
         SHORT.replace("2.0", "1.0") + '[coupling]\nstep_control = "doubling"\nmacro_step = 0.01\n'
         "smallest_step = 0.01\nlargest_step = 0.01\nstep_tolerance = 1e-15\n"
     )
-    done = stickslip(place, "run", "strict.toml", "-v", "-o", "strict")
+    done = stickslip_here(place, "run", "strict.toml", "-v", "-o", "strict")
     assert done.returncode == 0, done.stderr
     *lines, doubt, note = done.stderr.splitlines()
     said = [line for line in lines if not line.startswith("writing ")]
@@ -195,7 +196,7 @@ def test_a_refused_run_leaves_earlier_results_alone(place):
     before = {path: path.stat().st_mtime_ns for path in results.rglob("*")}
     (place / "bad.toml").write_text("name = 'short'\n[rig]\nmass = nan\n")
     for command in ("run", "simulate"):
-        assert stickslip(place, command, "bad.toml").returncode == 2
+        assert stickslip_here(place, command, "bad.toml").returncode == 2
     assert {path: path.stat().st_mtime_ns for path in results.rglob("*")} == before
 
 

@@ -4,36 +4,26 @@ import json
 import os
 import shutil
 import signal
-import subprocess
-import sys
 import time
 
 import pytest
 import xarray as xr
+from command_line import stickslip, stickslip_here
 from kill_and_resume import SCENARIO, at_rows, begin, check_record, kill_and_resume, kill_in
 
 from cosim.coupling.record import load_checkpoint, save_checkpoint
 
 
-def stickslip(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "cosim", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
-
-
-def refused(*arguments):
+def refused(*arguments, ask=stickslip_here):
     """Its one line."""
-    done = stickslip(*arguments)
+    done = ask(".", *arguments)
     assert done.returncode == 2, done.stderr
     (line,) = done.stderr.splitlines()
     return line
 
 
 def test_killed_and_gone_on_with_it_is_the_run_left_alone(tmp_path):
-    """Twice while it runs and once while it draws; tests/benchmarks/kill_and_resume.py does 20."""
+    """Twice while it runs and once while it draws; the benchmark `kill_and_resume` does 20."""
     assert kill_and_resume(tmp_path, kills=3, seed=5, duration=3.0, every=40) == []
 
 
@@ -99,7 +89,7 @@ def test_no_checkpoint_is_refused(copy):
 
 def test_nothing_to_go_on_with_is_refused(tmp_path):
     assert "holds no unfinished run" in refused("run", "--resume", tmp_path)
-    assert "no such folder" in refused("run", "--resume", tmp_path / "none")
+    assert "no such folder" in refused("run", "--resume", tmp_path / "none", ask=stickslip)
 
 
 @pytest.mark.parametrize(
@@ -116,7 +106,7 @@ def test_ctrl_c_leaves_results_and_what_goes_on(tmp_path):
     is_now = at_rows(results, 100)
     while not is_now():
         time.sleep(0.01)
-    again = stickslip("run", tmp_path / "case.toml", "-o", results)
+    again = stickslip(tmp_path, "run", tmp_path / "case.toml", "-o", results)
     assert again.returncode == 2 and "another process is at work" in again.stderr
     os.kill(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=120)
@@ -128,7 +118,7 @@ def test_ctrl_c_leaves_results_and_what_goes_on(tmp_path):
     made = json.loads((results / "made_by.json").read_text())
     assert made["status"] == "incomplete" and "duration = 1000.0" in made["scenario"]
     for command in ("run", "simulate"):
-        again = stickslip(command, tmp_path / "case.toml", "-o", results)
+        again = stickslip_here(tmp_path, command, tmp_path / "case.toml", "-o", results)
         assert again.returncode == 2
         line = again.stderr.splitlines()[-1]  # behind the note on how long it takes
         assert f"go on with it: stickslip run --resume {results}" in line and "--force" in line

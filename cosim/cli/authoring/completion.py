@@ -12,7 +12,9 @@ from cosim.cli.arguments import COMMANDS
 EXAMPLE = "stickslip completion bash"
 SHELLS = ("bash", "zsh", "fish")
 #: What stands for a file where there is no metavar that says so.
-FILES = ("scenario", "campaign", "system", "source")
+FILES = ("scenario", "campaign", "system", "source", "a", "b")
+#: What a key of a scenario follows, to be given a value; `couple` sets keys of its own.
+KEYED, NOT_KEYED = ("changes", "vary"), "couple"
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -39,10 +41,13 @@ def execute(arguments: Namespace) -> int:
 
     from cosim.cli.arguments import parser
     from cosim.scenario import packaged_scenarios
+    from cosim.scenario.keys import all_keys
 
     whole = parser(list(COMMANDS))
-    for action in _actions(whole):
-        if action.dest in FILES:
+    for command, action in _actions(whole):
+        if action.dest in KEYED and command != NOT_KEYED:
+            action.complete = KEYS  # type: ignore[attr-defined]
+        elif action.dest in FILES:
             action.complete = SCENARIOS  # type: ignore[attr-defined]  # shtab looks for it
         elif action.metavar == "DIR":
             action.complete = shtab.DIRECTORY  # type: ignore[attr-defined]
@@ -50,18 +55,24 @@ def execute(arguments: Namespace) -> int:
             action.complete = shtab.FILE  # type: ignore[attr-defined]
     names = " ".join(packaged_scenarios())
     # a text for each shell, whatever its declaration says
-    preamble: Any = {shell: text.replace("@NAMES@", names) for shell, text in PREAMBLE.items()}
+    keys = " ".join(f"{one.key}=" for one in all_keys() if "[]" not in one.key)
+    preamble: Any = {
+        shell: text.replace("@NAMES@", names).replace("@KEYS@", keys)
+        for shell, text in PREAMBLE.items()
+    }
     print(shtab.complete(whole, shell=arguments.shell, preamble=preamble))
+    if arguments.shell == "bash":
+        print(NO_SPACE)
     return DONE
 
 
-def _actions(parser: ArgumentParser) -> Iterator[Action]:
-    """Every argument of every command."""
+def _actions(parser: ArgumentParser, command: str = "") -> Iterator[tuple[str, Action]]:
+    """Every argument of every command, with the command."""
     for action in parser._actions:
-        yield action
+        yield command, action
         if isinstance(action, _SubParsersAction):
-            for command in action.choices.values():
-                yield from _actions(command)
+            for name, inner in action.choices.items():
+                yield from _actions(inner, name)
 
 
 #: A packaged scenario or a TOML file, in the words of each shell.
@@ -70,6 +81,16 @@ SCENARIOS: dict[str, Any] = {
     "zsh": "_stickslip_scenarios",
     "fish": "_stickslip_scenarios",
 }
+#: A key of a scenario and its sign of equality.
+KEYS: dict[str, Any] = dict.fromkeys(SHELLS, "_stickslip_keys")
+#: Behind that sign comes the value, behind a folder what is in it, and no space.
+NO_SPACE = """
+_stickslip_complete() {
+  _shtab_stickslip
+  if [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *[=/] ]]; then compopt -o nospace; fi
+}
+complete -o bashdefault -F _stickslip_complete stickslip
+"""
 PREAMBLE = {
     "bash": """
 _stickslip_scenarios() {
@@ -78,16 +99,25 @@ _stickslip_scenarios() {
   compgen -f -X '!*.ssp' -- "$1"
   compgen -d -S '/' -- "$1"
 }
+_stickslip_keys() {
+  compgen -W "@KEYS@" -- "$1"
+}
 """,
     "zsh": """
 _stickslip_scenarios() {
   _alternative 'names:packaged scenario:(@NAMES@)' 'files:file:_files -g "*.(toml|ssp)"'
+}
+_stickslip_keys() {
+  compadd -S '' -- @KEYS@
 }
 """,
     "fish": """
 function _stickslip_scenarios
   printf '%s\\n' @NAMES@
   __fish_complete_suffix .toml
+end
+function _stickslip_keys
+  printf '%s\\n' @KEYS@
 end
 """,
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from argparse import ArgumentParser, Namespace
 
 from cosim.cli import DONE
@@ -38,5 +39,5 @@ def execute(arguments: Namespace) -> int:
 
     file = write_new(arguments.name, arguments.source, force=arguments.force)
     note(f"{SCENARIO_FILE} beside it is for editors, which check and complete the file by it")
-    print(f"{file}: stickslip simulate {file}")
+    print(f"{file}: stickslip simulate {shlex.quote(str(file))}")
     return DONE

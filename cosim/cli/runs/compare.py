@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 EXAMPLE = "stickslip compare results/reference results/slab"
 #: Numbers that are on the page only.
 OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
+#: Curves that the terminal tells of; all are on the page.
+MOST_CURVES = 8
 RESULT, PAGE = "compare.json", "report.html"
 
 
@@ -82,7 +85,7 @@ def _results(arguments: Namespace) -> list[OneResult]:
 
     sources = (arguments.a, arguments.b)
     found = [
-        read_result(Path(one)) if Path(one).is_dir() else _scenario(one, arguments.coupled)
+        read_result(Path(one)) if os.path.isdir(one) else _scenario(one, arguments.coupled)
         for one in sources
     ]
     return [
@@ -132,10 +135,10 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
 
 
 def _draw(both: Comparison, folder: Path, command: str) -> None:
-    from cosim.report.compare.figures import draw_overlay, draw_phases, has_phases, moving
+    from cosim.report.compare.figures import draw_phases, has_phases, moving, overlay
     from cosim.report.compare.page import page
 
-    pictures = [draw_overlay(both)] if moving(both) else []
+    pictures = [overlay(both)] if moving(both) else []
     if has_phases(both):
         pictures.append(draw_phases(both))
     for one in pictures:
@@ -145,8 +148,8 @@ def _draw(both: Comparison, folder: Path, command: str) -> None:
 
 def _table(both: Comparison, folder: Path) -> str:
     """Lines: what differs in the scenarios, and in the numbers."""
-    from cosim.report.compare.page import cells
-    from cosim.report.quantities import digits
+    from cosim.report.compare.page import cells, curve_cells
+    from cosim.report.quantities import NONE, digits
 
     lines = [f"A: {both.a.label} ({both.a.place})", f"B: {both.b.label} ({both.b.place})"]
     for key, values in both.keys.items():
@@ -161,6 +164,21 @@ def _table(both: Comparison, folder: Path) -> str:
         for first, *rest in rows:
             shown = "  ".join(f"{cell:>{width}}" for cell, width in zip(rest, widths, strict=True))
             lines.append(f"{first:<{name}}  {shown}")
-    same = len(both.numbers) - len(both.different)
-    lines.append(f"{len(both.different)} numbers differ, {same} are the same; {folder / PAGE}")
+    if both.curves:
+        most = [(one[0], one[1], one[2], one[4]) for one in map(curve_cells, both.curves)]
+        lines.append("curves, how far they are apart at most:")
+        lines += [
+            f"  {name:<44} {apart:>14} at {at}" + (f", {part} of its span" if part != NONE else "")
+            for name, apart, at, part in most[:MOST_CURVES]
+        ]
+    same = sum(one.same for one in both.numbers)
+    lines.append(f"{len(both.different)} numbers differ, {same} are the same{_left_out(both)}")
+    lines.append(str(folder / PAGE))
     return "\n".join(lines)
+
+
+def _left_out(both: Comparison) -> str:
+    """How many numbers only one of them has."""
+    sides = {"A": sum(one.b is None for one in both.of_one)}
+    sides["B"] = len(both.of_one) - sides["A"]
+    return "".join(f", {count} are of {name} alone" for name, count in sides.items() if count)

@@ -113,7 +113,7 @@ def _begun(arguments: Namespace) -> Job:
     from cosim.scenario.changes import changes_of
     from cosim.systems import read_system
     from cosim.systems.run import check_system
-    from cosim.systems.show.files import FILES
+    from cosim.systems.show import FILES
 
     if arguments.system is None:
         raise BadInput("SYSTEM: missing, needed is an SSP or a TOML file, or --resume DIR")

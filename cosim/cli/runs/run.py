@@ -190,13 +190,20 @@ def _resume(results: Path) -> str:
 
 def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
     """The temperature fields as the page lists them."""
+    from cosim.cli.runs import running
+
     if done.snapshots.file is None:
         return {}
-    name = done.snapshots.file.relative_to(folder).as_posix()
-    return {
-        name: "temperature fields of belt and ice for ParaView: colour by rise_K; Warp By Vector "
-        "with stretch_m draws the belt a tenth as thick as long"
+    true = done.snapshots.file
+    listed = {
+        true.relative_to(folder).as_posix(): "temperature fields of belt and ice for ParaView, to "
+        "scale: colour by rise_K"
     }
+    for thicker in running.stretched_fields(folder):
+        times = thicker.stem.rpartition("_")[2].removesuffix("x")
+        name = thicker.relative_to(folder).as_posix()
+        listed[name] = f"the same with the belt drawn {times} times as thick as it is"
+    return listed
 
 
 def _run(job: Job, **further: Any) -> CoupledRun:

@@ -85,13 +85,20 @@ def own_folder(folder: Path, files: Iterable[str], force: bool) -> Path:
 
 
 def field_files(folder: Path) -> list[str]:
-    """The collection of the temperature fields, and what it names; none where there is none."""
-    file = folder / COLLECTION
-    try:
-        named = [entry.get("file", "") for entry in ElementTree.parse(file).iter("DataSet")]
-    except (OSError, ElementTree.ParseError):
-        return []
-    return [f"{FIELDS}/{name}" for name in (file.name, *named)]
+    """The collections of the temperature fields, and what they name; none where there are none."""
+    found: list[str] = []
+    for file in sorted((folder / FIELDS).glob(f"{Path(COLLECTION).stem}*.pvd")):
+        try:
+            named = [entry.get("file", "") for entry in ElementTree.parse(file).iter("DataSet")]
+        except (OSError, ElementTree.ParseError):
+            continue
+        found += [f"{FIELDS}/{name}" for name in (file.name, *named)]
+    return found
+
+
+def stretched_fields(folder: Path) -> list[Path]:
+    """The collections of the fields with a thicker belt: one, or none where it needs none."""
+    return sorted((folder / FIELDS).glob(f"{Path(COLLECTION).stem}_belt_*x.pvd"))
 
 
 def refuse_beside_resume(given: Mapping[str, object]) -> None:
@@ -340,7 +347,7 @@ def _motion_line(late: Mapping[str, Any]) -> str:
     if not late["duration"]:
         return "not known: the run ends before the surface has its speed (surface.run_up_time)"
     rate = late["frequency"]
-    times = f"{rate:.3f} break-aways per second" if rate else "no break-away"
+    times = f"{rate:.3f} Hz" if rate else "no break-away"
     if rate is None:
         times = "one break-away"
     return f"{times} at constant speed, slip share {_number(late['slip_share'], '.3f')}"

@@ -132,8 +132,7 @@ def _print(regimes: dict[str, Any]) -> None:
 
 def _write(found: FrictionMap, folder: Path, command: str) -> None:
     """Numbers first, then the figure and the page."""
-    from cosim.studies.friction_map.figure import draw_map
-    from cosim.studies.friction_map.page import page
+    from cosim.studies.friction_map.page import draw_map, page
 
     write_text(json.dumps(found.as_json(), indent=1), folder / RESULT)
     write_atomically(folder / TABLE, lambda path: _write_table(found, path))

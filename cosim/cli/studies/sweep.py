@@ -170,7 +170,12 @@ def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
             "nothing is varied, allowed is --vary KEY=V1,V2,..., more than one scenario, or"
             " --test-plan"
         )
-    return {"": product_grid(scenarios, parse_vary(arguments.vary or ()), arguments.coupled)}
+    varied = parse_vary(arguments.vary or ())
+    for change in arguments.changes:
+        key = change.partition("=")[0].strip()
+        if any(key in keys for keys in varied):
+            raise SweepError(f"--set {change}: {key} is varied, allowed is a key that is not")
+    return {"": product_grid(scenarios, varied, arguments.coupled)}
 
 
 def _run_of(grid: Grid, scenario: Scenario) -> Run:

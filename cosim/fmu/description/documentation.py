@@ -1,16 +1,25 @@
-"""The folder `documentation` of the mechanical unit: its equations and variables, and a run to
-compare with."""
+"""The folder `documentation` of a unit: its equations and variables, and a run to compare with.
+
+The run is in the files that the FMI cross-check asks for, by the unit's name: `_in.csv`, inputs
+over the time; `_ref.opt`, the times and the tolerance of the run; `_ref.csv`, at most ten outputs,
+computed by the model in Python and not by the unit. Rules: github.com/modelica/fmi-cross-check,
+section 9.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
 
-from stickslip import EFFECTS
+from stickslip import EFFECTS, Parameters
+from stickslip.kernel.layout import O_SIZE, U_SIZE, constants
 
 from cosim.fmu.description import UnitFacts
-from cosim.fmu.description.cross_check import of_mechanics
 from cosim.fmu.libraries import FMI2
 from cosim.fmu.variables import Variable, by_array
+
+Row = tuple[float, Sequence[float]]
 
 
 def documentation(
@@ -48,3 +57,87 @@ def starts(elements: Sequence[Variable]) -> str:
     """Start value of a variable, or of an array: once, where all of its elements have the same."""
     values = [f"{each.start:g}" for each in elements if each.start is not None]
     return ", ".join(values if len(set(values)) > 1 else values[:1])
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Stop time and step, s, and relative tolerance of a run from time 0 on."""
+
+    stop: float
+    step: float
+    tolerance: float
+
+    @property
+    def times(self) -> list[float]:
+        """Communication points, s."""
+        return [n * self.step for n in range(round(self.stop / self.step) + 1)]
+
+    @property
+    def text(self) -> str:
+        """`_ref.opt`."""
+        return (
+            f"StartTime, 0\nStopTime, {self.stop:g}\nStepSize, {self.step:g}\n"
+            f"RelTol, {self.tolerance:g}\n"
+        )
+
+
+#: At its defaults the block does not keep from turning: what rounding has turned it by grows to
+#: some 1e-5 rad in 10 s, and in half of that to nothing that matters.
+MECHANICS = Experiment(5.0, 0.01, 1e-9)
+#: Those that are not zero but for rounding, and the same in co-simulation and in model exchange.
+SHOWN_OF_MECHANICS = (
+    *("x", "vx", "friction_force_x", "sliding_speed", "heat", "sliding_distance"),
+    *("surface_travel", "mode", "slip_count"),
+)
+
+
+Table = tuple[Sequence[str], Iterable[Row]]
+
+
+def cross_check(
+    name: str, experiment: Experiment, inputs: Table, reference: Table
+) -> dict[str, bytes]:
+    """Path in the unit -> content; ``inputs``, linear in between, and ``reference``: names of the
+    variables, and times, s, each with their values."""
+    files = {"ref.opt": experiment.text, "in.csv": _csv(*inputs), "ref.csv": _csv(*reference)}
+    return {f"documentation/{name}_{file}": text.encode() for file, text in files.items()}
+
+
+def _csv(columns: Sequence[str], rows: Iterable[Row]) -> str:
+    lines = [",".join(f'"{name}"' for name in ["time", *columns])]
+    lines += [",".join(repr(float(value)) for value in (time, *values)) for time, values in rows]
+    return "\n".join(lines) + "\n"
+
+
+def of_mechanics(name: str, variables: Sequence[Variable]) -> dict[str, bytes]:
+    """Of the block at its defaults: the interpreted model."""
+    inputs = [variable for variable in variables if variable.causality == "input"]
+    starts = [each.start or 0.0 for each in inputs]
+    u = [0.0] * U_SIZE
+    for each, start in zip(inputs, starts, strict=True):
+        u[_place(each)] = start
+    given = [(time, starts) for time in (0.0, MECHANICS.stop)]
+    slots = [_place(each) for each in variables if each.name in SHOWN_OF_MECHANICS]
+    motion = ((time, [o[slot] for slot in slots]) for time, o in _motion(tuple(u)))
+    shown = [each.name for each in variables if each.name in SHOWN_OF_MECHANICS]
+    return cross_check(name, MECHANICS, ([each.name for each in inputs], given), (shown, motion))
+
+
+def _place(variable: Variable) -> int:
+    return int(str(constants()[variable.slot]))
+
+
+@cache
+def _motion(u: tuple[float, ...]) -> list[tuple[float, list[float]]]:
+    """Times, s, and all outputs of the kernel; once for the units of a process."""
+    from stickslip.arrays import RunArrays  # numba: only for who gets here
+
+    run = RunArrays.begin(Parameters().pack(), list(u), interpreted=True)
+    rows = []
+    for time in MECHANICS.times:
+        o = [0.0] * O_SIZE
+        if not run.advance(time):
+            raise ValueError(f"the run to compare with stops: {run.failure}")
+        run.kernel.show(run.p, run.u, run.z, run.w, o, 0)
+        rows.append((time, o))
+    return rows

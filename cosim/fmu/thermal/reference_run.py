@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from cosim.fmu.description.cross_check import Experiment, Row, cross_check
+from cosim.fmu.description.documentation import Experiment, Row, cross_check
 from cosim.fmu.thermal.variables import NAME, REFERENCE
 from cosim.fmu.variables import Variable, names
 from thermal import BeltIceModel, ThermalParameters

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from stickslip import EFFECTS, Parameters, Trajectory, simulate
 from stickslip.effects.effect import Case, Effect
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
+from cosim.report.live import Curve, Live, Panel, Series, on_one_axis, over_time
 from cosim.report.page import Picture, render, unit_text
 from cosim.report.style import BLUE, GREY, picture
 from cosim.studies.effects import allowed
@@ -24,7 +26,7 @@ PLAIN: dict[str, dict[str, Any]] = {
     "initial": {"vx": 0.15},
 }
 #: Channel -> label of its axis, and what makes its values of SI.
-CHANNELS = {"x": ("x [mm]", 1e3), "y": ("y [mm]", 1e3), "phi": ("phi [°]", 180.0 / np.pi)}
+CHANNELS = {"x": ("x [mm]", 1e3), "y": ("y [mm]", 1e3), "phi": ("φ [°]", 180.0 / np.pi)}
 #: Part of the largest difference between two motions that a channel must have to be shown.
 SHOWS = 0.2
 CASES: dict[str, Case] = {effect.id: effect.case for effect in EFFECTS}
@@ -39,6 +41,7 @@ def page(entries: list[dict[str, Any]], pictures: dict[str, Picture]) -> str:
         entries=entries,
         rooms={room: [each for each in entries if each["enters"] == room] for room in rooms},
         pictures=pictures,
+        laws={name: law_figure(name) for name in pictures},
         allowed=allowed,
     )
 
@@ -59,11 +62,45 @@ def effect_figure(effect_id: str) -> Picture:
         where += f"; {1e6 * case.water:g} µm of water in the contact"
     curve = "its law, and " if axis_of(_effect(effect_id)) else ""
     caption = f"Without and with the effect ({sizes}){where}: {curve}the motion where it shows."
-    return picture(effect_id, caption)(_draw)(effect_id)
+    alt = f"{effect_id}: {curve}the motion without and with it"
+    return replace(picture(effect_id, caption, alt=alt)(_draw)(effect_id), live=_live(effect_id))
 
 
 def _effect(effect_id: str) -> Effect:
     return next(effect for effect in EFFECTS if effect.id == effect_id)
+
+
+def _live(effect_id: str) -> Live:
+    """The motions for the page, which has the law as a drawing above them."""
+    begin, end = CASES[effect_id].window
+    plain, shown = motion(effect_id, False), motion(effect_id, True)
+    panels = []
+    for name in channels_shown(plain, shown, begin):
+        label, factor = CHANNELS[name]
+        series = [
+            Series(run.time, Curve(said, factor * run[name], colour))
+            for said, run, colour in (("without", plain, GREY), ("with", shown, BLUE))
+        ]
+        time, curves = on_one_axis(series)
+        seen = (time >= begin) & (time <= end)
+        panels.append(Panel(label, [replace(curve, values=curve.values[seen]) for curve in curves]))
+    return over_time(time[seen], panels)
+
+
+def law_figure(effect_id: str) -> Picture | None:
+    """The law alone, to stand above motions that move; None for an effect without a curve."""
+    curves = [_curve(effect_id, on, motion(effect_id, True)) for on in (False, True)]
+    if curves[1] is None:
+        return None
+
+    def draw() -> Figure:
+        figure = Figure(figsize=(4.6, 2.9), layout="constrained")
+        _draw_law(figure.subplots(), curves)
+        return figure
+
+    alt = f"{effect_id}: {curves[1].quantity} over {curves[1].axis}"
+    caption = "The law, without the effect (grey) and with it (blue), as far as the motion goes."
+    return picture(f"{effect_id}_law", caption, alt=alt)(draw)()
 
 
 def _draw(effect_id: str) -> Figure:

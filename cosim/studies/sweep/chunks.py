@@ -20,6 +20,7 @@ from typing import Self
 
 import joblib
 from stickslip.compiled import say_if_compiling
+from stickslip.plugins.sent import packed, to_send, unpacked_call
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 from cosim.processes import BrokenProcessPool, as_finished, is_stopped
@@ -185,9 +186,12 @@ class DaskWorkers:
     def _results(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Iterator[list[Row]]:
         from distributed import KilledWorker, as_completed
 
-        # the work travels with every chunk: data scattered to workers would die with them.
+        # the work travels with every chunk: data scattered to workers would die with them. packed,
+        # for what is made of an effect of one's own can be unpacked only where that effect is.
         # not pure: work that is started again must not be given the futures of before
-        futures = self._client.map(compute_chunk, [work] * len(chunks), chunks, pure=False)
+        calls = [packed(compute_chunk, work, chunk) for chunk in chunks]
+        sent = [to_send()] * len(calls)
+        futures = self._client.map(unpacked_call, sent, calls, pure=False)
         lost = ""
         try:
             for future in as_completed(futures, loop=self._client.loop):
@@ -199,7 +203,8 @@ class DaskWorkers:
                 elif isinstance(error := future.exception(), (KilledWorker, OSError)):
                     lost = " ".join(str(error).split())
                 else:
-                    raise SweepStopped(f"a worker failed: {error}") from error
+                    said = " ".join(str(error).split())
+                    raise SweepStopped(f"a worker failed: {said}") from error
         finally:
             self._client.cancel(futures)
         if lost:

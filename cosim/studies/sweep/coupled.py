@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from stickslip import Trajectory
+from stickslip.trajectory import break_away_frequency, counted_break_aways
 
 from cosim.coupling import CoupledResult
 from cosim.scenario import Scenario, ScenarioError
@@ -112,8 +113,9 @@ def coupled_features(
     late = trajectory.time >= scenario.surface.run_up_time
     if np.count_nonzero(late) > 1:
         # the unit counts break-aways that fall between two rows, too
-        count, time = trajectory["slip_count"][late], trajectory.time[late]
-        numbers["frequency"] = float((count[-1] - count[0]) / (time[-1] - time[0]))
+        starts = counted_break_aways(trajectory.time, trajectory["slip_count"])
+        begin, end = scenario.surface.run_up_time, trajectory.time[-1]
+        numbers["frequency"] = break_away_frequency(starts[(starts >= begin) & (starts <= end)])
     return numbers, ""
 
 

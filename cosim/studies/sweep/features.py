@@ -3,7 +3,7 @@
 Means, extremes and spread are those of the constant-speed part: from the end of the surface's
 speed ramp to the end of the run. The samples carry velocities, so integrals and extremes come from
 the cubic through positions and velocities of two neighbouring rows (fourth order in their
-distance); slip times and shares come from the located events.
+distance); slip times, shares and the frequency come from the located events.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from stickslip import Trajectory
 from stickslip.packing import GRAVITY
-from stickslip.trajectory import slip_share
+from stickslip.trajectory import break_away_frequency, slip_share
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,10 @@ FEATURES = {
     "x_std": ("m", "standard deviation of x at constant surface speed"),
     "y_mean": ("m", "mean of y at constant surface speed"),
     "phi_max": ("rad", "largest rotation either way at constant surface speed"),
-    "frequency": ("Hz", "break-aways per second at constant surface speed"),
+    "frequency": (
+        "Hz",
+        "one over the mean period of the break-aways at constant surface speed; 0 without any",
+    ),
     "slip_time": ("s", "mean length of the slip phases that lie in the constant-speed part"),
     "slip_share": ("1", "share of the constant-speed part spent in slip"),
     "friction_coefficient": (
@@ -85,7 +88,7 @@ def _phases(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
     # slip phases with both ends in the window
     whole = np.diff(times)[(modes[:-1] == 1.0) & (modes[1:] == 0.0)]
     return {
-        "frequency": float(np.count_nonzero(modes == 1.0) / (time[-1] - time[0])),
+        "frequency": break_away_frequency(times[modes == 1.0]),
         "slip_time": float(whole.mean()) if whole.size else math.nan,
         "slip_share": slip_share(time, mode, run.events),
     }

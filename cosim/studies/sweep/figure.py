@@ -89,20 +89,27 @@ def _varies(values: xr.DataArray) -> bool:
 
 def still_sentence(dataset: xr.Dataset, names: Sequence[str]) -> str:
     """What is the same in all runs, in a sentence; "" where nothing is."""
-    said = []
+    said, none = [], []
     for name in names:
         label, factor = SHOWN[name]
         words, _, unit = label.removesuffix("]").partition(" [")
         known = dataset[name].values[np.isfinite(dataset[name].values)]
-        if name == "frequency" and known.size and not known.any():
+        if not known.size:
+            none.append(words)
+            continue
+        if name == "frequency" and not known.any():
             said.append("no stick-slip")
             continue
-        value = float(np.mean(known)) * factor if known.size else math.nan
+        value = float(np.mean(known)) * factor
         nothing = abs(value) <= NOTHING.get(name, 0.0) * factor
-        number = "not there" if not known.size else "0" if nothing else f"{value:.3g}"
-        where = " (where there is one)" if 0 < known.size < dataset[name].size else ""
-        said.append(f"{words} {number}{f' {unit}' if unit != '1' and known.size else ''}{where}")
-    return f"The same in all runs: {', '.join(said)}." if said else ""
+        number = "0" if nothing else f"{value:.3g}"
+        where = " (where there is one)" if known.size < dataset[name].size else ""
+        said.append(f"{words} {number}{f' {unit}' if unit != '1' else ''}{where}")
+    same = [f"The same in all runs: {', '.join(said)}."] if said else []
+    absent = (
+        [f"In no run, for want of cycles at constant speed: {', '.join(none)}."] if none else []
+    )
+    return " ".join(same + absent)
 
 
 @picture(

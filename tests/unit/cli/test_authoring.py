@@ -46,7 +46,8 @@ def schemas(capsys):
 
 def test_a_new_scenario_is_as_one_that_says_nothing(capsys):
     assert (
-        printed(capsys, "new", "cold room") == "cold room.toml: stickslip simulate cold room.toml\n"
+        printed(capsys, "new", "cold room")
+        == "cold room.toml: stickslip simulate 'cold room.toml'\n"
     )
     Path("bare.toml").write_text('name = "cold room"')
     assert read_scenario("cold room.toml") == read_scenario("bare.toml")
@@ -204,6 +205,9 @@ WORDS = {
     ("stickslip", "simulate", "--js"): {"--json"},
     ("stickslip", "new", "x", "--from", "sl"): {"slab"},
     ("stickslip", "schema", "s"): {"scenario", "system"},
+    ("stickslip", "run", "--set", "rig.ma"): {"rig.mass="},
+    ("stickslip", "sweep", "slab", "--vary", "surface.sp"): {"surface.speed="},
+    ("stickslip", "compare", "slab", "mi"): {"mine.toml"},
     ("stickslip", ""): set(COMMANDS),
 }
 
@@ -216,7 +220,7 @@ def test_bash_completes_commands_options_and_scenarios(capsys, tmp_path):
         line = " ".join(f"'{word}'" for word in words)
         script = (
             f"source complete.bash; COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; "
-            "_shtab_stickslip; printf '%s\\n' \"${COMPREPLY[@]}\""
+            "compopt() { :; }; _stickslip_complete; printf '%s\\n' \"${COMPREPLY[@]}\""
         )
         done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)
         found = {word for word in done.stdout.split() if not word.startswith("-") or "--js" in line}

@@ -30,7 +30,7 @@ def test_a_coupled_run_ends_in_six_lines():
     assert len(lines) == 6
     for said in (
         "30 s in 6.0 s",
-        "2.300 break-aways",
+        "2.300 Hz",
         "0.900",
         "-7.9432 degC",
         "+0.0568 K",

@@ -1,6 +1,6 @@
 """Scenarios, campaigns and systems that nobody would write, the same ones each time.
 
-Of campaigns only the reading: finding takes seconds each. `benchmarks/fuzz.py` does all of it, with
+Of campaigns only the reading: finding takes seconds each. The benchmark `fuzz` does all of it, with
 other cases each time, for as long as one likes.
 """
 

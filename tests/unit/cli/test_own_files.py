@@ -2,12 +2,20 @@
 
 import json
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
 
 from cosim.cli import main
 from cosim.files import OutputRefused, write_text
-from cosim.manifest import MANIFEST, files_of_earlier, made_by, require_own, results_in
+from cosim.manifest import (
+    MANIFEST,
+    files_of_earlier,
+    made_by,
+    require_json,
+    require_own,
+    results_in,
+)
 
 SHORT = """
 defaults = "plain"
@@ -172,3 +180,9 @@ def test_a_list_that_is_damaged_or_leaves_the_folder_owns_nothing(tmp_path, text
     with results_in(folder, made_by()):
         write_text("rows", folder / "result.csv")
     assert (tmp_path / "mine.txt").read_text() == "my own"
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no such device here")
+def test_a_device_is_not_read_to_its_end():
+    with pytest.raises(OutputRefused, match="no result of this command"):
+        require_json(Path("/dev/zero"), ("status",))

@@ -59,6 +59,29 @@ def test_files_are_found_where_they_are_named(tmp_path):
     assert files_named(["run", str(tmp_path / "broken.toml"), "reference"]) == []
 
 
+def test_a_word_can_be_longer_than_a_file_s_name():
+    """As the values of a sweep are; such a word is no file, and no error."""
+    values = ",".join(f"0.{digit:03d}" for digit in range(100, 200))
+    assert files_named(["sweep", "reference", "--vary", f"rig.mass={values}"]) == []
+    assert files_named(["simulate", f"{values}.toml"]) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "what"),
+    [("simulate", "no such file"), ("gap", "is too long"), ("plan", "too long")],
+)
+def test_a_name_that_is_too_long_for_a_file(command, what, capsys):
+    assert main([command, 300 * "a"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert what in line and "allowed is" in line
+
+
+def test_effects_cannot_be_set(capsys):
+    assert main(["simulate", "reference", "--set", 'effects=["brush.py"]']) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "--set effects=" in line and "STICKSLIP_EFFECTS" in line
+
+
 def stickslip(*arguments, **variables):
     return subprocess.run(
         [sys.executable, "-m", "cosim", *map(str, arguments)],

@@ -3,6 +3,8 @@
 import io
 import json
 import logging
+import subprocess
+import sys
 
 import pytest
 import stickslip.compiled
@@ -59,6 +61,18 @@ def test_verbose_names_the_files_as_they_are_written(case, capsys):
     assert [line for line in said if line.startswith("note: left to the defaults")]
     for name in ("result.nc", "summary.json", "report.html"):
         assert f"writing out/{name}" in said
+
+
+def test_verbose_names_what_is_read_and_compiled(case, capsys):
+    # a process of its own: this one has the compiled model loaded
+    code = "from cosim.cli import main; raise SystemExit(main(['simulate', 'case.toml', '-v']))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    said = done.stderr.splitlines()
+    assert "reading case.toml" in said
+    assert [line for line in said if line.startswith("mechanical model: machine code")]
+    with pytest.raises(SystemExit):
+        main(["keys", "--help"])
+    assert "what the units say" not in capsys.readouterr().out
 
 
 def test_quiet_and_verbose_together_are_refused(case, capsys):

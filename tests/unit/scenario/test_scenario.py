@@ -131,6 +131,7 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[rig]\nmass = 1979-05-27", f"rig.mass: not a number (1979-05-27), {NUMBER}"),
         ("[belt]\nlength = '1'", "belt.length: not a number"),
         ("[belt]\nelements = 6.0", "belt.elements: not a whole number (6.0), allowed is a whole"),
+        ("[rig]\nmass = 1e308", "rig.mass: 1e+308 kg: its weight is beyond all numbers"),
         ("[rig]\nmas = 1", "rig.mas: no such key, nearest known: rig.mass"),
         ("mass = 1", "mass: no such key, nearest known: rig.mass"),
         ("[friction]\nmass = 1", "friction.mass: no such key, nearest known: rig.mass"),

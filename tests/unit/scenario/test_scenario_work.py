@@ -1,11 +1,18 @@
 """What would not end is refused before it starts; what takes long says so."""
 
+import math
 import time
 import warnings
 
 import pytest
 from stickslip import Parameters, simulate
-from stickslip.status import MOST_STEPS_PER_SECOND, longest_step
+from stickslip.status import (
+    MOST_STEPS_PER_SECOND,
+    SECONDS_PER_STEP,
+    likely_step,
+    longest_step,
+    time_to_slide,
+)
 
 from cosim.cli.runs.running import scenario_to_run
 from cosim.coupling.case import run_scenario
@@ -177,3 +184,39 @@ def test_no_packaged_case_has_to_be_patient():
         warnings.simplefilter("ignore")
         for name in ("reference", "study", "slab", "warm_friction", "melting_friction"):
             assert check_work(read_scenario(name), coupled=True) < 60.0
+
+
+def test_a_block_that_is_carried_takes_the_steps_of_one_that_does_not_slide():
+    """Rate and state, on a surface that in the whole run does not come as far as the springs bear.
+
+    Counted as if it slid, it was some hundred times too much.
+    """
+    slow = {
+        "rate_and_state.direct": 0.005, "rate_and_state.evolution": 0.02,
+        "surface.speed": 1e-4, "surface.run_up_time": 0.0, "initial.vx": 1e-4,
+        "run.duration": 20.0,
+    }  # fmt: skip
+    carried = read_scenario("reference").changed(slow)
+    run = simulate(carried.mechanics, 20.0, 1.0)
+    assert run.slip_starts.size == 0 and run.slip_share == 0.0
+    sliding = carried.changed({"initial.vx": 0.0})
+    estimates = [check_work(one, coupled=False) for one in (carried, sliding)]
+    assert estimates[0] < 0.01 * estimates[1]
+    # one that breaks away is counted as before, from when it can
+    later = time_to_slide(carried.mechanics)
+    longer = carried.changed({"run.duration": 2.0 * later})
+    step = likely_step(carried.mechanics).per_second * SECONDS_PER_STEP
+    assert check_work(longer, coupled=False) == pytest.approx(later * step, rel=0.01)
+
+
+@pytest.mark.parametrize("ramp", [0.0, 1.0, 30.0])
+def test_the_time_to_slide_is_before_the_first_break_away(ramp):
+    """And not by more than the half of friction that it is for: of the plain model."""
+    parameters = Parameters(
+        surface={"speed": 0.02, "run_up_time": ramp},
+        initial={"vx": 0.02 if ramp == 0.0 else 0.0},
+    )
+    first = simulate(parameters, 60.0, 1.0).slip_starts[0]
+    assert 0.3 * first < time_to_slide(parameters) < first
+    assert time_to_slide(Parameters(surface={"speed": 0.0})) == math.inf
+    assert time_to_slide(Parameters(surface={"speed": 0.02}, initial={"vx": 0.01})) == 0.0

@@ -98,6 +98,20 @@ def test_files_and_last_lines(case, tmp_path, capsys):
         assert done.attrs["duration"] == 1.0
 
 
+def test_a_key_that_is_varied_is_not_set_too(case, tmp_path):
+    varied = ("--vary", "friction.mu_s+friction.mu_k=0.28:0.2", "-o", tmp_path / "out")
+    line = "--set friction.mu_k=0.1: friction.mu_k is varied, allowed is a key that is not"
+    with pytest.raises(SweepError, match=line):
+        call(case, *varied, "--set", "friction.mu_k=0.1")
+
+
+def test_an_empty_name_is_no_folder(case, capsys):
+    """As of a shell's variable that is not set: results would come to lie where one stands."""
+    with pytest.raises(SystemExit, match="2"):
+        call(case, "--vary", "rig.mass=1,2", "-o", "")
+    assert "argument -o/--output: '' is no name of a folder" in capsys.readouterr().err
+
+
 def test_a_sweep_without_any_result_fails(case, tmp_path, capsys):
     case.write_text("[friction]\nmu_s = 9.0\nmu_k = 9.0\n[run]\nduration = 9.0\n")
     assert call(case, "--vary", "rig.mass=0.5,0.7", "-o", tmp_path / "out") == 1

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simulate
 from stickslip.packing import GRAVITY
+from stickslip.trajectory import break_away_frequency, counted_break_aways
 
+from cosim.report import trajectory_dataset
+from cosim.report.summary import after_ramp
 from cosim.studies.sweep import FEATURES, features
 from cosim.studies.sweep.features import _extremes, _mean
 
@@ -48,8 +51,8 @@ def test_every_feature_is_there_with_unit_and_words(coulomb):
         ("slip_time", SLIP, 1e-9),
         ("x_max", MIDDLE + SWING, 1e-7),
         ("x_min", MIDDLE - SWING, 1e-7),
-        # the window cuts the first and the last cycle
-        ("frequency", 1.0 / (SLIP + STICK), 1.0 / 60.0),
+        # by the mean period: located events, whatever the window cuts off
+        ("frequency", 1.0 / (SLIP + STICK), 1e-9),
         ("slip_share", SLIP / (SLIP + STICK), 0.5 / 60.0),
         ("x_mean", MIDDLE, 2e-4),
         # the force jumps at re-stick: a row's mean is first order
@@ -102,3 +105,16 @@ def test_extremes_of_straight_and_flat_lines():
     time = np.arange(4.0)
     assert _extremes(time, 2.0 * time, np.full(4, 2.0)) == (0.0, 6.0)
     assert _extremes(time, np.ones(4), np.zeros(4)) == (1.0, 1.0)
+
+
+def test_the_frequency_is_that_of_a_summary():
+    """One definition, from whatever it is read: events, counts in rows, a summary."""
+    case = Parameters(surface=Surface(speed=SPEED), initial=Initial(vx=SPEED))
+    run = simulate(case, 7.3, 0.01)
+    found = features(run)["frequency"]
+    starts = run.slip_starts
+    assert found == break_away_frequency(starts) == pytest.approx(1.0 / np.diff(starts).mean())
+    assert after_ramp(trajectory_dataset(run, case, ""))["frequency"].value == found
+    counted = counted_break_aways(run.time, run["slip_count"])
+    assert counted == pytest.approx(starts, abs=0.005001)  # half a row either way
+    assert break_away_frequency(starts[:0]) == 0.0 and math.isnan(break_away_frequency(starts[:1]))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
+from cosim.report.live import live_of
 from cosim.report.style import GREY, LIGHT_GREY, panels, picture
 from cosim.studies.reproduction.cases import STUDY, Printed
 
@@ -323,6 +324,7 @@ def _colour(name: str) -> str:
     "C6_displacements",
     "x(t), steady, m 0.67 kg, k 20.17 N/m, v 0.15 m/s. Dashed: the "
     "measured mean of x. Study: figures 4.18a and b.",
+    live=live_of,
 )
 def _draw_motion() -> Figure:
     shown = (

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
+from cosim.report.live import live_of
 from cosim.report.style import INK, panels, picture
 from cosim.studies.reproduction.cases import ASSUMED, CASE, STUDY, cases
 
@@ -190,9 +191,10 @@ def _no_rotation(plan: list[Case]) -> Turn:
 
 @picture(
     "C14_jump",
-    "x' in a run with jumps, as printed and mended; crosses: slips that "
+    "x' in a run with jumps, as printed and mended; black marks: slips that "
     "end in a jump to the surface's speed; dotted: the run is over with its 25th slip. "
     "Study: figure 5.5.",
+    live=live_of,
 )
 def _draw(case: Case) -> Figure:
     figure, axes = panels(2, 1, height=1.9, sharex=True, sharey=True)
@@ -209,7 +211,7 @@ def _draw(case: Case) -> Figure:
                 fontsize=8.0,
             )
         ends = run.slip_phases[np.abs(run.slip_phases[:, 4]) > _threshold(case), 1]
-        ax.plot(ends, np.full(len(ends), case.speed), "x", color=INK, ms=7)
+        ax.plot(ends, np.full(len(ends), case.speed), "x", color=INK, ms=7, label="jump to stick")
         ax.set_title(
             f"scheme {'as printed' if name == 'printed' else name}, k {case.stiffness:.2f} N/m, "
             f"m {case.mass:.2f} kg, v {case.speed:.2f} m/s"

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 
+from cosim.report.live import live_of
 from cosim.report.style import panels, picture
 from cosim.studies.reproduction.cases import STUDY
 
@@ -196,6 +197,7 @@ def _readings() -> list[Turn]:
     "C7_rotation",
     "φ(t) of datasets #1 and #2 as printed and mended (of eight runs each the "
     "one that turns farthest) and in the exact model. Study: figure 4.21.",
+    live=live_of,
 )
 def _draw() -> Figure:
     figure, axes = panels(1, 2, height=2.7)

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
+from cosim.report.live import live_of
 from cosim.report.style import SERIES, panels, picture
 from cosim.studies.reproduction.cases import STUDY
 
@@ -253,6 +254,7 @@ def _bounded_by_scatter() -> Turn:
     "C5_spring_angles",
     "x, φ and y of the four spring-angle treatments (m 0.67 kg, k 20.17 "
     "N/m, v 0.15 m/s); left as printed, right mended. Study: figures 4.6 and 4.7.",
+    live=live_of,
 )
 def _draw(printed: dict[str, Motion], mended: dict[str, Motion]) -> Figure:
     figure, axes = panels(3, 2, height=2.0, sharex="col", sharey="row")

@@ -6,6 +6,7 @@ import sys
 from ctypes import byref, c_void_p
 from pathlib import Path
 
+import native_unit
 from native_unit import ERROR, OK, Instance
 
 SETS, TIMES, AHEAD = 20, 50, 3  # 1000 states in all
@@ -161,7 +162,7 @@ def test_states_go_on_alike_in_another_process(fmu, unit, tmp_path):
         capture_output=True,
         text=True,
         check=False,
-        cwd=Path(__file__).parents[3] / "helpers",
+        cwd=Path(native_unit.__file__).parent,
     )
     assert done.returncode == 0, done.stderr
     assert [line.split() for line in done.stdout.splitlines()] == expected
