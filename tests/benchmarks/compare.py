@@ -1,8 +1,8 @@
 """Two baselines of a benchmark: what got worse by more than a margin.
 
-    python tests/benchmarks/mechanics.py --json old.json
-    git switch -; python tests/benchmarks/mechanics.py --json new.json
-    python tests/benchmarks/compare.py old.json new.json --margin 0.2
+    python tests/benchmarks mechanics --json old.json
+    git switch -; python tests/benchmarks mechanics --json new.json
+    python tests/benchmarks compare old.json new.json --margin 0.2
 
 Exit status 1 where something got worse or is no longer there. Seconds of two machines, or of one
 that has other work, say little: ratios to a peer that was timed in the same run say more.

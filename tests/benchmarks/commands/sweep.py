@@ -1,6 +1,6 @@
 """The test plan's 1306 combinations of 30 s, and what handing them out costs.
 
-    taskset -c 0,1 python tests/benchmarks/sweep.py [--json FILE]
+    taskset -c 0,1 python tests/benchmarks sweep [--json FILE]
 
 prints seconds, and the ratio of the sweep to the plain runs in it shared by the cores.
 """

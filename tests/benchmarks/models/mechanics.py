@@ -1,6 +1,6 @@
 """Speed of the mechanics alone: 20 s, exact, planar friction, against the linearised scheme.
 
-    python tests/benchmarks/mechanics.py [--json FILE]
+    python tests/benchmarks mechanics [--json FILE]
 
 prints seconds and their ratio, both measured in this run (median of several).
 """

@@ -1,6 +1,6 @@
 """Power that `stickslip plan` predicts, and what simulated campaigns achieve, side by side.
 
-    python tests/benchmarks/plan_power.py CAMPAIGN [EFFECT ...] [--campaigns N] [--seed N]
+    python tests/benchmarks plan_power CAMPAIGN [EFFECT ...] [--campaigns N] [--seed N]
 
 Each effect is put into the planned campaign at half its predicted size, at that size and at one and
 a half times it, noise is added, the plain model and the law are fitted, and the law counts as named
@@ -10,10 +10,6 @@ which the law is named although it is not there, and the level of its single tes
 """
 
 import argparse
-import sys
-from pathlib import Path
-
-sys.path.append(str(Path(__file__).resolve().parents[1] / "helpers"))
 
 from plan_campaigns import gain, measured
 from scipy.stats import binomtest

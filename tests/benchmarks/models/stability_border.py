@@ -1,6 +1,6 @@
 """The border of stability over pretension, against runs on either side of it.
 
-    python tests/benchmarks/stability_border.py [RIGS] [SEED] [--json FILE]
+    python tests/benchmarks stability_border [RIGS] [SEED] [--json FILE]
 
 Draws rigs at random, looks for the least pretension at which each keeps to its line, and simulates
 the rig, turned by 1e-7 rad at its start, with 5 % and 0.1 mm less and more. Rigs that need none, or
@@ -15,9 +15,8 @@ import numpy as np
 from baseline import Figure, arguments, write
 from stickslip.steady_motion import pretension_borders, stability, with_pretension
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification" / "reference"))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
-from test_stability import DURATION, drawn_rig, grows  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "verification" / "reference"))
+from test_stability import DURATION, drawn_rig, grows
 
 RELATIVE, ABSOLUTE = 0.05, 1e-4
 

@@ -1,6 +1,6 @@
 """Cost of a row on disk: of the table alone, and with its values taken from the ports.
 
-    python tests/benchmarks/record_row.py
+    python tests/benchmarks record_row
 
 Prints microseconds a row of this thread on a processor, its calls to the system included: the
 median and the best of batches.

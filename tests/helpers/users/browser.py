@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 #: As `.ci/run` installs it: npm install --no-save --prefix .npm axe-core
 AXE = ROOT / ".npm" / "node_modules" / "axe-core" / "axe.min.js"
 WIDE, PHONE = 1280, 390

@@ -1,7 +1,7 @@
 """Kill `stickslip run` at random moments, go on each time, and compare with a run left alone.
 
-    python tests/benchmarks/kill_and_resume.py            20 kills, about five minutes
-    python tests/benchmarks/kill_and_resume.py -n 3 -s 7  3 kills, another seed
+    python tests/benchmarks kill_and_resume            20 kills, about five minutes
+    python tests/benchmarks kill_and_resume -n 3 -s 7  3 kills, another seed
 
 Every number of result.nc, the table result.csv and the temperature fields are compared bit for bit;
 after each kill the rows so far are read with numpy alone and compared with those of the run left

@@ -1,8 +1,8 @@
 """Campaigns of the laboratory, with known answers, put to `find_gap` and scored.
 
-    python tests/benchmarks/laboratory.py contact_and_shapes nothing --seed 7 --out results/lab
-    python tests/benchmarks/laboratory.py faults --seed 7 --first 10 --out results/lab --resume
-    python tests/benchmarks/laboratory.py --campaigns FOLDER --answers answers.json --out results/x
+    python tests/benchmarks laboratory contact_and_shapes nothing --seed 7 --out results/lab
+    python tests/benchmarks laboratory faults --seed 7 --first 10 --out results/lab --resume
+    python tests/benchmarks laboratory --campaigns FOLDER --answers answers.json --out results/x
 
 Each campaign is made and answered in one process, on one core, and written as a line of
 campaigns.jsonl as it ends; --resume does what is missing. Then scores.md (tables), wrong.md (every
@@ -30,7 +30,6 @@ ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")
 os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # read by the processes as they start
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 import joblib  # noqa: E402
 from baseline import Figure, write  # noqa: E402

@@ -1,6 +1,6 @@
 """The kernel against scipy's `solve_ivp` with events, on the same right-hand side.
 
-    python tests/benchmarks/against_solve_ivp.py [--json FILE]
+    python tests/benchmarks against_solve_ivp [--json FILE]
 
 Both run 20 s of stick-slip on a belt, for several contacts. scipy calls the kernel's own right-hand
 side, once as Python and once compiled, so that the second ratio is scipy's stepping alone. Its

@@ -1,7 +1,7 @@
 """Hidden effects named or not: the whole workflow on campaigns whose answers it cannot see.
 
-    python tests/benchmarks/blind_campaigns.py results/blind --jobs 2
-    python tests/benchmarks/blind_campaigns.py results/few --kind effects --effects run_in --count 2
+    python tests/benchmarks blind_campaigns results/blind --jobs 2
+    python tests/benchmarks blind_campaigns results/few --kind effects --effects run_in --count 2
 
 Draws campaigns (tests/blind: a simulator of its own), gives their files to `stickslip gap`, and
 scores the answers: a JSON line for each campaign, a Markdown table and a figure. Started again
@@ -24,19 +24,16 @@ from pathlib import Path
 
 import joblib
 import numpy as np
+from baseline import Figure, arguments, write
+from blind.campaign import KINDS, Campaign, draw_campaign
+from blind.effects import EFFECTS
+from blind.next_experiment import separation
+from blind.out_of_catalogue import OUT_OF_CATALOGUE
+from blind.score import is_right
+from blind.score_table import markdown
+from blind.writing import write_campaign
+from blind_figure import score_figure
 from tqdm import tqdm
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from baseline import Figure, arguments, write  # noqa: E402
-from blind.campaign import KINDS, Campaign, draw_campaign  # noqa: E402
-from blind.effects import EFFECTS  # noqa: E402
-from blind.next_experiment import separation  # noqa: E402
-from blind.out_of_catalogue import OUT_OF_CATALOGUE  # noqa: E402
-from blind.score import is_right  # noqa: E402
-from blind.score_table import markdown  # noqa: E402
-from blind.writing import write_campaign  # noqa: E402
-from blind_figure import score_figure  # noqa: E402
 
 LIMIT = 600.0  # s after which an answer is no longer waited for
 # campaigns of each cell, where --count does not say: 224 + 40 + 48 + 40 + 12 = 364

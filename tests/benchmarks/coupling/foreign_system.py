@@ -1,6 +1,6 @@
 """A system that others wrote, run by `couple` and by other masters: how far they are apart.
 
-    python tests/benchmarks/masters/foreign_system.py SYSTEM --stop T [--step H] [--with MASTER ...]
+    python tests/benchmarks foreign_system SYSTEM --stop T [--step H] [--with MASTER ...]
 
 SYSTEM: an SSP file, or a folder with a SystemStructure.ssd, of co-simulation units of FMI 2.0. Each
 master runs in a process of its own: what crashes is that. `jacobi`, as libcosim and ecos step: with

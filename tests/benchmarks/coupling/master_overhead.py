@@ -1,6 +1,6 @@
 """What a macro step costs beside the units' own work: this master and others, on one pair of units.
 
-    python tests/benchmarks/master_overhead.py [--json FILE] [--steps 100000] [--cofmupy PYTHON]
+    python tests/benchmarks master_overhead [--json FILE] [--steps 100000] [--cofmupy PYTHON]
 
 Two small native units, coupled both ways (`masters/oscillator.c`), 1e5 steps of 0.1 ms. What the
 master adds is measured against a loop written by hand of the very calls of fmpy that the scheme
@@ -26,7 +26,6 @@ from pathlib import Path
 from baseline import Figure, arguments, write
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "helpers")]
 
 from masters.host import COARSE, SHORT  # noqa: E402
 from masters.pair import NAMES, build, coupled, largest_error  # noqa: E402

@@ -1,6 +1,6 @@
 """Error of the coupled case against what it costs, for every scheme and step control.
 
-    python tests/benchmarks/coupling_cost.py [--json FILE] [--figure FILE]
+    python tests/benchmarks coupling_cost [--json FILE] [--figure FILE]
 
 A block of 40 kg slides at 3 m/s on the belt at -20 degC, friction falls by 4.8 % a kelvin (ice on
 rock: McCarthy et al., 2017), and the interface warms by 11 K in two seconds: heat acts back on the

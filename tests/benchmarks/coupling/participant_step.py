@@ -3,25 +3,22 @@
 Inputs written, a step, outputs of three types read; the unit is a page of C. The median of several
 runs, in microseconds.
 
-    python tests/benchmarks/participant_step.py
+    python tests/benchmarks participant_step
 """
 
 from __future__ import annotations
 
 import statistics
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 import fmpy
 from baseline import Figure, arguments, write
+from c_units import made
 from fmpy.fmi2 import FMU2Slave
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "helpers"))
-from c_units import made  # noqa: E402
-
-from cosim.coupling import FmuParticipant, IsolatedParticipant  # noqa: E402
+from cosim.coupling import FmuParticipant, IsolatedParticipant
 
 STEPS, STEP, RUNS = 2000, 1e-3, 9
 

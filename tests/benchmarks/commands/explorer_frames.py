@@ -1,6 +1,6 @@
 """Frames a second of the explorer's page in Chromium, and how soon a turned number is a whole run.
 
-    python explorer_frames.py [SECONDS]
+    python tests/benchmarks explorer_frames [SECONDS]
 
 Played, and while numbers of the rig are turned all the time. Without a window and without a
 graphics card, so a screen does no worse. What a frame costs in processor time does not depend on

@@ -1,6 +1,6 @@
 """Cost of a communication step: the native unit, the Python unit, and a unit of others.
 
-    python tests/benchmarks/fmu_step.py [--peer FILE.fmu] [--json FILE]
+    python tests/benchmarks fmu_step [--peer FILE.fmu] [--json FILE]
 
 Steps of 1 ms of the reference case in a host written in C and through fmpy, beside a bouncing ball;
 then the reference case as a coupled run, with the time that the master spends in the mechanical
@@ -12,7 +12,7 @@ of https://github.com/modelica/Reference-FMUs, which steps by 1 ms inside, too:
 
     cmake -B out -D FMI_VERSION=2 -D CMAKE_BUILD_TYPE=Release Reference-FMUs
     cmake --build out --target BouncingBall
-    python tests/benchmarks/fmu_step.py --peer out/fmus/BouncingBall.fmu
+    python tests/benchmarks fmu_step --peer out/fmus/BouncingBall.fmu
 """
 
 import statistics
@@ -35,7 +35,6 @@ from cosim.fmu.platforms import this_platform
 from cosim.scenario import read_scenario
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "helpers")]
 
 from c_library import compiler  # noqa: E402
 
@@ -170,7 +169,7 @@ def main():
         native, python = build_fmu(folder), build_fmu(folder, PYTHON)
         ours, slow = (Unit.unpacked(fmu, folder) for fmu in (native, python))
         name, peer = peer_of(told, folder)
-        source = HERE.parent / "interop" / "units" / "c_host" / "host.c"
+        source = HERE.parents[1] / "interop" / "units" / "c_host" / "host.c"
         host = compiled(source, folder / "host", "-ldl", "-lpthread")
         us = {
             "native unit in a C host": median(lambda: host_us(host, ours)),

@@ -1,6 +1,6 @@
 """Belt under a moving heat flux: scikit-fem and exact propagators against ngsolve.
 
-    python tests/benchmarks/heat_against_ngsolve.py [--json FILE]
+    python tests/benchmarks heat_against_ngsolve [--json FILE]
 
 One metre of belt, 1 mm cells, 13 nodes through the thickness, the same for both: 13 000 unknowns.
 A flux of a contact's size runs along it for 2 s at 0.82 m/s. Ours has P2 elements through the

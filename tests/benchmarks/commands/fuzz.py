@@ -1,6 +1,6 @@
 """Scenarios, campaigns and systems that nobody would write, for as long as one likes.
 
-    python tests/benchmarks/fuzz.py SECONDS [KIND ...] [--seed N]
+    python tests/benchmarks fuzz SECONDS [KIND ...] [--seed N]
 
 KIND: simulate, run, gap, plan, sweep, couple (systems as TOML), ssp (default: all, in turn). `gap`
 and `plan` go through to their answer, of a track or two of 3 s; --limit says when a case is given
@@ -19,11 +19,9 @@ import time
 import warnings
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
-
-import fuzzed  # noqa: E402
-import fuzzed_systems  # noqa: E402
-from hypothesis import HealthCheck, Phase, given, seed, settings  # noqa: E402
+import fuzzed
+import fuzzed_systems
+from hypothesis import HealthCheck, Phase, given, seed, settings
 
 KINDS = ("simulate", "run", "gap", "plan", "sweep", "couple", "ssp")
 #: s; none of the cases is large, and patience is short in all of them.

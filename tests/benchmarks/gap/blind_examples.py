@@ -1,6 +1,6 @@
 """Verdict, gap and wall time of `stickslip gap` on every campaign of a folder with answers.
 
-    python tests/benchmarks/blind_examples.py ../shared/data/blind_examples
+    python tests/benchmarks blind_examples ../shared/data/blind_examples
 
 The folder holds campaigns and an `answers.json`: name -> {"verdict", "effects"}.
 """

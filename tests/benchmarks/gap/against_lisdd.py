@@ -1,6 +1,6 @@
 """`find_gap` beside LISDD (arXiv:2606.23215) on a problem that both can do.
 
-    python tests/benchmarks/against_lisdd.py [--count 2] [--draws 400] [--jobs 2] [--out FOLDER]
+    python tests/benchmarks against_lisdd [--count 2] [--draws 400] [--jobs 2] [--out FOLDER]
 
 A block that always slides: no stick, a smooth equation of motion, 6 runs of 8 s, at most one of
 four terms missing. Sizes are noise units over whole runs, mu and starts fitted (lisdd/problem.py).
@@ -14,7 +14,6 @@ act everywhere, so that LISDD is shown without its regimes of sliding speed as w
 from __future__ import annotations
 
 import os
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable
@@ -24,7 +23,6 @@ from pathlib import Path
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")
 os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # read by the processes as they start
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import joblib  # noqa: E402
 import numpy as np  # noqa: E402

@@ -1,6 +1,6 @@
 """Cost of a macro step of belt and ice, and of going to the steady state in one.
 
-    python tests/benchmarks/heat_step.py [--json FILE]
+    python tests/benchmarks heat_step [--json FILE]
 
 Belts of 1 and 4 m with 1 mm cells, macro steps of 10 ms, median of many on one thread; what four
 times the length costs; a loop-after-loop run to the steady state against the direct way, both

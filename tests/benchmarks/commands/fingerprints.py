@@ -1,8 +1,8 @@
 """Fingerprints of what every command computes: whether a change of the code changed a result.
 
-    python tests/benchmarks/fingerprints.py --json before.json [COMMAND ...]
-    git switch -; python tests/benchmarks/fingerprints.py --json after.json
-    python tests/benchmarks/fingerprints.py --compare before.json after.json
+    python tests/benchmarks fingerprints --json before.json [COMMAND ...]
+    git switch -; python tests/benchmarks fingerprints --json after.json
+    python tests/benchmarks fingerprints --compare before.json after.json
 
 A fingerprint is a SHA-256 over the numbers of a result file, bit for bit, and its words; versions,
 paths and times of computing are left out. Two machines may differ in the last bit of `exp`, so

@@ -1,19 +1,18 @@
 """Cost of one compiled right-hand side, and what the quadrature over the contact errs.
 
-    python tests/benchmarks/right_hand_side.py [--json FILE]
+    python tests/benchmarks right_hand_side [--json FILE]
 
 prints ns for each kind of friction (median of several loops, each inside compiled code, so that no
 call from Python is in it), then the quadrature's error against adaptive integration, relative to
 mu_k, the larger of force and moment.
 """
 
-import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import numba
 import numpy as np
 from baseline import Figure, arguments, write
+from disc_integral import law_over_disc
 from mechanics import median_seconds
 from stickslip import Parameters
 from stickslip.compiled import OPTIONS, compiled_kernel
@@ -36,9 +35,6 @@ from stickslip.kernel.layout import (
     X,
     Y,
 )
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "helpers"))
-from disc_integral import law_over_disc  # noqa: E402
 
 LOOPS = 200_000
 MU, RADIUS, NORMAL, TOP = 0.2, 0.04, 0.67 * 9.81, 0.3
