@@ -1,8 +1,9 @@
 """Builds the documentation: `python tests/docs/build_site.py [FOLDER]`, by default results/site.
 
 FOLDER/html/index.html is the site. The sources are copied first, so that nothing made at build time
-comes to lie between them; notebooks that have not changed are not executed again in a FOLDER where
-they were (FOLDER/cache; what they compute with is not looked at: remove FOLDER for that).
+comes to lie between them. Notebooks are executed side by side, and those that have not changed not
+again in a FOLDER where they were (FOLDER/cache; what they compute with is not looked at: remove
+FOLDER for that).
 """
 
 import contextlib
@@ -10,20 +11,26 @@ import os
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from gallery import NAMES, SLOW, ran
+from nbclient.exceptions import CellExecutionError
+from notebooks import Executed, is_notebook
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 
 
-def build(folder: Path, gallery: Path) -> Path:
+def build(folder: Path, gallery: Path, executed: Executed, jobs: int = 1) -> Path:
     """Build into a folder, every warning an error; the start page.
 
-    gallery: what the examples printed and drew, see `gallery.ran`. Raises
-    subprocess.CalledProcessError, its output on the exception.
+    gallery: what the examples printed and drew, see `gallery.ran`. executed: keeps what the cells
+    of the notebooks computed; jobs: how many are executed at a time. Raises CellExecutionError of a
+    cell, subprocess.CalledProcessError of Sphinx, its output on the exception.
     """
+    with ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(executed, filter(is_notebook, sorted((HERE / "site").rglob("*.md")))))
     source = folder / "source"
     shutil.rmtree(source, ignore_errors=True)
     shutil.copytree(HERE / "site", source, ignore=shutil.ignore_patterns("__pycache__"))
@@ -32,7 +39,8 @@ def build(folder: Path, gallery: Path) -> Path:
     html = folder / "html"
     subprocess.run(
         [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", source, html],
-        env=environment(folder, gallery),
+        env=environment(folder)
+        | {"STICKSLIP_GALLERY": str(gallery), "STICKSLIP_NOTEBOOKS": str(executed.folder)},
         check=True,
         capture_output=True,
         text=True,
@@ -40,16 +48,18 @@ def build(folder: Path, gallery: Path) -> Path:
     return html / "index.html"
 
 
-def environment(folder: Path, gallery: Path) -> dict[str, str]:
-    """That of a reader whose `stickslip` is the one under test, and whose shell stops at errors."""
+def environment(folder: Path) -> dict[str, str]:
+    """That of a reader whose `stickslip` is the one under test, and whose shell stops at errors.
+
+    folder: where the shell finds that it does.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
     stop = folder / "stop_at_errors.sh"
     stop.write_text("set -e\n", encoding="utf-8")
     return os.environ | {
         "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]),
         "BASH_ENV": str(stop),
         "STICKSLIP_CHECKOUT": str(ROOT),
-        "STICKSLIP_SITE": str(folder),
-        "STICKSLIP_GALLERY": str(gallery),
         # figures as they are drawn into the page, not into a window
         "MPLBACKEND": "module://matplotlib_inline.backend_inline",
         # a debugger would slow down every cell
@@ -68,8 +78,11 @@ def main() -> None:
         for name in NAMES:
             if name not in SLOW:
                 ran(name, gallery)
+    executed = Executed(folder / "cache", environment(folder))
     try:
-        print(build(folder, gallery))
+        print(build(folder, gallery, executed, os.cpu_count() or 1))
+    except CellExecutionError as error:
+        sys.exit(str(error))
     except subprocess.CalledProcessError as error:
         sys.exit(f"{error.stdout}{error.stderr}")
 

@@ -1,17 +1,17 @@
 """README and pages do what they say: Python runs, input is read, commands print what is shown.
 
-The pages are those of the site that are no notebooks: the cells of these are executed when the site
-is built (`test_site.py`). A session in a terminal that takes half a minute and more is run by
-`pytest -m slow`.
+The pages are those of the site that are no notebooks: the cells of these are executed when the
+site is built (`test_site.py`), and typed (`typed/`). A session in a terminal that takes half a
+minute and more is run by `pytest -m slow`. That every block is run is seen to in `test_blocks.py`.
 """
 
-import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from sessions import timeless
 
 from cosim import read_scenario
 from cosim.cli import main
@@ -99,23 +99,8 @@ def test_the_system_is_one(tmp_path):
         assert [unit.file.name for unit in system.units] == [NATIVE, THERMAL]
 
 
-def test_there_are_no_other_blocks():
-    """Whatever is shown is run: a block of another kind needs a test of its own first."""
-    known = {"python", "toml", "sh", ""}
-    kinds = {kind for page in PAGES.values() for kind, _ in BLOCK.findall(page)}
-    assert {kind for kind in kinds if not kind.startswith("{")} == known
-    assert {text.strip() for _, text in blocks("sh")} == set(SHELL)
-    assert all(text.startswith("$ stickslip ") for _, text in blocks(""))
-    assert len(blocks("toml")) == 3
-
-
 def test_ci_runs_the_line_that_tests():
     assert SHELL[1] in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
-
-
-def timeless(line):
-    """A line of output without the seconds that computing took."""
-    return re.sub(r"[\d.e-]+ s of (wall time|them)", r"... s of \1", line).rstrip()
 
 
 @pytest.mark.parametrize(("command", "printed"), SESSIONS)
@@ -124,36 +109,8 @@ def test_a_session_prints_what_is_shown(command, printed, at_home):
         [sys.executable, "-m", "cosim", *command.split()], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
-    said = {timeless(line) for line in (done.stdout + done.stderr).splitlines()}
-    assert said >= {timeless(line) for line in printed.splitlines()}
-
-
-CELL = re.compile(r"^```\{code-cell\} python\n(?::[^\n]*\n)?(.*?)^```$", re.DOTALL | re.MULTILINE)
-TOLD = re.compile(r"^```text\n\$ stickslip (.+)\n((?:.*\n)*?)```$", re.MULTILINE)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("page", [name for name, text in TEXTS.items() if TOLD.search(text)])
-def test_a_notebook_s_long_sessions_print_what_is_shown(page, tmp_path):
-    """Where the notebook's cells have left their files."""
-    tools = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    shell = {"cwd": tmp_path, "env": os.environ | {"PATH": tools, "MPLBACKEND": "Agg"}}
-    script = []
-    for cell in CELL.findall(TEXTS[page]):
-        magic, _, rest = cell.partition("\n")
-        if magic.startswith("%%writefile "):
-            (tmp_path / magic.split()[1]).write_text(rest, encoding="utf-8")
-        elif magic == "%%bash":
-            subprocess.run(["bash", "-ec", rest], check=True, **shell)
-        else:
-            script.append(cell)
-    subprocess.run([sys.executable, "-c", "\n".join(script)], check=True, **shell)
-    for command, printed in TOLD.findall(TEXTS[page]):
-        ask = [sys.executable, "-m", "cosim", *command.split()]
-        done = subprocess.run(ask, capture_output=True, text=True, **shell)
-        assert done.returncode == 0, done.stderr
-        said = {timeless(line) for line in done.stdout.splitlines()}
-        assert said >= {timeless(line) for line in printed.splitlines()}
+    said = set(timeless((done.stdout + done.stderr).splitlines()))
+    assert said >= set(timeless(printed.splitlines()))
 
 
 @pytest.mark.parametrize("command", NAMED)

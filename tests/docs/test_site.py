@@ -1,7 +1,7 @@
 """The examples run and say what they should; of what they draw and of its pages the site is built.
 
 Both in one file: what an example drew is in the site without being computed twice. Cells of the
-notebooks are executed by the build, and hidden ones among them assert what the pages say.
+notebooks are executed before the build, and hidden ones among them assert what the pages say.
 """
 
 import contextlib
@@ -14,8 +14,9 @@ from pathlib import Path
 
 import pytest
 from build_site import build
-from gallery import NAMES, SLOW
+from gallery import EXAMPLES, NAMES, SLOW
 from gallery import ran as run_example
+from sessions import fences
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
 SOURCES = Path(__file__).parent / "site"
@@ -123,12 +124,12 @@ class Links(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory, home, gallery, known):
+def site(tmp_path_factory, home, gallery, known, executed):
     """The site as it is built, after the examples."""
     with contextlib.chdir(home):
         known |= {name: run_example(name, gallery) for name in NAMES if name not in {*SLOW, *known}}
     try:
-        return build(tmp_path_factory.mktemp("site"), gallery).parent
+        return build(tmp_path_factory.mktemp("site"), gallery, executed).parent
     except subprocess.CalledProcessError as error:
         pytest.fail(f"{error.stdout}{error.stderr}")
 
@@ -146,6 +147,18 @@ def test_every_notebook_is_there_to_download_with_what_it_computed(site):
         cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
         assert all(cell["execution_count"] for cell in cells)
         assert any(cell["outputs"] for cell in cells)
+
+
+def test_blocks_that_the_build_makes_show_what_is_run(site):
+    """Examples, which are run here; what they printed; usages and formulas, out of the code."""
+    examples = [file.read_text(encoding="utf-8") for file in EXAMPLES.glob("*.py")]
+    made = [file.read_text(encoding="utf-8") for file in site.parent.glob("source/made/*.md")]
+    blocks = [(block.info, block.content.rstrip()) for page in made for block in fences(page)]
+    assert {kind for kind, _ in blocks} == {"python", "text", "{eval-rst}"}
+    shown = [text for kind, text in blocks if kind == "python"]
+    assert len(shown) == len(examples)
+    assert all(any(text in example for example in examples) for text in shown)
+    assert not any(text.startswith("$ ") for _, text in blocks)
 
 
 def test_the_site_needs_nothing_of_the_net(site):

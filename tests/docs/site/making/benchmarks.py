@@ -30,7 +30,7 @@ def _section(file: Path) -> str:
     )
     return (
         heading(3, file.stem.replace("_", " "))
-        + f"`python tests/benchmarks/{file.stem}.py` ({machine})\n\n"
+        + f"`python tests/benchmarks {file.stem}` ({machine})\n\n"
         + table(("figure", "measured"), rows)
     )
 

@@ -35,7 +35,7 @@ def rig() -> Figure:
     _from_the_side(side, Rig())
     for axes, title in ((above, "from above"), (side, "from the side")):
         axes.set_title(title, loc="left", fontsize=10, color=GREY)
-        axes.set_aspect("equal")
+        axes.set_aspect("equal", anchor="N")  # both titles at one height
         axes.axis("off")
     return figure
 

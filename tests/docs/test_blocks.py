@@ -1,0 +1,153 @@
+"""Every block of code that README and site print is run by somebody, who is named here.
+
+What is run by nobody is found out to be wrong by readers. Blocks are found by the site's own
+parser. Those that the build makes from the code that they show (usages of commands, formulas,
+examples with what they print) are looked at in `test_site.py`.
+"""
+
+import os
+import subprocess
+import sys
+import tomllib
+from configparser import ConfigParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import test_readme
+from gap_campaigns import noisy, write_campaign
+from notebooks import PAGES, is_notebook, source
+from sessions import fences, typed
+
+from cosim.gap import read_campaign
+
+HERE = Path(__file__).resolve().parent
+SITE = HERE / "site"
+PRINTED = [
+    (file, fence.info.strip(), fence.content)
+    for file in [test_readme.ROOT / "README.md", *sorted(SITE.rglob("*.md"))]
+    for fence in fences(file.read_text(encoding="utf-8"))
+]
+#: Directives that print no code of their own.
+NO_CODE = ("{toctree}", "{include}", "{figure}", "{image}", "{note}", "{warning}")
+
+
+def who_runs(file, language, text):
+    """File and name of the test that runs a block; None where there is none."""
+    if language.startswith(NO_CODE):
+        return "test_site.py", "test_the_site_is_built_without_a_warning"
+    if language == "{code-cell} python" and is_notebook(file):
+        return "test_site.py", "test_every_notebook_is_there_to_download_with_what_it_computed"
+    if language in ("", "text") and text.startswith("$ "):
+        return who_types(file, text)
+    if language == "python" and (named(file), text) in test_readme.blocks("python"):
+        return "test_readme.py", "test_python_runs"
+    if language == "sh":
+        return {
+            test_readme.SHELL[0]: ("typed/test_typed_install.py", "test_install"),
+            test_readme.SHELL[1]: ("test_readme.py", "test_ci_runs_the_line_that_tests"),
+        }.get(text.strip())
+    if language == "toml":
+        found = [test for table, test in TABLES.items() if table in text]
+        return found[0] if len(found) == 1 else None
+    return None
+
+
+#: Table that is in one block alone -> who reads that.
+TABLES = {
+    "[springs]": ("test_readme.py", "test_the_scenario_is_one"),
+    "[[run]]": ("test_readme.py", "test_the_campaign_is_one"),
+    "friction_table": ("test_blocks.py", "test_the_campaign_with_a_table_is_one"),
+    "[units]": ("test_readme.py", "test_the_system_is_one"),
+    "[project.entry-points.": ("test_blocks.py", "test_the_entry_point_is_one"),
+}
+
+
+def who_types(file, text):
+    """Who types a session: a page of the tutorials has its own reader."""
+    if file.parent == PAGES:
+        return f"typed/test_typed_{file.stem}.py", f"test_{file.stem}"
+    known = {session.values[0] for session in test_readme.SESSIONS}
+    if {command.removeprefix("stickslip ") for command, _ in typed(text)} <= known:
+        return "test_readme.py", "test_a_session_prints_what_is_shown"
+    return None
+
+
+def named(file):
+    """As `test_readme` names a page."""
+    return str(file.relative_to(SITE)) if SITE in file.parents else file.name
+
+
+@pytest.mark.parametrize("file", sorted({file for file, _, _ in PRINTED}), ids=named)
+def test_every_block_is_run_by_a_test_that_exists(file):
+    blocks = {block: who_runs(*block) for block in PRINTED if block[0] == file}
+    assert [block[1:] for block, runs in blocks.items() if runs is None] == []
+    for path, test in set(blocks.values()):
+        assert f"def {test}(" in (HERE / path).read_text(encoding="utf-8")
+
+
+def test_what_nobody_runs_is_found_out():
+    page = SITE / "install.md"
+    for language, text in (("julia", "1 + 1\n"), ("python", "print(1)\n"), ("sh", "rm -r x\n")):
+        assert who_runs(page, language, text) is None
+    assert who_runs(page, "", "$ stickslip simulate nothing_like_it\n") is None
+    assert who_runs(page, "toml", "[rig]\nmass = 1\n") is None
+    assert who_runs(page, "{code-cell} python", "1 + 1\n") is None
+
+
+def test_the_campaign_with_a_table_is_one(tmp_path):
+    """As the lines that state a law over the speed stand in a campaign."""
+    page = SITE / "guide" / "gap.md"
+    (block,) = [text for file, _, text in PRINTED if file == page and "friction_table" in text]
+    (tmp_path / "mu_v.csv").write_text("v,mu\n0,0.22\n0.4,0.17\n", encoding="utf-8")
+    time = np.arange(40) * 0.01
+    runs = [
+        {"surface_speed": speed, "columns": {"t": time, "x": noisy(0.0 * time, number)}}
+        for number, speed in enumerate((0.1, 0.2))
+    ]
+    campaign = read_campaign(write_campaign(tmp_path, runs, **tomllib.loads(block)))
+    assert (campaign.friction_table.speeds, campaign.friction_table.mu) == (
+        (0.0, 0.4),
+        (0.22, 0.17),
+    )
+
+
+INSTALLED = """
+from stickslip import EFFECTS, Parameters
+print(EFFECTS[-1].id, Parameters().flash_heating.fall)
+"""
+
+
+def test_the_entry_point_is_one(tmp_path):
+    """The page's law in a package that says what the page says of it, as pip would install it."""
+    page = PAGES / "add_an_effect.md"
+    (block,) = [text for file, kind, text in PRINTED if file == page and kind == "toml"]
+    points = tomllib.loads(block)["project"]["entry-points"]
+    ((name, value),) = points["stickslip.effects"].items()
+    package, _, module = value.partition(":")[0].partition(".")
+    (tmp_path / package).mkdir()
+    head = f"%%writefile {module}.py\n"
+    (law,) = [cell.source for cell in source(page).cells if cell.source.startswith(head)]
+    (tmp_path / package / f"{module}.py").write_text(law.removeprefix(head), encoding="utf-8")
+    info = tmp_path / f"{package}-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
+    written = ConfigParser()
+    written.read_dict(points)
+    with (info / "entry_points.txt").open("w") as file:
+        written.write(file)
+    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    done = subprocess.run(
+        [sys.executable, "-c", INSTALLED],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"PYTHONPATH": path},
+    )
+    assert done.stdout.split() == [name, "0.0"]
+
+
+def test_every_tutorial_is_typed():
+    pages = {file.stem for file in PAGES.glob("*.md")} - {"index"}
+    assert len(pages) == 6
+    assert pages <= {file.stem.removeprefix("test_typed_") for file in HERE.glob("typed/test_*.py")}

@@ -1,0 +1,5 @@
+"""A researcher with tracker data does the page "From your data to a missing effect"."""
+
+
+def test_missing_effect(reader):
+    reader.do("missing_effect")

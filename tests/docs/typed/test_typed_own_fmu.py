@@ -1,0 +1,6 @@
+"""Somebody with models of their own does the page "Couple your own FMU"."""
+
+
+def test_own_fmu(reader, browser):
+    reader.do("own_fmu")
+    reader.shows(browser, "pair/report.html", "mechanics", "thermal")

@@ -1,0 +1,9 @@
+"""Somebody with a rig does the page "Your rig, coupled"."""
+
+#: What the report tells of: run, motion, heat, ledger.
+NAMED = ("soft_springs", "stick-slip frequency", "rise at the contact", "Energy")
+
+
+def test_rig_coupled(reader, browser):
+    reader.do("rig_coupled")
+    reader.shows(browser, "results/soft_springs/report.html", *NAMED)
