@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -16,21 +18,29 @@ for library in ("OPENBLAS", "MKL", "OMP"):
 # and that cannot build.
 import pythonfmu  # noqa: E402, F401
 
+COMPILED_AHEAD = Path(__file__).parent / "helpers" / "models" / "compiled_ahead.py"
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 
 def pytest_configure(config):
-    """Compile the model once, before there are workers, each of which would do so for itself.
+    """Compile once, before there are workers, each of which would do so for itself.
 
-    Commands say when they compile; what tests look at is what they say otherwise.
+    The model here, as commands say when they compile it, and what tests look at is what they say
+    otherwise; what else tests compile meanwhile, on another core.
     """
     if hasattr(config, "workerinput"):
         return
     from stickslip import Parameters, simulate
     from stickslip.compiled import is_cached
 
-    if not is_cached():
-        simulate(Parameters(), 1e-3, 1e-3)
+    if is_cached():
+        return
+    ahead = None
+    if config.getoption("numprocesses", None):
+        ahead = subprocess.Popen([sys.executable, str(COMPILED_AHEAD)])
+    simulate(Parameters(), 1e-3, 1e-3)
+    if ahead is not None and ahead.wait() != 0:
+        raise pytest.UsageError(f"{COMPILED_AHEAD} failed, see above")
 
 
 @pytest.fixture(scope="session")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import sqrt
+from pathlib import Path
 
 import numpy as np
 from numba import njit
@@ -24,8 +25,16 @@ SAMPLE = 1e-3  # s between the rows that are kept
 BRISTLES, SLOWS, FRICTION, SLIP = 6, 6 + 2 * POINTS, 6 + 2 * POINTS + SLOW, 7 + 2 * POINTS + SLOW
 COLUMNS = SLIP + 1
 
+# what numba has kept is good as long as the function's own file is as it was, so it thinks: it does
+# not look at the files of the functions that this one calls
+HERE = Path(__file__).resolve().parent
+CHANGED = max(file.stat().st_mtime for file in HERE.glob("*.py"))
+for kept in HERE.glob("__pycache__/simulation.march-*.nbi"):
+    if kept.stat().st_mtime < CHANGED:
+        kept.unlink(missing_ok=True)
 
-@njit
+
+@njit(cache=True)
 def march(records, start, begin, count, every, h):
     """Rows at begin, and after every `every` steps of h, s; shape (count + 1, COLUMNS)."""
     p = records[0]

@@ -47,6 +47,23 @@ def test_series_reads_back(model, tmp_path):
     assert np.array_equal(warped[ice], mesh.points[ice])
 
 
+def test_the_stretched_view_is_the_same_on_a_thicker_belt(model, tmp_path):
+    """Its factor stands in its name; time, cells and temperatures are those of the true one."""
+    series = FieldSeries(tmp_path, model)
+    series.write(0.2)
+    assert series.factor == 100.0 and series.stretched_path.name == "temperature_belt_100x.pvd"
+    assert collection(series.stretched_path) == [(0.2, "temperature_belt_100x_00000.vtu")]
+    true = meshio.read(tmp_path / "temperature_00000.vtu")
+    thick = meshio.read(tmp_path / "temperature_belt_100x_00000.vtu")
+    np.testing.assert_array_equal(thick.cells[0].data, true.cells[0].data)
+    np.testing.assert_array_equal(thick.point_data["rise_K"], true.point_data["rise_K"])
+    np.testing.assert_array_equal(thick.points[:, :2], true.points[:, :2])
+    below = true.points[:, 2] < 0.0
+    np.testing.assert_allclose(thick.points[below, 2], 100.0 * true.points[below, 2], rtol=1e-12)
+    np.testing.assert_array_equal(thick.points[~below], true.points[~below])
+    assert set(thick.point_data) == {"temperature_degC", "rise_K"}, "it cannot be stretched twice"
+
+
 def test_cells_cover_belt_and_ice_once(model, tmp_path):
     mesh = meshio.read(FieldSeries(tmp_path, model).write(0.0))
     x, _, z = np.moveaxis(mesh.points[mesh.cells[0].data], -1, 0)

@@ -132,7 +132,12 @@ def test_a_file_in_any_order(tmp_path):
         ("0.05,0.24,-10.0\n", "", "no mu at v = 0.05, T_degC = -10; needed is one for each of 5"),
         ("0.05,0.24,-10.0", "0.05,0.24,-20.0", "line 7: v = 0.05 at T_degC = -20 is there already"),
         ("0.24,-10.0", "0.24,cold", 'line 7, T_degC = "cold": not a finite number'),
-        ("v,mu,T_degC", "v,mu,T_C", "20 points, allowed are 2 to 16"),
+        (
+            "v,mu,T_degC",
+            "v,mu,T_C",
+            "column T_C is not read (there are v, mu, T_C); allowed is T_degC",
+        ),
+        ("0.24,-10.0", "0.24,-300", "line 7, T_degC = -300: allowed is -273.15 to 100 degC"),
     ],
 )
 def test_a_file_that_is_no_grid(old, new, what, tmp_path):
