@@ -178,7 +178,7 @@ def test_what_the_master_remarks_is_in_a_file(place):
     done = stickslip_here(place, "run", "strict.toml", "-v", "-o", "strict")
     assert done.returncode == 0, done.stderr
     *lines, doubt, note = done.stderr.splitlines()
-    said = [line for line in lines if not line.startswith("writing ")]
+    said = [line for line in lines if line.startswith("(master)")]
     above = summary_in(place / "strict")["coupling"]["above_tolerance"]
     # said where it begins, and where it is over: not step by step
     assert above > len(said) > 0
