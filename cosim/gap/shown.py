@@ -10,13 +10,18 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from cosim.gap.curves.figure import draw_curves
-from cosim.gap.diagnostics import analyse_residuals
 from cosim.gap.result import FittedModel, Gap
 from cosim.gap.show.numbers import as_data
 from cosim.gap.show.regime_figure import draw_regimes
 from cosim.gap.show.run_figures import channels, draw_overlay, draw_residuals
-from cosim.gap.show.score_figures import draw_gaps, draw_ladder, draw_parameters, draw_ranking
+from cosim.gap.show.score_figures import (
+    analysis_of,
+    draw_gaps,
+    draw_ladder,
+    draw_laws,
+    draw_parameters,
+    draw_ranking,
+)
 from cosim.names import unknown_name
 from cosim.report.files import json_text, provenance
 from cosim.report.style import displayed, shown
@@ -117,10 +122,7 @@ def _drawers(gap: Gap) -> dict[str, Callable[[], Figure]]:
         "gaps": lambda: shown(draw_gaps, gap),
         "residuals": lambda: shown(draw_residuals, gap),
         "parameters": lambda: shown(draw_parameters, gap),
-        "atlas": lambda: shown(
-            draw_regimes,
-            gap.analysis or analyse_residuals([run.track for run in gap.plain.runs]),
-        ),
+        "atlas": lambda: shown(draw_regimes, analysis_of(gap)),
     }
     for channel in channels(gap):
         found[f"overlay_{channel}"] = partial(shown, draw_overlay, gap, channel)
@@ -129,6 +131,5 @@ def _drawers(gap: Gap) -> dict[str, Callable[[], Figure]]:
     if len(gap.ladder) > 1:
         found["ladder"] = lambda: shown(draw_ladder, gap)
     if gap.laws:
-        named = [law.curve.axis for law in gap.laws if law.effect or law.in_model]
-        found["curves"] = lambda: displayed(draw_curves([law.curve for law in gap.laws], named))
+        found["curves"] = lambda: displayed(draw_laws(gap))
     return found

@@ -9,8 +9,7 @@ from pathlib import Path
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import own_fmu
 from cosim.gap.camera.corrected import write_corrected
-from cosim.gap.curves.figure import CURVES, draw_curves
-from cosim.gap.diagnostics import analyse_residuals
+from cosim.gap.curves.figure import CURVES
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
 from cosim.report.page import Picture
@@ -26,7 +25,14 @@ from .reproduced import Reproduced
 from .reproduction import reproduce, reproduced_runs
 from .reproduction_figure import reproduction
 from .run_figures import overlays, residuals
-from .score_figures import draw_gaps, draw_ladder, draw_parameters, draw_ranking
+from .score_figures import (
+    analysis_of,
+    draw_gaps,
+    draw_ladder,
+    draw_laws,
+    draw_parameters,
+    draw_ranking,
+)
 from .summary_figures import draw_observations
 from .words import closing_lines as closing_lines
 from .words import faults_of
@@ -107,11 +113,8 @@ def _one(draw: Callable[..., Picture], *arguments) -> list[Picture]:
 
 
 def _curves(gap: Gap) -> Picture:
-    named = [law.curve.axis for law in gap.laws if law.effect or law.in_model]
-    figure = draw_curves([law.curve for law in gap.laws], named)
-    return Picture("curves", CURVES, png(figure))
+    return Picture("curves", CURVES, png(draw_laws(gap)))
 
 
 def _regimes(gap: Gap) -> list[Picture]:
-    analysis = gap.analysis or analyse_residuals([run.track for run in gap.plain.runs])
-    return [draw_regimes(analysis)]
+    return [draw_regimes(analysis_of(gap))]

@@ -1,4 +1,4 @@
-"""Figures of the scores: the ranking, the gap of each run, the numbers with their intervals."""
+"""Figures of the scores: ranking, gap of each run, numbers with their intervals, laws found."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cosim.gap.curves.figure import draw_curves
+from cosim.gap.diagnostics import RegimeAnalysis, analyse_residuals
 from cosim.gap.result import Gap, Step
 from cosim.report.style import BLUE, DULL_GREY, GREY, INK, ORANGE, RED, panels, picture
 from cosim.studies.reproduction.summary import SummaryGap
@@ -235,3 +237,14 @@ def _value(axis: Axes, place: int, model: SimpleNamespace, key: str) -> None:
         low, high = model.intervals[key]
         error = np.abs([[value - low], [high - value]])
         axis.errorbar(place, value, error, color=model.colour, capsize=4.0)
+
+
+def draw_laws(gap: Gap) -> Figure:
+    """The free curves of an answer; in red those of what was found."""
+    named = [law.curve.axis for law in gap.laws if law.effect or law.in_model]
+    return draw_curves([law.curve for law in gap.laws], named)
+
+
+def analysis_of(gap: Gap) -> RegimeAnalysis:
+    """Of what the plain model leaves, by regime; made now where the answer came without."""
+    return gap.analysis or analyse_residuals([run.track for run in gap.plain.runs])
