@@ -1,0 +1,115 @@
+"""What a fit found: values with their standard deviations, and how far each run is from its model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .numbers import Unknown
+
+#: A number this near to a bound, in its scales, is at it: the solver stays a little inside.
+NEAR = 0.02
+#: Singular values below this part of the largest are directions that the data do not determine.
+RANK = 1e-9
+
+
+@dataclass(frozen=True)
+class FittedRun:
+    """One run beside its model.
+
+    Attributes
+    ----------
+    values : key -> value of the run's numbers, shared ones included
+    track : (n, 3) x, y, phi of the model (m, m, rad) at the data's times, tracker's zero included
+    states : (w, 6) of the block at the windows' starts
+    residuals : (m,) model less data in units of the noise, one for each sample seen
+    window : (m,) number of the window that each belongs to
+    """
+
+    name: str
+    values: dict[str, float]
+    track: np.ndarray = field(repr=False)
+    states: np.ndarray = field(repr=False)
+    residuals: np.ndarray = field(repr=False)
+    window: np.ndarray = field(repr=False)
+    hold_out: bool
+
+    @property
+    def gap(self) -> float:
+        """Root mean square residual in units of the noise: 1 where nothing is missing."""
+        return _rms([self])
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A fitted model.
+
+    Attributes
+    ----------
+    values : label -> value; labels are ``key``, ``key@run``, ``key@setup n``
+    sd : label -> standard deviation; enlarged by the gap where that exceeds 1, since residuals that
+        the noise does not explain count as much noise more
+    at_bound : label -> the bound that the value is at
+    runs : fitted ones and held-out ones
+    """
+
+    values: dict[str, float]
+    sd: dict[str, float]
+    at_bound: dict[str, float]
+    runs: tuple[FittedRun, ...]
+
+    @classmethod
+    def at(
+        cls,
+        unknowns: Sequence[Unknown],
+        scaled: np.ndarray,
+        derivatives: np.ndarray,
+        runs: tuple[FittedRun, ...],
+    ) -> Fitted:
+        """From the scaled numbers (k,) and the derivatives (rows, k) there.
+
+        The covariance of the scaled numbers is (J'J)^-1, sd = |d value / d scaled| times the root
+        of its diagonal.
+        """
+        _, singular, right = np.linalg.svd(derivatives, full_matrices=False)
+        with np.errstate(divide="ignore"):
+            inverse = np.where(singular > RANK * singular.max(initial=0.0), 1.0 / singular, np.inf)
+        spread = np.sqrt(np.sum((right.T * inverse) ** 2, axis=1)) * max(1.0, _rms(runs))
+        values, sd, at_bound = {}, {}, {}
+        for (number, owner), place, width in zip(unknowns, scaled, spread, strict=True):
+            label = Unknown(number, owner).label
+            values[label] = number.value(place)
+            sd[label] = abs(number.slope(place)) * float(width)
+            for bound in (number.low, number.high):
+                if abs(place - number.scaled(bound)) < NEAR:
+                    at_bound[label] = bound
+        return cls(values, sd, at_bound, runs)
+
+    @property
+    def gap(self) -> tuple[float, float]:
+        """Root mean square residual in units of the noise: of fitted, of held-out runs (or NaN)."""
+        held_out = [run for run in self.runs if run.hold_out]
+        return _rms([run for run in self.runs if not run.hold_out]), _rms(held_out)
+
+    def run(self, name: str) -> FittedRun:
+        """One run by its name; KeyError."""
+        return {run.name: run for run in self.runs}[name]
+
+
+def joined(fitted: Fitted, judged: Fitted, names: Sequence[str]) -> Fitted:
+    """A fit with the runs that it was judged by, in the order of the names."""
+    runs = {run.name: run for run in (*fitted.runs, *judged.runs)}
+    return replace(
+        fitted,
+        values={**judged.values, **fitted.values},
+        sd={**judged.sd, **fitted.sd},
+        runs=tuple(runs[name] for name in names if name in runs),
+    )
+
+
+def _rms(runs: Sequence[FittedRun]) -> float:
+    if not runs:
+        return float("nan")
+    return float(np.sqrt(np.mean(np.concatenate([run.residuals for run in runs]) ** 2)))

@@ -1,0 +1,115 @@
+"""The model beside one measured run: from numbers and start states to residuals."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping
+
+import numpy as np
+from stickslip import Parameters
+from stickslip.effects import EFFECTS
+from stickslip.kernel import layout
+from stickslip.packing import pack
+from stickslip.restarted import Restarts, track_restarted
+
+from cosim.gap.data import Campaign, MeasuredRun
+
+from .numbers import values_of_run
+from .windows import Windows
+
+#: Of the integrator in a fit: errors of some 1e-7 m, far below any tracker's noise.
+TOLERANCE = 1e-6
+#: Rim speed over sliding speed up to which a few points of the contact disc do: friction is then
+#: averaged over the disc to some 1e-3 of what it varies by.
+FEW_POINTS = 0.6
+#: Steps this much longer than a simulation's: a sixth of a period, still good to 1e-7 m; in stick
+#: on an even surface that moves steadily much longer, as the load only grows.
+LONGER, LONGER_STICK = 2.0, 20.0
+#: Parameters that make a surface uneven or unsteady where they are not 0.
+UNEVEN = [
+    f"{effect.id}.{name}"
+    for effect in EFFECTS
+    if effect.enters == "surface" or effect.axis == "place"
+    for name in effect.switch
+]
+#: Points of a table of friction, in parts of mu_k, which then scales the whole table.
+TABLE_PART = "friction.table_part["
+AXES = ("x", "y", "phi")
+
+
+class RunModel:
+    """A run, its windows and the model with everything that is known of the run.
+
+    Attributes
+    ----------
+    size : number of residuals
+    starts : (w,) the first residual of each window; those of a window stand together
+    owner : (size,) window of each residual
+    """
+
+    def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
+        self.campaign, self.run, self.windows = campaign, run, windows
+        with warnings.catch_warnings(action="ignore"):  # friction is not known yet
+            parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
+        self.known = dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
+        if not windows.is_planar:
+            self.known |= {"rig.free_y": 0.0, "rig.free_phi": 0.0}
+        data = np.column_stack([run.motion[name] for name in windows.channels])
+        noise = np.array([run.noise[name] for name in windows.channels])
+        self.rows, channel = np.nonzero(np.isfinite(data))
+        self.axes = np.array([AXES.index(name) for name in windows.channels])[channel]
+        self.noise, self.data = noise[channel], data[self.rows, channel]
+        # a window that the model loses counts as off by the whole motion, not by more
+        self.most = (np.nanmax(data, axis=0) - np.nanmin(data, axis=0))[channel] / self.noise
+        self.size = self.data.size
+        self.owner = np.searchsorted(windows.first, self.rows, side="right") - 1
+        self.starts = np.searchsorted(self.owner, np.arange(len(windows.first)))
+
+    def values(self, values: Mapping[str, float]) -> dict[str, float]:
+        """key -> value of this run, of labelled ones."""
+        return values_of_run(self.campaign, self.run, values)
+
+    def zero(self, values: Mapping[str, float]) -> np.ndarray:
+        """(3,) what the tracker reads where x, y and phi are 0; m, m, rad."""
+        return np.array([values.get(f"offset.{axis}", 0.0) for axis in AXES])
+
+    def packed(self, values: Mapping[str, float]) -> np.ndarray:
+        """The kernel's parameters, of this run's values."""
+        flat = {**self.known, **{k: v for k, v in values.items() if not k.startswith("offset.")}}
+        stiffness = values.get("springs.stiffness", 1.0) * self.known["springs.stiffness"]
+        flat["springs.stiffness"] = stiffness * math.exp(values.get("offset.stiffness", 0.0))
+        for key in ("friction.mu_s", "friction.mu_k"):
+            flat[key] *= math.exp(values.get("offset.friction", 0.0))
+        for key in [key for key in flat if key.startswith(TABLE_PART)]:
+            part = flat.pop(key)
+            flat[key.replace("table_part", "table_mu")] = part * flat["friction.mu_k"]
+        p = np.array(pack(flat))
+        p[layout.P_FEW_POINTS] = FEW_POINTS
+        p[layout.P_LONGEST_STEP] *= LONGER
+        is_uneven = any(flat[key] != 0.0 for key in UNEVEN)
+        p[layout.P_LONGEST_STICK] *= LONGER if is_uneven else LONGER_STICK
+        return p
+
+    def track(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
+        """(n, 3) x, y, phi as the tracker reads them, at the data's times.
+
+        states : (w, 6) of the block itself at the windows' starts; p : `packed` of the values
+        """
+        windows, run = self.windows, self.run
+        p = self.packed(values) if p is None else p
+        speed = run.surface_speed * (1.0 + values.get("offset.speed", 0.0))
+        restarts = Restarts.at(windows.first, states, windows.hold_since)
+        temperature = self.known["temperature_dependence.reference_degC"]
+        places = track_restarted(p, speed, temperature, run.motion.time, restarts)
+        return places + self.zero(values)
+
+    def residuals(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
+        """(size,) model less data in units of the noise, no more than the whole motion."""
+        model = self.track(values, states, p)[self.rows, self.axes]
+        off = np.nan_to_num((model - self.data) / self.noise, nan=np.inf)
+        return np.clip(off, -self.most, self.most)
+
+    def per_window(self, rows: np.ndarray) -> np.ndarray:
+        """(w, ...) sums over each window's rows of (size, ...)."""
+        return np.add.reduceat(rows, self.starts, axis=0)

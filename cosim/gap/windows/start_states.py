@@ -1,0 +1,146 @@
+"""The windows' start states: found by Gauss-Newton, and eliminated from a fit's derivatives.
+
+Windows do not know of each other, so that all of a run are perturbed in one simulation. With the
+derivatives D of a window's residuals r by its state, the best state for other values of the numbers
+moves by -(D'D)^-1 D' (dr/dnumbers); what remains of dr/dnumbers, its part normal to the columns of
+D, is the derivative of the fit with the states eliminated (variable projection in Kaufman's
+approximation, BIT 15 (1975)).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .run_model import RunModel
+
+#: Finite differences of a state, in units of the noise (velocities: noise times omega).
+STEP = 0.01
+#: Part of the normal matrix's diagonal that is added, so that what the motion hardly feels stays.
+LEVEL = 1e-6
+#: A window's step is taken whole, or these parts of it, whichever first lowers the misfit.
+SHORTER = (1.0, 0.2)
+#: Rounds of Gauss-Newton, and the relative gain below which they end.
+ROUNDS, GAIN = 6, 1e-3
+#: Velocities from which a window that is off course sets out again, in parts of the surface's.
+VELOCITIES = (0.95, 0.8, 0.5, 0.0, -0.5)
+#: A window is off course whose mean square exceeds the run's median window's, and the noise's, by
+#: this factor.
+OFF_COURSE = 4.0
+
+
+@dataclass(frozen=True)
+class Started:
+    """A run's start states and what they lead to: states (w, 6), residuals (size,)."""
+
+    states: np.ndarray
+    residuals: np.ndarray
+
+
+class StartStates:
+    """The start states of one run under changing values of the numbers."""
+
+    def __init__(self, model: RunModel):
+        self.model = model
+        windows, run = model.windows, model.run
+        self.free = windows.free
+        self.axes = np.flatnonzero(windows.free.any(axis=0))
+        noise = run.noise["x"]
+        turn = run.noise.get("phi", noise / model.known["rig.contact_radius"])
+        places = np.array([noise, run.noise.get("y", noise), turn])
+        self.steps = STEP * np.concatenate([places, places * run.natural_frequency])
+
+    def derivatives(self, values: Mapping[str, float], at: Started, p: np.ndarray) -> np.ndarray:
+        """(size, a) of the residuals by the free axes, per step; 0 where a window's is not free."""
+        columns = []
+        for axis in self.axes:
+            moved = at.states.copy()
+            moved[self.free[:, axis], axis] += self.steps[axis]
+            columns.append(self.model.residuals(values, moved, p) - at.residuals)
+        columns = np.column_stack(columns) if columns else np.empty((self.model.size, 0))
+        # windows without this axis feel nothing but what the model carried over from others
+        return columns * self.free[:, self.axes][self.model.owner]
+
+    def coordinates(self, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """(w, a, m) least-squares coordinates of rows (size, m) along each window's columns."""
+        normal = self.model.per_window(columns[:, :, None] * columns[:, None, :])
+        right = self.model.per_window(columns[:, :, None] * rows[:, None, :])
+        diagonal = np.einsum("waa->wa", normal)
+        diagonal += LEVEL * diagonal + (diagonal == 0.0)
+        return np.linalg.solve(normal, right)
+
+    def normal_part(self, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """(size, m) what of rows the windows' states cannot take up."""
+        along = self.coordinates(columns, rows)[self.model.owner]
+        return rows - np.einsum("ra,ram->rm", columns, along)
+
+    def stepped(self, values, at: Started, columns: np.ndarray, p: np.ndarray) -> Started:
+        """One Gauss-Newton step with these derivatives; of no window to a larger misfit."""
+        move = self.coordinates(columns, at.residuals[:, None])[:, :, 0]
+        for part in SHORTER:
+            states = at.states.copy()
+            states[:, self.axes] -= part * move * self.steps[self.axes]
+            tried = Started(states, self.model.residuals(values, states, p))
+            worse = self.squares(tried) > self.squares(at)
+            at, move = self.better(at, tried), move * worse[:, None]
+            if not worse.any():
+                break
+        return at
+
+    def settled(self, values, at: Started, p: np.ndarray, rounds: int = ROUNDS) -> Started:
+        """The best states nearby."""
+        for _ in range(rounds):
+            before = at
+            at = self.stepped(values, at, self.derivatives(values, at, p), p)
+            if self.gain(before, at) < GAIN:
+                break
+        return at
+
+    def gain(self, before: Started, after: Started) -> float:
+        """Of the sum of squares, relative."""
+        return 1.0 - float(np.sum(after.residuals**2) / max(np.sum(before.residuals**2), 1e-300))
+
+    def started(self, values, states: np.ndarray, p: np.ndarray) -> Started:
+        """States and their residuals."""
+        return Started(states, self.model.residuals(values, states, p))
+
+    def read_off(self, values) -> np.ndarray:
+        """(w, 6) of the block, from the data."""
+        states = self.model.windows.states.copy()
+        states[:, :3] -= self.model.zero(values)
+        return states
+
+    def found(self, values, p: np.ndarray) -> Started:
+        """The best states from those read off the data."""
+        at = self.started(values, self.read_off(values), p)
+        return self.retried(values, self.settled(values, at, p), p)
+
+    def retried(self, values, at: Started, p: np.ndarray) -> Started:
+        """Windows off course set out from a few other velocities; the very same if none gains."""
+        rows = np.diff([*self.model.starts, self.model.size])
+        mean = self.squares(at) / rows
+        lost = (mean > OFF_COURSE * max(float(np.median(mean)), 1.0)) & self.free[:, 3]
+        best = at
+        for part in VELOCITIES if lost.any() else ():
+            states = at.states.copy()
+            states[lost, :2] = self.model.windows.states[lost, :2]
+            states[lost, 3] = part * self.model.run.surface_speed
+            tried = self.started(values, states, p)
+            best = self.better(best, self.settled(values, tried, p, rounds=2))
+        return best
+
+    def squares(self, at: Started) -> np.ndarray:
+        """(w,) sums of squares."""
+        return self.model.per_window(at.residuals**2)
+
+    def better(self, one: Started, other: Started) -> Started:
+        """Of each window the better of two; the very same where the other is nowhere better."""
+        better = self.squares(other) < self.squares(one)
+        if not better.any():
+            return one
+        return Started(
+            np.where(better[:, None], other.states, one.states),
+            np.where(better[self.model.owner], other.residuals, one.residuals),
+        )

@@ -1,0 +1,178 @@
+"""Windows: short stretches of a run, each simulated from a start state of its own.
+
+Over a few cycles an error of the model shows but does not build up to a loss of phase. A window
+starts where the state is well known: at the beginning of a stick, else in fast sliding, never near
+the surface's velocity, where a small error would decide between stick and slip.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.gap.data import Campaign, MeasuredRun, Stick, Track
+
+#: Cycles in a window: enough for the period to tell, few enough for its error to stay small.
+CYCLES = 3.0
+#: Samples on either side of a window's start that its first guess is read off.
+REACH = 6
+#: A stick shorter than this part of a cycle may be none: it would hold a block that creeps.
+SHORTEST_STICK = 1.0 / 6.0
+#: No window is shorter than this part of the others: the rest of a run joins the last one.
+REMNANT = 0.5
+#: Sticks that follow each other fill this part of a run, or they do not set its cycle.
+STICKING = 0.5
+#: Motion across the surface is seen where its scatter or its mean exceeds that of the noise so much
+#: (a mean, so many standard deviations: 3 of 1000 channels at rest).
+SCATTER, MEAN = 0.5, 3.0
+
+
+@dataclass(frozen=True)
+class Windows:
+    """The windows of one run, in order of time, without gaps.
+
+    Attributes
+    ----------
+    channels : the measured quantities that the model is compared with
+    first : (w,) row of the track at which each starts; it ends before the next
+    states : (w, 6) first guess of x, y, phi (m, m, rad), vx, vy, omega (m/s, m/s, rad/s), as the
+        tracker reads them; NaN: the model's own goes on
+    free : (w, 6) whether each is fitted
+    hold_since : (w,) when the stick began in which a window starts, s; NaN: it starts in slip
+    """
+
+    channels: tuple[str, ...]
+    first: np.ndarray
+    states: np.ndarray
+    free: np.ndarray
+    hold_since: np.ndarray
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether the block also moves across the surface."""
+        return len(self.channels) > 1
+
+
+def sticks_of(run: MeasuredRun) -> tuple[Stick, ...]:
+    """The stretches in which the block moves with the surface, as seen in the data."""
+    return run.sticks
+
+
+def windows_of_campaign(campaign: Campaign, cycles: float = CYCLES) -> dict[str, Windows]:
+    """run's name -> windows, of every run with a track."""
+    planar = moves_across(campaign)
+    runs = [run for run in campaign.runs if run.track is not None]
+    return {run.name: windows_of(run, planar, cycles) for run in runs}
+
+
+def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -> Windows:
+    """Windows of ``cycles`` cycles. planar: y and phi, where measured, are compared as well."""
+    track, period = run.motion, cycle(run)
+    sticks = [s for s in sticks_of(run) if s.duration >= SHORTEST_STICK * period]
+    seen = [
+        name for name in ("x", "y", "phi") if name in track.channels and (planar or name == "x")
+    ]
+    first = _starts(track, sticks, run.surface_speed, period, cycles)
+    states, free = np.full((len(first), 6), np.nan), np.zeros((len(first), 6), dtype=bool)
+    if planar:  # how the block was put down, nobody has seen; from there on the model knows
+        free[0, [axis for axis, name in enumerate(("x", "y", "phi")) if name not in seen]] = True
+    states[0] = 0.0
+    hold_since = np.full(len(first), np.nan)
+    for number, row in enumerate(first):
+        for name in seen:
+            axis = ("x", "y", "phi").index(name)
+            states[number, [axis, axis + 3]] = _place_and_velocity(track, track[name], row)
+            free[number, [axis, axis + 3]] = True
+        stick = _stick_at(sticks, row)
+        if stick is not None:
+            rows = slice(row, stick.last + 1)
+            line = track.x[rows] - run.surface_speed * (track.time[rows] - track.time[row])
+            states[number, [0, 3]] = np.nanmean(line), np.nan
+            free[number, 3] = False
+            hold_since[number] = stick.start
+    return Windows(tuple(seen), first, states, free, hold_since)
+
+
+def cycle(run: MeasuredRun) -> float:
+    """Period of stick-slip where sticks follow each other all along, else 2 pi / omega, s."""
+    starts = np.array([stick.start for stick in sticks_of(run)])
+    if starts.size > 2:
+        period = float(np.median(np.diff(starts)))
+        if period * starts.size > STICKING * run.motion.duration:
+            return period
+    return 2.0 * math.pi / run.natural_frequency
+
+
+def _starts(
+    track: Track, sticks: list[Stick], speed: float, period: float, cycles: float
+) -> np.ndarray:
+    """(w,) rows; each window has samples enough for its state."""
+    length, time = cycles * period, track.time
+    onsets = np.array([s.first for s in sticks if math.isfinite(s.start_sd)], dtype=int)
+    seen = np.cumsum(np.isfinite(track.x))
+    starts, due = [0], time[0] + length
+    while due < time[-1] - REMNANT * length:
+        near = onsets[np.abs(time[onsets] - due) < max(0.5 * length, 0.5 * period)]
+        near = near[time[near] < time[-1] - REMNANT * length]
+        row = _fastest(track, due, speed, period) if not near.size else None
+        row = int(near[np.abs(time[near] - due).argmin()]) if row is None else row
+        if row > starts[-1] and seen[row] - seen[starts[-1]] > 2 * REACH < seen[-1] - seen[row]:
+            starts.append(row)
+            due = time[row]
+        due += length
+    return np.array(starts)
+
+
+def _fastest(track: Track, due: float, speed: float, period: float) -> int:
+    """Row within half a cycle of ``due`` at which the block slides fastest."""
+    low, high = np.searchsorted(track.time, [due - 0.5 * period, due + 0.5 * period])
+    rows = low + np.flatnonzero(np.isfinite(track.x[low:high]))
+    if rows.size < 3 * REACH:
+        return int(np.searchsorted(track.time, due))
+    before, after = rows[: -2 * REACH], rows[2 * REACH :]
+    velocity = (track.x[after] - track.x[before]) / (track.time[after] - track.time[before])
+    return int(rows[REACH + np.abs(velocity - speed).argmax()])
+
+
+def _stick_at(sticks: list[Stick], row: int) -> Stick | None:
+    """The stick that a row lies in, well before its end."""
+    for stick in sticks:
+        if stick.first <= row < stick.last - REACH or row == stick.first:
+            return stick
+    return None
+
+
+def _place_and_velocity(track: Track, values: np.ndarray, row: int) -> tuple[float, float]:
+    """Of a parabola through the samples about a row."""
+    rows = np.arange(max(row - REACH, 0), min(row + REACH + 1, values.size))
+    rows = rows[np.isfinite(values[rows])]
+    if rows.size < 4:
+        return float(np.nanmean(values[rows])) if rows.size else 0.0, 0.0
+    place, velocity, _ = np.polynomial.polynomial.polyfit(
+        track.time[rows] - track.time[row], values[rows], 2
+    )
+    return float(place), float(velocity)
+
+
+def moves_across(campaign: Campaign) -> bool:
+    """Whether any run shows motion along y, or a turn; False where the rig allows neither."""
+    free = set(campaign.rig.degrees_of_freedom) & {"y", "phi"}
+    return bool(free) and any(
+        _moves(run, channel, campaign.errors.zero)
+        for run in campaign.runs
+        if run.track is not None
+        for channel in ("y", "phi")
+        if channel in run.motion.channels
+    )
+
+
+def _moves(run: MeasuredRun, channel: str, zero: float) -> bool:
+    """By means of a few samples each. zero: standard deviation of the tracker's, noise units."""
+    values = run.motion[channel] / run.noise[channel]
+    values = values[np.isfinite(values)]
+    each = max(5, values.size // 200)
+    means = values[: values.size // each * each].reshape(-1, each).mean(axis=1)
+    scatter = math.sqrt(max(float(np.var(means)) - 1.0 / each, 0.0))
+    return scatter > SCATTER or abs(float(means.mean())) > MEAN * math.hypot(zero, 1.0 / each)
