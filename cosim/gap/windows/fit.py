@@ -118,13 +118,12 @@ class _Problem:
         return np.concatenate([*blocks, self._priors(scaled)[1]])
 
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        known = [i for i, u in enumerate(self.unknowns) if u.number.prior is not None]
-        rows, slopes = np.zeros(len(known)), np.zeros((len(known), len(self.unknowns)))
-        for row, i in enumerate(known):
-            number = self.unknowns[i].number
-            rows[row] = (number.value(scaled[i]) - number.start) / number.prior
-            slopes[row, i] = number.slope(scaled[i]) / number.prior
-        return rows, slopes
+        rows, slopes = np.zeros(len(self.unknowns)), np.zeros(len(self.unknowns))
+        for i, (number, _) in enumerate(self.unknowns):
+            if number.prior is not None:
+                rows[i] = (number.value(scaled[i]) - number.start) / number.prior
+                slopes[i] = number.slope(scaled[i]) / number.prior
+        return rows, np.diag(slopes)
 
     def solved(self, scan: bool = False) -> Fitted:
         """The best numbers; again from where windows off course find better states.

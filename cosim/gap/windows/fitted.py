@@ -1,4 +1,4 @@
-"""What a fit found: values with their standard deviations, and how far each run is from its model."""
+"""What a fit found: values, their standard deviations, and how far each run is from its model."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from stickslip.restarted import Restarts, track_restarted
 from cosim.gap.data import Campaign, MeasuredRun
 
 from .numbers import values_of_run
-from .windows import Windows
+from .windows import AXES, Windows
 
 #: Of the integrator in a fit: errors of some 1e-7 m, far below any tracker's noise.
 TOLERANCE = 1e-6
@@ -35,7 +35,6 @@ UNEVEN = [
 ]
 #: Points of a table of friction, in parts of mu_k, which then scales the whole table.
 TABLE_PART = "friction.table_part["
-AXES = ("x", "y", "phi")
 
 
 class RunModel:
@@ -99,7 +98,8 @@ class RunModel:
         windows, run = self.windows, self.run
         p = self.packed(values) if p is None else p
         speed = run.surface_speed * (1.0 + values.get("offset.speed", 0.0))
-        restarts = Restarts.at(windows.first, states, windows.hold_since)
+        own_friction = np.ones((len(states), 2))
+        restarts = Restarts(windows.first, states, windows.hold_since, own_friction)
         temperature = self.known["temperature_dependence.reference_degC"]
         places = track_restarted(p, speed, temperature, run.motion.time, restarts)
         return places + self.zero(values)

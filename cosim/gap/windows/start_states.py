@@ -54,12 +54,11 @@ class StartStates:
 
     def derivatives(self, values: Mapping[str, float], at: Started, p: np.ndarray) -> np.ndarray:
         """(size, a) of the residuals by the free axes, per step; 0 where a window's is not free."""
-        columns = []
-        for axis in self.axes:
+        columns = np.empty((self.model.size, self.axes.size))
+        for place, axis in enumerate(self.axes):
             moved = at.states.copy()
             moved[self.free[:, axis], axis] += self.steps[axis]
-            columns.append(self.model.residuals(values, moved, p) - at.residuals)
-        columns = np.column_stack(columns) if columns else np.empty((self.model.size, 0))
+            columns[:, place] = self.model.residuals(values, moved, p) - at.residuals
         # windows without this axis feel nothing but what the model carried over from others
         return columns * self.free[:, self.axes][self.model.owner]
 

@@ -11,7 +11,7 @@ from stickslip.packing import GRAVITY
 from cosim.gap.data import Campaign, MeasuredRun
 
 from .numbers import Number
-from .windows import sticks_of
+from .windows import moves_across, sticks_of
 
 #: Standard deviation of the tracker's zero where the campaign says nothing of it, m.
 ZERO = 0.5e-3
@@ -60,9 +60,9 @@ def user_model(campaign: Campaign) -> tuple[list[Number], dict[str, float]]:
 
 
 def _zeros(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Number]:
-    """The tracker's zero in each run, along x and, where it was measured, along y."""
+    """The tracker's zero in each run, along x and, where the block moves across, along y."""
     numbers = []
-    for channel in ("x", "y"):
+    for channel in ("x", "y") if moves_across(campaign) else ("x",):
         noise = [run.noise[channel] for run in runs if channel in run.motion.channels]
         if noise:
             is_stated = "zero" in campaign.errors.model_fields_set

@@ -14,6 +14,8 @@ import numpy as np
 
 from cosim.gap.data import Campaign, MeasuredRun, Stick, Track
 
+#: What the block's position is made of, in the order of the states.
+AXES = ("x", "y", "phi")
 #: Cycles in a window: enough for the period to tell, few enough for its error to stay small.
 CYCLES = 3.0
 #: Samples on either side of a window's start that its first guess is read off.
@@ -71,18 +73,16 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
     """Windows of ``cycles`` cycles. planar: y and phi, where measured, are compared as well."""
     track, period = run.motion, cycle(run)
     sticks = [s for s in sticks_of(run) if s.duration >= SHORTEST_STICK * period]
-    seen = [
-        name for name in ("x", "y", "phi") if name in track.channels and (planar or name == "x")
-    ]
+    seen = [name for name in (AXES if planar else AXES[:1]) if name in track.channels]
     first = _starts(track, sticks, run.surface_speed, period, cycles)
     states, free = np.full((len(first), 6), np.nan), np.zeros((len(first), 6), dtype=bool)
     if planar:  # how the block was put down, nobody has seen; from there on the model knows
-        free[0, [axis for axis, name in enumerate(("x", "y", "phi")) if name not in seen]] = True
+        free[0, [axis for axis, name in enumerate(AXES) if name not in seen]] = True
     states[0] = 0.0
     hold_since = np.full(len(first), np.nan)
     for number, row in enumerate(first):
         for name in seen:
-            axis = ("x", "y", "phi").index(name)
+            axis = AXES.index(name)
             states[number, [axis, axis + 3]] = _place_and_velocity(track, track[name], row)
             free[number, [axis, axis + 3]] = True
         stick = _stick_at(sticks, row)
