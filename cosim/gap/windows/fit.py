@@ -16,8 +16,10 @@ from .scan import valleys
 from .start_states import Started, StartStates
 from .windows import Windows
 
-#: Finite differences of a number, in its scales.
-STEP = 0.01
+#: Finite differences of a number, in its scales. Numbers that compensate each other but for their
+#: priors (mu_s, mu_k and all zeros) need derivatives to 1e-4 of themselves: with ten times the step
+#: the curvature of the motion seems to tell them apart.
+STEP = 1e-4
 #: A fit ends where a step would change the sum of squares by less than this part of it.
 SETTLED = 1e-5
 #: Most evaluations of a fit, and of one that only shows which start leads on.
@@ -284,8 +286,7 @@ class _Part:
     def described(self, scaled: np.ndarray) -> FittedRun:
         """The run as the fit left it."""
         at, values = self.followed(scaled), self.values(scaled)
-        own = {key: values[key] for key in {self.unknowns[i].number.key for i in self.felt}}
         return FittedRun(
-            self.model.run.name, own, self.model.track(values, at.states), at.states,
+            self.model.run.name, values, self.model.track(values, at.states), at.states,
             at.residuals, self.model.owner, self.model.run.hold_out,
         )  # fmt: skip

@@ -21,7 +21,7 @@ class FittedRun:
 
     Attributes
     ----------
-    values : key -> value of the run's numbers, shared ones included
+    values : key -> value of all that is set or fitted of the run
     track : (n, 3) x, y, phi of the model (m, m, rad) at the data's times, tracker's zero included
     states : (w, 6) of the block at the windows' starts
     residuals : (m,) model less data in units of the noise, one for each sample seen

@@ -17,7 +17,7 @@ import numpy as np
 from .run_model import RunModel
 
 #: Finite differences of a state, in units of the noise (velocities: noise times omega).
-STEP = 0.01
+STEP = 1e-3
 #: Part of the normal matrix's diagonal that is added, so that what the motion hardly feels stays.
 LEVEL = 1e-6
 #: A window's step is taken whole, or these parts of it, whichever first lowers the misfit.
