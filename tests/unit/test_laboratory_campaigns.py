@@ -244,6 +244,12 @@ def test_suites_have_their_counts():
         "two_effects": 30,
         "three_effects": 10,
         "scaling": 20,
+        "iwan_one": 60,
+        "iwan_nothing": 60,
+        "iwan_two": 20,
+        "iwan_alike": 10,
+        "iwan_unknown": 20,
+        "iwan_faults": 20,
     }
     assert {name: len(orders_of(name, 1)) for name in SUITES} == counts
     assert len(orders_of("nothing", 1, 7)) == 7

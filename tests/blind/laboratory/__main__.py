@@ -19,6 +19,8 @@ from .recording import film
 from .simulation import SAMPLE
 from .suites import SUITES, orders_of
 
+OTHER_CONTACTS = "bristle_damping elastic_share creep_speed"  # numbers that they have
+
 
 def write_campaign(made: Campaign, folder: Path) -> None:
     """campaign.toml and the runs' files, as the interfaces describe them."""
@@ -41,7 +43,8 @@ def write_campaign(made: Campaign, folder: Path) -> None:
         lines += [f"y = {tracker.noise}"] if tracker.with_y else []
         lines += [f"phi = {tracker.turn_noise}"] if tracker.with_phi else []
     for number, (run, rows) in enumerate(zip(plan.runs, made.motions, strict=True), 1):
-        columns = film(rows, SAMPLE, tracker, made.fault, made.rng)
+        fault = made.fault if number - 1 in made.fault_runs else None
+        columns = film(rows, SAMPLE, tracker, fault, made.rng)
         text = [",".join(columns)]
         values = [np.char.mod("%.7f", column) for column in columns.values()]
         text += [",".join(row) for row in zip(*values, strict=True)]
@@ -61,8 +64,15 @@ def write_campaign(made: Campaign, folder: Path) -> None:
 def answer(made: Campaign) -> dict[str, Any]:
     """What is true of a campaign: verdicts and effects that are right, and all that was hidden."""
     order, plan = made.order, made.plan
-    effects = [*order.effects, *([order.fault] if order.fault else [])]
+    effects = [*(order.alike or order.effects), *([order.fault] if order.fault else [])]
     verdict = ["named"] if effects else ["unknown", "partial"] if order.kind else ["none"]
+    verdict = ["class"] if order.alike else verdict
+    more: dict[str, Any] = {}
+    if order.alike:
+        accepted = [{"verdict": "class", "effects": list(order.alike)}]
+        more = {"members": list(order.alike), "accept": accepted}
+    if order.some_runs:
+        more["fault_runs"] = [j + 1 for j in made.fault_runs]
     also = ["lateral_friction"] if "turning_surface" in effects else []
     hidden = [
         {
@@ -91,7 +101,8 @@ def answer(made: Campaign) -> dict[str, Any]:
     contact = {
         name: float(p[name])
         for name in (
-            "mu_s mu_k fall_speed fall_power presliding bristle_damping elastic_share creep_speed"
+            "mu_s mu_k fall_speed fall_power presliding "
+            + ("rebuild_time slider_creep" if order.in_room else OTHER_CONTACTS)
         ).split()
     }
     return {
@@ -115,7 +126,7 @@ def answer(made: Campaign) -> dict[str, Any]:
             }
             for r, record in zip(plan.runs, made.records, strict=True)
         ],
-    }
+    } | more
 
 
 def write_suite(

@@ -13,6 +13,8 @@ GRAVITY = 9.81
 POINTS = 12  # contact points of the disc: two rings of six
 MODES = 8  # relaxing parts of a heat memory
 OTHERS = 8  # numbers of an effect that no catalogue holds
+LEVELS = 2  # elements of the Iwan contact at each contact point of the disc
+ELEMENTS = LEVELS * POINTS  # of them in all; on a line, all of different strengths
 
 _FLOATS = """
     mass inertia inverse_mass_y inverse_inertia stiffness
@@ -29,10 +31,11 @@ _FLOATS = """
     ripple ripple_frequency ripple_start ripple_width
     belt_speed slab_x slab_y
     phase
+    rebuild_time slider_creep
 """
 _FORMS = """
     contact planar spring_form weakening_form film_form ageing_form heat_form run_in_form
-    pattern_form load_form ripple_form other_form
+    pattern_form load_form ripple_form other_form damping_form
 """
 APPARATUS = np.dtype(
     [(name, np.float64) for name in _FLOATS.split()]
@@ -40,13 +43,18 @@ APPARATUS = np.dtype(
     + [(name, np.float64, 4) for name in ("anchor_x", "anchor_y", "hook_x", "hook_y", "natural")]
     + [(name, np.float64, POINTS) for name in ("point_x", "point_y", "point_weight")]
     + [(name, np.float64, MODES) for name in ("heat_weight", "heat_rate")]
-    + [("other", np.float64, OTHERS)],
+    + [("other", np.float64, OTHERS)]
+    + [(name, np.float64, ELEMENTS) for name in ("element_share", "element_give")]
+    + [(name, np.float64, LEVELS) for name in ("level_share", "level_give")],
     align=True,
 )
 Record = NDArray[np.void]
 
 LUGRE, ELASTO_PLASTIC, SMOOTH, JUMP = 0, 1, 2, 3
 CONTACTS = {"lugre": LUGRE, "elasto_plastic": ELASTO_PLASTIC, "smooth": SMOOTH, "jump": JUMP}
+# not one of those that the suites of old are drawn from: it has laws and suites of its own
+IWAN = 4
+FORMS = CONTACTS | {"iwan": IWAN}
 
 # Radii (of the contact's) and shares of the load of two rings that integrate r, over the pressure
 # stated: Gauss points in r^2, and in r for the rim.
@@ -55,6 +63,7 @@ PRESSURES = {
     "rim": ((0.90, 1.0), (0.5, 0.5)),
     "domed": ((0.39376, 0.80309), (0.63608, 0.36392)),  # p falls as 1 - r^2 to the edge
 }
+HOLLOW = {"hollow": ((0.59587, 0.91921), (0.36392, 0.63608))}  # p grows as r^2 to the edge
 
 
 def apparatus(
@@ -90,10 +99,10 @@ def apparatus(
     p["inverse_mass_y"] = 0.0 if guided else 1 / mass
     p["inverse_inertia"] = 0.0 if guided else 1 / p["inertia"]
     p["mu_s"], p["mu_k"], p["scatter"] = mu_s, mu_k, 1.0
-    p["contact"], p["planar"] = CONTACTS[contact], int(planar and not guided)
+    p["contact"], p["planar"] = FORMS[contact], int(planar and not guided)
     p["fall_speed"], p["fall_power"] = 4e-3, 1.0
     p["presliding"], p["bristle_damping"], p["elastic_share"] = 5e-5, 0.5, 0.7
-    p["creep_speed"] = 5e-4
+    p["creep_speed"], p["rebuild_time"] = 5e-4, 0.01
     p["ageing_slip"] = 3e-4
     p["load_reference"] = mass * GRAVITY
     angles = np.radians(attachment_angles_deg)
@@ -110,7 +119,7 @@ def apparatus(
 
 def spread_contact(p: Record, radius: float, pressure: str) -> None:
     """Put the contact points on two rings, symmetric about x and about y."""
-    radii, shares = PRESSURES[pressure]
+    radii, shares = (PRESSURES | HOLLOW)[pressure]
     angles = (np.arange(6) + 0.5) * np.pi / 3
     p["point_x"] = np.concatenate([radius * r * np.cos(angles) for r in radii])
     p["point_y"] = np.concatenate([radius * r * np.sin(angles) for r in radii])

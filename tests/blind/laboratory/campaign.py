@@ -8,15 +8,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from . import held_back, out_of_catalogue
+from . import fresh_kinds, fresh_laws, held_back, out_of_catalogue
 from .apparatus import JUMP, Record
+from .cold_room import draw_room, room_camera, room_tracker
 from .laws import LAWS, Law, Reference
 from .plans import RIGS, Plan, draw_plan
-from .recording import FAULTS, Fault, Tracker, draw_tracker
+from .recording import FAULTS, FRESH_FAULTS, Fault, Tracker, draw_tracker
 from .simulation import SAMPLE, SLIP, STEP, at_rest_on_belt, simulate
 from .size import Size, measure
 
-KINDS = out_of_catalogue.KINDS | held_back.KINDS
+KINDS = out_of_catalogue.KINDS | held_back.KINDS | fresh_kinds.KINDS
 PLANAR = {"lateral_friction", "turning_surface", "spring_misalignment", "measurement.rotation"}
 GUIDED = {"guide_friction", "slack_springs", "measurement.latency"}  # x alone, a wide field
 DAMPING = {"film_drag", "structural_damping", "guide_friction"}  # would still fast runs
@@ -38,6 +39,14 @@ class Order:
     scatter: float = 0.0
     sizes: tuple[float, float] = (5.0, 25.0)  # noise units, of each hidden thing by itself
     exponents: dict[str, float] = field(default_factory=dict)  # of the effect's strength, wrong
+    alike: tuple[str, ...] = ()  # what the runs, of one speed and mass, cannot tell apart
+    some_runs: bool = False  # the fault is in some of the runs only
+    creeping: float | None = None  # of the Iwan contact, 0 to 1; drawn if left out
+
+    @property
+    def in_room(self) -> bool:
+        """Whether rig, camera and laws are those that go with the Iwan contact."""
+        return self.contact == "iwan"
 
 
 @dataclass(frozen=True)
@@ -63,6 +72,7 @@ class Campaign:
     records: tuple[Record, ...]
     motions: tuple[NDArray, ...]
     rng: np.random.Generator  # of the recording
+    fault_runs: tuple[int, ...] = ()  # places of the runs that the fault is in
 
 
 def own_step(p: Record) -> float:
@@ -88,8 +98,9 @@ def move(plan: Plan, records: Sequence[Record], coarse: int = 1) -> list[NDArray
 def draw_hidden(order: Order, rng: np.random.Generator, reference: Reference) -> list[Hidden]:
     """Laws and kinds of an order, at the strengths to begin with."""
     found = []
+    fresh = fresh_laws.ALIKE if order.alike else fresh_laws.LAWS
     for name in order.effects:
-        law = LAWS[name](rng, reference)
+        law = (fresh if order.in_room else LAWS)[name](rng, reference)
         if order.exponents:
             shape = law.shape.split(", per ")[0]
             law = replace(law, shape=shape, exponents=order.exponents)
@@ -159,27 +170,31 @@ def find_strength(
 
 
 def find_amount(
-    plan: Plan, motions: Sequence[NDArray], name: str, tracker: Tracker, target: float, rng
+    plan: Plan, motions: Sequence[NDArray], order: Order, tracker: Tracker, target: float, rng
 ) -> tuple[Fault, float]:
     """A fault of the camera, with an amount of about the target's size where that is sought."""
-    ways, (low, high), sought = FAULTS[name]
+    ways, (low, high), sought = (FRESH_FAULTS if order.in_room else FAULTS)[str(order.fault)]
     what = ways[int(rng.integers(len(ways)))]
     amount = float(np.exp(rng.uniform(np.log(low), np.log(high))))
+    some, coarse = (4, COARSE) if order.in_room else (len(motions), 1)
+    few = replace(plan, runs=plan.runs[:some])
     for _ in range(SEARCH if sought else 0):
-        size = fault_size(plan, motions, (what, amount), tracker).size
+        size = fault_size(few, motions[:some], (what, amount), tracker, coarse).size
         if abs(np.log(size / target)) < 0.2:
             break
         amount = float(np.clip(amount * np.clip((target / size) ** 0.8, 0.2, 5), low, high))
     return what, amount * (float(rng.choice((-1, 1))) if what.__name__ in SIGNED else 1.0)
 
 
-SIGNED = {"scale", "clock", "rotation", "creep"}
+SIGNED = {"scale", "clock", "rotation", "creep", "sagging"}
 
 
-def fault_size(plan: Plan, motions, fault: tuple[Fault, float], tracker: Tracker) -> Size:
+def fault_size(
+    plan: Plan, motions, fault: tuple[Fault, float], tracker: Tracker, coarse: int = 1
+) -> Size:
     axes = 2 if tracker.with_y else 1
     plains = plain_records(plan)
-    return measure(plains, motions, tracker.noise, axes, own_step(plains[0]), fault)
+    return measure(plains, motions, tracker.noise, axes, own_step(plains[0]) * coarse, fault)
 
 
 def lively(plan: Plan, motions: Sequence[NDArray], noise: float, wanted: int = 2) -> bool:
@@ -211,23 +226,26 @@ def seen_over_scatter(order: Order, plan: Plan, hidden: Sequence[Hidden]) -> boo
 def attempt(order: Order, rng: np.random.Generator) -> tuple[Campaign, bool]:
     """One campaign, and whether it shows what it hides."""
     names = {*order.effects, order.fault, order.kind}
-    rig = "planar" if names & PLANAR else str(rng.choice(RIGS, p=(0.45, 0.2, 0.35)))
-    if names & GUIDED:
+    rig = (
+        "planar"
+        if names & PLANAR
+        else str(rng.choice(RIGS, p=(0.6, 0.0, 0.4) if order.in_room else (0.45, 0.2, 0.35)))
+    )
+    if names & GUIDED or order.alike:
         rig = "guided"
     aside = True if "lateral_friction" in names else None
     if "turning_surface" in names:
         aside = False
     loads = "load_dependence" in names or "mass" in order.exponents
-    plan = draw_plan(
-        rng,
-        rig,
-        order.contact,
-        scatter=order.scatter,
-        loads=loads,
-        aside=aside,
-        slow=bool(names & DAMPING),
-    )
-    tracker = draw_tracker(rng, rig == "planar", rig == "bench")
+    wanted = {"scatter": order.scatter, "loads": loads, "aside": aside}
+    wanted["slow"] = bool(names & DAMPING)
+    if order.in_room:
+        single = bool(order.alike)
+        plan = draw_room(rng, rig, **wanted, single=single, creeping=order.creeping)
+        tracker = room_tracker(rng, rig == "planar")
+    else:
+        plan = draw_plan(rng, rig, order.contact, **wanted)
+        tracker = draw_tracker(rng, rig == "planar", rig == "bench")
     hidden = draw_hidden(order, rng, plan.reference)
     target = float(np.exp(rng.uniform(np.log(order.sizes[0] * 1.3), np.log(order.sizes[1]))))
     for j in range(len(hidden)):
@@ -238,11 +256,22 @@ def attempt(order: Order, rng: np.random.Generator) -> tuple[Campaign, bool]:
         return Campaign(order, plan, tuple(hidden), (), None, tracker, (), (), rng), False
     sizes = [sized(plan, hidden, j, tracker, motions) for j in range(len(hidden))]
     fault = None
+    bad_runs = tuple(range(len(plan.runs)))
     if order.fault:
-        fault = find_amount(plan, motions, order.fault, tracker, target, rng)
-        sizes.append(fault_size(plan, motions, fault, tracker))
-    sizes, tracker = better_camera(order, sizes, tracker)
-    fits = all(order.sizes[0] <= s.size <= LARGEST * order.sizes[1] for s in sizes)
+        if order.some_runs:
+            number = int(rng.integers(2, max(3, len(bad_runs) - 2)))
+            bad_runs = tuple(sorted(int(j) for j in rng.permutation(len(bad_runs))[:number]))
+        bad = replace(plan, runs=tuple(plan.runs[j] for j in bad_runs))
+        seen = [motions[j] for j in bad_runs]
+        fault = find_amount(bad, seen, order, tracker, target, rng)
+        sizes.append(fault_size(bad, seen, fault, tracker))
+    if order.in_room:
+        sizes, tracker = room_camera(sizes, tracker, order.sizes)
+    else:
+        sizes, tracker = better_camera(order, sizes, tracker)
+    sought = all(h.law is None or h.law.sized for h in hidden)
+    largest = (1 if order.in_room and sought else LARGEST) * order.sizes[1]
+    fits = all(order.sizes[0] <= s.size <= largest for s in sizes)
     shows = fits and seen_over_scatter(order, plan, hidden)
     made = Campaign(
         order,
@@ -254,6 +283,7 @@ def attempt(order: Order, rng: np.random.Generator) -> tuple[Campaign, bool]:
         tuple(records),
         tuple(motions),
         rng,
+        bad_runs if order.fault else (),
     )
     return made, shows
 

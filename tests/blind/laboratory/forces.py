@@ -7,6 +7,8 @@ from math import cos, exp, pi, sin, sinh, sqrt
 import numpy as np
 from numba import njit
 
+from .curves import FRESH, curve, fresh_pull, wave
+from .fresh_kinds import FIRST_KIND, fresh_kind
 from .held_back import held_back
 from .out_of_catalogue import out_of_catalogue
 
@@ -21,6 +23,8 @@ def spring_pull(p, extension):
         pull = p.spring_b * sinh(extension / p.spring_b)
     elif p.spring_form == 3 and extension > 0:  # stiffens in tension only
         pull += extension * (extension / p.spring_b) ** 2
+    elif p.spring_form >= FRESH:
+        pull = fresh_pull(p.spring_form, extension, p.spring_b)
     if extension < 0 and p.slack > 0:  # a cord does not push
         pull *= 1.0 - p.slack
     return p.stiffness * pull
@@ -55,6 +59,9 @@ def damping_force(p, v):
     """Resistance of the frame to a speed along one axis, N."""
     if p.damping == 0.0:
         return 0.0
+    if p.damping_form >= FRESH:
+        size = p.damping * curve(p.damping_form, abs(v) / p.damping_speed, p.damping_power)
+        return -size if v > 0.0 else size
     return (
         -p.damping
         * v
@@ -85,6 +92,8 @@ def belt_speed(p, t):
         return p.belt_speed * (1.0 + p.ripple * (sin(2 * pi * u) + 0.6 * sin(4 * pi * u + 1.0)))
     if p.ripple_form == 3:  # slow rise, quick fall
         return p.belt_speed * (1.0 + p.ripple * (2.0 * (u - np.floor(u)) - 1.0))
+    if p.ripple_form >= FRESH:
+        return p.belt_speed * (1.0 + p.ripple * wave(p.ripple_form, u))
     return p.belt_speed
 
 
@@ -95,4 +104,6 @@ def disturbance(p, slow, t, h, s, friction):
         return 0.0, 1.0, 1.0, 1.0, 0.0
     if p.other_form < 100:
         return out_of_catalogue(p, slow, t, h, s, friction)
+    if p.other_form >= FIRST_KIND:
+        return fresh_kind(p, slow, t, h, s, friction)
     return held_back(p, slow, t, h, s, friction)

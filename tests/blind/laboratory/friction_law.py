@@ -13,6 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from .apparatus import MODES
+from .curves import FRESH, curve, wave
 
 # slow states of a contact, by place in their array
 AGE, DISTANCE, TRAVEL, HEAT, OTHER = 0, 1, 2, 3, 3 + MODES
@@ -44,6 +45,8 @@ def age_shape(p, age):
         return (age / p.ageing_time) ** p.ageing_power
     if p.ageing_form == 3:  # saturating
         return 1.0 - exp(-age / p.ageing_time)
+    if p.ageing_form >= FRESH:
+        return curve(p.ageing_form, age / p.ageing_time, p.ageing_power)
     return 0.0
 
 
@@ -60,6 +63,8 @@ def heat_factor(p, slow):
         return max(1.0 - warmth, 0.1)
     if p.heat_form == 2:
         return exp(-warmth)
+    if p.heat_form >= FRESH:
+        return 1.0 - 0.9 * curve(p.heat_form, warmth, 1.0)
     return 1.0 / (1.0 + warmth)
 
 
@@ -75,6 +80,8 @@ def run_in_factor(p, distance):
         return 1.0 + p.run_in * (0.5 * (1.0 - exp(-6.0 * u)) + 0.5 * (1.0 - exp(-u / 1.5)))
     if p.run_in_form == 4:
         return 1.0 + p.run_in * log1p(3.0 * u) / log(4.0)
+    if p.run_in_form >= FRESH:
+        return 1.0 + p.run_in * curve(p.run_in_form, u, p.run_in_power)
     return 1.0
 
 
@@ -89,6 +96,8 @@ def pattern_factor(p, place):
         return 1.0 + p.pattern * exp(-d * d)
     if p.pattern_form == 2:  # joints
         return 1.0 - p.pattern / (1.0 + d**4)
+    if p.pattern_form >= FRESH:
+        return 1.0 + p.pattern * wave(p.pattern_form, u)
     return 1.0 + p.pattern * np.tanh(np.sin(2 * pi * u) / 0.15)  # two materials
 
 
@@ -100,6 +109,10 @@ def load_factor(p, load):
         return (1.0 - p.load) + p.load * p.load_reference / load
     if p.load_form == 3:
         return 1.0 + p.load * log(load / p.load_reference)
+    if p.load_form == FRESH:
+        return exp(p.load * (load / p.load_reference - 1.0))
+    if p.load_form > FRESH:  # a Hertzian part
+        return 1.0 + p.load * (1.0 - (load / p.load_reference) ** (-1.0 / 3.0))
     return 1.0
 
 
@@ -130,6 +143,8 @@ def weakening_factor(p, speed):
         return 1.0 - p.weakening + p.weakening / (1.0 + u)
     if p.weakening_form == 3:
         return max(1.0 - p.weakening * log1p(3.0 * u), 0.05)
+    if p.weakening_form >= FRESH:
+        return 1.0 - p.weakening * curve(p.weakening_form, u, p.weakening_power)
     return 1.0
 
 
@@ -152,6 +167,8 @@ def film_force(p, speed):
     u = speed / p.film_speed
     if p.film_form == 1:
         return p.film * u**p.film_power
+    if p.film_form >= FRESH:
+        return p.film * curve(p.film_form, u, p.film_power)
     return p.film * u / (1.0 + u)  # a film that thins as it is driven
 
 

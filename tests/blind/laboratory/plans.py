@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .apparatus import CONTACTS, GRAVITY, Record, apparatus
 from .laws import Reference
@@ -162,6 +164,37 @@ def draw_plan(
     numbers = draw_contact(rng, contact, rig)
     pace = (mu_s - mu_k) * GRAVITY / omega * (0.55 if slow else 1.0)
     settings = draw_settings(rng, mass, stiffness, pace, loads)
+    lengths = length, tidy(length * slackless, 2), radius
+    last = (10, 14) if rig == "bench" else (14, 26)
+    return assemble(
+        rng, rig, contact, settings, (mu_s, mu_k), lengths, numbers, scatter, aside, last
+    )
+
+
+def assemble(
+    rng: np.random.Generator,
+    rig: str,
+    contact: str,
+    settings: list[tuple[float, float, float]],
+    mu: tuple[float, float],
+    lengths: tuple[float, float, float],
+    numbers: Mapping[str, float | NDArray],
+    scatter: float,
+    aside: bool,
+    last: tuple[float, float],
+) -> Plan:
+    """The runs of a rig's settings, with errors of what is stated, starts and runs held out.
+
+    Parameters
+    ----------
+    settings : mass, stiffness and speed of each run, as stated
+    mu : static and kinetic
+    lengths : springs installed, springs natural, radius of the contact; m
+    numbers : of the contact, by field of the record
+    scatter, aside : as of `draw_plan`
+    last : shortest and longest that runs last, s
+    """
+    (mu_s, mu_k), (length, natural, radius), free = mu, lengths, rig == "planar"
     held = pick_held_out(rng, settings)
     wrong = {value: 1 + SPRING_ERROR * float(rng.normal()) for _, value, _ in settings}
     weighed = {value: 1 + MASS_ERROR * float(rng.normal()) for value, _, _ in settings}
@@ -176,7 +209,7 @@ def draw_plan(
             contact=contact,
             guided=not free,
             spring_length=length,
-            natural_length=tidy(length * slackless, 2),
+            natural_length=natural,
             attachment_radius=tidy(radius * 1.25, 2),
             contact_radius=radius,
         )
@@ -192,10 +225,10 @@ def draw_plan(
         rig=rig,
         contact=contact,
         spring_length=length,
-        natural_length=tidy(length * slackless, 2),
+        natural_length=natural,
         attachment_radius=tidy(radius * 1.25, 2),
         contact_radius=radius,
-        duration=float(np.round(rng.uniform(10, 14) if rig == "bench" else rng.uniform(14, 26))),
+        duration=float(np.round(rng.uniform(*last))),
         runs=tuple(runs),
     )
 

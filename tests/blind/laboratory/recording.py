@@ -82,6 +82,11 @@ def creep(t: NDArray, path: Path, amount: float, duration: float):
     return t, path + amount * course[:, None] * np.array([1.0, 0.3])
 
 
+def sagging(t: NDArray, path: Path, amount: float, duration: float):
+    """A camera whose arm gives way as the square root of time."""
+    return t, path + amount * np.sqrt(t / duration)[:, None] * np.array([1.0, -0.5])
+
+
 def rolling_shutter(t: NDArray, path: Path, amount: float, duration: float):
     """Read out line by line along x: what is 0.1 m further is seen `amount` seconds later."""
     seen = t + amount * path[:, 0] / 0.1
@@ -93,17 +98,24 @@ def smoothing(t: NDArray, path: Path, amount: float, duration: float):
     return t, _filtered(t, path, amount, causal=False)
 
 
+def averaging(t: NDArray, path: Path, amount: float, duration: float):
+    """A tracker's filter: the mean of a window whose standard deviation is `amount` seconds."""
+    return t, _filtered(t, path, amount, causal=False, window=True)
+
+
 def lagging(t: NDArray, path: Path, amount: float, duration: float):
     """A tracker's filter: exponential, of the past alone, `amount` seconds."""
     return t, _filtered(t, path, amount, causal=True)
 
 
-def _filtered(t: NDArray, path: Path, amount: float, causal: bool) -> Path:
+def _filtered(t: NDArray, path: Path, amount: float, causal: bool, window: bool = False) -> Path:
     step = 1e-3
     grid = np.arange(t[0], t[-1] + step, step)
     half = int(np.ceil(10 * amount / step))
     u = np.arange(-half, half + 1) * step
     kernel = np.exp(-0.5 * (u / amount) ** 2)
+    if window:
+        kernel = (np.abs(u) < np.sqrt(3) * amount).astype(float)
     if causal:
         kernel = np.where(u < 0, 0.0, np.exp(-u / amount)) * np.where(u == 0, 0.5, 1.0)
     kernel /= kernel.sum()
@@ -128,6 +140,11 @@ FAULTS: dict[str, tuple[tuple[Fault, ...], tuple[float, float], bool]] = {
     "measurement.latency": ((rolling_shutter,), (5e-3, 0.04), True),
     "measurement.smoothing": ((smoothing, lagging), (5e-3, 0.05), True),
     "measurement.quantisation": ((quantisation,), (2e-4, 4e-3), True),
+}
+
+FRESH_FAULTS = FAULTS | {
+    "measurement.drift": ((sagging,), (5e-4, 1e-2), True),
+    "measurement.smoothing": ((averaging,), (5e-3, 0.05), True),
 }
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from .apparatus import ELASTO_PLASTIC, GRAVITY, LUGRE, POINTS, SMOOTH, Record
+from .apparatus import ELASTO_PLASTIC, GRAVITY, IWAN, LUGRE, SMOOTH, Record
 from .contacts import (
     elasto_plastic_step,
     jump_step,
@@ -17,19 +17,18 @@ from .contacts import (
     smooth_step,
 )
 from .forces import belt_speed, disturbance
-from .friction_law import SLOW, TRAVEL, age_contact, kinetic_and_excess
+from .friction_law import TRAVEL, age_contact, kinetic_and_excess
+from .iwan import march_iwan
+from .rows import BRISTLES, COLUMNS, FRICTION, IWAN_COLUMNS, REST, SLIP, SLOWS
 
 STEP = 1e-4  # s
 SAMPLE = 1e-3  # s between the rows that are kept
-# columns of a row: state, bristles, slow states (enough to go on from), friction N, slip m/s
-BRISTLES, SLOWS, FRICTION, SLIP = 6, 6 + 2 * POINTS, 6 + 2 * POINTS + SLOW, 7 + 2 * POINTS + SLOW
-COLUMNS = SLIP + 1
 
 # what numba has kept is good as long as the function's own file is as it was, so it thinks: it does
 # not look at the files of the functions that this one calls
 HERE = Path(__file__).resolve().parent
 CHANGED = max(file.stat().st_mtime for file in HERE.glob("*.py"))
-for kept in HERE.glob("__pycache__/simulation.march-*.nbi"):
+for kept in HERE.glob("__pycache__/*.march*.nbi"):
     if kept.stat().st_mtime < CHANGED:
         kept.unlink(missing_ok=True)
 
@@ -80,7 +79,8 @@ def march(records, start, begin, count, every, h):
 
 def at_rest_on_belt(p: Record, x: float, y: float = 0.0, phi: float = 0.0) -> NDArray:
     """A row to start from: the block placed at x, m, and carried along by the belt."""
-    row = np.zeros(COLUMNS)
+    row = np.zeros(IWAN_COLUMNS if p["contact"] == IWAN else COLUMNS)
+    row[REST : REST + 1] = 1.0
     row[:3] = x, y, phi
     row[3] = p["belt_speed"]
     return row
@@ -97,4 +97,5 @@ def simulate(
 ) -> NDArray:
     """Rows of a motion every `sample`, s, from a start row at time `begin`, s."""
     every = max(1, round(sample / step))
-    return march(p.reshape(1), start, begin, round(duration / sample), every, sample / every)
+    loop = march_iwan if p["contact"] == IWAN else march
+    return loop(p.reshape(1), start, begin, round(duration / sample), every, sample / every)

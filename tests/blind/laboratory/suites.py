@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import combinations
 
 import numpy as np
 
 from . import held_back as held_back_kinds
+from . import iwan_suites
 from . import out_of_catalogue as developed_kinds
 from .apparatus import CONTACTS
 from .campaign import Order
+from .iwan_suites import cycled
 from .laws import LAWS
 from .recording import FAULTS
 
@@ -37,14 +39,6 @@ SCALINGS: tuple[tuple[str, dict[str, float]], ...] = (
     ("run_in", {"speed": 1.0}),
     ("surface_pattern", {"speed": 1.0}),
 )
-
-
-def cycled(rng: np.random.Generator, names: list[str], count: int) -> list[str]:
-    """count names, each as often as any other, in an order of the seed's."""
-    drawn: list[str] = []
-    while len(drawn) < count:
-        drawn += [names[int(j)] for j in rng.permutation(len(names))]
-    return drawn[:count]
 
 
 def contact_and_shapes(rng: np.random.Generator, count: int = 60) -> Orders:
@@ -109,14 +103,20 @@ def faults(rng: np.random.Generator, count: int = 40) -> Orders:
     ]
 
 
-def several_effects(rng: np.random.Generator, count: int, number: int) -> Orders:
+def several_effects(
+    rng: np.random.Generator,
+    count: int,
+    number: int,
+    among: Iterable[str] = CONTACTS,
+    sizes: tuple[float, float] = (5.0, 30.0),
+) -> Orders:
     """Sets of effects of which no two are blurred, each met about equally often."""
     sets = [
         chosen
         for chosen in combinations(LAWS, number)
         if not any(pair <= set(chosen) for pair in BLURRED)
     ]
-    contacts = cycled(rng, list(CONTACTS), count)
+    contacts = cycled(rng, list(among), count)
     met = dict.fromkeys(LAWS, 0)
     orders = []
     for contact in contacts:
@@ -124,7 +124,7 @@ def several_effects(rng: np.random.Generator, count: int, number: int) -> Orders
         chosen = min((sets[int(j)] for j in draw), key=lambda names: sum(met[n] for n in names))
         for name in chosen:
             met[name] += 1
-        orders.append(Order(contact, chosen, sizes=(5.0, 30.0)))
+        orders.append(Order(contact, chosen, sizes=sizes))
     return orders
 
 
@@ -134,6 +134,11 @@ def two_effects(rng: np.random.Generator, count: int = 30) -> Orders:
 
 def three_effects(rng: np.random.Generator, count: int = 10) -> Orders:
     return several_effects(rng, count, 3)
+
+
+def iwan_two(rng: np.random.Generator, count: int = 20) -> Orders:
+    """Two effects, with the Iwan contact and its laws."""
+    return several_effects(rng, count, 2, ["iwan"], iwan_suites.SIZES)
 
 
 def scaling(rng: np.random.Generator, count: int = 20) -> Orders:
@@ -159,6 +164,12 @@ SUITES: dict[str, Callable[..., Orders]] = {
         two_effects,
         three_effects,
         scaling,
+        iwan_suites.iwan_one,
+        iwan_suites.iwan_nothing,
+        iwan_two,
+        iwan_suites.iwan_alike,
+        iwan_suites.iwan_unknown,
+        iwan_suites.iwan_faults,
     )
 }
 

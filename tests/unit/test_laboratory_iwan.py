@@ -1,0 +1,193 @@
+"""The Iwan contact against closed forms; its laws, kinds and suites; what its answers say."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from blind.laboratory import fresh_kinds, fresh_laws, laws, recording  # noqa: E402
+from blind.laboratory.__main__ import answer, write_campaign  # noqa: E402
+from blind.laboratory.apparatus import ELEMENTS, GRAVITY, apparatus  # noqa: E402
+from blind.laboratory.campaign import Campaign, Order, draw_hidden, make_campaign, move  # noqa: E402
+from blind.laboratory.cold_room import draw_room, room_tracker  # noqa: E402
+from blind.laboratory.elements import SPREADS, spread_elements  # noqa: E402
+from blind.laboratory.iwan import slide  # noqa: E402
+from blind.laboratory.rows import FRICTION  # noqa: E402
+from blind.laboratory.simulation import STEP, at_rest_on_belt, simulate  # noqa: E402
+from blind.laboratory.suites import BLURRED, orders_of  # noqa: E402
+
+GIVE, MASS, SPRING = 5e-5, 0.67, 20.17
+
+
+def block(speed, mu_s=0.26, mu_k=0.2, spread="even", give=GIVE, **more):
+    p = apparatus(MASS, SPRING, speed, mu_s, mu_k, contact="iwan", natural_length=0.2, **more)
+    p["presliding"] = give
+    for name, value in spread_elements(give, spread).items():
+        p[name] = value
+    return p
+
+
+def pulled(p, path: np.ndarray) -> np.ndarray:
+    """Force, N, on a surface that is pulled slowly along a path, m, below the block."""
+    elements, total, forces = np.zeros(2 * ELEMENTS), np.zeros(3), [0.0]
+    for step in np.diff(path):
+        slide(
+            p.reshape(1)[0], np.zeros(6), elements, 0.0, MASS * GRAVITY, 0.2, 0.0, step, 1.0, total
+        )
+        forces.append(total[0])
+    return np.array(forces)
+
+
+@pytest.mark.parametrize("spread", SPREADS)
+def test_loop_is_masings(spread):
+    """Both branches are the first loading at twice its scale: area 8 int F dx - 4 A F(A)."""
+    p = block(0.0, 0.2, 0.2, spread)
+    n, reach = 2000, 1.3 * GIVE
+    up = np.linspace(0, reach, n + 1)
+    first = pulled(p, up)
+    path = np.concatenate([up, up[-2::-1], -up[1:], -up[-2::-1], up[1:]])
+    force = pulled(p, path)
+    loop = slice(n, 5 * n + 1)
+    area = np.trapezoid(force[loop], path[loop])
+    assert area == pytest.approx(8 * np.trapezoid(first, up) - 4 * reach * first[-1], rel=2e-3)
+    back = force[n] - 2 * np.interp((reach - path[n : 3 * n]) / 2, up, first)
+    assert force[n : 3 * n] == pytest.approx(back, abs=2e-3 * first[-1])
+    assert first[1] / up[1] == pytest.approx(0.2 * MASS * GRAVITY / GIVE)
+    assert (
+        first[-1]
+        < pulled(p, np.linspace(0, 20 * GIVE, n))[-1]
+        == pytest.approx(0.2 * MASS * GRAVITY)
+    )
+
+
+@pytest.mark.parametrize("speed, planar", [(5e-3, False), (0.3, False), (0.3, True)])
+def test_steady_sliding(speed, planar):
+    """mu_k N at speed; below, what rest rebuilds while sliding: 1/(1 + u) of the excess."""
+    p = block(speed, guided=not planar, planar=planar)
+    p["stiffness"] = 1e4
+    p["damping"], p["damping_power"], p["damping_speed"] = 300.0, 1.0, 1.0
+    u = speed / p["fall_speed"]
+    mu = 0.2 + 0.06 / (1 + u) / (1 + u ** p["fall_power"])
+    end = simulate(p, at_rest_on_belt(p, 0.0), 1.0)[-1]
+    assert end[FRICTION] == pytest.approx(mu * MASS * GRAVITY, rel=1e-3)
+    if speed > 0.1:
+        assert end[FRICTION] == pytest.approx(0.2 * MASS * GRAVITY, rel=1e-3)
+
+
+def test_energy_balance_and_convergence():
+    """Work of friction is the change of kinetic and spring energy; the path goes with the step."""
+    p = block(0.1)
+    start = at_rest_on_belt(p, 0.005)
+    rows = simulate(p, start, 3.0, sample=STEP)
+    v = rows[:, 3]
+    work = np.cumsum(rows[1:, FRICTION] * 0.5 * (v[1:] + v[:-1])) * STEP
+    energy = 0.5 * MASS * v**2 + 2 * SPRING * rows[:, 0] ** 2
+    assert energy[1:] - energy[0] == pytest.approx(work, abs=1e-3 * energy.max())
+    fine = simulate(p, start, 2.0, step=STEP / 16)[:, 0]
+    errors = [np.std(simulate(p, start, 2.0, step=h)[:, 0] - fine) for h in (2 * STEP, STEP / 2)]
+    assert errors[0] < 1e-4 and errors[1] < 0.5 * errors[0]
+
+
+def test_static_friction_is_back_after_rest():
+    """The block breaks away at mu_s N."""
+    p = block(0.01)
+    x = simulate(p, at_rest_on_belt(p, 0.0), 6.0)[:, 0]
+    assert x.max() == pytest.approx(0.26 * MASS * GRAVITY / (4 * SPRING), rel=0.02)
+
+
+def test_film_and_damping_are_the_same_motion_at_one_speed():
+    """c (V - v) against the belt is c v against the frame, mu_s and mu_k higher by c V/N."""
+    film, damped = block(0.1, give=5e-6), block(0.1, give=5e-6)
+    more = 0.3 * 0.1 / (MASS * GRAVITY)
+    film["film"], film["film_form"], film["film_speed"], film["film_power"] = 0.3, 1, 1.0, 1.0
+    damped["damping"], damped["damping_speed"], damped["damping_power"] = 0.3, 1.0, 1.0
+    damped["mu_s"] += more
+    damped["mu_k"] += more
+    one, other = (simulate(p, at_rest_on_belt(p, 0.005), 5.0)[:, 0] for p in (film, damped))
+    plain = block(0.1, give=5e-6)
+    alone = simulate(plain, at_rest_on_belt(plain, 0.005), 5.0)[:, 0]
+    assert np.std(one - other) < 1e-4 < 0.1 * np.std(one - alone)
+
+
+@pytest.mark.parametrize("name", fresh_laws.LAWS)
+def test_laws_are_others_than_before_and_change_the_motion(name):
+    rig = "planar" if name in ("lateral_friction", "turning_surface", "spring_misalignment") else ""
+    plan = draw_room(np.random.default_rng(8), rig or "guided", aside=bool(rig), loads=True)
+    reference = plan.reference
+    drawn, before = (
+        [kind[name](np.random.default_rng(j), reference) for j in range(40)]
+        for kind in (fresh_laws.LAWS, laws.LAWS)
+    )
+    drawn, before = {law.shape: law for law in drawn}, {law.shape for law in before}
+    assert len(drawn) >= 2 and not set(drawn) & before
+    run = max(plan.runs, key=lambda run: (run.mass, run.speed))
+    short = replace(plan, runs=(run,), duration=2.0)
+    (plain,) = move(short, [run.plain])
+    for law in drawn.values():
+        record = run.plain.copy()
+        law.apply(record, law.start, reference)
+        (changed,) = move(short, [record])
+        assert np.isfinite(changed).all()
+        assert np.abs(changed[:, :2] - plain[:, :2]).max() > 2e-5, law.text
+
+
+def test_a_law_is_read_back_from_the_motion():
+    """Deceleration on a belt at rest is the kinetic friction: mu_k (1 - 0.3 * 2/pi arctan u)."""
+    p = block(0.0)
+    p["stiffness"] = 0.0
+    p["weakening"], p["weakening_form"], p["weakening_speed"] = 0.3, 12, 0.2
+    start = at_rest_on_belt(p, 0.0)
+    start[3] = 1.0
+    v = simulate(p, start, 0.4)[20:, 3]
+    speed = 0.5 * (v[1:] + v[:-1])
+    law = 0.2 * GRAVITY * (1 - 0.3 * 2 / np.pi * np.arctan(speed / 0.2))
+    assert -np.diff(v) / 1e-3 == pytest.approx(law, rel=2e-3)
+
+
+def test_kinds_change_the_motion():
+    plan = draw_room(np.random.default_rng(9), "guided")
+    short = replace(plan, runs=plan.runs[:1], duration=3.0)
+    (plain,) = move(short, [plan.runs[0].plain])
+    for name, kind in fresh_kinds.KINDS.items():
+        record = plan.runs[0].plain.copy()
+        kind(record, 1.0, np.random.default_rng(1), plan.reference)
+        (changed,) = move(short, [record])
+        assert np.isfinite(changed).all()
+        assert np.abs(changed[:, 0] - plain[:, 0]).max() > 5e-5, name
+
+
+def test_suites_and_the_same_files_from_the_same_seed(tmp_path):
+    assert {o.effects for o in orders_of("iwan_one", 1)} == {(name,) for name in fresh_laws.LAWS}
+    assert {o.kind for o in orders_of("iwan_unknown", 1)} == set(fresh_kinds.KINDS)
+    assert {o.fault for o in orders_of("iwan_faults", 1)} == set(recording.FRESH_FAULTS)
+    assert not any(pair <= set(o.effects) for o in orders_of("iwan_two", 1) for pair in BLURRED)
+    assert max(o.creeping for o in orders_of("iwan_nothing", 1)) > 0.95
+    order = Order("iwan", fault="measurement.clock", sizes=(2.0, 25.0), some_runs=True)
+    texts = []
+    for folder in (tmp_path / "one", tmp_path / "other"):
+        made = make_campaign(order, [4])
+        write_campaign(made, folder / "c001")
+        texts.append([f.read_text() for f in sorted((folder / "c001").iterdir())])
+    assert texts[0] == texts[1]
+    told = json.loads(json.dumps(answer(made)))
+    assert 2 <= len(told["fault_runs"]) < len(told["runs"])
+    assert 5 <= len(told["runs"]) <= 9 and told["effects"] == ["measurement.clock"]
+    assert all(0.29 < run["mass"] < 2.01 for run in told["runs"])
+
+
+def test_alike_effects_are_answered_by_their_class():
+    order, rng = orders_of("iwan_alike", 3)[1], np.random.default_rng(2)
+    plan = draw_room(rng, "guided", single=True, creeping=0.0)
+    assert len({(run.mass, run.stiffness, run.speed) for run in plan.runs}) == 1
+    hidden = tuple(draw_hidden(order, rng, plan.reference))
+    records = tuple(run.plain for run in plan.runs)
+    tracker = room_tracker(rng, False)
+    told = answer(Campaign(order, plan, hidden, (), None, tracker, records, (), rng))
+    assert told["verdict"] == ["class"] and set(told["members"]) == {"run_in", "thermal_weakening"}
+    assert set(told["accept"][0]["effects"]) == set(told["members"])
