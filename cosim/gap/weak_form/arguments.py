@@ -1,0 +1,249 @@
+"""What friction and springs may depend on: one unknown curve for every argument.
+
+The runs decide on the argument, by the same evidence for all; which law the curve follows is asked
+afterwards. `CATALOGUE` are arguments that an effect stands for, `OTHER` those that none does: where
+one of these wins, what is missing is not in the catalogue.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from scipy.signal import lfilter
+
+from cosim.gap.data import Campaign
+from cosim.gap.weak_form.constants import (
+    CURVE_NODES,
+    LEAST_LOG_RANGE,
+    LONGEST_MEMORY,
+    SHORTEST_MEMORY,
+    SINCE_RELEASE,
+    SLIP_PERCENTILE,
+    WIDER_SPRINGS,
+)
+from cosim.gap.weak_form.rig_unknowns import Level
+from cosim.gap.weak_form.rows import Response, RunRows
+from cosim.gap.weak_form.unknowns import Curve, Unknown, column
+
+#: Effects that are laws of an argument, and findings that no effect stands for.
+CATALOGUE = (
+    "velocity_weakening", "film_drag", "structural_damping", "spring_hardening", "run_in",
+    "thermal_weakening", "load_dependence", "static_strengthening",
+)  # fmt: skip
+OTHER = ("other.time", "other.frame", "other.release", "other.springs", "other.room", "other.order")
+
+
+class Arguments:
+    """The arguments of a campaign's runs, and the unknowns that they make."""
+
+    def __init__(self, campaign: Campaign, runs: list[RunRows], level: Level):
+        self.campaign, self.runs, self.level = campaign, runs, level
+        self.slipping = [run for run in runs if run.track.slips]
+        self.force = level.kinetic * float(np.mean([run.weight for run in runs]))
+
+    def unknowns(self) -> dict[str, list[Unknown]]:
+        """effect or other finding -> its variants, those that these runs can show."""
+        made = {}
+        if self.slipping:
+            made = {
+                "velocity_weakening": [self._over_speed(True)],
+                "film_drag": [self._over_speed(False)],
+                "structural_damping": [self._over_velocity()],
+                "spring_hardening": [self._over_place()],
+                "run_in": list(self._over_distance()),
+                "thermal_weakening": list(self._over_heat()),
+                "other.time": list(self._over_time()),
+                "other.frame": [self._frame()],
+                "other.release": [self._since_release()],
+                "other.springs": [self._springs()],
+            }
+        made["load_dependence"] = list(self._trend("load_dependence", lambda run: run.weight))
+        made["other.room"] = list(
+            self._trend("other.room", lambda run: np.exp(0.1 * run.track.run.ambient_degC))
+        )
+        order = {run.track.run.name: number for number, run in enumerate(self.runs)}
+        made["other.order"] = list(
+            self._trend("other.order", lambda run: np.exp(0.1 * order[run.track.run.name]))
+        )
+        made["static_strengthening"] = list(self._over_hold())
+        return {name: variants for name, variants in made.items() if variants}
+
+    def _over_speed(self, of_weight: bool) -> Unknown:
+        """Coefficient, or force, over the sliding speed."""
+        fastest = self._largest(lambda run: np.abs(run.track.sliding))
+        nodes = fastest * np.linspace(0.0, 1.0, CURVE_NODES) ** 1.3
+
+        def respond(run: RunRows) -> Response:
+            unit = self.level.kinetic * run.weight if of_weight else self.force
+            at = curve.at(np.abs(run.track.sliding))
+            return Response(force=unit * run.track.direction[:, None] * at)
+
+        name, per = ("velocity_weakening", "mu_k") if of_weight else ("film_drag", "N")
+        curve = Curve("sliding speed", "m/s", nodes, per)
+        return Unknown.over(name, curve, respond)
+
+    def _over_velocity(self) -> Unknown:
+        """Force against the block's own velocity, odd in it."""
+        fastest = self._largest(lambda run: np.abs(run.track.velocity))
+        nodes = np.linspace(0.0, fastest, CURVE_NODES)
+
+        def respond(run: RunRows) -> Response:
+            velocity = run.track.velocity
+            at = curve.at(np.abs(velocity))
+            return Response(force=-self.force * np.sign(velocity)[:, None] * at)
+
+        curve = Curve("velocity of the block", "m/s", nodes, "N")
+        return Unknown.over("structural_damping", curve, respond)
+
+    def _over_place(self) -> Unknown:
+        """Force of the springs beyond the stated ones, odd in the place."""
+        farthest = self._largest(lambda run: np.abs(run.track.place))
+        nodes = np.linspace(0.0, farthest, CURVE_NODES)
+        unit = farthest * float(np.mean([run.track.run.total_stiffness for run in self.runs]))
+
+        def respond(run: RunRows) -> Response:
+            place = run.track.place
+            force = -unit * np.sign(place)[:, None] * curve.at(np.abs(place))
+            turned = [abs(event.force) / run.track.run.total_stiffness for event in run.events]
+            return Response(force=force, static=-unit * curve.at(np.array(turned)))
+
+        curve = Curve("place of the block", "m", nodes, "N")
+        return Unknown.over("spring_hardening", curve, respond)
+
+    def _springs(self) -> Unknown:
+        """All springs stiffer than stated, far beyond the stated error."""
+
+        def respond(run: RunRows) -> Response:
+            held = column([-event.force for event in run.events])
+            return Response(force=column(-run.restoring), static=held)
+
+        return Unknown("other.springs", "", respond, WIDER_SPRINGS**2 * np.eye(1))
+
+    def _frame(self) -> Unknown:
+        """Dry friction against the frame: a guide, or springs with hysteresis."""
+
+        def respond(run: RunRows) -> Response:
+            return Response(force=column(-self.force * np.sign(run.track.velocity)))
+
+        return Unknown("other.frame", "", respond, np.eye(1))
+
+    def _over_distance(self) -> Iterator[Unknown]:
+        """Coefficient over the distance slid in the run; static friction with it, or not."""
+        slid = {run.track.run.name: self._slid(run) for run in self.runs}
+        longest = max(values[-1] for values in slid.values())
+        nodes = longest * np.linspace(0.0, 1.0, CURVE_NODES + 3) ** 2
+        # laws of wear are steep at first: smooth over the root of the distance
+        curve = Curve("distance slid", "m", nodes, "mu_k", root=True)
+        yield from self._remembered("run_in", "", slid, curve, {})
+
+    def _over_time(self) -> Iterator[Unknown]:
+        """Coefficient over the time in the run, whatever was slid."""
+        time = {run.track.run.name: run.track.time for run in self.runs}
+        nodes = np.linspace(0.0, max(values[-1] for values in time.values()), CURVE_NODES)
+        curve = Curve("time", "s", nodes, "mu_k")
+        yield from self._remembered("other.time", "", time, curve, {})
+
+    def _over_heat(self) -> Iterator[Unknown]:
+        """Coefficient over the friction heat that is remembered, of the contact or per weight."""
+        typical = float(np.mean([run.weight for run in self.runs]))
+        weights = {run.track.run.mass for run in self.runs}
+        count = round(2.0 * np.log2(LONGEST_MEMORY / SHORTEST_MEMORY)) + 1
+        for memory in np.geomspace(SHORTEST_MEMORY, LONGEST_MEMORY, count):
+            for per_weight in (False, True) if len(weights) > 1 else (False,):
+                heat = {}
+                for run in self.runs:
+                    power = self._sliding(run) * (typical if per_weight else run.weight)
+                    heat[run.track.run.name] = self.level.kinetic * _decaying(
+                        power, run.track.interval, memory
+                    )
+                most = max(values.max() for values in heat.values())
+                nodes = most * np.linspace(0.0, 1.0, CURVE_NODES - 3)
+                unit = "J per typical weight" if per_weight else "J"
+                yield from self._remembered(
+                    "thermal_weakening", f"memory {memory:.2g} s{', per weight' * per_weight}",
+                    heat, Curve("friction heat remembered", unit, nodes, "mu_k"),
+                    {"memory": memory, "per_weight": float(per_weight)},
+                )  # fmt: skip
+
+    def _remembered(
+        self, name: str, variant: str, values: dict[str, np.ndarray], curve: Curve,
+        settings: dict[str, float],
+    ) -> Iterator[Unknown]:  # fmt: skip
+        """A coefficient over what a run remembers: of mu_k alone, or mu_s falls by as much."""
+        for share in (0.0, 1.0):
+
+            def respond(run: RunRows, share: float = share) -> Response:
+                at = curve.at(values[run.track.run.name])
+                unit = self.level.kinetic * run.weight
+                static = share * unit * at[[event.at for event in run.events]]
+                return Response(force=unit * run.track.direction[:, None] * at, static=static)
+
+            words = ", ".join(filter(None, [variant, "mu_s too" if share else "mu_k alone"]))
+            yield Unknown.over(name, curve, respond, words, {**settings, "static": share})
+
+    def _trend(self, name: str, quantity: Callable[[RunRows], float]) -> Iterator[Unknown]:
+        """Both coefficients with the logarithm of a setting of the runs."""
+        logs = {run.track.run.name: float(np.log(quantity(run))) for run in self.runs}
+        middle, span = np.mean(list(logs.values())), np.ptp(list(logs.values()))
+        if span < 0.02:
+            return
+
+        def respond(run: RunRows) -> Response:
+            part = (logs[run.track.run.name] - middle) / span
+            kinetic = part * self.level.kinetic * run.weight * run.track.direction
+            static = np.full((len(run.events), 1), part * self.level.static * run.weight)
+            return Response(force=column(kinetic), static=static)
+
+        yield Unknown(name, "", respond, np.eye(1),
+                      settings={"middle": float(middle), "span": float(span)})  # fmt: skip
+
+    def _over_hold(self) -> Iterator[Unknown]:
+        """Static friction over the hold time before it."""
+        holds = [event.hold for run in self.runs for event in run.events]
+        if not holds or np.log(max(holds) / min(holds)) < LEAST_LOG_RANGE:
+            return
+        nodes = np.linspace(np.log(min(holds)), np.log(max(holds)), CURVE_NODES - 3)
+
+        def respond(run: RunRows) -> Response:
+            held = np.log([event.hold for event in run.events])
+            return Response(static=self.level.static * run.weight * curve.at(held))
+
+        curve = Curve("logarithm of the hold time", "ln s", nodes, "mu_s")
+        yield Unknown.over("static_strengthening", curve, respond)
+
+    def _since_release(self) -> Unknown:
+        """Coefficient over the time since the block let go: what a rest has built up goes."""
+        nodes = SINCE_RELEASE * np.linspace(0.0, 1.0, CURVE_NODES - 3)
+
+        def respond(run: RunRows) -> Response:
+            since = np.full(run.track.time.size, SINCE_RELEASE)
+            for first, last in run.track.slips:
+                since[first:last] = run.track.interval * np.arange(last - first)
+            at = curve.at(SINCE_RELEASE - since)[:, ::1]
+            unit = self.level.kinetic * run.weight
+            return Response(force=unit * run.track.direction[:, None] * at)
+
+        curve = Curve("time before the memory of the break-away ends", "s", nodes, "mu_k")
+        return Unknown.over("other.release", curve, respond)
+
+    def _largest(self, values: Callable[[RunRows], np.ndarray]) -> float:
+        """Of a quantity in slip, but for the last percent, which may be outliers."""
+        return max(
+            float(np.percentile(values(run)[run.track.slips_mask], SLIP_PERCENTILE))
+            for run in self.slipping
+        )
+
+    def _sliding(self, run: RunRows) -> np.ndarray:
+        """(n,) sliding speed, 0 in stick, m/s."""
+        return np.where(run.track.slips_mask, np.abs(run.track.sliding), 0.0)
+
+    def _slid(self, run: RunRows) -> np.ndarray:
+        """(n,) distance slid since the start, m."""
+        return np.cumsum(self._sliding(run)) * run.track.interval
+
+
+def _decaying(rate: np.ndarray, interval: float, memory: float) -> np.ndarray:
+    """(n,) integral of a rate that is forgotten within a memory, s."""
+    kept = np.exp(-interval / memory)
+    return np.asarray(lfilter([interval], [1.0, -kept], rate))

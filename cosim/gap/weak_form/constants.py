@@ -1,0 +1,78 @@
+"""Every number of the method that is chosen, with the reason for it."""
+
+from __future__ import annotations
+
+# Smoothing and regimes.
+#: Half width of the cubic that finds slips, in 1 / omega: its velocity is off by
+#: (omega w)^4 / 40 = 0.5 % of an oscillation's, and its noise is a third of that of w = 0.3.
+CUBIC_REACH = 0.65
+#: Half width of the quintic inside slips, in 1 / omega: off by 1e-3.
+QUINTIC_REACH = 1.0
+#: Samples count as even within this part of their interval: cubic interpolation is better below.
+EVEN = 0.01
+#: A hole is longer than so many intervals: interpolation across it is guesswork.
+HOLE = 2.5
+#: Sliding speed below which a contact may still be letting go, m/s, and part of the surface's:
+#: published Stribeck speeds of dry contacts are 1 to 8 mm/s.
+LEAST_SLIDING, LEAST_SLIDING_SHARE = 6e-3, 0.06
+#: Standard deviations of the smoothed velocity that noise alone does not reach in a record.
+VELOCITY_SIGMAS = 3.0
+#: In a slip the surface gets ahead of the block by more than so many standard deviations of a
+#: sample: some 2000 samples of noise alone do not.
+SLIP_SIGMAS = 8.0
+#: Next to a slip a stick is not counted as one for so long, in 1 / omega: the smoothed velocity
+#: still mixes both.
+STICK_MARGIN = 0.3
+
+# Test functions.
+#: Distance of the splines' knots, in 1 / omega: ten wave lengths of the free oscillation's motion
+#: fit into what is left of the spectrum, and a slip of half a period holds ten functions.
+KNOTS = 0.3
+
+# Break-aways.
+#: Of the largest deflection, the part that the surface's own speed may make: beyond it nearly all
+#: of the overshoot is the belt's, and what the contact held is the small difference of two numbers.
+MOST_OVERSHOOT = 0.8
+#: A stick shorter than this part of a period may be none.
+SHORTEST_STICK = 0.08
+
+# What a rig's own numbers may be beforehand: standard deviations.
+#: Of a tracker's zero in a run, m, where the campaign states none.
+ZERO = 5e-4
+#: Speed over which a contact's friction falls from static to kinetic, m/s, and by what part of
+#: mu_k: dry contacts fall over 1 to 8 mm/s.
+CONTACT_SPEED, CONTACT_FALL = 4e-3, 1.0
+#: Time by which a contact lets go sooner, or later, than an ideal one, s: bristles of 20 to 100 um
+#: on surfaces of 5 mm/s and more.
+CONTACT_DELAY = 0.02
+#: Part of the surface's speed at which a loaded contact creeps: under the fourth power of the load,
+#: and at any load (bristles of 100 um in a stroke of 10 mm).
+CREEP = (0.1, 0.01)
+#: Scatter of static friction alone, in parts of that of friction as a whole.
+OWN_STATIC = 0.25
+#: To what part of itself a break-away's force is read off in a run, beside its scatter.
+STATIC_FLOOR = 3e-3
+#: Scatter of friction from run to run: half-normal prior, and the values asked.
+SCATTER_PRIOR = 0.02
+SCATTER_ASKED = (0.002, 0.006, 0.02, 0.06)
+#: Spread of the tracker's zeros in parts of what is stated.
+ZERO_PARTS_ASKED = (0.1, 0.3, 1.0)
+
+# Arguments.
+#: Nodes of a curve: a law of one bend is followed to a thousandth.
+CURVE_NODES = 9
+#: The largest value of an argument in slip, but for outliers of the smoothed velocity.
+SLIP_PERCENTILE = 99.0
+#: Memories of friction heat that are tried, s: shorter ones are a law of the sliding speed, longer
+#: ones of the distance.
+SHORTEST_MEMORY, LONGEST_MEMORY = 0.5, 32.0
+#: Natural logarithm by which hold times must differ to tell of their law.
+LEAST_LOG_RANGE = 0.3
+#: Time after a break-away in which what a rest has built up may still be felt, s.
+SINCE_RELEASE = 0.5
+#: How far springs may be from what is stated where that is the finding, a part.
+WIDER_SPRINGS = 0.5
+#: Scales of an argument's curve that are tried, in parts of what it acts on.
+SCALES_ASKED = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0)
+#: Bends of a curve that are tried, in parts of its straight line.
+BENDS_ASKED = (0.03, 0.3, 1.0)

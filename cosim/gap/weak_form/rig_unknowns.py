@@ -1,0 +1,144 @@
+"""What is unknown of every rig, whatever its friction does.
+
+Rung 0 is the user's model: an ideal contact that holds mu_s N and slides at mu_k N, springs and
+zeros within their stated errors. Beside it, with names of their own: the contact, which is no
+switch, and the scatter of friction from run to run.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.gap.data import Campaign
+from cosim.gap.weak_form.constants import (
+    CONTACT_DELAY,
+    CONTACT_FALL,
+    CONTACT_SPEED,
+    CREEP,
+    OWN_STATIC,
+    STATIC_FLOOR,
+    ZERO,
+)
+from cosim.gap.weak_form.rows import Response, RunRows
+from cosim.gap.weak_form.unknowns import Unknown, column
+
+#: Names of what is of the rig.
+MU_K, MU_S, SPRINGS, ZERO_NAME, SPEED = "mu_k", "mu_s", "springs", "zero", "speed"
+CONTACT, SCATTER = "contact", "scatter"
+
+
+@dataclass(frozen=True)
+class Level:
+    """How large friction is, to state other numbers as parts of it."""
+
+    kinetic: float
+    static: float
+
+    @classmethod
+    def of(cls, runs: list[RunRows]) -> Level:
+        """Medians over the runs, of what balances springs and inertia in slip and at break-away."""
+        kinetic, static = [], []
+        for run in runs:
+            track = run.track
+            slips = track.slips_mask
+            if slips.any():
+                force = run.restoring[slips] + track.run.mass * track.acceleration[slips]
+                kinetic.append(np.median(force * track.direction[slips]) / run.weight)
+            static += [event.force / run.weight for event in run.events]
+        mu_k = abs(float(np.median(kinetic))) if kinetic else 0.2
+        return cls(max(mu_k, 1e-3), abs(float(np.median(static))) if static else 1.3 * mu_k)
+
+
+def rung_zero(campaign: Campaign, runs: list[RunRows]) -> list[Unknown]:
+    """Coefficients, springs of each set-up, zero of each run."""
+    setups = sorted({(run.track.run.mass, run.track.run.stiffness) for run in runs})
+    zero = ZERO if "zero" not in campaign.errors.model_fields_set else None
+
+    def sd_of_zero(run: RunRows) -> float:
+        return zero or campaign.errors.zero * run.track.run.noise["x"]
+
+    return [
+        Unknown(MU_K, "", lambda run: Response(force=column(run.weight * run.track.direction)),
+                np.eye(1)),
+        Unknown(MU_S, "", lambda run: Response(static=_static(run, run.weight)), np.eye(1)),
+        *(
+            Unknown(SPRINGS, f"{mass:g} kg, {stiffness:g} N/m", _springs(mass, stiffness),
+                    campaign.errors.stiffness**2 * np.eye(1))
+            for mass, stiffness in setups
+        ),
+        Unknown(ZERO_NAME, "", lambda run: Response(
+            place=np.full((run.track.time.size, 1), sd_of_zero(run))), np.eye(1), per_run=True),
+    ]  # fmt: skip
+
+
+def contact(level: Level) -> list[Unknown]:
+    """How the contact lets go: more friction at low speeds, less under fast loading, creep."""
+
+    def slow(run: RunRows) -> Response:
+        excess = np.exp(-np.abs(run.track.sliding) / CONTACT_SPEED)
+        return Response(force=column(run.weight * run.track.direction * excess))
+
+    def loading(run: RunRows) -> Response:
+        own = run.track.run
+        return Response(static=_static(run, own.total_stiffness * abs(own.surface_speed)))
+
+    def creep(run: RunRows) -> Response:
+        load = np.clip(np.abs(run.restoring) / (level.static * run.weight), 0.0, 1.0)
+        speed = run.track.run.surface_speed
+        return Response(speed=-speed * np.column_stack([load**4, np.ones_like(load)]))
+
+    return [
+        Unknown(CONTACT, "transition", slow, (CONTACT_FALL * level.kinetic) ** 2 * np.eye(1)),
+        Unknown(CONTACT, "loading", loading, CONTACT_DELAY**2 * np.eye(1)),
+        Unknown(CONTACT, "creep", creep, np.diag(np.square(CREEP))),
+    ]
+
+
+def scatter(level: Level) -> list[Unknown]:
+    """Friction of each run, kinetic and static together, and static friction alone by a part."""
+
+    def both(run: RunRows) -> Response:
+        kinetic = run.weight * level.kinetic * run.track.direction
+        return Response(force=column(kinetic), static=_static(run, run.weight * level.static))
+
+    def alone(run: RunRows) -> Response:
+        return Response(static=_static(run, run.weight * level.static))
+
+    return [
+        Unknown(SCATTER, "both", both, np.eye(1), per_run=True),
+        Unknown(SCATTER, "static", alone, OWN_STATIC**2 * np.eye(1), per_run=True),
+    ]
+
+
+def reading(level: Level) -> Unknown:
+    """How well break-aways are read off a track in a run, beside their scatter."""
+
+    def alone(run: RunRows) -> Response:
+        return Response(static=_static(run, run.weight * level.static))
+
+    return Unknown("break-away", "", alone, STATIC_FLOOR**2 * np.eye(1), per_run=True)
+
+
+def set_points(campaign: Campaign) -> Unknown:
+    """By which part the surface of each run is faster than stated."""
+
+    def faster(run: RunRows) -> Response:
+        return Response(speed=np.full((run.track.time.size, 1), run.track.run.surface_speed))
+
+    return Unknown(SPEED, "", faster, campaign.errors.surface_speed**2 * np.eye(1), per_run=True)
+
+
+def _static(run: RunRows, force: float) -> np.ndarray:
+    """(events, 1) the same force at every break-away, along the surface's motion, N."""
+    return np.full((len(run.events), 1), force)
+
+
+def _springs(mass: float, stiffness: float):
+    def stiffer(run: RunRows) -> Response:
+        on = float((run.track.run.mass, run.track.run.stiffness) == (mass, stiffness))
+        held = column([-on * event.force for event in run.events])
+        return Response(force=column(-on * run.restoring), static=held)
+
+    return stiffer

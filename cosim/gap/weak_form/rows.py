@@ -1,0 +1,242 @@
+"""What is measured of a run, as rows of unit noise; and what unknowns do to them.
+
+Three kinds of rows, each linear in what is unknown:
+
+slip        integral of phi (m x'' + F(x)) dt = integral of phi (friction + other forces) dt
+stick       integral of phi (x' - V) dt = integral of phi (what the surface is faster by) dt
+break-away  spring force at which the block let go = static friction
+
+phi are B-splines inside one slip or stick; x'' and x' go over to phi by parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.interpolate import BSpline
+from scipy.linalg import cholesky, solve_triangular
+from stickslip.packing import GRAVITY
+
+from cosim.gap.data.campaign_file import Rig
+from cosim.gap.weak_form.breakaway import BreakAway, break_aways
+from cosim.gap.weak_form.constants import KNOTS
+from cosim.gap.weak_form.rig_geometry import spring_force
+from cosim.gap.weak_form.track import SmoothTrack
+
+
+@dataclass(frozen=True)
+class Response:
+    """What unknowns, q of them, do to one run by each unit; None: nothing.
+
+    Attributes
+    ----------
+    force : (n, q) N, on the block along x while it slips
+    across : (n, q) N, the same along y
+    place : (n, q) m, by which the measured x is off
+    speed : (n, q) m/s, by which the surface is faster than its set-point
+    inertia : (q,) parts by which m x'' counts more
+    static : (events, q) N, by which the block holds more before it lets go
+    """
+
+    force: np.ndarray | None = None
+    across: np.ndarray | None = None
+    place: np.ndarray | None = None
+    speed: np.ndarray | None = None
+    inertia: np.ndarray | None = None
+    static: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class _Block:
+    """Rows of one stretch: weights on the grid, and the Cholesky factor of their covariance.
+
+    force : (r, n) weights of a force or a speed; place : (r, n) of the measured places;
+    inertia : (r, n) the part of ``place`` that stands for m x''
+    """
+
+    first: int
+    last: int
+    force: np.ndarray
+    place: np.ndarray
+    inertia: np.ndarray
+    factor: np.ndarray
+
+    def whitened(self, rows: np.ndarray) -> np.ndarray:
+        return solve_triangular(self.factor, rows, lower=True, check_finite=False)
+
+
+@dataclass(frozen=True)
+class RunRows:
+    """The rows of one run.
+
+    values : (rows,) of unit noise: slips, then y in slips, then sticks, then break-aways
+    kinds : (rows,) 0 slip, 1 across, 2 stick, 3 break-away
+    restoring : (n,) N, force with which the springs, as stated, pull the block back along x
+    """
+
+    track: SmoothTrack
+    rig: Rig
+    events: tuple[BreakAway, ...]
+    slip: tuple[_Block, ...] = field(repr=False)
+    across: tuple[_Block, ...] = field(repr=False)
+    stick: tuple[_Block, ...] = field(repr=False)
+    values: np.ndarray = field(repr=False)
+    kinds: np.ndarray = field(repr=False)
+    restoring: np.ndarray = field(repr=False)
+
+    @property
+    def weight(self) -> float:
+        """Normal force, N."""
+        return self.track.run.mass * GRAVITY
+
+    def __len__(self) -> int:
+        return self.values.size
+
+    def respond(self, response: Response, unknowns: int) -> np.ndarray:
+        """(rows, q) of unit noise."""
+        parts = [np.zeros((0, unknowns))]
+        parts += [_slip_part(block, response, unknowns, self.track) for block in self.slip]
+        parts += [_part(block, response.across, unknowns) for block in self.across]
+        parts += [_stick_part(block, response, unknowns) for block in self.stick]
+        parts.append(self._static(response, unknowns))
+        return np.concatenate(parts)
+
+    def _static(self, response: Response, unknowns: int) -> np.ndarray:
+        rows = np.zeros((len(self.events), unknowns))
+        if not self.events:
+            return rows
+        if response.static is not None:
+            rows = rows + response.static
+        if response.place is not None:
+            at = [event.at for event in self.events]
+            sign = np.sign(self.track.run.surface_speed)
+            rows = rows + sign * self.track.run.total_stiffness * response.place[at]
+        return rows / np.array([event.sd for event in self.events])[:, None]
+
+
+def _slip_part(
+    block: _Block, response: Response, unknowns: int, track: SmoothTrack
+) -> np.ndarray:
+    rows = np.zeros((block.force.shape[0], unknowns))
+    here = slice(block.first, block.last)
+    if response.force is not None:
+        rows = rows + block.force @ response.force[here]
+    if response.place is not None:
+        rows = rows + block.place @ response.place[here]
+    if response.inertia is not None:
+        rows = rows - np.outer(block.inertia @ track.x[here], response.inertia)
+    return block.whitened(rows)
+
+
+def _part(block: _Block, values: np.ndarray | None, unknowns: int) -> np.ndarray:
+    if values is None:
+        return np.zeros((block.force.shape[0], unknowns))
+    return block.whitened(block.force @ values[block.first : block.last])
+
+
+def _stick_part(block: _Block, response: Response, unknowns: int) -> np.ndarray:
+    rows = np.zeros((block.force.shape[0], unknowns))
+    here = slice(block.first, block.last)
+    if response.speed is not None:
+        rows = rows + block.force @ response.speed[here]
+    if response.place is not None:
+        rows = rows + block.place @ response.place[here]
+    return block.whitened(rows)
+
+
+def rows_of(track: SmoothTrack, rig: Rig, planar: bool = False) -> RunRows:
+    """Rows of a run. planar : those of y too, with the springs' force at the measured y and phi."""
+    run = track.run
+    knots = max(1, round(KNOTS / run.natural_frequency / track.interval))
+    y, phi = (track.y if planar else None), (track.phi if planar else None)
+    along, side = spring_force(
+        rig, run.stiffness, track.x, 0.0 if y is None else y, 0.0 if phi is None else phi
+    )
+    slip = _blocks(track, track.slips, _slip_weights(track, knots), run.noise["x"])
+    stick = _blocks(track, track.sticks, _stick_weights(track, knots), run.noise["x"])
+    values = [np.zeros(0)]
+    for block in slip:
+        here = slice(block.first, block.last)
+        values.append(
+            block.whitened(block.inertia @ track.x[here] - block.force @ along[here])
+        )
+    across = ()
+    if y is not None:
+        across = _blocks(
+            track, track.slips, _slip_weights(track, knots, _across_stiffness(rig, run)),
+            run.noise["y"],
+        )  # fmt: skip
+        for block in across:
+            here = slice(block.first, block.last)
+            values.append(block.whitened(block.inertia @ y[here] - block.force @ side[here]))
+    for block in stick:
+        here = slice(block.first, block.last)
+        driven = run.surface_speed * block.force.sum(axis=1)
+        values.append(block.whitened(block.place @ track.x[here] - driven))
+    events = break_aways(track, rig)
+    if events:
+        values.append(np.array([event.force / event.sd for event in events]))
+    counts = [sum(b.force.shape[0] for b in blocks) for blocks in (slip, across, stick)]
+    kinds = np.repeat([0, 1, 2, 3], [*counts, len(events)])
+    return RunRows(track, rig, events, slip, across, stick, np.concatenate(values), kinds, -along)
+
+
+def _across_stiffness(rig: Rig, run) -> float:
+    """N/m, of the four springs along y at rest: their tension over their length."""
+    pretension = (rig.spring_length - rig.spring_natural_length) / rig.spring_length
+    return max(run.total_stiffness * pretension, 1e-3 * run.total_stiffness)
+
+
+#: Weights of the samples of one spline: of a force, of the places, of the part m x''.
+_Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+def _slip_weights(track: SmoothTrack, knots: int, stiffness: float | None = None) -> _Weights:
+    """phi, m phi'' + K phi, m phi'' of a quintic spline at its inner samples."""
+    run = track.run
+    value, _, second = _spline(5, knots, track.interval)
+    inertia = run.mass * second
+    total = run.total_stiffness if stiffness is None else stiffness
+    return value, inertia + total * value, inertia
+
+
+def _stick_weights(track: SmoothTrack, knots: int) -> _Weights:
+    """phi, -phi' of a cubic spline."""
+    value, first, _ = _spline(3, knots, track.interval)
+    return value, -first, np.zeros_like(value)
+
+
+def _spline(degree: int, knots: int, interval: float) -> list[np.ndarray]:
+    """A B-spline and its first two derivatives, times the samples' interval, at inner samples."""
+    basis = BSpline.basis_element(np.arange(degree + 2), extrapolate=False)
+    at = np.arange(1, (degree + 1) * knots) / knots
+    step = knots * interval
+    return [interval * basis.derivative(n)(at) / step**n if n else interval * basis(at)
+            for n in range(3)]  # fmt: skip
+
+
+def _blocks(
+    track: SmoothTrack, stretches: tuple[tuple[int, int], ...], weights: _Weights, noise: float
+) -> tuple[_Block, ...]:
+    """Rows of every stretch that holds a spline, one for each shift by a knot."""
+    size = weights[0].size
+    knots = (size + 1) // (6 if weights[2].any() else 4)
+    blocks = []
+    for first, last in stretches:
+        shifts = np.arange(0, last - first - size + 1, knots)
+        if shifts.size == 0:
+            continue
+        rows = [np.zeros((shifts.size, last - first)) for _ in weights]
+        for row, shift in enumerate(shifts):
+            for matrix, weight in zip(rows, weights, strict=True):
+                matrix[row, shift : shift + size] = weight
+        noisy = rows[1] if track.samples is None else rows[1] @ track.samples[first:last]
+        covariance = noise**2 * (noisy @ noisy.T)
+        blocks.append(_Block(first, last, *rows, cholesky(covariance, lower=True)))
+    return tuple(blocks)
+
+
+#: An unknown's response, made from a run's rows.
+Responder = Callable[[RunRows], Response]

@@ -1,0 +1,278 @@
+"""The rows of a campaign and the evidence of unknowns in them.
+
+Rows of unit noise z = X b + e. Every unknown b has a Gaussian prior, so that the evidence is in
+closed form; what is shared by many unknowns and not known - how much friction scatters from run to
+run, how far the tracker's zeros lie apart, how strong and how bent a curve is - is averaged over a
+few values. With unit priors, X scaled by the standard deviations,
+
+    ln p(z) = -1/2 (z'z - w'w) - ln det L,    L L' = 1 + X'X,    L w = X'z.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import block_diag
+from scipy.special import logsumexp
+
+from cosim.gap.data import Campaign
+from cosim.gap.weak_form.constants import (
+    BENDS_ASKED,
+    SCALES_ASKED,
+    SCATTER_ASKED,
+    SCATTER_PRIOR,
+    ZERO_PARTS_ASKED,
+)
+from cosim.gap.weak_form.rig_unknowns import (
+    SCATTER,
+    ZERO_NAME,
+    Level,
+    contact,
+    reading,
+    rung_zero,
+    scatter,
+    set_points,
+)
+from cosim.gap.weak_form.rows import RunRows
+from cosim.gap.weak_form.unknowns import Unknown
+
+
+@dataclass(frozen=True)
+class Added:
+    """An unknown of unit prior: at the scale, and as bent, as the rows ask for.
+
+    factor : (q, q), from unit unknowns to those of the unknown's own columns
+    """
+
+    unknown: Unknown
+    scale: float = 1.0
+    bend: float = 0.0
+
+    @cached_property
+    def factor(self) -> np.ndarray:
+        prior = self.unknown.prior
+        if self.unknown.bends is not None:
+            prior = prior + self.bend**2 * self.unknown.bends
+        return self.scale * np.linalg.cholesky(prior)
+
+
+class System:
+    """Rows of the runs that are fitted, and those held out.
+
+    Attributes
+    ----------
+    runs, fitted, held_out : runs that have rows
+    level : of friction
+    rung_zero, contact, scatter : unknowns of every rig
+    """
+
+    def __init__(self, campaign: Campaign, runs: Sequence[RunRows]):
+        self.campaign = campaign
+        self.runs = [run for run in runs if len(run)]
+        self.fitted = [run for run in self.runs if not run.track.run.hold_out]
+        self.held_out = [run for run in self.runs if run.track.run.hold_out]
+        self.level = Level.of(self.runs)
+        self.rung_zero = [
+            *rung_zero(campaign, self.runs), reading(self.level), set_points(campaign),
+        ]  # fmt: skip
+        self.contact, self.scatter = contact(self.level), scatter(self.level)
+        self.rows = np.concatenate([np.zeros(0), *(run.values for run in self.fitted)])
+        self.square = float(self.rows @ self.rows)
+        self._columns: dict[int, np.ndarray] = {}
+        self._grams: dict[tuple[int, int], np.ndarray] = {}
+        self._rights: dict[int, np.ndarray] = {}
+        self._kept: list[Unknown] = []
+
+    def columns(self, unknown: Unknown) -> np.ndarray:
+        """(rows, unknowns) of the fitted runs; made once."""
+        if id(unknown) not in self._columns:
+            self._kept.append(unknown)  # its id must not be given to another
+            self._columns[id(unknown)] = unknown.columns(self.fitted)
+            self._rights[id(unknown)] = self._columns[id(unknown)].T @ self.rows
+        return self._columns[id(unknown)]
+
+    def gram(self, unknowns: Sequence[Unknown], others: Sequence[Unknown]) -> np.ndarray:
+        """X'Y of two lists of unknowns, from pairs that are made once."""
+        return np.block([[self._pair(a, b) for b in others] for a in unknowns])
+
+    def _pair(self, a: Unknown, b: Unknown) -> np.ndarray:
+        if (id(a), id(b)) not in self._grams:
+            product = self.columns(a).T @ self.columns(b)
+            self._grams[id(a), id(b)], self._grams[id(b), id(a)] = product, product.T
+        return self._grams[id(a), id(b)]
+
+    def right(self, unknowns: Sequence[Unknown]) -> np.ndarray:
+        """X'z"""
+        for unknown in unknowns:
+            self.columns(unknown)
+        return np.concatenate([self._rights[id(unknown)] for unknown in unknowns])
+
+    def rung(self, added: Sequence[Added] = (), contact: bool = True, scatter: bool = True) -> Rung:
+        """The rows with the rig's own unknowns and some more."""
+        base = [*self.rung_zero, *self.contact * contact, *self.scatter * scatter]
+        return Rung(self, tuple(Added(each) for each in base), tuple(added), scatter)
+
+
+@dataclass(frozen=True)
+class Rung:
+    """Rows with some unknowns: how probable they are, and what the unknowns are.
+
+    base : of the rig, with the priors that it states; added : arguments, at their scales
+    scatters : whether friction may scatter from run to run
+    """
+
+    system: System
+    base: tuple[Added, ...]
+    added: tuple[Added, ...]
+    scatters: bool
+
+    @property
+    def unknowns(self) -> tuple[Added, ...]:
+        return (*self.base, *self.added)
+
+    @cached_property
+    def settings(self) -> tuple[np.ndarray, np.ndarray]:
+        """(h, 2) scatter of friction and spread of the zeros in parts of what is stated; ln weights.
+
+        Evenly over the logarithms, up to what is stated: friction that repeats itself to 0.2 % and
+        a tracker that is off by a tenth of its stated error are as probable as any other.
+        """
+        spreads = np.array(SCATTER_ASKED) if self.scatters else np.zeros(1)
+        pairs = np.array([(s, z) for s in spreads for z in ZERO_PARTS_ASKED])
+        log_weights = -0.5 * np.square(pairs[:, 0] / SCATTER_PRIOR)
+        return pairs, log_weights - logsumexp(log_weights)
+
+    @cached_property
+    def _size(self) -> list[int]:
+        runs = len(self.system.fitted)
+        return [each.unknown.size * (runs if each.unknown.per_run else 1) for each in self.unknowns]
+
+    @cached_property
+    def _factor(self) -> np.ndarray:
+        """(Q, Q) from unit unknowns to columns, scatter and zeros at 1."""
+        runs = len(self.system.fitted)
+        return block_diag(
+            *(
+                np.kron(np.eye(runs), each.factor) if each.unknown.per_run else each.factor
+                for each in self.unknowns
+            )
+        )
+
+    @cached_property
+    def _deviations(self) -> np.ndarray:
+        """(h, Q) what the settings multiply the unit unknowns by."""
+        pairs, _ = self.settings
+        parts = []
+        for each, size in zip(self.unknowns, self._size, strict=True):
+            part = np.ones(len(pairs))
+            if each.unknown.name == SCATTER:
+                part = pairs[:, 0]
+            elif each.unknown.name == ZERO_NAME:
+                part = pairs[:, 1]
+            parts.append(np.repeat(part[:, None], size, axis=1))
+        return np.concatenate(parts, axis=1)
+
+    @cached_property
+    def _solved(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Cholesky factors (h, Q, Q), w (h, Q) and ln evidences (h,)."""
+        names = [each.unknown for each in self.unknowns]
+        gram = self._factor.T @ self.system.gram(names, names) @ self._factor
+        right = self._factor.T @ self.system.right(names)
+        scale = self._deviations
+        inner = scale[:, :, None] * gram * scale[:, None, :] + np.eye(gram.shape[0])
+        lower = np.linalg.cholesky(inner)
+        w = np.linalg.solve(lower, (scale * right)[:, :, None])[:, :, 0]
+        determinants = np.log(np.einsum("hii->hi", lower)).sum(axis=1)
+        evidences = -0.5 * (self.system.square - np.sum(w**2, axis=1)) - determinants
+        return lower, w, evidences
+
+    @property
+    def evidences(self) -> np.ndarray:
+        """(h,) ln evidence of each setting, with its weight."""
+        return self._solved[2] + self.settings[1]
+
+    @property
+    def evidence(self) -> float:
+        """ln evidence."""
+        return float(logsumexp(self.evidences))
+
+    @property
+    def best(self) -> int:
+        """Number of the most probable setting."""
+        return int(np.argmax(self.evidences))
+
+    def offered(self, variants: Sequence[Unknown]) -> tuple[float, Added]:
+        """ln evidence with one more argument, averaged over its variants, and the best of these."""
+        totals, best = [], []
+        for unknown in variants:
+            values = self._with(unknown)
+            totals.append(logsumexp(values))
+            scale, bend = np.unravel_index(int(np.argmax(values)), values.shape)
+            bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
+            best.append((totals[-1], Added(unknown, SCALES_ASKED[scale], bends[bend])))
+        return (
+            float(logsumexp(totals) - np.log(len(totals))),
+            max(best, key=lambda pair: pair[0])[1],
+        )
+
+    def _with(self, unknown: Unknown) -> np.ndarray:
+        """(scales, bends) ln evidence with one more unknown, each with its weight.
+
+        By the Schur complement of what is there already.
+        """
+        lower, w, evidences = self._solved
+        names = [each.unknown for each in self.unknowns]
+        cross = self._deviations[:, :, None] * (
+            self._factor.T @ self.system.gram(names, [unknown])
+        )
+        half = np.linalg.solve(lower, cross)  # (h, Q, q)
+        gram = self.system.gram([unknown], [unknown]) - np.einsum("hij,hik->hjk", half, half)
+        right = self.system.right([unknown]) - np.einsum("hij,hi->hj", half, w)
+        bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
+        values = np.empty((len(SCALES_ASKED), len(bends)))
+        weights = self.settings[1] - np.log(len(SCALES_ASKED) * len(bends))
+        for number, bend in enumerate(bends):
+            factor = Added(unknown, 1.0, bend).factor
+            if unknown.per_run:
+                factor = np.kron(np.eye(len(self.system.fitted)), factor)
+            for place, scale in enumerate(SCALES_ASKED):
+                inner = scale**2 * (factor.T @ gram @ factor) + np.eye(factor.shape[0])
+                inside = np.linalg.cholesky(inner)
+                turned = scale * (right @ factor)
+                v = np.linalg.solve(inside, turned[:, :, None])[:, :, 0]
+                more = 0.5 * np.sum(v**2, axis=1) - np.log(
+                    np.einsum("hii->hi", inside)
+                ).sum(axis=1)
+                values[place, number] = logsumexp(evidences + more + weights)
+        return values
+
+    @cached_property
+    def posterior(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mean (Q,) and covariance (Q, Q) of the columns' unknowns at the most probable setting."""
+        lower, w, _ = self._solved
+        factor = self._factor * self._deviations[self.best]
+        half = np.linalg.solve(lower[self.best], factor.T)
+        return half.T @ w[self.best], half.T @ half
+
+    @cached_property
+    def residuals(self) -> np.ndarray:
+        """(rows,) of the fitted runs, in units of the noise."""
+        columns = np.hstack([self.system.columns(each.unknown) for each in self.unknowns])
+        return self.system.rows - columns @ self.posterior[0]
+
+    def part(self, name: str) -> slice:
+        """Where the first unknowns of a name stand."""
+        first = 0
+        for each, size in zip(self.unknowns, self._size, strict=True):
+            if each.unknown.name == name:
+                return slice(first, first + size)
+            first += size
+        raise KeyError(name)
+
+    @property
+    def gap(self) -> float:
+        """Root mean square of the residuals: 1 is noise."""
+        return float(np.sqrt(np.mean(self.residuals**2)))

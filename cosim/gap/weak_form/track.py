@@ -1,0 +1,208 @@
+"""A run on an even grid: smoothed motion, sliding speed, slips and sticks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.signal import savgol_coeffs, savgol_filter
+
+from cosim.gap.data import MeasuredRun
+from cosim.gap.weak_form.constants import (
+    CUBIC_REACH,
+    EVEN,
+    HOLE,
+    LEAST_SLIDING,
+    LEAST_SLIDING_SHARE,
+    QUINTIC_REACH,
+    SLIP_SIGMAS,
+    STICK_MARGIN,
+    VELOCITY_SIGMAS,
+)
+
+
+@dataclass(frozen=True)
+class SmoothTrack:
+    """Motion of one run on a grid of n times.
+
+    Attributes
+    ----------
+    time, interval : (n,) s, and its step, s
+    samples : (n, m) sparse: grid values from the m samples of the file; None: they are the grid
+    x, y, phi : (n,) values on the grid (m, m, rad), not smoothed; None where not measured
+    place, velocity, acceleration : (n,) of x, smoothed by local polynomials
+    place_y, velocity_y : (n,) of y; zeros where it was not measured
+    sliding : (n,) speed of the surface less that of the block, m/s
+    seen : (n,) whether there are samples about it
+    slips, sticks : (first, last + 1) of their grid points
+    """
+
+    run: MeasuredRun
+    time: np.ndarray
+    interval: float
+    samples: sparse.csr_array | None
+    x: np.ndarray
+    y: np.ndarray | None
+    phi: np.ndarray | None
+    place: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+    place_y: np.ndarray
+    velocity_y: np.ndarray
+    sliding: np.ndarray
+    seen: np.ndarray
+    slips: tuple[tuple[int, int], ...]
+    sticks: tuple[tuple[int, int], ...]
+
+    @property
+    def direction(self) -> np.ndarray:
+        """(n,) sign of the sliding speed."""
+        return np.sign(self.sliding)
+
+    @property
+    def slips_mask(self) -> np.ndarray:
+        """(n,) whether the block slips."""
+        return mask(self.slips, self.time.size)
+
+    @property
+    def surface_place(self) -> np.ndarray:
+        """(n,) place on the surface that lies under the block, m, from the start of the run."""
+        return self.run.surface_speed * self.time - self.place
+
+
+def mask(stretches: tuple[tuple[int, int], ...], size: int) -> np.ndarray:
+    """(size,) whether a grid point is in one of the stretches."""
+    inside = np.zeros(size, dtype=bool)
+    for first, last in stretches:
+        inside[first:last] = True
+    return inside
+
+
+def smooth(run: MeasuredRun) -> SmoothTrack:
+    """The track of a run, smoothed twice: across everything to find the slips, then inside them.
+
+    A polynomial that reaches over a break-away would round it off; inside a slip the motion is that
+    of an oscillator, which a quintic over two radians follows to 1e-3.
+    """
+    track = run.motion
+    present = np.isfinite(track.x)
+    time, samples, seen = _grid(track.time[present])
+    interval = time[1] - time[0]
+
+    def values(channel: str) -> np.ndarray | None:
+        if channel not in track.channels:
+            return None
+        raw = track[channel][present]
+        raw = np.interp(track.time[present], track.time[present][np.isfinite(raw)],
+                        raw[np.isfinite(raw)])  # fmt: skip
+        return raw if samples is None else samples @ raw
+
+    x, y, phi = values("x"), values("y"), values("phi")
+    assert x is not None  # every track has it
+    omega = max(run.natural_frequency, _stiffer(x, interval, run))
+    rough = _derivatives(x, interval, _window(CUBIC_REACH / omega, interval), 3)
+    threshold = _sliding_threshold(run, interval)
+    sliding = run.surface_speed - rough[1]
+    slips = _real_slips(_stretches((np.abs(sliding) > threshold) & seen), sliding, run, interval)
+    sticks = _sticks(slips, seen, round(STICK_MARGIN / omega / interval))
+    fine = rough.copy()
+    window = _window(QUINTIC_REACH / omega, interval)
+    for first, last in slips:
+        size = min(window, (last - first - 1) // 2 * 2 + 1)
+        if size > 6:
+            fine[:, first:last] = _derivatives(x[first:last], interval, size, 5)
+    across = np.zeros((3, x.size)) if y is None else _derivatives(y, interval, window, 5)
+    return SmoothTrack(
+        run, time, interval, samples, x, y, phi, *fine, across[0], across[1],
+        run.surface_speed - fine[1], seen, slips, sticks,
+    )  # fmt: skip
+
+
+def _grid(time: np.ndarray) -> tuple[np.ndarray, sparse.csr_array | None, np.ndarray]:
+    """An even grid, the cubic interpolation to it from the samples, and where samples are near."""
+    interval = float(np.median(np.diff(time)))
+    count = round((time[-1] - time[0]) / interval) + 1
+    grid = time[0] + interval * np.arange(count)
+    if count == time.size and np.max(np.abs(grid - time)) < EVEN * interval:
+        return grid, None, np.ones(count, dtype=bool)
+    first = np.clip(np.searchsorted(time, grid) - 2, 0, time.size - 4)
+    nodes = first[:, None] + np.arange(4)
+    near = time[nodes]
+    weights = np.ones((count, 4))
+    for a in range(4):
+        for b in range(4):
+            if a != b:
+                weights[:, a] *= (grid - near[:, b]) / (near[:, a] - near[:, b])
+    rows = np.repeat(np.arange(count), 4)
+    samples = sparse.csr_array(
+        (weights.ravel(), (rows, nodes.ravel())), shape=(count, time.size)
+    )
+    seen = (near[:, 2] - near[:, 1]) < HOLE * interval
+    return grid, samples, seen
+
+
+def _window(reach: float, interval: float) -> int:
+    """Samples of a window that reaches so many seconds to either side; odd, 5 at least."""
+    return 2 * max(2, round(reach / interval)) + 1
+
+
+def _derivatives(values: np.ndarray, interval: float, window: int, degree: int) -> np.ndarray:
+    """(3, n) value, first and second derivative by local polynomials (Savitzky and Golay 1964)."""
+    window = min(window, (values.size - 1) // 2 * 2 + 1)
+    degree = min(degree, window - 2)
+    return np.array(
+        [
+            savgol_filter(values, window, degree, deriv, interval, mode="interp")
+            for deriv in range(3)
+        ]
+    )
+
+
+def _sliding_threshold(run: MeasuredRun, interval: float) -> float:
+    """Sliding speed above which a block slips, m/s: beyond the contact's own and the noise's."""
+    window = _window(CUBIC_REACH / run.natural_frequency, interval)
+    weights = savgol_coeffs(window, 3, 1, interval)
+    noise = run.noise["x"] * float(np.sqrt(np.sum(weights**2)))
+    speed = abs(run.surface_speed)
+    return max(LEAST_SLIDING, LEAST_SLIDING_SHARE * speed, VELOCITY_SIGMAS * noise)
+
+
+def _stiffer(x: np.ndarray, interval: float, run: MeasuredRun) -> float:
+    """Frequency of the swings as they are, rad/s: springs may be far stiffer than stated.
+
+    From the slope of x'' over x where the block moves against the surface.
+    """
+    window = _window(0.5 * CUBIC_REACH / run.natural_frequency, interval)
+    place, velocity, acceleration = _derivatives(x, interval, window, 3)
+    moving = np.abs(run.surface_speed - velocity) > 0.5 * abs(run.surface_speed)
+    if moving.sum() < 10 or np.ptp(place[moving]) == 0.0:
+        return 0.0
+    return float(np.sqrt(max(-np.polyfit(place[moving], acceleration[moving], 1)[0], 0.0)))
+
+
+def _real_slips(
+    slips: tuple[tuple[int, int], ...], sliding: np.ndarray, run: MeasuredRun, interval: float
+) -> tuple[tuple[int, int], ...]:
+    """Without those that are noise: in a slip the surface gets ahead by more than noise can."""
+    ahead = [abs(float(np.sum(sliding[a:b]))) * interval for a, b in slips]
+    least = SLIP_SIGMAS * run.noise["x"]
+    return tuple(slip for slip, travel in zip(slips, ahead, strict=True) if travel > least)
+
+
+def _sticks(
+    slips: tuple[tuple[int, int], ...], seen: np.ndarray, margin: int
+) -> tuple[tuple[int, int], ...]:
+    """What lies between slips, less a margin at either end; holes of the record part it."""
+    still = seen & ~mask(slips, seen.size)
+    return tuple(
+        (first + margin, last - margin)
+        for first, last in _stretches(still)
+        if last - first > 2 * margin
+    )
+
+
+def _stretches(inside: np.ndarray) -> tuple[tuple[int, int], ...]:
+    """(first, last + 1) of every run of true values."""
+    steps = np.diff(np.concatenate([[0], inside.astype(int), [0]]))
+    return tuple(zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True))
