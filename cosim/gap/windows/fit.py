@@ -25,7 +25,7 @@ SETTLED = 1e-5
 #: Most evaluations of a fit, and of one that only shows which start leads on.
 MOST_TRIES, FIRST_TRIES = 40, 8
 #: Gap up to which cycles are in step with the data: there is then no other minimum to look for.
-IN_STEP = 3.0
+IN_STEP = 1.1
 #: Fits in a row, each from states found anew, as long as one leads on by this part.
 REPEATS, LEADS_ON = 3, 1e-3
 #: A window whose misfit grows by this factor in a step has lost its course.

@@ -24,11 +24,14 @@ LEVEL = 1e-6
 SHORTER = (1.0, 0.2)
 #: Rounds of Gauss-Newton, and the relative gain below which they end.
 ROUNDS, GAIN = 6, 1e-3
-#: Velocities from which a window that is off course sets out again, in parts of the surface's.
-VELOCITIES = (0.95, 0.8, 0.5, 0.0, -0.5)
-#: A window is off course whose mean square exceeds the run's median window's, and the noise's, by
-#: this factor.
-OFF_COURSE = 4.0
+#: Changes of x, in units of the noise, and of vx, in parts of the surface's velocity, with which a
+#: window that is off course sets out again: whether the block sticks at once or in the next cycle
+#: hangs on them, and small ones do not show it.
+CHANGES = ((0.0, -1.0), (0.0, -0.3), (0.0, -0.05), (0.0, 0.05), (0.0, 0.3), (-2.0, 0.0), (2.0, 0.0))
+#: At first, when the numbers are off as well, a window is off course whose mean square exceeds the
+#: run's median window's, and the noise's, by this factor; at last, when any may be in which the
+#: block barely sticks, one whose mean square exceeds that of the noise by the second.
+OFF_COURSE, AT_LAST = 4.0, 1.2
 
 
 @dataclass(frozen=True)
@@ -114,18 +117,21 @@ class StartStates:
     def found(self, values, p: np.ndarray) -> Started:
         """The best states from those read off the data."""
         at = self.started(values, self.read_off(values), p)
-        return self.retried(values, self.settled(values, at, p), p)
+        return self.retried(values, self.settled(values, at, p), p, at_last=False)
 
-    def retried(self, values, at: Started, p: np.ndarray) -> Started:
+    def retried(self, values, at: Started, p: np.ndarray, at_last: bool = True) -> Started:
         """Windows off course set out from a few other velocities; the very same if none gains."""
         rows = np.diff([*self.model.starts, self.model.size])
         mean = self.squares(at) / rows
-        lost = (mean > OFF_COURSE * max(float(np.median(mean)), 1.0)) & self.free[:, 3]
+        limit = AT_LAST if at_last else OFF_COURSE * max(float(np.median(mean)), 1.0)
+        lost = (mean > limit) & self.free[:, 3]
         best = at
-        for part in VELOCITIES if lost.any() else ():
+        scales = np.array([self.model.run.noise["x"], self.model.run.surface_speed])
+        for change in CHANGES if lost.any() else ():
             states = at.states.copy()
-            states[lost, :2] = self.model.windows.states[lost, :2]
-            states[lost, 3] = part * self.model.run.surface_speed
+            read_off = self.read_off(values)
+            states[lost, :2] = read_off[lost, :2]
+            states[np.ix_(lost, [0, 3])] = read_off[np.ix_(lost, [0, 3])] + change * scales
             tried = self.started(values, states, p)
             best = self.better(best, self.settled(values, tried, p, rounds=2))
         return best

@@ -24,8 +24,8 @@ REACH = 6
 SHORTEST_STICK = 1.0 / 6.0
 #: No window is shorter than this part of the others: the rest of a run joins the last one.
 REMNANT = 0.5
-#: Sticks that follow each other fill this part of a run, or they do not set its cycle.
-STICKING = 0.5
+#: Part of the free vibration's period below which no cycle lasts: sticks only make it longer.
+FASTEST = 0.8
 #: Motion across the surface is seen where its scatter or its mean exceeds that of the noise so much
 #: (a mean, so many standard deviations: 3 of 1000 channels at rest).
 SCATTER, MEAN = 0.5, 3.0
@@ -96,13 +96,14 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
 
 
 def cycle(run: MeasuredRun) -> float:
-    """Period of stick-slip where sticks follow each other all along, else 2 pi / omega, s."""
-    starts = np.array([stick.start for stick in sticks_of(run)])
-    if starts.size > 2:
-        period = float(np.median(np.diff(starts)))
-        if period * starts.size > STICKING * run.motion.duration:
-            return period
-    return 2.0 * math.pi / run.natural_frequency
+    """Period of the motion, s: of upward crossings of the mean of x, else 2 pi / omega."""
+    free = 2.0 * math.pi / run.natural_frequency
+    seen = np.isfinite(run.motion.x)
+    time, level = run.motion.time[seen], run.motion.x[seen] - np.nanmean(run.motion.x)
+    clear = np.abs(level) > max(0.2 * float(np.std(level)), 3.0 * run.noise["x"])
+    time, above = time[clear], level[clear] > 0.0
+    up = time[1:][above[1:] & ~above[:-1]]
+    return max(float(np.median(np.diff(up))), FASTEST * free) if up.size > 3 else free
 
 
 def _starts(
