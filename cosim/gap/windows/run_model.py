@@ -33,8 +33,25 @@ UNEVEN = [
     if effect.enters == "surface" or effect.axis == "place"
     for name in effect.switch
 ]
+FRICTION = ("friction.mu_s", "friction.mu_k")
 #: Points of a table of friction, in parts of mu_k, which then scales the whole table.
 TABLE_PART = "friction.table_part["
+#: Of the tracker and the drive, not of the block.
+OUTSIDE = ("offset.", "measurement.")
+
+
+def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, float]:
+    """``block.parameter`` -> value in the kernel, of a run's own values (see `Number.key`)."""
+    flat = {key: value for key, value in values.items() if not key.startswith(OUTSIDE)}
+    stiffness = values.get("springs.stiffness", 1.0) * run.stiffness
+    flat["springs.stiffness"] = stiffness * math.exp(values.get("offset.stiffness", 0.0))
+    for key in FRICTION:
+        if key in flat:
+            flat[key] *= math.exp(values.get("offset.friction", 0.0))
+    for key in [key for key in flat if key.startswith(TABLE_PART)]:
+        part = flat.pop(key)
+        flat[key.replace("table_part", "table_mu")] = part * flat["friction.mu_k"]
+    return flat
 
 
 class RunModel:
@@ -52,6 +69,7 @@ class RunModel:
         with warnings.catch_warnings(action="ignore"):  # friction is not known yet
             parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
         self.known = dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
+        self.friction = {key: self.known[key] for key in FRICTION}
         if not windows.is_planar:
             self.known |= {"rig.free_y": 0.0, "rig.free_phi": 0.0}
         data = np.column_stack([run.motion[name] for name in windows.channels])
@@ -75,14 +93,7 @@ class RunModel:
 
     def packed(self, values: Mapping[str, float]) -> np.ndarray:
         """The kernel's parameters, of this run's values."""
-        flat = {**self.known, **{k: v for k, v in values.items() if not k.startswith("offset.")}}
-        stiffness = values.get("springs.stiffness", 1.0) * self.known["springs.stiffness"]
-        flat["springs.stiffness"] = stiffness * math.exp(values.get("offset.stiffness", 0.0))
-        for key in ("friction.mu_s", "friction.mu_k"):
-            flat[key] *= math.exp(values.get("offset.friction", 0.0))
-        for key in [key for key in flat if key.startswith(TABLE_PART)]:
-            part = flat.pop(key)
-            flat[key.replace("table_part", "table_mu")] = part * flat["friction.mu_k"]
+        flat = {**self.known, **parameters_of(self.run, {**self.friction, **values})}
         p = np.array(pack(flat))
         p[layout.P_FEW_POINTS] = FEW_POINTS
         p[layout.P_LONGEST_STEP] *= LONGER
