@@ -76,3 +76,16 @@ WIDER_SPRINGS = 0.5
 SCALES_ASKED = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0)
 #: Bends of a curve that are tried, in parts of its straight line.
 BENDS_ASKED = (0.03, 0.3, 1.0)
+
+# Waves.
+#: Harmonics of a wave's shape: bumps of a fifth of the wave length.
+HARMONICS = 4
+#: Wavenumbers are scanned at so many steps within the resolution 1 / (length of a run).
+SCAN_STEPS = 4
+#: Grid steps of a run within the shortest wave: test functions see no shorter one.
+WAVES_PER_SAMPLE = 8.0
+#: Peaks of the scan that are fitted as one shape.
+WAVES_FITTED = 3
+#: Standard deviation of a phase of which nothing is known, rad (even over a turn), and rounds in
+#: which phases and shape follow one another.
+PHASE_SD, PHASE_ROUNDS = 1.8, 6

@@ -15,8 +15,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy import sparse
 from scipy.interpolate import BSpline
-from scipy.linalg import cholesky, solve_triangular
+from scipy.linalg import cholesky_banded
+from scipy.linalg.lapack import dtbtrs
 from stickslip.packing import GRAVITY
 
 from cosim.gap.data.campaign_file import Rig
@@ -53,18 +55,23 @@ class _Block:
     """Rows of one stretch: weights on the grid, and the Cholesky factor of their covariance.
 
     force : (r, n) weights of a force or a speed; place : (r, n) of the measured places;
-    inertia : (r, n) the part of ``place`` that stands for m x''
+    inertia : (r, n) the part of ``place`` that stands for m x''; all sparse, as splines overlap
+    few others. factor : lower bands of the factor
     """
 
     first: int
     last: int
-    force: np.ndarray
-    place: np.ndarray
-    inertia: np.ndarray
+    force: sparse.csr_array
+    place: sparse.csr_array
+    inertia: sparse.csr_array
     factor: np.ndarray
 
     def whitened(self, rows: np.ndarray) -> np.ndarray:
-        return solve_triangular(self.factor, rows, lower=True, check_finite=False)
+        """(r,) or (r, q) rows of unit noise."""
+        solved, info = dtbtrs(self.factor, rows, uplo="L")
+        if info != 0:
+            raise ArithmeticError(f"dtbtrs: {info}")
+        return solved.reshape(rows.shape)
 
 
 @dataclass(frozen=True)
@@ -173,7 +180,7 @@ def rows_of(track: SmoothTrack, rig: Rig, planar: bool = False) -> RunRows:
             values.append(block.whitened(block.inertia @ y[here] - block.force @ side[here]))
     for block in stick:
         here = slice(block.first, block.last)
-        driven = run.surface_speed * block.force.sum(axis=1)
+        driven = run.surface_speed * np.asarray(block.force.sum(axis=1)).ravel()
         values.append(block.whitened(block.place @ track.x[here] - driven))
     events = break_aways(track, rig)
     if events:
@@ -228,14 +235,23 @@ def _blocks(
         shifts = np.arange(0, last - first - size + 1, knots)
         if shifts.size == 0:
             continue
-        rows = [np.zeros((shifts.size, last - first)) for _ in weights]
-        for row, shift in enumerate(shifts):
-            for matrix, weight in zip(rows, weights, strict=True):
-                matrix[row, shift : shift + size] = weight
+        at = (np.repeat(np.arange(shifts.size), size), (shifts[:, None] + np.arange(size)).ravel())
+        shape = (shifts.size, last - first)
+        rows = [sparse.csr_array((np.tile(w, shifts.size), at), shape=shape) for w in weights]
         noisy = rows[1] if track.samples is None else rows[1] @ track.samples[first:last]
-        covariance = noise**2 * (noisy @ noisy.T)
-        blocks.append(_Block(first, last, *rows, cholesky(covariance, lower=True)))
+        blocks.append(_Block(first, last, *rows, _factor(noise**2 * (noisy @ noisy.T))))
     return tuple(blocks)
+
+
+def _factor(covariance: sparse.csr_array) -> np.ndarray:
+    """Lower bands (b, r) of the Cholesky factor of a banded covariance (r, r)."""
+    entries = covariance.tocoo()
+    below = entries.row - entries.col
+    width = int(below.max()) + 1
+    bands = np.zeros((width, covariance.shape[0]))
+    lower = below >= 0
+    bands[below[lower], entries.col[lower]] = entries.data[lower]
+    return np.asarray(cholesky_banded(bands, lower=True))
 
 
 #: An unknown's response, made from a run's rows.

@@ -113,7 +113,7 @@ class System:
     def rung(self, added: Sequence[Added] = (), contact: bool = True, scatter: bool = True) -> Rung:
         """The rows with the rig's own unknowns and some more."""
         base = [*self.rung_zero, *self.contact * contact, *self.scatter * scatter]
-        return Rung(self, tuple(Added(each) for each in base), tuple(added), scatter)
+        return Rung(self, tuple(Added(each) for each in base), tuple(added), (contact, scatter))
 
 
 @dataclass(frozen=True)
@@ -121,13 +121,13 @@ class Rung:
     """Rows with some unknowns: how probable they are, and what the unknowns are.
 
     base : of the rig, with the priors that it states; added : arguments, at their scales
-    scatters : whether friction may scatter from run to run
+    kinds : whether the contact is no switch, and whether friction may scatter from run to run
     """
 
     system: System
     base: tuple[Added, ...]
     added: tuple[Added, ...]
-    scatters: bool
+    kinds: tuple[bool, bool]
 
     @property
     def unknowns(self) -> tuple[Added, ...]:
@@ -140,7 +140,7 @@ class Rung:
         Evenly over the logarithms, up to what is stated: friction that repeats itself to 0.2 % and
         a tracker that is off by a tenth of its stated error are as probable as any other.
         """
-        spreads = np.array(SCATTER_ASKED) if self.scatters else np.zeros(1)
+        spreads = np.array(SCATTER_ASKED) if self.kinds[1] else np.zeros(1)
         pairs = np.array([(s, z) for s in spreads for z in ZERO_PARTS_ASKED])
         log_weights = -0.5 * np.square(pairs[:, 0] / SCATTER_PRIOR)
         return pairs, log_weights - logsumexp(log_weights)
@@ -271,6 +271,15 @@ class Rung:
                 return slice(first, first + size)
             first += size
         raise KeyError(name)
+
+    def part_of(self, added: Added) -> slice:
+        """Where an added unknown's numbers stand."""
+        first = 0
+        for each, size in zip(self.unknowns, self._size, strict=True):
+            if each is added:
+                return slice(first, first + size)
+            first += size
+        raise KeyError(added.unknown.name)
 
     @property
     def gap(self) -> float:

@@ -1,0 +1,218 @@
+"""What is periodic: friction in the place on the surface, the surface's speed in time.
+
+A wave of one shape in all runs, each with its own phase, as nobody marks the belt. Wave lengths are
+scanned with what the rows leave; the best few are fitted as one shape, whose phases are linear
+unknowns about where they were found, so that the evidence has their price in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cosim.gap.weak_form.constants import (
+    HARMONICS,
+    PHASE_ROUNDS,
+    PHASE_SD,
+    SCAN_STEPS,
+    WAVES_FITTED,
+    WAVES_PER_SAMPLE,
+)
+from cosim.gap.weak_form.rows import Response, RunRows
+from cosim.gap.weak_form.system import Added, Rung
+from cosim.gap.weak_form.unknowns import Unknown
+
+#: run -> (n,) coordinate of the wave; and (run, (n, q) waves) -> what a wave of unit size does.
+Coordinate = Callable[[RunRows], np.ndarray]
+Effect = Callable[[RunRows, np.ndarray], Response]
+
+
+@dataclass(frozen=True)
+class Periodic:
+    """A kind of wave.
+
+    name : effect or other finding; unit : of the coordinate ("m", "s")
+    """
+
+    name: str
+    variant: str
+    coordinate: Coordinate
+    effect: Effect
+    unit: str
+
+
+def kinds(level_of_friction: float, has_events: bool = True) -> tuple[Periodic, ...]:
+    """Friction over the place, the surface's speed over time or travel, friction over time."""
+
+    def friction(run: RunRows, waves: np.ndarray) -> Response:
+        unit = level_of_friction * run.weight
+        static = unit * waves[[event.at for event in run.events]] if run.events else None
+        return Response(force=unit * run.track.direction[:, None] * waves, static=static)
+
+    def speed(run: RunRows, waves: np.ndarray) -> Response:
+        return Response(speed=run.track.run.surface_speed * waves)
+
+    def shaken(run: RunRows, waves: np.ndarray) -> Response:
+        return Response(force=level_of_friction * run.weight * waves)
+
+    def time(run: RunRows) -> np.ndarray:
+        return run.track.time
+
+    def travel(run: RunRows) -> np.ndarray:
+        return abs(run.track.run.surface_speed) * run.track.time
+
+    return (
+        Periodic("surface_pattern", "", lambda run: run.track.surface_place, friction, "m"),
+        Periodic("speed_ripple", "in time", time, speed, "s"),
+        Periodic("speed_ripple", "in travel", travel, speed, "m"),
+        Periodic("other.shaking", "", time, shaken, "s"),
+    )
+
+
+def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | None:
+    """ln evidence with the best wave of a kind, and what is added; None where none fits in."""
+    wavenumbers = _wavenumbers(rung.system.fitted, kind)
+    if wavenumbers.size == 0:
+        return None
+    gains, _ = _scan(rung, kind, wavenumbers)
+    best: tuple[float, tuple[Added, ...]] | None = None
+    for number in _peaks(gains)[:WAVES_FITTED]:
+        found = _as_one_shape(rung, kind, float(wavenumbers[number]))
+        if best is None or found[0] > best[0]:
+            best = found
+    if best is None:
+        return None
+    return best[0] - float(np.log(wavenumbers.size / SCAN_STEPS)), best[1]
+
+
+def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
+    """(w,) 1/m or 1/s, finely enough: from a wave that a run sees twice to what its rows resolve."""
+    spans, steps = [], []
+    for run in runs:
+        at = kind.coordinate(run)
+        spans.append(np.ptp(at))
+        steps.append(np.ptp(at) / at.size)
+    longest, finest = max(spans), WAVES_PER_SAMPLE * min(steps)
+    if longest / 2.0 <= finest:
+        return np.empty(0)
+    return np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
+
+
+def _scan(
+    rung: Rung, kind: Periodic, wavenumbers: np.ndarray
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """(w,) what free phases and sizes would take of the residuals' squares; the phases of each run."""
+    gains, phases = np.zeros(wavenumbers.size), []
+    first = 0
+    for run in rung.system.fitted:
+        rows = rung.residuals[first : first + len(run)]
+        first += len(run)
+        angles = 2.0 * np.pi * np.outer(kind.coordinate(run), wavenumbers)
+        cosines = run.respond(kind.effect(run, np.cos(angles)), wavenumbers.size)
+        sines = run.respond(kind.effect(run, np.sin(angles)), wavenumbers.size)
+        cc, ss, cs = (np.sum(a * b, axis=0) for a, b in
+                      ((cosines, cosines), (sines, sines), (cosines, sines)))  # fmt: skip
+        c, s = rows @ cosines, rows @ sines
+        determinant = cc * ss - cs**2
+        seen = determinant > 1e-9 * (cc + ss + 1e-300) ** 2
+        safe = np.where(seen, determinant, 1.0)
+        a, b = (ss * c - cs * s) / safe, (cc * s - cs * c) / safe
+        gains += np.where(seen, a * c + b * s, 0.0)
+        phases.append(np.where(seen, np.arctan2(b, a), 0.0))
+    return gains, phases
+
+
+def _peaks(gains: np.ndarray) -> list[int]:
+    """Numbers of local maxima, the largest first."""
+    padded = np.concatenate([[-np.inf], gains, [-np.inf]])
+    tops = np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
+    return [int(top) for top in tops[np.argsort(-gains[tops])]]
+
+
+def _as_one_shape(
+    rung: Rung, kind: Periodic, wavenumber: float
+) -> tuple[float, tuple[Added, ...]]:
+    """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber."""
+    _, found = _scan(rung, kind, np.array([wavenumber]))
+    names = [run.track.run.name for run in rung.system.fitted]
+    phases = {name: float(phase[0]) for name, phase in zip(names, found, strict=True)}
+    wave = Wave(kind, wavenumber, phases)
+    best: tuple[float, tuple[Added, ...]] | None = None
+    for _ in range(PHASE_ROUNDS):
+        _, shape = rung.offered([wave.shape()])
+        here = rung.system.rung([*rung.added, shape], *rung.kinds)
+        mean = here.posterior[0][here.part_of(shape)]
+        sd = 0.5 / SCAN_STEPS / max(np.ptp(kind.coordinate(run)) for run in rung.system.fitted)
+        turn, stretch = Added(wave.turned(mean)), Added(wave.stretched(mean, sd))
+        moving = rung.system.rung([*rung.added, shape, turn, stretch], *rung.kinds)
+        if best is None or moving.evidence > best[0]:
+            best = (moving.evidence, (shape, turn, stretch))
+        turns = moving.posterior[0][moving.part_of(turn)]
+        more = float(moving.posterior[0][moving.part_of(stretch)][0])
+        wave = wave.moved(dict(zip(names, turns, strict=True)), more)
+    assert best is not None
+    return best
+
+
+@dataclass(frozen=True)
+class Wave:
+    """A wave with a phase of each run: cos and sin of harmonics of 2 pi wavenumber s - phase."""
+
+    kind: Periodic
+    wavenumber: float
+    phases: dict[str, float]
+
+    @property
+    def settings(self) -> dict[str, float]:
+        return {"wavenumber": self.wavenumber, **{f"phase@{n}": p for n, p in self.phases.items()}}
+
+    def angle(self, run: RunRows) -> np.ndarray:
+        """(n,) rad"""
+        phase = self.phases.get(run.track.run.name, 0.0)
+        return 2.0 * np.pi * self.wavenumber * self.kind.coordinate(run) - phase
+
+    def shape(self) -> Unknown:
+        """Sizes of the harmonics, smaller the higher."""
+
+        def respond(run: RunRows) -> Response:
+            angle = np.outer(self.angle(run), np.arange(1, HARMONICS + 1))
+            return self.kind.effect(run, np.hstack([np.cos(angle), np.sin(angle)]))
+
+        sizes = np.tile(1.0 / np.arange(1, HARMONICS + 1) ** 1.5, 2)
+        words = f"{1.0 / self.wavenumber:.3g} {self.kind.unit}"
+        variant = " ".join(filter(None, [self.kind.variant, words]))
+        return Unknown(self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings)
+
+    def turned(self, sizes: np.ndarray) -> Unknown:
+        """What a turn of a run's phase, rad, does to a wave of these sizes (2 HARMONICS,)."""
+
+        def respond(run: RunRows) -> Response:
+            return self.kind.effect(run, -self._slope(run, sizes)[:, None])
+
+        name = f"{self.kind.name}: phase"
+        return Unknown(name, "", respond, PHASE_SD**2 * np.eye(1), per_run=True)
+
+    def stretched(self, sizes: np.ndarray, sd: float) -> Unknown:
+        """What another wavenumber does to it; sd : by how much it may be off."""
+
+        def respond(run: RunRows) -> Response:
+            longer = 2.0 * np.pi * self.kind.coordinate(run)
+            return self.kind.effect(run, (longer * self._slope(run, sizes))[:, None])
+
+        return Unknown(f"{self.kind.name}: wavenumber", "", respond, sd**2 * np.eye(1))
+
+    def _slope(self, run: RunRows, sizes: np.ndarray) -> np.ndarray:
+        """(n,) derivative of the wave by its angle."""
+        orders = np.arange(1, HARMONICS + 1)
+        angle = np.outer(self.angle(run), orders)
+        return np.hstack([-orders * np.sin(angle), orders * np.cos(angle)]) @ sizes
+
+    def moved(self, turns: dict[str, float], more: float) -> Wave:
+        """With phases turned by so much, rad, half a turn at most, and another wavenumber."""
+        phases = {
+            name: phase + float(np.clip(turns.get(name, 0.0), -np.pi, np.pi))
+            for name, phase in self.phases.items()
+        }
+        return Wave(self.kind, self.wavenumber + more, phases)
