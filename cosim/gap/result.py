@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.windows.fitted import Fitted
 
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+#: What draws; loaded when asked for.
+NOTEBOOK = "cosim.gap.show.notebook"
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "partial", "unknown")
 
@@ -212,6 +219,26 @@ class Gap:
     doubts: tuple[Doubt, ...] = ()
     remarks: tuple[str, ...] = ()
     lacks: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Verdict and gap in one line; everything else is in its attributes."""
+        named = f" {', '.join(self.effects)}" if self.effects else ""
+        fit, left = self.before.fit, self.after.fit
+        return f"<Gap of {self.campaign.name}: {self.verdict}{named}; fit {fit:.3g} -> {left:.3g}>"
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Every run as measured and as the models have it over ``sample`` (n,), with units, and
+        figures of each run over ``run`` (r,); all of `gap.json` as the attribute `gap`."""
+        dataset: xarray.Dataset = import_module(NOTEBOOK).gap_dataset(self)
+        return dataset
+
+    def plot(self, figure: str = "ladder") -> Figure:
+        """One of the figures of the page: ladder, curve, run, residuals, overlay_x, ...
+
+        Raises ValueError for a name that is none, with the nearest that there is.
+        """
+        drawn: Figure = import_module(NOTEBOOK).figure_of(self, figure)
+        return drawn
 
     @property
     def before(self) -> Score:

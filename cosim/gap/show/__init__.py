@@ -1,1 +1,1 @@
-"""The answer shown: numbers, words, figures, a page, and the extended model as a file."""
+"""An answer shown: its JSON, the extended model as a scenario, figures, one page, a notebook."""

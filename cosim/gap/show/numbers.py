@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.doubts.doubt import unbelieved
-from cosim.gap.result import FittedModel, Gap, Law
+from cosim.gap.result import Gap, Law, Ranked
+from cosim.gap.windows import Fitted
 from cosim.report.files import json_text
 from cosim.studies.reproduction.summary import SummaryGap
+
+from .quantities import NINETY, undetermined
 
 #: Significant digits of every number: more than any fit to noisy data knows, fewer than what the
 #: order of a sum may change.
@@ -26,99 +28,107 @@ def as_json(gap: Gap | SummaryGap, model: str) -> str:
 
 def as_data(gap: Gap | SummaryGap, model: str) -> dict[str, Any]:
     """A tree of plain values; a number that there is not is None."""
-    data = {
+    common = {
         "campaign": gap.campaign.name,
         "verdict": gap.verdict,
         "effects": gap.effects,
         "classes": gap.classes,
         "where": gap.where,
-        "ranking": gap.ranking,
-        "gap": {"before": _pair(gap.gap_before), "after": _pair(gap.gap_after)},
+        "ranking": [_ranked(row) for row in gap.ranking],
         "next_experiment": gap.next_experiment,
         "model": model,
-        "determined": {key: _interval(*value) for key, value in gap.determined.items()},
-        "empirical": gap.empirical,
-        "remarks": (*gap.campaign.remarks, *gap.remarks),
-        "doubts": _doubts(gap),
+        "remarks": tuple(dict.fromkeys((*gap.campaign.remarks, *gap.remarks))),
     }
-    if isinstance(gap, SummaryGap):
-        return _plain(data | _of_figures(gap))
-    data = _plain(data | _of_runs(gap))
-    if not gap.has_held_out:
-        _forget_held_out(data)
-    return data
+    own = _of_figures(gap) if isinstance(gap, SummaryGap) else _of_runs(gap)
+    return _plain(common | own)
 
 
-def _forget_held_out(data: dict[str, Any]) -> None:
-    """Nothing was held out, and gaps of the fit are none of that."""
-    for pair in data["gap"].values():
-        pair["held_out"] = None
-    for row in (*data["ranking"], *data["ladder"]):
-        row["held_out_gap"] = None
-
-
-def _doubts(gap: Gap | SummaryGap) -> list[dict[str, Any]]:
-    """Of runs with a time series; ``decisive``: nothing is believed beside it."""
-    if isinstance(gap, SummaryGap):
-        return []
-    refused = unbelieved(gap.doubts, gap.explaining)
-    return [
-        {**asdict(doubt), "runs": doubt.run.split(", ") if doubt.run else []}
-        | {"decisive": doubt in refused}
-        for doubt in gap.doubts
-    ]
+def _ranked(row: Ranked) -> dict[str, Any]:
+    return {
+        "effect": row.effect,
+        "form": row.form,
+        "held_out_gap": row.gap and row.gap.held_out,
+        "fit_gap": row.gap and row.gap.fit,
+        "delta_bic": 2.0 * row.evidence,
+        "probability": row.probability,
+        "parameters": row.parameters,
+        "intervals": row.intervals,
+        "undetermined": row.undetermined,
+    }
 
 
 def _of_runs(gap: Gap) -> dict[str, Any]:
     """What only runs with a time series have."""
     campaign = gap.campaign
-    noise = {
-        channel: {"value": value, "estimated": channel in campaign.noise_estimated}
-        for channel, value in campaign.noise.items()
-    }
     return {
-        "noise": noise,
-        "plain": _fitted(gap.plain),
-        "extended": None if gap.extended is None else _fitted(gap.extended),
+        "sentence": gap.sentence,
+        "share": gap.share,
+        "gap": {"before": gap.before, "after": gap.after},
         "ladder": gap.ladder,
-        "share": gap.share if gap.effects else None,
-        "reasons": gap.reasons,
-        "lacks": gap.lacks,
-        "believed": gap.believed,
-        "searched": gap.searched,
-        "spreads": gap.spreads,
-        "exponents": gap.powers,
+        "exponents": gap.exponents,
         "curves": [_curve(law) for law in gap.laws],
-        "remains": gap.remains,
-        "quantisation": gap.quantisation,
+        "scatter": gap.scatter
+        and dict(zip(("value", "low", "high"), gap.scatter, strict=True)),
+        "rig": gap.rig,
+        "rates": gap.rates,
+        "doubts": gap.doubts,
+        "lacks": gap.lacks,
+        "noise": {
+            channel: {"value": value, "estimated": channel in campaign.noise_estimated}
+            for channel, value in campaign.noise.items()
+        },
+        "plain": _fitted(gap.plain),
+        "extended": _fitted(gap.extended) | {"undetermined": sorted(undetermined(gap))},
     }
 
 
 def _curve(law: Law) -> dict[str, Any]:
-    curve = law.curve
-    names = ("axis", "unit", "on", "per", "memory", "level", "gain", "error")
-    values = {name: getattr(curve, name) for name in (*names, "values", "mean", "low", "high")}
-    of = "force, N" if curve.on == "force" else "logarithm of friction, less its mean"
-    return {"effect": law.effect or None, "in_model": law.in_model, "of": of, **values}
+    band = NINETY * law.sd
+    return {
+        "effect": law.effect,
+        "axis": law.quantity,
+        "unit": law.unit,
+        "per": law.per,
+        "values": law.at,
+        "mean": law.mean,
+        "low": law.mean - band,
+        "high": law.mean + band,
+        "points": [
+            {"run": run, "at": at, "value": value, "sd": sd}
+            for run, (at, value, sd) in zip(law.run, law.points, strict=True)
+        ],
+        "form": law.form,
+        "law": law.law,
+        "in_model": law.in_model,
+    }
 
 
-def _fitted(fitted: FittedModel) -> dict[str, Any]:
+def _fitted(fitted: Fitted) -> dict[str, Any]:
     return {
         "parameters": fitted.values,
-        "settings": fitted.settings,
-        "intervals": fitted.intervals,
+        "sd": fitted.sd,
         "at_bound": fitted.at_bound,
-        "undetermined": fitted.undetermined,
         "runs": [
-            {"name": run.name, "hold_out": run.track.run.hold_out, "gap": run.gap, "own": run.own}
-            for run in fitted.runs
+            {"name": run.name, "hold_out": run.hold_out, "gap": run.gap} for run in fitted.runs
         ],
     }
 
 
 def _of_figures(gap: SummaryGap) -> dict[str, Any]:
     """What only runs have of which figures alone are known."""
+    names = ("fit", "held_out")
+    determined = {
+        key: dict(zip(("value", "low", "high"), numbers, strict=True))
+        for key, numbers in gap.determined.items()
+    }
     return {
+        "gap": {
+            "before": dict(zip(names, gap.gap_before, strict=True)),
+            "after": dict(zip(names, gap.gap_after, strict=True)),
+        },
+        "determined": determined,
+        "empirical": gap.empirical,
+        "doubts": (),
         "chance": gap.chance,
         "observations": [
             {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
@@ -132,14 +142,6 @@ def _of_figures(gap: SummaryGap) -> dict[str, Any]:
         "open_figures": gap.open_figures,
         "fits_share": gap.fits_share,
     }
-
-
-def _pair(pair: tuple[float, float]) -> dict[str, float]:
-    return {"fit": pair[0], "held_out": pair[1]}
-
-
-def _interval(value: float, low: float, high: float) -> dict[str, float]:
-    return {"value": value, "low": low, "high": high}
 
 
 def _plain(value: Any) -> Any:

@@ -1,134 +1,181 @@
-"""Parameters as a reader sees them: unit, meaning, number of digits."""
+"""Numbers as a reader sees them: unit, meaning, digits, and whether the data determine them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from stickslip.effects.candidate import SECOND
+import numpy as np
 
-from cosim.gap.camera import faults
-from cosim.gap.estimation.drive import LOADING, REFERENCE, SCALING, STIFFNESS_OFFSET
+from cosim.gap.result import Gap
 from cosim.scenario import Scenario
 
-#: Of the tracker and the drive, not of the model.
-OFFSETS = {
-    "offset.x": ("m", "zero of the tracker along x"),
-    "offset.y": ("m", "zero of the tracker along y"),
-    "offset.speed": ("", "part by which the surface is faster than its set-point"),
-    LOADING: ("s^0.5", "static friction lacking where springs load by m g in 1 s, a part"),
-    "speed_ripple.wavelength": ("m", "travel of the surface in one period of its speed"),
-} | {
-    f"{effect}.{part}": ("", f"second harmonic {how}, as part of the first's amplitude")
-    for effect in ("speed_ripple", "surface_pattern")
-    for part, how in zip(SECOND, ("in phase", "a quarter of its period ahead"), strict=True)
+#: Standard deviations to either side in which a number lies with 90 %.
+NINETY = 1.645
+#: Numbers of tracker and drive: factor from SI, unit shown, meaning. Logarithms are shown as the
+#: parts that they are of.
+BESIDE_THE_MODEL = {
+    "offset.x": (1e3, "mm", "tracker's zero along x"),
+    "offset.y": (1e3, "mm", "tracker's zero along y"),
+    "offset.speed": (1e2, "%", "surface faster than stated"),
+    "offset.friction": (1e2, "%", "friction higher than in the other runs"),
+    "offset.stiffness": (1e2, "%", "springs stiffer than stated"),
+    "springs.stiffness": (1.0, "", "stiffness over what is stated"),
+    "measurement.scale": (1e2, "%", "x and y written too large by the camera"),
+    "measurement.clock": (1e2, "%", "times written too long by the camera"),
+    "measurement.rotation": (180.0 / math.pi, "°", "turn of the camera's axes"),
+    "measurement.drift_rate_x": (1e3, "mm/s", "creep of the camera's zero along x"),
+    "measurement.drift_rate_y": (1e3, "mm/s", "creep of the camera's zero along y"),
+    "measurement.drift_x": (1e3, "mm", "creep of the camera's zero along x once it has settled"),
+    "measurement.drift_y": (1e3, "mm", "creep of the camera's zero along y once it has settled"),
+    "measurement.drift_time": (1.0, "s", "time in which the camera's zero settles"),
+    "measurement.latency": (1e3, "ms", "how much later a place 0.1 m further along x is seen"),
+    "measurement.smoothing": (1e3, "ms", "standard deviation of the tracker's filter"),
+    "measurement.smoothing_past": (1e3, "ms", "time constant of the tracker's filter"),
+    "measurement.quantisation": (1e3, "mm", "step of the numbers that the tracker writes"),
 }
-#: The same in a word or two, for a line of a terminal; of springs by their set-up.
-BRIEFLY = {
-    "offset.x": "tracker's zero",
-    "offset.y": "tracker's zero",
-    "offset.speed": "surface faster by this part",
-    LOADING: "static friction lost to fast loading",
-}
-#: Units of what a strength may go with.
-SCALES = {"mass": "kg", "speed": "m/s", "stiffness": "N/m"}
-#: Part of a number's own size that is rounding.
-ROUNDING = 1e-12
-PLAIN = ("friction.mu_s", "friction.mu_k")
+#: Points of a curve that stands in a figure.
+TABLES = "friction.table_"
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A fitted number with its 95 % interval (None: not known), unit "" for pure numbers.
+    """A number in words.
 
-    undetermined : the interval is all that the number may be, and the value only where a fit ended
+    owner : a run or a set-up; "" for the campaign; value, interval : text; an interval of 90 %
     """
 
     key: str
-    value: float
-    interval: tuple[float, float] | None
-    unit: str
+    owner: str
     meaning: str
-    undetermined: bool = False
+    value: str
+    interval: str
+    unit: str
 
     @property
     def text(self) -> str:
-        """`key = value unit (low to high)`, or `key not determined, anything from low to high`."""
-        unit = f" {self.unit}" if self.unit else ""
-        if self.undetermined and self.interval is not None:
-            low, high = self.interval
-            return f"{self.key} not determined, anything from {low:.4g} to {high:.4g}{unit}"
-        said = f"{self.key} = {self.value:.4g}{unit}"
-        if self.interval is None:
-            return said
-        return f"{said} ({self.interval[0]:.4g} to {self.interval[1]:.4g})"
-
-    @property
-    def line(self) -> str:
-        """As `text`, with a word or two behind a name that is no key of a scenario."""
-        brief = _briefly(self.key)
-        return f"{self.text}, {brief}" if brief else self.text
+        """`key = value unit (low to high)`; what a scenario has no key for by its meaning."""
+        name = self.meaning if self.key in BESIDE_THE_MODEL else self.key
+        if not self.value[-1:].isdigit():
+            return f"{name} {self.value}"
+        said = f"{name} = {self.value}{' ' * bool(self.unit)}{self.unit}"
+        return f"{said} ({self.interval})" if self.interval else said
 
 
-def _briefly(key: str) -> str:
-    if key.startswith(STIFFNESS_OFFSET):
-        setup = int(key.removeprefix(STIFFNESS_OFFSET)) + 1
-        return f"springs of set-up {setup} stiffer, logarithm"
-    return BRIEFLY.get(key, "")
+def fitted_quantities(gap: Gap) -> list[Quantity]:
+    """Numbers of the extended model: friction, what was added, then what is of a run or set-up."""
+    fitted = gap.extended
+    open_keys = undetermined(gap)
+    labels = [label for label in fitted.values if not label.startswith(TABLES)]
+    labels.sort(key=lambda label: ("@" in label, label.partition("@")[2]))
+    found = []
+    for label in labels:
+        value, sd = fitted.values[label], NINETY * fitted.sd[label]
+        span = named_intervals(gap).get(label, (value - sd, value + sd))
+        instead = "at its bound" if label in fitted.at_bound else ""
+        found.append(
+            quantity(label, value, span, "not determined" if label in open_keys else instead)
+        )
+    return found
+
+
+def named_intervals(gap: Gap) -> dict[str, tuple[float, float]]:
+    """Intervals that the search found of what the extended model has, where its value is inside."""
+    known = gap.extended.values
+    return {
+        key: (float(low), float(high))
+        for row in gap.ranking
+        if row.effect in gap.effects
+        for key, (low, high) in row.intervals.items()
+        if key in known and low <= known[key] <= high and math.isfinite(high - low)
+    }
+
+
+def undetermined(gap: Gap) -> set[str]:
+    """Labels of the extended model of which the data say nothing: any value fits as well."""
+    said = {key for row in gap.ranking if row.effect in gap.effects for key in row.undetermined}
+    fitted = gap.extended
+    return {
+        label
+        for label, sd in fitted.sd.items()
+        if label in said or not math.isfinite(sd) or (_is_strength(label) and _is_open(fitted, label))
+    }
+
+
+def _is_strength(label: str) -> bool:
+    """Whether 0 would be no number of friction, springs or an effect, unlike of an offset."""
+    return not label.startswith(("offset.", "measurement."))
+
+
+def _is_open(fitted: Any, label: str) -> bool:
+    return fitted.sd[label] > abs(fitted.values[label]) > 0.0
+
+
+def quantity(
+    label: str, value: float, interval: tuple[float, float] | None, instead: str = ""
+) -> Quantity:
+    """A number in the unit that it is read in. instead : said in place of the value."""
+    key, _, owner = label.partition("@")
+    factor, unit, meaning = _presented(key)
+    if instead:
+        return Quantity(key, _owner(owner), meaning, instead, "", unit)
+    if interval is None or not all(map(math.isfinite, interval)):
+        return Quantity(key, _owner(owner), meaning, digits(factor * value), "", unit)
+    value_text, *ends = with_digits(factor * value, *(factor * end for end in interval))
+    return Quantity(key, _owner(owner), meaning, value_text, " to ".join(ends), unit)
+
+
+def _owner(owner: str) -> str:
+    number = owner.removeprefix("setup ")
+    return f"set-up {int(number) + 1}" if number != owner else owner
+
+
+def _presented(key: str) -> tuple[float, str, str]:
+    """Factor, unit and meaning."""
+    if key in BESIDE_THE_MODEL:
+        return BESIDE_THE_MODEL[key]
+    unit, meaning = unit_and_meaning(key)
+    return 1.0, unit, meaning
 
 
 def unit_and_meaning(key: str) -> tuple[str, str]:
-    """Of `block.parameter`; the unit is "" for a pure number."""
-    if key in OFFSETS:
-        return OFFSETS[key]
-    if faults.is_fault(key):
-        return faults.QUANTITIES[key]
-    if key.startswith(STIFFNESS_OFFSET):
-        setup = int(key.removeprefix(STIFFNESS_OFFSET)) + 1
-        return "", f"logarithm by which the springs of set-up {setup} are stiffer than stated"
-    if key.startswith(SCALING):
-        quantity, effect = key.removeprefix(SCALING).split(".")
-        return "", f"power of the {quantity} by which the strength of {effect} goes"
-    if key.startswith(REFERENCE):
-        quantity = key.removeprefix(REFERENCE)
-        return SCALES[quantity], f"{quantity} at which a strength is what it says"
+    """Of `block.parameter` in SI; the unit is "" for a pure number."""
     block, _, name = key.partition(".")
-    table: Any = Scenario.model_fields[block].annotation  # a class of keys
-    field = table.model_fields[name.partition("[")[0]]  # one of several numbers is as all of them
+    fields = getattr(Scenario.model_fields.get(block), "annotation", None)
+    field: Any = getattr(fields, "model_fields", {}).get(name.partition("[")[0])
+    if field is None:
+        return "", name.replace("_", " ")
     unit = (field.json_schema_extra or {}).get("unit", "1")
     return ("" if unit == "1" else unit), field.description
 
 
-def quantities(
-    values: Mapping[str, float],
-    intervals: Mapping[str, Any],
-    keys: Iterable[str] | None = None,
-    undetermined: Collection[str] = (),
-) -> list[Quantity]:
-    """Of the keys wanted (all when left out), in the order of ``values``.
-
-    undetermined : keys whose interval is the whole range that a fit allows
-    """
-    wanted = values if keys is None else [key for key in values if key in set(keys)]
-    found = []
-    for key in wanted:
-        pair = _interval(intervals.get(key))
-        size = max(map(abs, pair)) if pair else 1.0
-        shown = (_shown(pair[0], size), _shown(pair[1], size)) if pair else None
-        value, words = _shown(float(values[key]), size), unit_and_meaning(key)
-        found.append(Quantity(key, value, shown, *words, key in undetermined))
-    return found
+def with_digits(value: float, *others: float) -> list[str]:
+    """Numbers with the decimals that their spread deserves: two digits of half of it."""
+    half = 0.5 * float(np.ptp([value, *others]))
+    if not half > 0.0 or not math.isfinite(half):
+        return [digits(one) for one in (value, *others)]
+    decimals = 1 - math.floor(math.log10(half))
+    if decimals > 7 or max(map(abs, (value, *others))) >= 1e6:
+        return [digits(one) for one in (value, *others)]
+    return [_minus(f"{round(one, decimals) + 0.0:.{max(decimals, 0)}f}") for one in (value, *others)]
 
 
-def _shown(value: float, size: float) -> float:
-    """Without what is only rounding beside a size."""
-    return 0.0 if abs(value) <= ROUNDING * size else value
+def digits(value: float | None, count: int = 3) -> str:
+    """So many significant digits, no power of ten for usual sizes; a dash for none."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if 1e-4 <= abs(value) < 1e6:
+        places = max(count - 1 - math.floor(math.log10(abs(value))), 0)
+        return _minus(f"{round(value, places):.{places}f}")
+    return _minus(f"{value:.{count}g}")
 
 
-def _interval(pair: tuple[float, float] | None) -> tuple[float, float] | None:
-    """None for one that is a point, or reaches to infinity: nothing is known of it."""
-    if pair is None or not 0.0 < pair[1] - pair[0] < math.inf:
-        return None
-    return float(pair[0]), float(pair[1])
+def _minus(text: str) -> str:
+    return text.replace("-", "−")
+
+
+def plain(values: Mapping[str, float]) -> dict[str, float]:
+    """Values without numpy's own kind of number."""
+    return {key: float(value) for key, value in values.items()}

@@ -1,126 +1,179 @@
-"""An answer of the gap workflow, made by hand from real fits of a small campaign."""
+"""Answers of the gap workflow, made by hand from real fits of a small campaign in windows."""
 
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
-from stickslip.effects.candidate import FreeParameter
 
 from cosim.gap import read_campaign
-from cosim.gap.curves.curve import Curve
-from cosim.gap.diagnostics import analyse_residuals, find_where
-from cosim.gap.estimation.fit import fit
-from cosim.gap.estimation.fitted import Point, start
-from cosim.gap.estimation.preparation import prepare
-from cosim.gap.estimation.problem import Problem
-from cosim.gap.fitted_model import fitted_model
-from cosim.gap.result import Gap, Law, Ranked, Step
+from cosim.gap.result import (
+    Doubt,
+    Exponent,
+    Gap,
+    Law,
+    Ranked,
+    Rates,
+    RigNumber,
+    Rung,
+    Score,
+    Where,
+)
+from cosim.gap.windows import Number, fit, user_model, windows_of_campaign
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}
-PLAIN = (
-    FreeParameter("friction.mu_s", 0.29, 0.01, 0.0, 2.0),
-    FreeParameter("friction.mu_k", 0.19, 0.01, 0.0, 2.0),
-    FreeParameter("offset.x", 0.0, 4e-4, prior=4e-4),
-)
-ADDED = FreeParameter("velocity_weakening.linear", 0.7, 0.1, 0.0, 5.0)
+ADDED = Number("velocity_weakening.linear", 0.7, None, 0.0, 5.0)
 SPEEDS = (0.06, 0.12, 0.2)
+VERDICTS = ("named", "class", "none", "partial", "unknown")
+
+
+def write(folder, held_out=True):
+    """A campaign of three runs of six seconds on disk; the last is held out."""
+    runs = []
+    for number, speed in enumerate(SPEEDS):
+        run = motion(speed=speed, duration=6.0, **TRUE)
+        columns = {"t": run.time, "x": noisy(run["x"], number)}
+        is_last = held_out and number == len(SPEEDS) - 1
+        runs.append({"surface_speed": speed, "hold_out": is_last, "columns": columns})
+    return write_campaign(folder, runs, name="cold room, week 3", noise={"x": NOISE})
 
 
 @cache
 def answer(folder):
-    """velocity_weakening, named, found in three runs of six seconds; the last is held out."""
+    """velocity_weakening, named; the effect that the runs were made with."""
     campaign = read_campaign(write(folder))
-    plain = fitted(campaign, PLAIN)
-    extended = fitted(campaign, (*PLAIN, ADDED))
-    intervals = {
-        key: (0.98 * value, 1.02 * value)
-        for key, value in extended.values.items()
-        if not key.startswith("offset")
-    }
-    extended = replace(extended, intervals=intervals)
-    key = ADDED.key
+    plain, extended = fitted(campaign), fitted(campaign, ADDED)
+    before, after = score(plain), score(extended)
+    value, sd = extended.values[ADDED.key], extended.sd[ADDED.key]
+    interval = (value - 1.645 * sd, value + 1.645 * sd)
     found = Ranked(
-        "velocity_weakening",
-        "linear",
-        extended.gap[1],
-        extended.gap[0],
-        1234.56789,
-        {key: extended.values[key]},
-        {key: intervals[key]},
-        0.9995,
-    )
+        "velocity_weakening", "linear", 617.3, 0.9995, after,
+        {ADDED.key: value}, {ADDED.key: interval},
+    )  # fmt: skip
     other = Ranked(
-        "film_drag",
-        "linear",
-        1.01 * plain.gap[1],
-        plain.gap[0],
-        -3.0,
-        {"film_drag.coefficient": 0.0},
-        {"film_drag.coefficient": (0.0, np.inf)},
-        4e-4,
-    )
-    analysis = analyse_residuals([run.track for run in plain.runs])
-    determined = {k: (v, 0.9 * v, 1.1 * v) for k, v in plain.values.items() if "friction" in k}
+        "film_drag", "linear", -1.5, 4e-4, None, {"film_drag.coefficient": 0.0},
+        {"film_drag.coefficient": (0.0, np.inf)}, ("film_drag.coefficient",),
+    )  # fmt: skip
+    weak = Score(1.4, 1.5), Score(1.01, 1.03)
     return Gap(
-        campaign,
-        "named",
-        ("velocity_weakening",),
-        (),
-        find_where(analysis),
-        (found, other, RULED_OUT),
-        plain.gap,
-        extended.gap,
-        plain,
-        extended,
-        determined,
+        campaign=campaign,
+        verdict="named",
+        effects=("velocity_weakening",),
+        sentence="Kinetic friction falls with the sliding speed: velocity_weakening.",
+        classes=(),
+        where=Where("x", "slip", ("run02", "run01"), "along x, in slip, most in run02"),
         ladder=(
-            Step((), 0.0, *plain.gap, 0.0),
-            Step(("velocity_weakening",), 1234.5, *extended.gap, 0.998, CERTAIN),
+            Rung("user's model", "ideal dry friction, as stated", before, weak[0], 0.0),
+            Rung("velocity_weakening", "mu_k falls", after, weak[1], 0.996, 617.3),
         ),
-        share=0.998,
-        spreads={"friction_from_run_to_run": 0.021},
-        laws=(Law("velocity_weakening", _curve()),),
-        remains=find_where(analyse_residuals([run.track for run in extended.runs])),
-        analysis=analysis,
+        ranking=(found, other, Ranked("run_in", "exponential", -4.5, 1e-5)),
+        plain=plain,
+        extended=extended,
+        laws=(law(),),
+        exponents=(Exponent("velocity_weakening", "sliding speed", 1.04, 0.9, 1.2, 1.0),),
+        scatter=(0.004, 0.0, 0.02),
+        rig=(RigNumber("surface speed of run02", "m/s", 0.12, 0.0012, 0.1204, 0.0003),),
+        rates=Rates(50, {"velocity_weakening": {"velocity_weakening": 47, "none": 3},
+                         "film_drag": {"film_drag": 50}}),
+        next_experiment={"surface_speed": 0.4, "mass": 0.87, "stiffness": 38.5},
+        doubts=(Doubt("sampling", "run01 is sampled only 60 times a cycle", ("run01",)),),
         remarks=("a remark",),
+        lacks=("two masses: load_dependence could not be seen",),
+    )  # fmt: skip
+
+
+def fitted(campaign, *added):
+    """The user's model, with more numbers, fitted in windows."""
+    numbers, settings = user_model(campaign)
+    return fit(campaign, windows_of_campaign(campaign), [*numbers, *added], settings)
+
+
+def score(model):
+    """Its gaps."""
+    fit_gap, held_out = model.gap
+    return Score(fit_gap, held_out if held_out == held_out else None)
+
+
+def law():
+    """The law that is hidden, with a band of 2 %, and what the runs for fitting say."""
+    speed = np.linspace(0.0, 0.3, 31)
+    mean = -0.8 * (speed - 0.1)
+    at = np.array([0.05, 0.11, 0.19])
+    points = np.stack([at, -0.8 * (at - 0.1) + [0.01, -0.01, 0.0], [0.01, 0.02, 0.01]], axis=1)
+    return Law(
+        "velocity_weakening", "sliding speed", "m/s", "mu_k", speed, mean, np.full(31, 0.012),
+        points, ("run01", "run02", "run03"), "linear", mean + 0.004,
+    )  # fmt: skip
+
+
+def other(gap, verdict):
+    """The same runs with another verdict."""
+    first, last = gap.ladder
+    if verdict == "none":
+        return replace(
+            gap, verdict=verdict, effects=(), sentence="Nothing is missing.", ladder=(first,),
+            extended=gap.plain, laws=(), exponents=(), rates=None, next_experiment=None,
+        )  # fmt: skip
+    if verdict == "class":
+        members = ("velocity_weakening", "film_drag")
+        asked = {
+            "text": "0.87 kg at 0.4 m/s for 20 s: velocity_weakening and film_drag would differ",
+            "separates": [[*members, 7.3]],
+        }
+        return replace(
+            gap, verdict=verdict, effects=members, classes=(members,), next_experiment=asked,
+            sentence="velocity_weakening or film_drag is missing; these runs cannot tell which.",
+        )  # fmt: skip
+    if verdict == "partial":
+        left = replace(last, gap=Score(2.3, 2.8), share=0.83)
+        return replace(
+            gap, verdict=verdict, ladder=(first, left),
+            sentence="velocity_weakening takes 83 % of the misfit; something else is missing.",
+        )  # fmt: skip
+    if verdict == "unknown":
+        return replace(
+            gap, verdict=verdict, effects=(), ladder=(first,), extended=gap.plain, laws=(),
+            exponents=(), rates=None, next_experiment=None,
+            sentence="The model does not fit, and no effect of the catalogue repairs it.",
+        )  # fmt: skip
+    return gap
+
+
+def with_a_fault(gap, **numbers):
+    """A measurement fault is named; numbers : scale=0.02, ..."""
+    values = {f"measurement.{name}": value for name, value in numbers.items()}
+    name = "measurement." + next(iter(numbers)).partition("_")[0]
+    extended = replace(
+        gap.extended,
+        values=gap.extended.values | values,
+        sd=gap.extended.sd | {key: 0.02 * abs(value) for key, value in values.items()},
+        runs=tuple(replace(run, values=run.values | values) for run in gap.extended.runs),
     )
+    rung = replace(gap.ladder[-1], name=name, text="the camera's scale is off")
+    return replace(
+        gap, effects=(name,), extended=extended, ladder=(*gap.ladder, rung),
+        sentence=f"The camera is off: {name}.",
+    )  # fmt: skip
 
 
-#: As the screening leaves an effect that it rules out.
-RULED_OUT = Ranked("run_in", "exponential", None, None, -9.0, {}, {}, 1e-4)
-CERTAIN = {"velocity_weakening": 1.0}
-
-
-def _curve():
-    """The law that is hidden, with a band of 2 %."""
-    speed = np.linspace(0.0, 0.4, 41)
-    mean = -TRUE["velocity_weakening"]["linear"] * speed
-    mean -= mean.mean()
-    band = mean - 0.02, mean + 0.02
-    return Curve("sliding speed", "mu_k", speed, mean, *band, 900.0, 200.0, np.ones(3), 0.2)
-
-
-def write(folder):
-    """A campaign on disk."""
-    runs = []
-    for number, speed in enumerate(SPEEDS):
-        run = motion(speed=speed, duration=6.0, **TRUE)
-        runs.append(
-            {
-                "surface_speed": speed,
-                "hold_out": number == len(SPEEDS) - 1,
-                "columns": {"t": run.time, "x": noisy(run["x"], number)},
-            }
-        )
-    return write_campaign(folder, runs, name="cold room, week 3", noise={"x": NOISE})
-
-
-def fitted(campaign, free_parameters):
-    """Fitted to the runs for fitting, their states to those held out."""
-    problem = Problem(prepare(campaign, campaign.fit_runs, False), free_parameters)
-    at = fit(problem, start(problem.segmented_runs, free_parameters))
-    held = Problem(prepare(campaign, campaign.held_out_runs, False), free_parameters)
-    first = start(held.segmented_runs, free_parameters)
-    other = fit(held, Point(at.point.shared, first.own, first.states), fixed=True)
-    return fitted_model(campaign, [(problem, at), (held, other)])
+def without_held_out(gap):
+    """Nothing was held out: no gap of it, and no run."""
+    runs = {run.name for run in gap.campaign.runs if not run.hold_out}
+    campaign = replace(
+        gap.campaign, runs=tuple(run for run in gap.campaign.runs if run.name in runs)
+    )
+    ladder = [
+        replace(rung, gap=Score(rung.gap.fit, None), weak=Score(rung.weak.fit, None))
+        for rung in gap.ladder
+    ]
+    ranking = [
+        replace(row, gap=row.gap and Score(row.gap.fit, None)) for row in gap.ranking
+    ]
+    plain, extended = (
+        replace(model, runs=tuple(run for run in model.runs if run.name in runs))
+        for model in (gap.plain, gap.extended)
+    )
+    return replace(
+        gap, campaign=campaign, plain=plain, extended=extended, ladder=tuple(ladder),
+        ranking=tuple(ranking),
+    )  # fmt: skip

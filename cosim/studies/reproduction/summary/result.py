@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from cosim.gap.data import Campaign
-from cosim.gap.result import Ranked
+from cosim.gap.result import Ranked, Score
 from cosim.studies.reproduction.summary.search import FittedSummary, Trial
 
 from .draws import Observation
@@ -101,13 +102,18 @@ def ranked(tried: Sequence[Trial], plain: Trial) -> tuple[Ranked, ...]:
         rows[effect] = Ranked(
             effect=effect,
             form=trial.candidate.form,
-            held_out_gap=fit.held_out_gap,
-            fit_gap=fit.gap,
-            delta_bic=plain.bic - trial.bic,
+            evidence=0.5 * (plain.bic - trial.bic),
+            probability=0.0,
+            gap=Score(fit.gap, fit.held_out_gap),
             parameters=dict(fit.values),
             intervals=trial.intervals(),
         )
-    return tuple(rows.values())
+    least = min((trial.bic for trial in tried), default=0.0)
+    weights = {
+        effect: math.exp(row.evidence - 0.5 * (plain.bic - least)) for effect, row in rows.items()
+    }
+    total = sum(weights.values())
+    return tuple(replace(row, probability=weights[row.effect] / total) for row in rows.values())
 
 
 def open_figures(seen: Sequence[Observation], after: FittedSummary) -> dict[str, str]:

@@ -1,0 +1,140 @@
+"""The answer for runs of which only figures are known: words, model, figure, page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from cosim.report.page import Picture, render
+from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
+from cosim.scenario import Scenario
+from cosim.studies.reproduction.summary import SummaryGap
+
+from . import text
+from .model_file import file_text, known_tables, put, scenario_from
+from .quantities import Quantity, digits, quantity
+
+#: s; of a run whose time series is not known.
+DURATION = 30.0
+
+
+def sentence(gap: SummaryGap) -> str:
+    """The answer in a sentence."""
+    if gap.verdict == "none":
+        return "The plain model meets these figures."
+    if gap.verdict == "class":
+        groups = "; ".join(" or ".join(group) for group in gap.classes)
+        return f"{groups}: these figures cannot tell which."
+    if gap.verdict == "named":
+        return f"{'; '.join(f'{text.SENTENCES[one]}: {one}' for one in gap.effects)}."
+    if gap.effects:
+        return (
+            f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
+            "that no effect of the catalogue repairs."
+        )
+    return "The plain model does not fit, and no effect of the catalogue repairs it."
+
+
+def gap_line(gap: SummaryGap) -> str:
+    """Before and after, in standard deviations of the observations."""
+    (fit, held), (fit_after, held_after) = gap.gap_before, gap.gap_after
+    return (
+        f"all figures fitted {digits(fit)} → {digits(fit_after)}, each predicted from the others "
+        f"{digits(held)} → {digits(held_after)} standard deviations"
+    )
+
+
+def quantities(gap: SummaryGap) -> list[Quantity]:
+    """The numbers of the model that is left."""
+    model = gap.extended or gap.plain
+    intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
+    for row in gap.ranking:
+        if row.effect in gap.found:
+            intervals |= row.intervals
+    return [quantity(key, value, intervals.get(key)) for key, value in model.values.items()]
+
+
+def closing_lines(gap: SummaryGap) -> list[str]:
+    """What a terminal says at the end."""
+    lines = [
+        f"{gap.campaign.name}: {gap.verdict}",
+        f"  {sentence(gap)}",
+        f"  gap        {gap_line(gap)}",
+        f"  where      {gap.where.text}",
+        f"  numbers    {'; '.join(one.text for one in quantities(gap))} (95 % intervals)",
+    ]
+    if gap.next_experiment:
+        lines.append(f"  next       {text.next_experiment(gap.next_experiment)}")
+    return lines
+
+
+def model_text(gap: SummaryGap) -> str:
+    """The model as a scenario at the first run's mass, springs and speed, from rest on it."""
+    run = gap.campaign.runs[0]
+    header = [
+        f"The model of campaign {gap.campaign.name!r} at {run.name}. "
+        f"{gap.verdict.capitalize()}: {sentence(gap)}",
+        f"Gap: {gap_line(gap)}.",
+    ]
+    if gap.campaign.scheme == "study":
+        header.append("Fitted in the source study's scheme: the exact model moves otherwise on it.")
+    return file_text(_scenario(gap), header)
+
+
+def _scenario(gap: SummaryGap) -> Scenario:
+    run = gap.campaign.runs[0]
+    tables = known_tables(gap.campaign, run)
+    put(tables, (gap.extended or gap.plain).values)
+    tables["initial"] = {"vx": run.surface_speed}
+    tables["run"] = {"duration": DURATION}
+    return scenario_from(gap.campaign, tables)
+
+
+def page(gap: SummaryGap, pictures: Sequence[Picture]) -> str:
+    """HTML with the picture inside."""
+    return render(
+        "summary.html.j2",
+        "cosim.gap.show",
+        gap=gap,
+        text=text,
+        digits=digits,
+        sentence=sentence(gap),
+        gap_line=gap_line(gap),
+        quantities=quantities(gap),
+        numbers=[
+            [quantity(key, value, row.intervals.get(key)).text
+             for key, value in row.parameters.items() if key.startswith(row.effect)]
+            for row in gap.ranking
+        ],
+        pictures=pictures,
+        remarks=tuple(dict.fromkeys((*gap.campaign.remarks, *gap.remarks))),
+    )  # fmt: skip
+
+
+@picture("observations", (
+    "How far each figure of the model is from the observed one, in the observation's standard "
+    "deviations: with the numbers as they are known (grey), the plain model refitted (blue), the "
+    "extended model (dark orange). Shaded: within two."
+))  # fmt: skip
+def draw_observations(gap: SummaryGap) -> Figure:
+    """A row for each observation."""
+    models = [("as known", GREY, gap.printed), ("plain model, refitted", BLUE, gap.plain)]
+    if gap.extended is not None:
+        models.append(("extended model", RED, gap.extended))
+    figure, axes = panels(1, 1, height=1.4 + 0.5 * len(gap.observations), width=6.5)
+    axis, places = axes[0, 0], np.arange(len(gap.observations))
+    axis.axvspan(-2.0, 2.0, color=PALE_GREY, zorder=0)
+    axis.axvline(0.0, color=INK, linewidth=0.8)
+    for shift, (label, colour, model) in zip((-0.18, 0.0, 0.18), models, strict=False):
+        axis.plot(model.residuals, places + shift, "o", color=colour, markersize=6.0, label=label)
+    names = [f"{one.figure.replace('_', ' ')}, {one.name}" for one in gap.observations]
+    axis.set_yticks(places, names)
+    axis.invert_yaxis()
+    axis.set_xscale("symlog", linthresh=3.0)
+    axis.set_xticks([-30, -10, -3, 0, 3, 10, 30], ["−30", "−10", "−3", "0", "3", "10", "30"])
+    axis.minorticks_off()
+    axis.set_xlabel("modelled less observed (standard deviations)")
+    figure.legend(loc="outside upper right", ncols=3)
+    return figure
