@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -24,8 +25,8 @@ STEP = 1e-4
 SETTLED = 1e-5
 #: Most evaluations of a fit, and of one that only shows which start leads on.
 MOST_TRIES, FIRST_TRIES = 40, 8
-#: Gap up to which cycles are in step with the data: there is then no other minimum to look for.
-IN_STEP = 1.1
+#: Gap up to which nothing is missing, and there is no other minimum to look for.
+IN_STEP = 1.05
 #: Fits in a row, each from states found anew, as long as one leads on by this part.
 REPEATS, LEADS_ON = 3, 1e-3
 #: A window whose misfit grows by this factor in a step has lost its course.
@@ -85,6 +86,14 @@ def judge(
 _STATED = ("offset.speed", "offset.friction", "offset.stiffness")
 
 
+class _Point(NamedTuple):
+    """Scaled numbers, every run's start states, and the sum of squares there."""
+
+    scaled: np.ndarray
+    started: list[Started]
+    cost: float
+
+
 class _Problem:
     """Residuals and derivatives as functions of the scaled numbers (k,)."""
 
@@ -128,57 +137,56 @@ class _Problem:
         return rows, np.diag(slopes)
 
     def solved(self, scan: bool = False) -> Fitted:
-        """The best numbers; again from where windows off course find better states.
+        """The best numbers; scan: sets out from the best of several starts."""
+        best = self._settled(self._first() if scan else self._descended(self._start, MOST_TRIES))
+        return self._fitted(best.scaled)
 
-        scan : sets out from the best of several starts
-        """
-        at = self._first() if scan else np.zeros(len(self.unknowns))
-        cost = np.inf
+    @property
+    def _start(self) -> np.ndarray:
+        return np.zeros(len(self.unknowns))
+
+    def _settled(self, at: _Point) -> _Point:
+        """The best nearby; again from where windows off course find better states."""
         for _ in range(REPEATS):
-            at = self._descended(at, MOST_TRIES)
-            before, cost = cost, self._cost(at)
-            retried = [part.retried(at) for part in self.parts]
-            if not any(retried) or cost > (1.0 - LEADS_ON) * before:
+            at = self._descended(at.scaled, MOST_TRIES)
+            if not any([part.retried(at.scaled) for part in self.parts]):
                 break
-        return self._fitted(at)
+        return self._point(at.scaled)
 
-    def _cost(self, at: np.ndarray) -> float:
-        return float(np.sum(self.residuals(at) ** 2))
+    def _point(self, scaled: np.ndarray) -> _Point:
+        started = [part.followed(scaled) for part in self.parts]
+        return _Point(scaled, started, float(np.sum(self.residuals(scaled) ** 2)))
 
-    def _first(self) -> np.ndarray:
+    def _go_on_from(self, point: _Point) -> None:
+        for part, started in zip(self.parts, point.started, strict=True):
+            part.forget(point.scaled, started)
+
+    def _first(self) -> _Point:
         """The best of a few starts after a few steps; the first guess alone if it is in step."""
-        at = self._descended(np.zeros(len(self.unknowns)), FIRST_TRIES)
-        best, least = at, self._cost(at)
-        if least < IN_STEP**2 * sum(part.model.size for part in self.parts):
+        best = self._descended(self._start, FIRST_TRIES)
+        if best.cost < IN_STEP**2 * sum(part.model.size for part in self.parts):
             return best
-        kept = [part.followed(at) for part in self.parts]
         for start in valleys(self.unknowns, self._rough_cost):
-            self._forget()
-            at = self._descended(start, FIRST_TRIES)
-            cost = self._cost(at)
-            if cost < least:
-                best, least, kept = at, cost, [part.followed(at) for part in self.parts]
-        for part, started in zip(self.parts, kept, strict=True):
-            part.forget(best, started)
+            for part in self.parts:
+                part.forget()
+            best = min(best, self._descended(start, FIRST_TRIES), key=lambda point: point.cost)
+        self._go_on_from(best)
         return best
 
     def _rough_cost(self, at: np.ndarray) -> float:
         return sum(part.roughly(at) for part in self.parts)
 
-    def _forget(self) -> None:
-        for part in self.parts:
-            part.forget()
-
-    def _descended(self, at: np.ndarray, tries: int) -> np.ndarray:
+    def _descended(self, at: np.ndarray, tries: int) -> _Point:
+        """Down from one point, in so many tries."""
         if not self.unknowns:
-            return at
+            return self._point(at)
         low = [u.number.scaled(u.number.low) for u in self.unknowns]
         high = [u.number.scaled(u.number.high) for u in self.unknowns]
         found = least_squares(
             self.residuals, np.clip(at, low, high), self.derivatives, (low, high),
             ftol=SETTLED, xtol=1e-4, max_nfev=tries,
         )  # fmt: skip
-        return found.x
+        return self._point(found.x)
 
     def _fitted(self, at: np.ndarray) -> Fitted:
         derivatives = self.derivatives(at)

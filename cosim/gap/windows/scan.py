@@ -17,7 +17,7 @@ from .numbers import Unknown
 LEVELS = np.array([0.5, 0.62, 0.77, 0.9, 1.0, 1.12, 1.3])
 EXCESSES = np.array([0.25, 0.45, 0.7, 1.0, 1.5, 2.3, 3.5])
 #: Valleys that are followed beside the first guess.
-VALLEYS = 3
+VALLEYS = 2
 
 
 def valleys(unknowns: Sequence[Unknown], cost: Callable[[np.ndarray], float]) -> list[np.ndarray]:

@@ -48,8 +48,9 @@ class StartStates:
     def __init__(self, model: RunModel):
         self.model = model
         windows, run = model.windows, model.run
-        self.free = windows.free
-        self.axes = np.flatnonzero(windows.free.any(axis=0))
+        guided = 1.0 - np.array([1.0, model.known["rig.free_y"], model.known["rig.free_phi"]])
+        self.free = windows.free & (np.tile(guided, 2) == 0.0)
+        self.axes = np.flatnonzero(self.free.any(axis=0))
         noise = run.noise["x"]
         turn = run.noise.get("phi", noise / model.known["rig.contact_radius"])
         places = np.array([noise, run.noise.get("y", noise), turn])
@@ -129,11 +130,9 @@ class StartStates:
         scales = np.array([self.model.run.noise["x"], self.model.run.surface_speed])
         for change in CHANGES if lost.any() else ():
             states = at.states.copy()
-            read_off = self.read_off(values)
-            states[lost, :2] = read_off[lost, :2]
-            states[np.ix_(lost, [0, 3])] = read_off[np.ix_(lost, [0, 3])] + change * scales
+            states[np.ix_(lost, [0, 3])] += change * scales
             tried = self.started(values, states, p)
-            best = self.better(best, self.settled(values, tried, p, rounds=2))
+            best = self.better(best, self.settled(values, tried, p, rounds=1))
         return best
 
     def squares(self, at: Started) -> np.ndarray:

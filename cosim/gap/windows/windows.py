@@ -76,8 +76,8 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
     seen = [name for name in (AXES if planar else AXES[:1]) if name in track.channels]
     first = _starts(track, sticks, run.surface_speed, period, cycles)
     states, free = np.full((len(first), 6), np.nan), np.zeros((len(first), 6), dtype=bool)
-    if planar:  # how the block was put down, nobody has seen; from there on the model knows
-        free[0, [axis for axis, name in enumerate(AXES) if name not in seen]] = True
+    if planar:  # what was not seen is free as well: carried over it would tie windows together
+        states[:], free[:] = 0.0, True
     states[0] = 0.0
     hold_since = np.full(len(first), np.nan)
     for number, row in enumerate(first):

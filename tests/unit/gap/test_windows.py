@@ -24,7 +24,7 @@ from cosim.gap.windows import (
 from cosim.gap.windows.windows import cycle
 
 MU_S, MU_K = 0.3, 0.2
-LINEAR = 2.0
+LINEAR = 1.0
 SPEEDS, HELD_OUT = (0.02, 0.06, 0.1, 0.04), (0.04,)
 
 
@@ -109,7 +109,7 @@ def test_known_truth_comes_back(found):
         assert run.gap == pytest.approx(1.0, abs=3.0 / math.sqrt(2.0 * size) + 0.5 * states / size)
     assert all(gap == pytest.approx(1.0, abs=0.03) for gap in found.gap)
     for key, truth in (("friction.mu_s", MU_S), ("friction.mu_k", MU_K)):
-        assert abs(found.values[key] - truth) < 3.0 * found.sd[key] < 0.01
+        assert abs(found.values[key] - truth) < 3.0 * found.sd[key] < 0.03
     assert not found.at_bound
     assert [run.name for run in found.runs] == ["run01", "run02", "run03", "run04"]
 
@@ -214,11 +214,12 @@ def test_a_planar_motion_is_fitted_in_both_directions(tmp_path):
     assert abs(result.values["friction.mu_k"] - MU_K) < 3.0 * result.sd["friction.mu_k"]
 
 
-def test_a_number_that_a_bound_holds_is_named(weakened):
-    numbers, settings = user_model(weakened)
-    held = [replace(n, start=0.15, high=0.16) if n.key == "friction.mu_k" else n for n in numbers]
-    result = fit(weakened, windows_of_campaign(weakened), held, settings)
-    assert result.at_bound["friction.mu_k"] == 0.16
+def test_a_number_that_a_bound_holds_is_named(plain):
+    numbers, _ = user_model(plain)
+    numbers = [number for number in numbers if number.key.startswith("friction")]
+    held = [replace(n, high=0.99 * MU_K) if n.key == "friction.mu_k" else n for n in numbers]
+    result = fit(plain, windows_of_campaign(plain), held)
+    assert result.at_bound == {"friction.mu_k": 0.99 * MU_K}
 
 
 def test_the_user_s_model_is_what_the_campaign_states(plain, tmp_path):
