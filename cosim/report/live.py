@@ -86,13 +86,14 @@ def over_time(
     part: tuple[float, float, str] | None = None,
     note: str = "",
     columns: int = 1,
+    opens_at_part: bool = False,
 ) -> Live:
     """Panels over the time (n,) s, rising: with hover and zoom, all on one axis.
 
     keep: rows (n,) that stay whatever is left out, as events. phases: begin and end (k, 2) s of
     what is shaded, called ``phase``. marks: times with a word. part: begin, end (s) and name of a
-    part that is worth a look. note: a line below. columns: panels
-    beside each other where there is room.
+    part that is worth a look; opens_at_part: it is what is seen at first. note: a line below.
+    columns: panels beside each other where there is room.
     """
     rows = thinned(time, [curve.values for panel in panels for curve in panel.curves], keep)
     return {
@@ -103,6 +104,7 @@ def over_time(
         "phase": phase,
         "marks": [list(mark) for mark in marks],
         "part": part and list(part),
+        "opens_at_part": opens_at_part,
         "note": note,
         "columns": columns,
         "rows": [int(rows.size), int(time.size)],

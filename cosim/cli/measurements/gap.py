@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -95,15 +93,15 @@ def execute(arguments: Namespace) -> int:
     asked = numbers_asked(arguments, KEYS)
     for remark in campaign.remarks:
         note(remark)
-    with _bar() as step:
-        gap = _find(campaign, arguments.seed, arguments.jobs, step)
+    with Bar(unit="step") as bar:
+        gap = _find(campaign, arguments.seed, arguments.jobs, bar)
     made = made_by(campaign=str(_source(arguments.campaign).resolve()))
     with results_in(folder, made, force=arguments.force) as results:
         with held_interrupts():
             text = files.write_data(gap, folder / RESULT, folder / MODEL)
             corrected = files.write_corrected_data(gap, folder)
         asked.give(text)
-        status = _shown(files, gap, folder, corrected[:1], arguments)
+        status = _shown(files, gap, folder, corrected, arguments)
         results.complete = status == DONE
     return status
 
@@ -112,10 +110,10 @@ def _shown(
     files: ModuleType, gap: Any, folder: Path, corrected: list[Path], arguments: Namespace
 ) -> int:
     """Figures and page where they are wanted, then the closing lines."""
-    drawn: list[Any] = []
     try:
         if not arguments.no_page:
-            drawn = _drawn(files, gap, folder, corrected)
+            with Bar(unit="figure", total=len(files.drawers(gap))) as bar:
+                files.write_page(gap, folder, folder / PAGE, bar.update, corrected)
     except KeyboardInterrupt:
         print(
             f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
@@ -123,8 +121,8 @@ def _shown(
         )
         return FAILED
     names = [str(folder / name) for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
-    names += map(str, corrected)
-    lines = [*files.closing_lines(gap, drawn), f"  files      {', '.join(names)}"]
+    names += map(str, corrected[:1])
+    lines = [*files.closing_lines(gap), f"  files      {', '.join(names)}"]
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
     return DONE
 
@@ -141,35 +139,23 @@ def _source(given: str) -> Path:
     return Path(given)
 
 
-def _find(campaign: Campaign, seed: int, jobs: int, step: Callable[..., None]) -> Any:
+def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:
     """Runs of which figures alone are known, and the study's own scheme, are searched otherwise."""
+
+    def progress(done: int, total: int) -> None:
+        bar.total = total
+        bar.update(done - bar.n)
+
     tracks = any(run.track is not None for run in campaign.runs)
     if campaign.scheme == "study" or not tracks:
         from cosim.studies.reproduction.summary import find_summary_gap
 
-        return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
+        return find_summary_gap(
+            campaign, seed=seed, jobs=jobs, step=lambda count: bar.update(count)
+        )
     from cosim.gap.find import find_gap
 
-    return find_gap(campaign, jobs=jobs, progress=step)
-
-
-def _drawn(files: ModuleType, gap: Any, folder: Path, corrected: list[Path]) -> list[Any]:
-    """Figures and page; what the FMU did."""
-    beside = "".join(str(file.relative_to(folder)) for file in corrected)
-    with Bar(unit="figure") as bar:
-        drawn: list[Any] = files.write_page(gap, folder, folder / PAGE, bar.update, beside)
-    return drawn
-
-
-@contextmanager
-def _bar() -> Iterator[Callable[..., None]]:
-    """A count of models tried on stderr, none when that is no terminal."""
-    with Bar(unit="model") as bar:
-
-        def step(count: int = 1) -> None:
-            bar.update(count)
-
-        yield step
+    return find_gap(campaign, jobs=jobs, progress=progress)
 
 
 def count(text: str) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from cosim.gap.result import Gap, Law
-from cosim.report.live import Curve, Panel, over_time
+from cosim.report.live import Curve, Panel, over_time, several
 from cosim.report.page import Picture
 from cosim.report.style import BLUE, GREY, INK, RED, logarithmic_x, panels, picture, readable
 
@@ -35,7 +36,9 @@ def draw_ladder(gap: Gap) -> Figure:
     figure, axes = panels(1, 1, height=3.9, width=WIDTH)
     axis, count = axes[0, 0], len(gap.ladder)
     edges = np.arange(count + 1) - 0.5
-    series = [("fitted runs", BLUE, "-", [rung.gap.fit for rung in gap.ladder])]
+    series: list[tuple[str, str, Any, list[float]]] = [
+        ("fitted runs", BLUE, "-", [rung.gap.fit for rung in gap.ladder])
+    ]
     held = [rung.gap.held_out for rung in gap.ladder]
     if None not in held:
         series.append(("held-out runs", RED, (0, (4, 2)), [float(one or 0.0) for one in held]))
@@ -134,16 +137,13 @@ def run_picture(gap: Gap) -> Picture:
     """One run where the user's model is worst; on a page it can be zoomed."""
     found = worst(gap)
     run, (factor, label) = measured_run(gap, found.run), SCALES[found.channel]
-    time = run.motion.time
-    rows = (time >= found.begin) & (time <= found.end)
-    curves = [
-        replace(curve, values=curve.values[rows]) for curve in run_curves(gap, *found[:2], factor)
-    ]
-    panel = Panel(label.replace("(", "[").replace(")", "]"), curves)
-    return replace(
-        draw_run(gap), alt=f"{title(run)}: measured, and the model before and after.",
-        live=over_time(time[rows], [panel]),
-    )  # fmt: skip
+    panel = Panel(
+        label.replace("(", "[").replace(")", "]"), run_curves(gap, found.run, found.channel, factor)
+    )
+    part = (found.begin, found.end, "where the user's model is farthest off")
+    live = over_time(run.motion.time, [panel], part=part, opens_at_part=True)
+    alt = f"{title(run)}: measured, and the model before and after."
+    return replace(draw_run(gap), alt=alt, live=several({title(run): live}))
 
 
 def run_curves(gap: Gap, name: str, channel: str, factor: float) -> list[Curve]:
@@ -164,8 +164,8 @@ def models(gap: Gap) -> list:
 
 @picture("run", (
     "Where the user's model is farthest off, a few cycles: measured (dots), the user's model "
-    "(before), and the model with everything that was found (after). At a dotted line the models "
-    "set out anew from the data."
+    "(before), and the model with everything that was found (after). Where the lines are cut the "
+    "models set out anew from the data."
 ))  # fmt: skip
 def draw_run(gap: Gap) -> Figure:
     """Measured, before and after over time."""

@@ -26,8 +26,8 @@ from .tracks import channels
 def write_data(gap: Gap | SummaryGap, result: Path, model: Path) -> str:
     """JSON and the model; the JSON's text."""
     data = as_json(gap, model.name)
-    is_summary = isinstance(gap, SummaryGap)
-    write_text(summary.model_text(gap) if is_summary else model_text(gap), model)
+    text_of = summary.model_text(gap) if isinstance(gap, SummaryGap) else model_text(gap)
+    write_text(text_of, model)
     write_text(data, result)
     return data
 
@@ -78,5 +78,6 @@ def drawers(gap: Gap | SummaryGap) -> list[Callable[[], Picture]]:
 
 def closing_lines(gap: Gap | SummaryGap) -> list[str]:
     """What a terminal says at the end."""
-    is_summary = isinstance(gap, SummaryGap)
-    return summary.closing_lines(gap) if is_summary else text.closing_lines(gap)
+    if isinstance(gap, SummaryGap):
+        return summary.closing_lines(gap)
+    return text.closing_lines(gap)

@@ -80,7 +80,9 @@ def file_text(
 ) -> str:
     """A scenario as a commented file. quantities : what is said of fitted keys beside them."""
     given = scenario.model_dump(exclude_unset=True)
-    top = {key: given.pop(key) for key in ("name", "defaults", "effects") if key in given}
+    top: dict[str, Any] = {
+        key: given.pop(key) for key in ("name", "defaults", "effects") if key in given
+    }
     known = {one.key: one for one in quantities}
     wrapped = [line for text in header for line in textwrap.wrap(text, 96)]
     lines = [f"# {line}".rstrip() for line in (*wrapped, *USAGE)]

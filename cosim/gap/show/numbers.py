@@ -67,8 +67,7 @@ def _of_runs(gap: Gap) -> dict[str, Any]:
         "ladder": gap.ladder,
         "exponents": gap.exponents,
         "curves": [_curve(law) for law in gap.laws],
-        "scatter": gap.scatter
-        and dict(zip(("value", "low", "high"), gap.scatter, strict=True)),
+        "scatter": gap.scatter and dict(zip(("value", "low", "high"), gap.scatter, strict=True)),
         "rig": gap.rig,
         "rates": gap.rates,
         "doubts": gap.doubts,

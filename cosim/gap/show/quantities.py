@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -100,7 +99,9 @@ def undetermined(gap: Gap) -> set[str]:
     return {
         label
         for label, sd in fitted.sd.items()
-        if label in said or not math.isfinite(sd) or (_is_strength(label) and _is_open(fitted, label))
+        if label in said
+        or not math.isfinite(sd)
+        or (_is_strength(label) and _is_open(fitted, label))
     }
 
 
@@ -159,7 +160,9 @@ def with_digits(value: float, *others: float) -> list[str]:
     decimals = 1 - math.floor(math.log10(half))
     if decimals > 7 or max(map(abs, (value, *others))) >= 1e6:
         return [digits(one) for one in (value, *others)]
-    return [_minus(f"{round(one, decimals) + 0.0:.{max(decimals, 0)}f}") for one in (value, *others)]
+    return [
+        _minus(f"{round(one, decimals) + 0.0:.{max(decimals, 0)}f}") for one in (value, *others)
+    ]
 
 
 def digits(value: float | None, count: int = 3) -> str:
@@ -174,8 +177,3 @@ def digits(value: float | None, count: int = 3) -> str:
 
 def _minus(text: str) -> str:
     return text.replace("-", "−")
-
-
-def plain(values: Mapping[str, float]) -> dict[str, float]:
-    """Values without numpy's own kind of number."""
-    return {key: float(value) for key, value in values.items()}

@@ -26,8 +26,8 @@ def reproduction_line(gap: Gap) -> str:
         return f"The FMU was not asked: {error}."
     said = "less than 0.001" if off < 1e-3 else digits(off, 2)
     return (
-        f"The FMU StickSlip3DOF with the numbers of model.toml moves as the fitted model does: over "
-        f"the first cycles of {run.name} their places differ by {said} noise units at most."
+        "The FMU StickSlip3DOF with the numbers of model.toml moves as the fitted model does: "
+        f"over the first cycles of {run.name} their places differ by {said} noise units at most."
     )
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from cosim.gap.result import Gap
 from cosim.report.live import Curve, Panel, over_time, several
 from cosim.report.page import Picture
-from cosim.report.style import BLUE, GREEN, INK, PALE_GREY, PURPLE, panels, picture
+from cosim.report.style import BLUE, GREEN, PALE_GREY, PURPLE, panels, picture
 
 from .answer_figures import SCALES, models, run_curves
 from .quantities import digits
@@ -64,9 +64,7 @@ def draw_overlay(gap: Gap, channel: str) -> Figure:
         for curve in run_curves(gap, name, channel, factor):
             style = {"marker": ".", "linestyle": "", "markersize": 1.5} if curve.dots else {}
             style |= {"linewidth": 0.8}
-            axis.plot(
-                run.motion.time, curve.values, color=curve.colour, label=curve.label, **style
-            )
+            axis.plot(run.motion.time, curve.values, color=curve.colour, label=curve.label, **style)
         axis.set_title(title(run))
         axis.set_ylabel(label)
     axes[-1, 0].set_xlabel("time in the run (s)")

@@ -99,7 +99,7 @@ def exponent_line(one: Exponent) -> str:
     value, low, high = with_digits(one.value, one.low, one.high)
     return (
         f"{one.effect}: its force goes as the {one.quantity} to the power {value} "
-        f"({low} to {high}); the law of the catalogue has {digits(one.catalogue)}"
+        f"({low} to {high}); the law of the catalogue has {one.catalogue:.3g}"
     )
 
 
@@ -149,8 +149,8 @@ def assumptions(gap: Gap) -> list[str]:
     )
     lines = [
         "masses, geometry and springs' lengths of the rig, exactly as stated",
-        f"stiffness of the springs, as stated within {digits(100.0 * errors.stiffness)} %",
-        f"surface speeds, as stated within {digits(100.0 * errors.surface_speed)} %",
+        f"stiffness of the springs, as stated within {100.0 * errors.stiffness:.3g} %",
+        f"surface speeds, as stated within {100.0 * errors.surface_speed:.3g} %",
         f"noise of a sample: {noise}",
     ]
     fitted = {label.partition("@")[0] for label in gap.extended.values}
@@ -169,7 +169,7 @@ def assumptions(gap: Gap) -> list[str]:
 def quantity_of_noise(channel: str, value: float) -> str:
     """A standard deviation in the unit that a tracker is thought of in."""
     unit = {"phi": "mrad", "force": "N"}.get(channel, "mm")
-    return f"{digits(value if unit == 'N' else 1e3 * value)} {unit}"
+    return f"{value if unit == 'N' else 1e3 * value:.3g} {unit}"
 
 
 def closing_lines(gap: Gap) -> list[str]:

@@ -11,8 +11,6 @@ from cosim.gap.result import Gap
 from cosim.gap.windows import FittedRun
 from cosim.gap.windows.windows import AXES, cycle
 
-from .quantities import digits
-
 #: Cycles in an excerpt.
 CYCLES = 4.0
 UNITS = {"x": "m", "y": "m", "phi": "rad"}
@@ -55,7 +53,8 @@ def channels(gap: Gap) -> tuple[str, ...]:
 def _rows(run: MeasuredRun, fitted: FittedRun) -> tuple[np.ndarray, np.ndarray]:
     """(m,) sample and number of the channel of each residual."""
     data = np.column_stack([run.motion[name] for name in seen(run, fitted)])
-    return np.nonzero(np.isfinite(data))
+    rows, columns = np.nonzero(np.isfinite(data))
+    return rows, columns
 
 
 def residuals(run: MeasuredRun, fitted: FittedRun) -> dict[str, np.ndarray]:
@@ -105,6 +104,5 @@ def title(run: MeasuredRun) -> str:
     """Name, operating point, and whether it was held out."""
     held = ", held out" if run.hold_out else ""
     return (
-        f"{run.name}: {digits(run.mass)} kg, {digits(run.stiffness)} N/m, "
-        f"{digits(run.surface_speed)} m/s{held}"
+        f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s{held}"
     )

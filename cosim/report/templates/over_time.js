@@ -284,6 +284,7 @@
     stage.append(room);
     const made = data.panels.map((panel, number) => makePanel(room, data, panel, number));
     first = made[0];
+    if (data.opens_at_part) zoomTo(data.group, data.part[0], data.part[1]);
     if (data.note) stage.append(live.element("p", { class: "small" }, data.note));
   }
 
