@@ -13,6 +13,8 @@ from .numbers import Unknown
 NEAR = 0.02
 #: Singular values below this part of the largest are directions that the data do not determine.
 RANK = 1e-9
+#: A number with more than this of such a direction in it is not determined either.
+UNFELT = 1e-3
 
 
 @dataclass(frozen=True)
@@ -74,9 +76,10 @@ class Fitted:
         of its diagonal.
         """
         _, singular, right = np.linalg.svd(derivatives, full_matrices=False)
-        with np.errstate(divide="ignore"):
-            inverse = np.where(singular > RANK * singular.max(initial=0.0), 1.0 / singular, np.inf)
-        spread = np.sqrt(np.sum((right.T * inverse) ** 2, axis=1)) * max(1.0, _rms(runs))
+        is_felt = singular > RANK * singular.max(initial=0.0)
+        spread = np.linalg.norm(right[is_felt] / singular[is_felt, None], axis=0)
+        spread = spread * max(1.0, _rms(runs))
+        spread[np.linalg.norm(right[~is_felt], axis=0) > UNFELT] = np.inf
         values, sd, at_bound = {}, {}, {}
         for (number, owner), place, width in zip(unknowns, scaled, spread, strict=True):
             label = Unknown(number, owner).label

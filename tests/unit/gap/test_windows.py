@@ -97,7 +97,7 @@ def test_windows_without_sticks_start_in_fast_sliding(tmp_path):
     speed = 0.6
     (run,) = measured(tmp_path, (speed,), film_drag={"coefficient": 0.2}).runs
     windows = windows_of(run)
-    assert cycle(run) == pytest.approx(2.0 * math.pi / run.natural_frequency)
+    assert cycle(run) == pytest.approx(2.0 * math.pi / run.natural_frequency, rel=0.02)
     assert np.isnan(windows.hold_since).all() and windows.free[:, 3].all()
     assert len(windows.first) > 3
 
