@@ -52,7 +52,7 @@ class Fitted:
     ----------
     values : label -> value; labels are ``key``, ``key@run``, ``key@setup n``
     sd : label -> standard deviation; enlarged by the gap where that exceeds 1, since residuals that
-        the noise does not explain count as much noise more
+        the noise does not explain count as much noise more; infinite where no motion depends on it
     at_bound : label -> the bound that the value is at
     runs : fitted ones and held-out ones
     """

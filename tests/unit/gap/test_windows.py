@@ -1,7 +1,6 @@
 """Numbers fitted in windows: known truth comes back, and no other optimiser finds a smaller gap."""
 
 import math
-import sys
 from dataclasses import replace
 from itertools import pairwise
 
@@ -21,6 +20,7 @@ from cosim.gap.windows import (
     windows_of,
     windows_of_campaign,
 )
+from cosim.gap.windows.problem import Problem
 from cosim.gap.windows.windows import cycle
 
 MU_S, MU_K = 0.3, 0.2
@@ -149,12 +149,11 @@ def test_an_effect_that_is_known_leaves_no_gap(weakened):
 def test_no_other_optimiser_finds_a_smaller_gap(weakened):
     """Over mu_s and mu_k; stiffness and zeros are as the fit has them."""
     result = fitted(weakened)
-    problem = sys.modules[fit.__module__]._Problem
     numbers, settings = user_model(weakened)
     settings |= {k: v for k, v in result.values.items() if k.startswith("offset")}
     numbers = [number for number in numbers if number.key.startswith("friction")]
     windows = windows_of_campaign(weakened)
-    problem = problem(weakened, weakened.fit_runs, windows, numbers, settings)
+    problem = Problem(weakened, weakened.fit_runs, windows, numbers, settings)
 
     def gap(scaled):
         rows = []

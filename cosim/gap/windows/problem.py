@@ -1,0 +1,136 @@
+"""Least squares over a campaign's numbers; the windows' start states follow them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from cosim.gap.data import Campaign, MeasuredRun
+
+from .fitted import Fitted
+from .numbers import Number, owners_of, unknowns_of
+from .run_fit import LEADS_ON, RunFit
+from .run_model import RunModel
+from .scan import valleys
+from .start_states import Started
+from .windows import Windows
+
+#: A fit ends where a step would change the sum of squares by less than this part of it.
+SETTLED = 1e-5
+#: Most evaluations of a fit, and of one that only shows which start leads on.
+MOST_TRIES, FIRST_TRIES = 40, 8
+#: Gap up to which nothing is missing, and there is no other minimum to look for.
+IN_STEP = 1.05
+#: Fits in a row, each from better states of windows that were off course.
+REPEATS = 3
+
+
+class Point(NamedTuple):
+    """Scaled numbers, every run's start states, and the sum of squares there."""
+
+    scaled: np.ndarray
+    started: list[Started]
+    cost: float
+
+
+class Problem:
+    """Residuals and derivatives as functions of the scaled numbers (k,)."""
+
+    def __init__(
+        self,
+        campaign: Campaign,
+        runs: Sequence[MeasuredRun],
+        windows: Mapping[str, Windows],
+        numbers: Sequence[Number],
+        settings: Mapping[str, float],
+    ):
+        self.settings = dict(settings)
+        self.unknowns = unknowns_of(campaign, runs, numbers)
+        self.parts = []
+        for run in runs:
+            owners = set(owners_of(campaign, run).values())
+            felt = [i for i, unknown in enumerate(self.unknowns) if unknown.owner in owners]
+            model = RunModel(campaign, run, windows[run.name])
+            self.parts.append(RunFit(model, self.unknowns, felt, self.settings))
+
+    def values(self, scaled: np.ndarray) -> dict[str, float]:
+        """label -> value."""
+        return {u.label: u.number.value(s) for u, s in zip(self.unknowns, scaled, strict=True)}
+
+    def residuals(self, scaled: np.ndarray) -> np.ndarray:
+        """Of all runs, with priors as rows (value - start) / prior."""
+        rows = [part.followed(scaled).residuals for part in self.parts]
+        return np.concatenate([*rows, self._priors(scaled)[0]])
+
+    def derivatives(self, scaled: np.ndarray) -> np.ndarray:
+        """Of `residuals`, start states eliminated."""
+        blocks = [part.derivatives(scaled) for part in self.parts]
+        return np.concatenate([*blocks, self._priors(scaled)[1]])
+
+    def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        rows, slopes = np.zeros(len(self.unknowns)), np.zeros(len(self.unknowns))
+        for i, (number, _) in enumerate(self.unknowns):
+            if number.prior is not None:
+                rows[i] = (number.value(scaled[i]) - number.start) / number.prior
+                slopes[i] = number.slope(scaled[i]) / number.prior
+        return rows, np.diag(slopes)
+
+    def solved(self, scan: bool = False) -> Fitted:
+        """The best numbers; scan: sets out from the best of several starts."""
+        best = self._settled(self._first() if scan else self._descended(self._start, MOST_TRIES))
+        return self._fitted(best.scaled)
+
+    @property
+    def _start(self) -> np.ndarray:
+        return np.zeros(len(self.unknowns))
+
+    def _settled(self, at: Point) -> Point:
+        """The best nearby; again from where windows off course find better states."""
+        for _ in range(REPEATS):
+            at = self._descended(at.scaled, MOST_TRIES)
+            if not any([part.retried(at.scaled) for part in self.parts]):
+                break
+        return self._point(at.scaled)
+
+    def _point(self, scaled: np.ndarray) -> Point:
+        started = [part.followed(scaled) for part in self.parts]
+        return Point(scaled, started, float(np.sum(self.residuals(scaled) ** 2)))
+
+    def _go_on_from(self, point: Point) -> None:
+        for part, started in zip(self.parts, point.started, strict=True):
+            part.forget(point.scaled, started)
+
+    def _first(self) -> Point:
+        """The best of a few starts after a few steps; the first guess alone if it is in step."""
+        best = self._descended(self._start, FIRST_TRIES)
+        if best.cost < IN_STEP**2 * sum(part.model.size for part in self.parts):
+            return best
+        for start in valleys(self.unknowns, self._rough_cost):
+            for part in self.parts:
+                part.forget()
+            best = min(best, self._descended(start, FIRST_TRIES), key=lambda point: point.cost)
+        self._go_on_from(best)
+        return best
+
+    def _rough_cost(self, at: np.ndarray) -> float:
+        return sum(part.roughly(at) for part in self.parts)
+
+    def _descended(self, at: np.ndarray, tries: int) -> Point:
+        """Down from one point, in so many tries."""
+        if not self.unknowns:
+            return self._point(at)
+        low = [u.number.scaled(u.number.low) for u in self.unknowns]
+        high = [u.number.scaled(u.number.high) for u in self.unknowns]
+        found = least_squares(
+            self.residuals, np.clip(at, low, high), self.derivatives, (low, high),
+            ftol=SETTLED, xtol=1e-4, max_nfev=tries,
+        )  # fmt: skip
+        return self._point(found.x)
+
+    def _fitted(self, at: np.ndarray) -> Fitted:
+        derivatives = self.derivatives(at)
+        runs = tuple(part.described(at) for part in self.parts)
+        return Fitted.at(self.unknowns, at, derivatives, runs)

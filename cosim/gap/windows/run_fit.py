@@ -1,0 +1,127 @@
+"""One run of a fit: its start states and derivatives as the numbers change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from .fitted import FittedRun
+from .numbers import Unknown
+from .run_model import RunModel
+from .start_states import Started, StartStates
+
+#: Finite differences of a number, in its scales. Numbers that compensate each other but for their
+#: priors (mu_s, mu_k and all zeros) need derivatives to 1e-4 of themselves: with ten times the step
+#: the curvature of the motion seems to tell them apart.
+STEP = 1e-4
+#: A window whose misfit grows by this factor, and by this, in a step has lost its course.
+LOST, LOST_SQUARES = 2.0, 10.0
+#: States found elsewhere are better if a run's sum of squares falls by this part.
+LEADS_ON = 1e-3
+
+
+class RunFit:
+    """One run of a problem, with the start states that belong to the last derivatives."""
+
+    def __init__(
+        self,
+        model: RunModel,
+        unknowns: Sequence[Unknown],
+        felt: Sequence[int],
+        settings: Mapping[str, float],
+    ):
+        self.model, self.starts = model, StartStates(model)
+        self.unknowns, self.felt, self.settings = unknowns, list(felt), settings
+        self.tried: dict[bytes, Started] = {}
+        self.base: np.ndarray | None = None  # where the following were taken
+        self.columns: np.ndarray | None = None
+        self.response = np.empty(0)
+
+    def values(self, scaled: np.ndarray) -> dict[str, float]:
+        """key -> value of this run."""
+        own = {self.unknowns[i].label: self.unknowns[i].number.value(scaled[i]) for i in self.felt}
+        return self.model.values({**self.settings, **own})
+
+    def roughly(self, scaled: np.ndarray) -> float:
+        """Sum of squares from the states read off the data."""
+        values = self.values(scaled)
+        states = self.starts.read_off(values)
+        return float(np.sum(self.model.residuals(values, states) ** 2))
+
+    def forget(self, scaled: np.ndarray | None = None, started: Started | None = None) -> None:
+        """All states, but those of one point if given, from which others then follow."""
+        self.base, self.tried, self.columns = None, {}, None
+        if scaled is not None and started is not None:
+            self.base = scaled[self.felt].copy()
+            self.tried[self.base.tobytes()] = started
+
+    def followed(self, scaled: np.ndarray) -> Started:
+        """The start states that belong to other numbers; the same for the same numbers."""
+        key = scaled[self.felt].tobytes()
+        if key not in self.tried:
+            self.tried[key] = self._followed(scaled)
+        return self.tried[key]
+
+    def _followed(self, scaled: np.ndarray) -> Started:
+        values = self.values(scaled)
+        p = self.model.packed(values)
+        if self.base is None:
+            return self.starts.found(values, p)
+        base = self.tried[self.base.tobytes()]
+        if self.columns is None:
+            return self.starts.settled(values, self.starts.started(values, base.states, p), p)
+        moved = base.states.copy()
+        moved[:, self.starts.axes] += self.response @ (scaled[self.felt] - self.base)
+        at = self.starts.started(values, moved, p)
+        limit = LOST * self.starts.squares(base) + LOST_SQUARES
+        if (self.starts.squares(at) > limit).any():
+            at = self.starts.better(at, self.starts.started(values, base.states, p))
+        at = self.starts.stepped(values, at, self.columns, p)
+        if (self.starts.squares(at) > limit).any():
+            at = self.starts.settled(values, at, p, rounds=2)
+        return at
+
+    def derivatives(self, scaled: np.ndarray) -> np.ndarray:
+        """(size, k) by the numbers, normal to those by the start states."""
+        at, values = self.followed(scaled), self.values(scaled)
+        p = self.model.packed(values)
+        self.columns = self.starts.derivatives(values, at, p)
+        slopes = np.zeros((self.model.size, len(self.felt)))
+        for place, i in enumerate(self.felt):
+            slopes[:, place] = self._slope(scaled, i, at)
+        move = self.starts.coordinates(self.columns, slopes)
+        steps = self.starts.steps[self.starts.axes]
+        self.response = -move * steps[None, :, None]
+        self.base = scaled[self.felt].copy()
+        self.tried = {self.base.tobytes(): at}
+        derivatives = np.zeros((self.model.size, len(self.unknowns)))
+        derivatives[:, self.felt] = self.starts.normal_part(self.columns, slopes)
+        return derivatives
+
+    def _slope(self, scaled: np.ndarray, i: int, at: Started) -> np.ndarray:
+        """(size,) by one number, at fixed start states."""
+        number = self.unknowns[i].number
+        if number.key in ("offset.x", "offset.y"):
+            seen = self.model.axes == ("offset.x", "offset.y").index(number.key)
+            return np.where(seen, number.slope(scaled[i]) / self.model.noise, 0.0)
+        moved = scaled.copy()
+        step = STEP if number.value(scaled[i] + STEP) <= number.high else -STEP
+        moved[i] += step
+        return (self.model.residuals(self.values(moved), at.states) - at.residuals) / step
+
+    def retried(self, scaled: np.ndarray) -> bool:
+        """Whether windows off course have found better states, which are then kept."""
+        at, values = self.followed(scaled), self.values(scaled)
+        p = self.model.packed(values)
+        other = self.starts.retried(values, self.starts.settled(values, at, p), p)
+        self.forget(scaled, other)
+        return self.starts.gain(at, other) > LEADS_ON
+
+    def described(self, scaled: np.ndarray) -> FittedRun:
+        """The run as the fit left it."""
+        at, values = self.followed(scaled), self.values(scaled)
+        return FittedRun(
+            self.model.run.name, values, self.model.track(values, at.states), at.states,
+            at.residuals, self.model.owner, self.model.run.hold_out,
+        )  # fmt: skip
