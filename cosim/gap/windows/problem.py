@@ -12,7 +12,7 @@ from cosim.gap.data import Campaign, MeasuredRun
 
 from .fitted import Fitted
 from .numbers import Number, owners_of, unknowns_of
-from .run_fit import LEADS_ON, RunFit
+from .run_fit import RunFit
 from .run_model import RunModel
 from .scan import valleys
 from .start_states import Started
