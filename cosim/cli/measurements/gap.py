@@ -24,6 +24,8 @@ EXAMPLE = "stickslip gap cold_room/campaign.toml -o results/cold_room"
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "verdict", "ranking")
+#: What writes an answer down.
+SHOW, SHOW_SUMMARY = "cosim.gap.show.files", "cosim.studies.reproduction.summary.show"
 CAMPAIGNS = Path(__file__).parents[2] / "gap" / "campaigns"
 
 
@@ -84,9 +86,9 @@ def execute(arguments: Namespace) -> int:
         return DONE
     if arguments.campaign is None:
         raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
-    with held_interrupts():
-        files = import_module("cosim.gap.show.files")
     campaign = read_campaign(_source(arguments.campaign))
+    with held_interrupts():
+        files = import_module(SHOW_SUMMARY if _has_no_tracks(campaign) else SHOW)
     folder = Path(arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap")
     writable(folder, (RESULT, MODEL, PAGE))
     require_own(folder, (RESULT, MODEL, PAGE), arguments.force)
@@ -99,7 +101,7 @@ def execute(arguments: Namespace) -> int:
     with results_in(folder, made, force=arguments.force) as results:
         with held_interrupts():
             text = files.write_data(gap, folder / RESULT, folder / MODEL)
-            corrected = files.write_corrected_data(gap, folder)
+            corrected = files.write_corrected(gap, folder)
         asked.give(text)
         status = _shown(files, gap, folder, corrected, arguments)
         results.complete = status == DONE
@@ -139,6 +141,11 @@ def _source(given: str) -> Path:
     return Path(given)
 
 
+def _has_no_tracks(campaign: Campaign) -> bool:
+    """Whether only figures are known of the runs, or only the study's own scheme is looked at."""
+    return campaign.scheme == "study" or all(run.track is None for run in campaign.runs)
+
+
 def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:
     """Runs of which figures alone are known, and the study's own scheme, are searched otherwise."""
 
@@ -146,13 +153,13 @@ def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:
         bar.total = total
         bar.update(done - bar.n)
 
-    tracks = any(run.track is not None for run in campaign.runs)
-    if campaign.scheme == "study" or not tracks:
+    def step(count: int) -> None:
+        bar.update(count)
+
+    if _has_no_tracks(campaign):
         from cosim.studies.reproduction.summary import find_summary_gap
 
-        return find_summary_gap(
-            campaign, seed=seed, jobs=jobs, step=lambda count: bar.update(count)
-        )
+        return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
     from cosim.gap.find import find_gap
 
     return find_gap(campaign, jobs=jobs, progress=progress)

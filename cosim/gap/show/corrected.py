@@ -19,7 +19,7 @@ import numpy as np
 import tomli_w
 
 from cosim.files import write_text
-from cosim.gap.data import Campaign, MeasuredRun, Track
+from cosim.gap.data import MeasuredRun, Track
 from cosim.gap.data.campaign_file import FILE_NAME
 from cosim.gap.result import Gap
 
@@ -28,32 +28,32 @@ from .text import FAULT, faults_of
 
 #: Faults that can be undone.
 UNDONE = ("measurement.scale", "measurement.clock", "measurement.rotation", "measurement.drift")
+OF_A_RUN = ("mass", "stiffness", "surface_speed", "ambient_degC", "hold_out")
 
 
 def write_corrected(gap: Gap, folder: Path) -> list[Path]:
     """`corrected/campaign.toml` and the runs' files beside it; [] where nothing can be undone."""
     if not set(faults_of(gap)) & set(UNDONE):
         return []
-    target = folder / "corrected"
+    campaign, target = gap.campaign, folder / "corrected"
     target.mkdir(parents=True, exist_ok=True)
     values = {run.name: run.values for run in gap.extended.runs}
-    written, entries = [], []
-    for number, run in enumerate(gap.campaign.runs, 1):
-        entry = {
-            "mass": run.mass, "stiffness": run.stiffness, "surface_speed": run.surface_speed,
-            "ambient_degC": run.ambient_degC, "hold_out": run.hold_out,
-        }  # fmt: skip
-        if run.track is None:
-            summary = {key: list(pair) for key, pair in (run.summary or {}).items()}
-            entries.append({"summary": summary, **entry})
-            continue
-        file = target / f"run{number:02d}.csv"
-        numbers = {k: v for k, v in values.get(run.name, {}).items() if k.startswith(FAULT)}
-        write_text(_csv(corrected(run, numbers).motion, numbers), file)
-        written.append(file)
-        entries.append({"file": file.name, **entry})
-    write_text(tomli_w.dumps(_tables(gap.campaign, entries)), target / FILE_NAME)
-    return [target / FILE_NAME, *written]
+    files, entries = [], []
+    for number, run in enumerate(campaign.runs, 1):
+        if run.track is not None:
+            files.append(target / f"run{number:02d}.csv")
+            numbers = {k: v for k, v in values[run.name].items() if k.startswith(FAULT)}
+            write_text(_csv(corrected(run, numbers).motion, numbers), files[-1])
+            entries.append({"file": files[-1].name} | {key: getattr(run, key) for key in OF_A_RUN})
+    noise = {k: v for k, v in campaign.noise.items() if k not in campaign.noise_estimated}
+    friction: dict[str, Any] = {key: list(pair) for key, pair in campaign.friction.items()}
+    if campaign.friction_table is not None:
+        friction["table"] = str(campaign.friction_table.file.resolve())
+    rig, errors = (part.model_dump(exclude_unset=True) for part in (campaign.rig, campaign.errors))
+    known = {"rig": rig, "noise": noise, "errors": errors, "friction": friction, "run": entries}
+    table = {"name": f"{campaign.name}, corrected"[:200], **known}
+    write_text(tomli_w.dumps(table), target / FILE_NAME)
+    return [target / FILE_NAME, *files]
 
 
 def corrected(run: MeasuredRun, values: Mapping[str, float]) -> MeasuredRun:
@@ -62,21 +62,15 @@ def corrected(run: MeasuredRun, values: Mapping[str, float]) -> MeasuredRun:
     def value(name: str) -> float:
         return float(values.get(f"measurement.{name}", 0.0))
 
-    track = run.motion
+    track, turn = run.motion, value("rotation")
     time = track.time / (1.0 + value("clock"))
-    settled = -np.expm1(-time / value("drift_time")) if value("drift_time") else np.zeros_like(time)
-    x, y = (
-        None if channel is None
-        else channel - value(f"drift_rate_{axis}") * time - value(f"drift_{axis}") * settled
-        for axis, channel in (("x", track.x), ("y", track.y))
-    )  # fmt: skip
-    assert x is not None
-    turn, scale = value("rotation"), 1.0 + value("scale")
-    if y is None:
-        return replace(run, track=replace(track, time=time, x=x / scale))
-    if turn:
-        x, y = np.cos(turn) * x - np.sin(turn) * y, np.cos(turn) * y + np.sin(turn) * x
-    return replace(run, track=replace(track, time=time, x=x / scale, y=y / scale))
+    settled = -np.expm1(-time / value("drift_time")) if value("drift_time") else 0.0 * time
+    drift = [value(f"drift_rate_{a}") * time + value(f"drift_{a}") * settled for a in "xy"]
+    places = np.stack([track.x, 0.0 * time if track.y is None else track.y]) - drift
+    if turn:  # a missing y would take x with it
+        places = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]) @ places
+    x, y = places / (1.0 + value("scale"))
+    return replace(run, track=replace(track, time=time, x=x, y=None if track.y is None else y))
 
 
 def _csv(track: Track, numbers: Mapping[str, float]) -> str:
@@ -91,20 +85,3 @@ def _csv(track: Track, numbers: Mapping[str, float]) -> str:
     for row in np.stack(list(columns.values()), axis=1):
         lines.append(",".join("" if np.isnan(number) else f"{number:.12g}" for number in row))
     return "\n".join(lines) + "\n"
-
-
-def _tables(campaign: Campaign, runs: list[dict[str, Any]]) -> dict[str, Any]:
-    """The campaign with its corrected files."""
-    stated = {k: v for k, v in campaign.noise.items() if k not in campaign.noise_estimated}
-    friction: dict[str, Any] = {key: list(pair) for key, pair in campaign.friction.items()}
-    if campaign.friction_table is not None:
-        friction["table"] = str(campaign.friction_table.file.resolve())
-    return {
-        "name": f"{campaign.name}, corrected"[:200],
-        "rig": campaign.rig.model_dump(exclude_unset=True),
-        "model": {"scheme": campaign.scheme},
-        "noise": stated,
-        "errors": campaign.errors.model_dump(exclude_unset=True),
-        "friction": friction,
-        "run": runs,
-    }

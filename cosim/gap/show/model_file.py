@@ -15,7 +15,6 @@ from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.result import Gap
-from cosim.gap.windows import FittedRun
 from cosim.gap.windows.run_model import parameters_of
 from cosim.gap.windows.windows import moves_across
 from cosim.scenario import Scenario
@@ -23,7 +22,7 @@ from thermal import Ambient
 
 from .quantities import Quantity, fitted_quantities, unit_and_meaning
 from .text import faults_of, gap_line
-from .tracks import measured_run
+from .tracks import shown_runs
 
 #: Enough that the motion is the fitted one for longer than any window.
 DIGITS = 12
@@ -46,22 +45,21 @@ def safe_name(name: str) -> str:
     return re.sub(r"[^\w.-]+", "-", name).strip("-.")[:80] or "campaign"
 
 
-def shown_run(gap: Gap) -> FittedRun:
+def shown_run(gap: Gap) -> MeasuredRun:
     """The run that stands for the campaign: the first that was held out, else the first."""
-    held = [run for run in gap.extended.runs if run.hold_out]
-    return (held or list(gap.extended.runs))[0]
+    return min(shown_runs(gap), key=lambda run: not run.hold_out)
 
 
-def scenario_of(gap: Gap, fitted: FittedRun) -> Scenario:
+def scenario_of(gap: Gap, run: MeasuredRun) -> Scenario:
     """The extended model at one run's mass, springs, speed and start."""
-    run = measured_run(gap, fitted.name)
+    fitted = gap.extended.run(run.name)
     tables = known_tables(gap.campaign, run)
     if not moves_across(gap.campaign):
         tables["rig"]["degrees_of_freedom"] = ("x",)
     tables["surface"]["speed"] = run.surface_speed * (1.0 + fitted.values.get("offset.speed", 0.0))
     put(tables, parameters_of(run, fitted.values))
-    start = np.nan_to_num(fitted.states[0])
-    tables["initial"] = {name: float(value) for name, value in zip(STATE, start, strict=True)}
+    start = map(float, np.nan_to_num(fitted.states[0]))
+    tables["initial"] = dict(zip(STATE, start, strict=True))
     interval = rounded(run.motion.interval, 6)
     tables["run"] = {"duration": float(run.motion.time[-1]), "output_interval": interval}
     tables["coupling"] = {"macro_step": interval}
@@ -70,8 +68,7 @@ def scenario_of(gap: Gap, fitted: FittedRun) -> Scenario:
 
 def model_text(gap: Gap) -> str:
     """The file: what it is, then every key that was known or found, with unit and meaning."""
-    run = shown_run(gap)
-    quantities = fitted_quantities(gap)
+    run, quantities = shown_run(gap), fitted_quantities(gap)
     return file_text(scenario_of(gap, run), _header(gap, run, quantities), quantities)
 
 
@@ -80,16 +77,17 @@ def file_text(
 ) -> str:
     """A scenario as a commented file. quantities : what is said of fitted keys beside them."""
     given = scenario.model_dump(exclude_unset=True)
-    top: dict[str, Any] = {
-        key: given.pop(key) for key in ("name", "defaults", "effects") if key in given
-    }
     known = {one.key: one for one in quantities}
     wrapped = [line for text in header for line in textwrap.wrap(text, 96)]
-    lines = [f"# {line}".rstrip() for line in (*wrapped, *USAGE)]
-    lines += ["", *_entries(top)]
-    for table in sorted(given, key=lambda table: table not in FIRST):
-        if given[table]:
-            lines += ["", f"[{table}]", *_entries(given[table], table, known)]
+    lines = [f"# {line}".rstrip() for line in (*wrapped, *USAGE)] + [""]
+    lines += [
+        _entry(key, given.pop(key)) for key in ("name", "defaults", "effects") if key in given
+    ]
+    for table in sorted(filter(given.get, given), key=lambda table: table not in FIRST):
+        lines += ["", f"[{table}]"]
+        for key, value in given[table].items():
+            said = _comment(f"{table}.{key}", known.get(f"{table}.{key}"))
+            lines.append(f"{_entry(key, value):<34}  # {said}")
     return "\n".join(lines) + "\n"
 
 
@@ -137,43 +135,37 @@ def rounded(value: Any, digits: int = DIGITS) -> Any:
     return float(f"{value:.{digits}g}") if isinstance(value, float) else value
 
 
-def _header(gap: Gap, run: FittedRun, quantities: Sequence[Quantity]) -> list[str]:
+def _header(gap: Gap, run: MeasuredRun, quantities: Sequence[Quantity]) -> list[str]:
     """What a reader of the file alone has to know."""
-    alone = len(gap.ladder) == 1
     said = [
         f"The model of campaign {gap.campaign.name!r} at {run.name}. {gap.verdict.capitalize()}: "
         f"{gap.sentence}",
-        f"Gap (1 is the tracker's noise): {gap_line(gap.before, gap.after, alone)}.",
+        f"Gap (1 is the tracker's noise): {gap_line(gap)}.",
     ]
-    if gap.verdict == "class":
-        said.append("Of the class it has the member that fits best.")
-    if abs(run.values.get("offset.friction", 0.0)) > 0.0:
-        said.append(f"Friction is that of {run.name}, which differs from the other runs.")
-    if any(law.in_model for law in gap.laws):
-        said.append("Friction over the sliding speed is a table, which no law of the catalogue is.")
-    if faults_of(gap):
-        said.append(f"Of the camera, and so not part of the model: {', '.join(faults_of(gap))}.")
-    found = [one.text for one in quantities if one.key.partition(".")[0] in gap.effects]
-    return [*said, *(f"Found: {text}, 90 % interval." for text in found)]
+    run_values, faults = gap.extended.run(run.name).values, ", ".join(faults_of(gap))
+    beside = {
+        "Of the class it has the member that fits best.": gap.verdict == "class",
+        f"Friction is that of {run.name}, other runs differ.": run_values.get("offset.friction"),
+        "Friction over the sliding speed is a table: no law of the catalogue follows it.": any(
+            law.in_model for law in gap.laws
+        ),
+        f"Of the camera, and so not part of the model: {faults}.": faults,
+    }
+    said += [line for line, is_so in beside.items() if is_so]
+    found = [one for one in quantities if any(one.key.startswith(name) for name in gap.effects)]
+    return said + [f"Found, with a 90 % interval: {one.text}." for one in found]
 
 
-def _entries(
-    entries: Mapping[str, Any], table: str = "", known: Mapping[str, Quantity] | None = None
-) -> list[str]:
-    """`key = value   # meaning, unit; interval` for each entry."""
-    lines = []
-    for key, value in entries.items():
-        text = tomli_w.dumps({key: list(value) if isinstance(value, tuple) else value}).strip()
-        text = re.sub(r"\s*\n\s*", " ", text).replace("[ ", "[").replace(", ]", "]")
-        said = _comment(f"{table}.{key}", (known or {}).get(f"{table}.{key}")) if table else ""
-        lines.append(f"{text:<34}{said}".rstrip())
-    return lines
+def _entry(key: str, value: Any) -> str:
+    """`key = value` in a line."""
+    text = tomli_w.dumps({key: list(value) if isinstance(value, tuple) else value}).strip()
+    return re.sub(r"\s*\n\s*", " ", text).replace("[ ", "[").replace(", ]", "]")
 
 
 def _comment(key: str, known: Quantity | None) -> str:
+    """`meaning, unit; interval`."""
     unit, meaning = unit_and_meaning(key)
-    short = re.split(r"[:;\[]", meaning)[0].strip()
-    said = f"  # {short}{f', {unit}' if unit else ''}"
+    said = ", ".join(filter(None, (re.split(r"[:;\[]", meaning)[0].strip(), unit)))
     if known is None:
         return said
     return f"{said}; {f'fitted, 90 %: {known.interval}' if known.interval else known.value}"

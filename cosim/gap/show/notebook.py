@@ -14,14 +14,16 @@ from cosim.names import unknown_name
 from cosim.report.files import json_text, provenance
 from cosim.report.style import shown
 
-from .answer_figures import draw_ladder, draw_laws, draw_run
+from .answer_figures import draw_ladder, draw_laws
 from .numbers import as_data
-from .run_figures import draw_overlay, draw_residuals
-from .tracks import UNITS, channels, measured_run, modelled, residuals, run_names
+from .run_figures import draw_overlay, draw_residuals, draw_run
+from .tracks import channels, modelled, residuals, shown_runs
 
-MEANING = {
-    "x": "place along the surface's motion", "y": "place across it", "phi": "rotation",
+CHANNELS = {
+    "x": ("m", "place along the surface's motion"), "y": ("m", "place across it"),
+    "phi": ("rad", "rotation"),
 }  # fmt: skip
+OF_A_RUN = {"surface_speed": "m/s", "mass": "kg", "stiffness": "N/m", "hold_out": "1"}
 
 
 def gap_dataset(gap: Gap) -> xr.Dataset:
@@ -32,55 +34,46 @@ def gap_dataset(gap: Gap) -> xr.Dataset:
     ``run`` (r,): its name, whether it was held out, the gap before and after, speed, mass,
     stiffness. Attribute `gap`: what `gap.json` holds, as text.
     """
-    runs = [measured_run(gap, name) for name in run_names(gap)]
-    models = {"plain": gap.plain, "extended": gap.extended}
-    variables: dict[str, Any] = {}
+    runs = shown_runs(gap)
+    found: dict[str, Any] = {
+        name: ("run", [getattr(run, name) for run in runs], {"units": unit})
+        for name, unit in OF_A_RUN.items()
+    }
+
+    def add(name: str, parts: list[np.ndarray], unit: str, meaning: str) -> None:
+        found[name] = ("sample", np.concatenate(parts), {"units": unit, "long_name": meaning})
+
     for channel in channels(gap):
-        said = {"units": UNITS[channel], "long_name": MEANING[channel]}
-        missing = [np.full(run.motion.time.size, np.nan) for run in runs]
-        measured = [
-            run.motion[channel] if channel in run.motion.channels else none
-            for run, none in zip(runs, missing, strict=True)
-        ]
-        variables[channel] = ("sample", np.concatenate(measured), said)
-        for label, model in models.items():
-            tracks = [modelled(run, model.run(run.name), channel) for run in runs]
-            left = [
-                residuals(run, model.run(run.name)).get(channel, none)
-                for run, none in zip(runs, missing, strict=True)
-            ]
-            said = {"units": UNITS[channel], "long_name": f"{MEANING[channel]}, {label} model"}
-            variables[f"{channel}_{label}"] = ("sample", np.concatenate(tracks), said)
-            said = {"units": "1", "long_name": f"{label} model less {channel} over the noise"}
-            variables[f"{channel}_left_{label}"] = ("sample", np.concatenate(left), said)
-    for label, model in models.items():
-        said = {"units": "1", "long_name": f"gap of the {label} model, noise units"}
-        variables[f"gap_{label}"] = ("run", [model.run(run.name).gap for run in runs], said)
-    for name, unit in (("surface_speed", "m/s"), ("mass", "kg"), ("stiffness", "N/m")):
-        variables[name] = ("run", [getattr(run, name) for run in runs], {"units": unit})
-    variables["held_out"] = ("run", [run.hold_out for run in runs])
-    sizes = [run.motion.time.size for run in runs]
-    time = np.concatenate([run.motion.time for run in runs])
-    dataset = xr.Dataset(variables).assign_coords(
-        time=("sample", time, {"units": "s", "long_name": "time in the run"}),
-        number=("sample", np.repeat(np.arange(len(runs)), sizes), {"units": "1"}),
-        run=("run", [run.name for run in runs]),
-    )
-    dataset.attrs.update(
-        title=gap.campaign.name, case="gap", verdict=gap.verdict, effects=list(gap.effects),
-        gap=json_text(as_data(gap, "")), **provenance(),
-    )  # fmt: skip
-    return dataset
+        unit, meaning = CHANNELS[channel]
+        none = [np.full(run.motion.time.size, np.nan) for run in runs]
+        measured = [getattr(run.motion, channel) for run in runs]
+        measured = [n if m is None else m for m, n in zip(measured, none, strict=True)]
+        add(channel, measured, unit, meaning)
+        for label, model in (("plain", gap.plain), ("extended", gap.extended)):
+            pairs = [(run, model.run(run.name)) for run in runs]
+            moved = [modelled(*pair, channel) for pair in pairs]
+            add(f"{channel}_{label}", moved, unit, f"{meaning}, {label} model")
+            left = [residuals(*pair, channel) for pair in pairs]
+            add(f"{channel}_left_{label}", left, "1", f"{label} model less {channel}, noise units")
+            found[f"gap_{label}"] = ("run", [one.gap for _, one in pairs], {"units": "1"})
+    add("time", [run.motion.time for run in runs], "s", "time in the run")
+    number = [np.full(run.motion.time.size, place) for place, run in enumerate(runs)]
+    add("number", number, "1", "number of the run")
+    dataset = xr.Dataset(found).assign_coords(run=("run", [run.name for run in runs]))
+    attributes = {"title": gap.campaign.name, "case": "gap", "verdict": gap.verdict}
+    dataset.attrs |= attributes | {"effects": list(gap.effects), **provenance()}
+    dataset.attrs["gap"] = json_text(as_data(gap, ""))
+    return dataset.set_coords(["time", "number"])
 
 
 def figure_of(gap: Gap, name: str) -> Figure:
     """A figure of the page by its name; ValueError for one that this answer has not."""
-    found = {"ladder": draw_ladder, "run": draw_run, "residuals": draw_residuals}
+    found = {"ladder": partial(shown, draw_ladder, gap), "run": partial(shown, draw_run, gap)}
     if gap.laws:
-        found["curve"] = draw_laws
-    draws = {key: partial(shown, draw, gap) for key, draw in found.items()}
+        found["curve"] = partial(shown, draw_laws, gap)
     for channel in channels(gap):
-        draws[f"overlay_{channel}"] = partial(shown, draw_overlay, gap, channel)
-    if name not in draws:
-        raise ValueError(unknown_name("figure of this answer", name, draws))
-    return draws[name]()
+        found[f"overlay_{channel}"] = partial(shown, draw_overlay, gap, channel)
+        found[f"residuals_{channel}"] = partial(shown, draw_residuals, gap, channel)
+    if name not in found:
+        raise ValueError(unknown_name("figure of this answer", name, found))
+    return found[name]()

@@ -9,8 +9,11 @@ from cosim.gap.result import Gap
 from cosim.report.page import Picture, render
 
 from . import text
+from .numbers import remarks
 from .quantities import digits, fitted_quantities, with_digits
-from .tracks import measured_run, run_names
+from .tracks import shown_runs
+
+FIRST = ("ladder", "curve", "run")
 
 
 def page(
@@ -18,32 +21,13 @@ def page(
 ) -> str:
     """HTML with every picture inside; corrected : files of data freed of the camera's faults."""
     quantities = fitted_quantities(gap)
-    by_name = {one.name: one for one in pictures}
+    rates = gap.rates.table.values() if gap.rates else ()
     return render(
-        "gap.html.j2",
-        "cosim.gap.show",
-        gap=gap,
-        text=text,
-        digits=digits,
-        with_digits=with_digits,
-        first=[by_name[name] for name in ("ladder", "curve", "run") if name in by_name],
-        overlays=[one for one in pictures if one.name.startswith("overlay")],
-        residuals=by_name.get("residuals"),
-        quantities=[one for one in quantities if not one.owner],
-        own_quantities=[one for one in quantities if one.owner],
+        "gap.html.j2", "cosim.gap.show", gap=gap, text=text, digits=digits,
+        with_digits=with_digits, remarks=remarks(gap), reproduction=reproduction,
+        corrected=corrected, quantities=quantities, runs=shown_runs(gap),
+        first=[one for one in pictures if one.name in FIRST],
+        folded=[one for one in pictures if one.name not in FIRST],
         numbers=[text.numbers_of(gap, row, quantities) for row in gap.ranking],
-        runs=[
-            (measured_run(gap, name), gap.plain.run(name), gap.extended.run(name))
-            for name in run_names(gap)
-        ],
-        remarks=tuple(dict.fromkeys((*gap.campaign.remarks, *gap.remarks))),
-        answers=_answers(gap),
-        reproduction=reproduction,
-        corrected=corrected,
-    )
-
-
-def _answers(gap: Gap) -> list[str]:
-    """Columns of the table of rates: what was answered at all."""
-    rows = gap.rates.table.values() if gap.rates else ()
-    return list(dict.fromkeys(answer for row in rows for answer, count in row.items() if count))
+        answers=list(dict.fromkeys(answer for row in rates for answer in row)),
+    )  # fmt: skip

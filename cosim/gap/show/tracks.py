@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from cosim.gap.data import MeasuredRun
@@ -13,96 +11,69 @@ from cosim.gap.windows.windows import AXES, cycle
 
 #: Cycles in an excerpt.
 CYCLES = 4.0
-UNITS = {"x": "m", "y": "m", "phi": "rad"}
 
 
-class Excerpt(NamedTuple):
-    """Run, channel, begin and end, s."""
-
-    run: str
-    channel: str
-    begin: float
-    end: float
+def shown_runs(gap: Gap) -> list[MeasuredRun]:
+    """The runs that both models were simulated in."""
+    names = {run.name for run in gap.plain.runs} & {run.name for run in gap.extended.runs}
+    return [run for run in gap.campaign.runs if run.name in names]
 
 
-def measured_run(gap: Gap, name: str) -> MeasuredRun:
-    """A run by its name; KeyError."""
-    return {run.name: run for run in gap.campaign.runs}[name]
-
-
-def run_names(gap: Gap) -> list[str]:
-    """Of the runs that both models were simulated in."""
-    extended = {run.name for run in gap.extended.runs}
-    return [run.name for run in gap.plain.runs if run.name in extended]
-
-
-def seen(run: MeasuredRun, fitted: FittedRun) -> tuple[str, ...]:
-    """Channels that the model is compared with: x alone where the block only moves along it."""
+def channels_of(run: MeasuredRun, fitted: FittedRun) -> tuple[str, ...]:
+    """Those that the model is compared with: x alone where the block only moves along it."""
     names = tuple(name for name in AXES if name in run.motion.channels)
     count = sum(np.count_nonzero(np.isfinite(run.motion[name])) for name in names)
     return names if count == fitted.residuals.size else AXES[:1]
 
 
-def channels(gap: Gap) -> tuple[str, ...]:
-    """Those that the model is compared with in some run."""
-    runs = [gap.plain.run(name) for name in run_names(gap)]
-    found = {name for run in runs for name in seen(measured_run(gap, run.name), run)}
-    return tuple(name for name in AXES if name in found)
+def channels(gap: Gap) -> list[str]:
+    """Those that the models are compared with in some run."""
+    found = {c for run in shown_runs(gap) for c in channels_of(run, gap.plain.run(run.name))}
+    return [name for name in AXES if name in found]
 
 
-def _rows(run: MeasuredRun, fitted: FittedRun) -> tuple[np.ndarray, np.ndarray]:
-    """(m,) sample and number of the channel of each residual."""
-    data = np.column_stack([run.motion[name] for name in seen(run, fitted)])
-    rows, columns = np.nonzero(np.isfinite(data))
-    return rows, columns
-
-
-def residuals(run: MeasuredRun, fitted: FittedRun) -> dict[str, np.ndarray]:
-    """Channel -> (n,) model less data in units of the noise; NaN where nothing was measured."""
-    names, (rows, columns) = seen(run, fitted), _rows(run, fitted)
+def residuals(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
+    """(n,) model less data in units of the noise; NaN where nothing was compared."""
+    names = channels_of(run, fitted)
     left = np.full((run.motion.time.size, len(names)), np.nan)
-    left[rows, columns] = fitted.residuals
-    return dict(zip(names, left.T, strict=True))
+    left[np.isfinite(np.column_stack([run.motion[name] for name in names]))] = fitted.residuals
+    return left[:, names.index(channel)] if channel in names else np.full(len(left), np.nan)
 
 
 def starts(run: MeasuredRun, fitted: FittedRun) -> np.ndarray:
     """(w - 1,) samples at which the model sets out anew from the data, the first left out."""
-    rows, _ = _rows(run, fitted)
+    names = channels_of(run, fitted)
+    rows, _ = np.nonzero(np.isfinite(np.column_stack([run.motion[name] for name in names])))
     return rows[np.flatnonzero(np.diff(fitted.window)) + 1]
 
 
 def modelled(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
-    """(n,) of the model, cut where it sets out anew."""
+    """(n,) of the model, m or rad; cut where it sets out anew."""
     values = fitted.track[:, AXES.index(channel)].copy()
     values[starts(run, fitted) - 1] = np.nan
     return values
 
 
-def excerpt(run: MeasuredRun, fitted: FittedRun) -> tuple[Excerpt, float]:
-    """The few cycles in which a model is farthest off, and its mean square there."""
-    time = run.motion.time
-    length = min(CYCLES * cycle(run), float(time[-1]))
-    ends = np.searchsorted(time, time + length, side="right")
-    first = np.flatnonzero(time + length <= time[-1] + 1e-9)
+def worst(gap: Gap) -> tuple[MeasuredRun, str, float, float]:
+    """Run, channel, begin and end (s) of the few cycles in which the user's model is worst."""
     found = []
-    for channel, left in residuals(run, fitted).items():
-        total = np.concatenate([[0.0], np.cumsum(np.nan_to_num(left) ** 2)])
-        squares = (total[ends[first]] - total[first]) / (ends[first] - first)
-        best = int(first[np.argmax(squares)])
-        begin = float(time[best])
-        found.append((Excerpt(run.name, channel, begin, begin + length), float(squares.max())))
-    return max(found, key=lambda one: one[1])
-
-
-def worst(gap: Gap) -> Excerpt:
-    """The few cycles of all runs in which the user's model is farthest off."""
-    runs = [excerpt(measured_run(gap, name), gap.plain.run(name)) for name in run_names(gap)]
-    return max(runs, key=lambda one: one[1])[0]
+    for run in shown_runs(gap):
+        time, fitted = run.motion.time, gap.plain.run(run.name)
+        length = min(CYCLES * cycle(run), float(time[-1]))
+        first = np.flatnonzero(time + length <= time[-1] + 1e-9)
+        last = np.searchsorted(time, time[first] + length)
+        for channel in channels_of(run, fitted):
+            squares = np.nan_to_num(residuals(run, fitted, channel)) ** 2
+            total = np.append(0.0, np.cumsum(squares))
+            mean = (total[last] - total[first]) / np.maximum(last - first, 1)
+            begin = float(time[first[np.argmax(mean)]])
+            found.append((float(mean.max()), (run, channel, begin, begin + length)))
+    return max(found, key=lambda one: one[0])[1]
 
 
 def title(run: MeasuredRun) -> str:
     """Name, operating point, and whether it was held out."""
-    held = ", held out" if run.hold_out else ""
     return (
-        f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s{held}"
+        f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s"
+        f"{', held out' if run.hold_out else ''}"
     )

@@ -1,20 +1,29 @@
-"""The answer for runs of which only figures are known: words, model, figure, page."""
+"""What the answer for runs of which only figures are known leaves behind: as `cosim.gap.show`."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from stickslip import EFFECTS
 
+from cosim.files import write_text
+from cosim.gap.show import text
+from cosim.gap.show.files import write_pictures
+from cosim.gap.show.model_file import file_text, known_tables, put, scenario_from
+from cosim.gap.show.model_file import safe_name as safe_name
+from cosim.gap.show.numbers import ranked, remarks, tree
+from cosim.gap.show.quantities import Quantity, digits, quantity
+from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
 from cosim.scenario import Scenario
-from cosim.studies.reproduction.summary import SummaryGap
 
-from . import text
-from .model_file import file_text, known_tables, put, scenario_from
-from .quantities import Quantity, digits, quantity
+from .result import SummaryGap
 
 #: s; of a run whose time series is not known.
 DURATION = 30.0
@@ -28,7 +37,8 @@ def sentence(gap: SummaryGap) -> str:
         groups = "; ".join(" or ".join(group) for group in gap.classes)
         return f"{groups}: these figures cannot tell which."
     if gap.verdict == "named":
-        return f"{'; '.join(f'{text.SENTENCES[one]}: {one}' for one in gap.effects)}."
+        said = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
+        return f"{'; '.join(f'{said[one]}: {one}' for one in gap.effects)}."
     if gap.effects:
         return (
             f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
@@ -92,24 +102,81 @@ def _scenario(gap: SummaryGap) -> Scenario:
     return scenario_from(gap.campaign, tables)
 
 
+def write_data(gap: SummaryGap, result: Path, model: Path) -> str:
+    """JSON and the model; the JSON's text."""
+    data = as_json(gap, model.name)
+    write_text(model_text(gap), model)
+    write_text(data, result)
+    return data
+
+
+def write_corrected(gap: SummaryGap, folder: Path) -> list[Path]:
+    """Figures have no camera whose faults could be undone."""
+    return []
+
+
+#: What is written as it stands in an answer.
+AS_IT_IS = (
+    "verdict", "effects", "classes", "where", "next_experiment", "empirical", "chance", "printed",
+    "plain", "extended", "free_friction", "not_felt", "open_figures", "fits_share",
+)  # fmt: skip
+
+
+def as_json(gap: SummaryGap, model: str) -> str:
+    """JSON text without NaN; the same answer gives the same bytes. model: name of its file."""
+    ends = {"before": gap.gap_before, "after": gap.gap_after}
+    data: dict[str, Any] = {"campaign": gap.campaign.name}
+    data |= {name: getattr(gap, name) for name in AS_IT_IS}
+    data |= {
+        "gap": {
+            end: dict(zip(("fit", "held_out"), pair, strict=True)) for end, pair in ends.items()
+        },
+        "ranking": [ranked(row) for row in gap.ranking],
+        "determined": {
+            key: dict(zip(("value", "low", "high"), numbers, strict=True))
+            for key, numbers in gap.determined.items()
+        },
+        "observations": [
+            {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
+            for one in gap.observations
+        ],
+        "model": model,
+        "doubts": (),
+        "remarks": remarks(gap),
+    }
+    return json_text(tree(data))
+
+
+def write_page(
+    gap: SummaryGap,
+    folder: Path,
+    file: Path,
+    drawn: Callable[[], object],
+    corrected: Sequence[Path] = (),
+) -> None:
+    """The figure into the folder, and the page with it inside. drawn : called after it."""
+    write_text(page(gap, write_pictures(drawers(gap), folder, drawn)), file)
+
+
+def drawers(gap: SummaryGap) -> list[Callable[[], Picture]]:
+    """Functions that draw, in the page's order."""
+    return [partial(draw_observations, gap)]
+
+
 def page(gap: SummaryGap, pictures: Sequence[Picture]) -> str:
     """HTML with the picture inside."""
+    numbers = [
+        [
+            quantity(key, value, row.intervals.get(key)).text
+            for key, value in row.parameters.items()
+            if key.startswith(row.effect)
+        ]
+        for row in gap.ranking
+    ]
     return render(
-        "summary.html.j2",
-        "cosim.gap.show",
-        gap=gap,
-        text=text,
-        digits=digits,
-        sentence=sentence(gap),
-        gap_line=gap_line(gap),
-        quantities=quantities(gap),
-        numbers=[
-            [quantity(key, value, row.intervals.get(key)).text
-             for key, value in row.parameters.items() if key.startswith(row.effect)]
-            for row in gap.ranking
-        ],
-        pictures=pictures,
-        remarks=tuple(dict.fromkeys((*gap.campaign.remarks, *gap.remarks))),
+        "summary.html.j2", "cosim.studies.reproduction.summary", gap=gap, text=text, digits=digits,
+        sentence=sentence(gap), gap_line=gap_line(gap), quantities=quantities(gap),
+        numbers=numbers, pictures=pictures, remarks=remarks(gap),
     )  # fmt: skip
 
 
