@@ -6,7 +6,7 @@ is as stated, and enough), estimation (the model fitted to it by multiple shooti
 run that would tell more), show. `find` goes through all of them.
 """
 
-from cosim.gap.data import Campaign, MeasuredRun, Stick, Track, read_campaign
+from cosim.gap.data import Campaign, MeasuredRun, Track, read_campaign
 from cosim.gap.data.errors import CampaignError
 
-__all__ = ["Campaign", "CampaignError", "MeasuredRun", "Stick", "Track", "read_campaign"]
+__all__ = ["Campaign", "CampaignError", "MeasuredRun", "Track", "read_campaign"]

@@ -15,7 +15,7 @@ from stickslip.parameters import FASTEST_SURFACE
 from stickslip.quantity import Table, quantity
 
 from cosim.gap.data.errors import CampaignError
-from cosim.gap.data.reading.unit_names import SI, to_si
+from cosim.gap.data.reading.unit_names import to_si
 from cosim.names import nearest
 from cosim.scenario.faults import ScenarioError, checked
 
@@ -50,8 +50,6 @@ class Model(Table):
 
 #: Of a sample, in its unit: a thousandth of an atom, and still far above the rounding of the model.
 LEAST_NOISE = 1e-12
-
-
 #: Part of itself to which nobody knows a number, and a friction coefficient that nothing has.
 LEAST_DEVIATION, MOST_FRICTION = 1e-6, 100.0
 #: m/s: a millimetre in two weeks.
@@ -61,7 +59,16 @@ LENGTHS = ("contact_radius", "attachment_radius", "spring_length", "spring_natur
 LONGEST, SHORTEST = 100.0, 1e-6
 
 
-class Noise(Table):
+class Named(Table):
+    """A table of which only what the file names counts."""
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """key -> value, of those that the file names."""
+        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
+
+
+class Noise(Named):
     """Standard deviation of one sample; what is not given is estimated."""
 
     x: float = quantity(math.inf, "m", "noise of x", ge=LEAST_NOISE, le=1.0)
@@ -69,43 +76,67 @@ class Noise(Table):
     phi: float = quantity(math.inf, "rad", "noise of phi", ge=LEAST_NOISE, le=10.0)
     force: float = quantity(math.inf, "N", "noise of the spring force", ge=LEAST_NOISE, le=1e6)
 
-    @property
-    def given(self) -> dict[str, float]:
-        """channel -> noise, of the channels that the file names."""
-        return {channel: getattr(self, channel) for channel in sorted(self.model_fields_set)}
+
+def _part(default: float, what: str) -> Any:
+    return quantity(default, "1", f"{what}, part of it", ge=1e-6, le=0.2)
 
 
 class Errors(Table):
     """How well the rig is known: standard deviations of what the file states."""
 
-    stiffness: float = quantity(0.01, "1", "of the springs' stiffness, part of it", ge=1e-6, le=0.2)
-    surface_speed: float = quantity(
-        0.01, "1", "of a run's surface speed, part of the set-point", ge=1e-6, le=0.2
-    )
+    stiffness: float = _part(0.01, "of the springs' stiffness")
+    surface_speed: float = _part(0.01, "of a run's surface speed about its set-point")
     zero: float = quantity(
-        3.0,
-        "1",
-        "of the tracker's zero in a run, in standard deviations of its noise",
-        ge=1e-3,
-        le=1e3,
-    )
-    friction_table: float = quantity(
-        0.05, "1", "of the level of friction.table, part of it", ge=1e-6, le=0.2
-    )
+        3.0, "1", "of the tracker's zero in a run, in standard deviations of its noise; where it "
+        "is not given, that of x and y is 0.5 mm", ge=1e-3, le=1e3,
+    )  # fmt: skip
+    friction: float = _part(0.02, "of friction from run to run, as expected beforehand")
+    friction_table: float = _part(0.05, "of the level of friction.table")
 
 
-class Measured(Table):
+Interval = tuple[float, float] | tuple[()]
+
+
+class Limits(Named):
+    """Where the rig can run: a next run is asked for within [low, high]."""
+
+    surface_speed: Interval = quantity((), "m/s", "slowest and fastest")
+    mass: Interval = quantity((), "kg", "of the block")
+    stiffness: Interval = quantity((), "N/m", "of one of the four springs")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, (low, high) in self.given.items():
+            if not 0.0 < low <= high:
+                raise ValueError(f"{key} = [{low:g}, {high:g}], allowed is 0 < low <= high")
+        return self
+
+
+class Measured(Named):
     """Numbers that are known with a standard deviation; others are not among ``given``."""
 
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        for key, (value, deviation) in self._named.items():
+            if not deviation > 0.0 or deviation < LEAST_DEVIATION * abs(value):
+                raise ValueError(
+                    f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation > "
+                    f"0], {LEAST_DEVIATION:g} of the value at least"
+                )
+            self._check_value(key, value)
+        return self
+
     @property
-    def given(self) -> dict[str, tuple[float, float]]:
-        """quantity -> (value, standard deviation), of those that the file names."""
-        return {key: getattr(self, key) for key in sorted(self.model_fields_set)}
+    def _named(self) -> dict[str, tuple[float, float]]:
+        return self.given
+
+    def _check_value(self, key: str, value: float) -> None:
+        """ValueError for a value that this quantity cannot have."""
 
 
 def _measured(unit: str, description: str) -> Any:
     """A value with its standard deviation; one that is not known has an infinite one."""
-    return Field((0.0, math.inf), description=description, json_schema_extra={"unit": unit})
+    return quantity((0.0, math.inf), unit, description)
 
 
 def _expected(value: Any) -> Any:
@@ -148,28 +179,14 @@ class Friction(Measured):
 
     @property
     def _named(self) -> dict[str, tuple[float, float]]:
-        """Coefficients that the file names."""
         return {key: getattr(self, key) for key in sorted(self.model_fields_set - {"table"})}
 
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if self.table and "mu_k" in self.model_fields_set:
-            raise ValueError(
-                f'mu_k = {self.mu_k[0]:g} beside table = "{self.table}", which takes its place; '
-                "give one of the two"
-            )
-        for key, (value, deviation) in self._named.items():
-            if not (value > 0.0 and deviation > 0.0):
-                raise ValueError(
-                    f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation] "
-                    "with both above 0"
-                )
-            if value > MOST_FRICTION or deviation < LEAST_DEVIATION * value:
-                raise ValueError(
-                    f"{key} = [{value:g}, {deviation:g}], allowed is a value up to "
-                    f"{MOST_FRICTION:g}, known to {LEAST_DEVIATION:g} of itself at best"
-                )
-        return self
+    def _check_value(self, key: str, value: float) -> None:
+        if not 0.0 < value <= MOST_FRICTION:
+            raise ValueError(f"{key} = {value:g}, allowed is above 0 and up to {MOST_FRICTION:g}")
+        if key == "mu_k" and self.table:
+            takes = f'table = "{self.table}", which takes its place'
+            raise ValueError(f"mu_k = {value:g} beside {takes}; give one of the two")
 
 
 class Summary(Measured):
@@ -186,37 +203,23 @@ class Summary(Measured):
     restick_x: tuple[float, float] = _measured("m", "mean of x at re-stick")
     max_rotation_deg: tuple[float, float] = _measured("deg", "largest rotation either way")
 
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        for key, (value, deviation) in self.given.items():
-            if not deviation > 0.0:
-                raise ValueError(
-                    f"{key} has the standard deviation {deviation:g}, allowed is [value, standard "
-                    "deviation] with one above 0"
-                )
-            if deviation < LEAST_DEVIATION * abs(value):
-                raise ValueError(
-                    f"{key} has the standard deviation {deviation:g}, allowed is a value known to "
-                    f"{LEAST_DEVIATION:g} of itself at best"
-                )
-            if key == "slip_share" and not 0.0 <= value <= 1.0:
-                raise ValueError(f"slip_share = {value:g} is not a share, allowed is 0 to 1")
-        return self
+    def _check_value(self, key: str, value: float) -> None:
+        if key == "slip_share" and not 0.0 <= value <= 1.0:
+            raise ValueError(f"slip_share = {value:g} is not a share, allowed is 0 to 1")
 
 
-class ColumnNames(Table):
+def _column(what: str) -> Any:
+    return Field("", description=f"column of {what}", min_length=1)
+
+
+class ColumnNames(Named):
     """Names of the columns in a run's file, where they are not t, x, y, phi and force."""
 
-    t: str = Field("", description="column of the times", min_length=1)
-    x: str = Field("", description="column of the place along the surface's motion", min_length=1)
-    y: str = Field("", description="column of the place across", min_length=1)
-    phi: str = Field("", description="column of the rotation", min_length=1)
-    force: str = Field("", description="column of the springs' force along x", min_length=1)
-
-    @property
-    def given(self) -> dict[str, str]:
-        """channel -> name, of those that the file names."""
-        return {key: getattr(self, key) for key in SI if key in self.model_fields_set}
+    t: str = _column("the times")
+    x: str = _column("the place along the surface's motion")
+    y: str = _column("the place across")
+    phi: str = _column("the rotation")
+    force: str = _column("the springs' force along x")
 
 
 class UnitNames(ColumnNames):
@@ -255,10 +258,8 @@ class RunTable(Table):
             if key not in self.model_fields_set:
                 raise ValueError(f"{key} is missing, allowed is a number")
         if abs(self.surface_speed) < SLOWEST_SURFACE:
-            raise ValueError(
-                f"surface_speed = {self.surface_speed:g}: nothing is driven, allowed is at least "
-                f"{SLOWEST_SURFACE:g} m/s either way"
-            )
+            still = f"surface_speed = {self.surface_speed:g}: nothing is driven"
+            raise ValueError(f"{still}, allowed is at least {SLOWEST_SURFACE:g} m/s either way")
         return self
 
 
@@ -283,6 +284,7 @@ class CampaignTable(Table):
     noise: Noise = Noise()
     errors: Errors = Errors()
     friction: Friction = Friction()
+    limits: Limits = Limits()
     columns: ColumnNames = ColumnNames.model_construct()
     units: UnitNames = UnitNames.model_construct()
 
@@ -290,10 +292,8 @@ class CampaignTable(Table):
     def _check_lengths(self) -> Self:
         for key in LENGTHS:
             if not SHORTEST <= getattr(self.rig, key) <= LONGEST:
-                raise ValueError(
-                    f"rig.{key} = {getattr(self.rig, key):g} m is no length of a rig, allowed is "
-                    f"{SHORTEST:g} to {LONGEST:g} m"
-                )
+                is_none = f"rig.{key} = {getattr(self.rig, key):g} m is no length of a rig"
+                raise ValueError(f"{is_none}, allowed is {SHORTEST:g} to {LONGEST:g} m")
         return self
 
 
@@ -310,12 +310,10 @@ def read_tables(
     """
     tables = _parse(path)
     runs = tables.pop("run", None)
-    if not isinstance(runs, list) or not all(isinstance(run, dict) for run in runs):
+    if not (runs and isinstance(runs, list) and all(isinstance(run, dict) for run in runs)):
         near = nearest("run", [key for key in tables if key not in CampaignTable.model_fields])
         hint = f" (nearest: {near})" if runs is None and near else ""
         raise CampaignError(f"{path}: run: no runs{hint}, allowed is a table [[run]] for each run")
-    if not runs:
-        raise CampaignError(f"{path}: run: no runs, allowed is a table [[run]] for each run")
     if "name" not in tables:
         tables["name"] = path.resolve().parent.name or "unnamed"
     campaign = _checked(CampaignTable, tables, str(path))
@@ -323,26 +321,21 @@ def read_tables(
         use(*(path.parent / name for name in campaign.model.effects))
     except PluginError as error:
         raise CampaignError(f"{path}: model.effects: {error}") from None
-    return campaign, [
-        _checked(kind, run, f"{path}: run {number}") for number, run in enumerate(runs, 1)
-    ]
+    return campaign, [_checked(kind, run, f"{path}: run {i}") for i, run in enumerate(runs, 1)]
 
 
 def _parse(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
-        raise CampaignError(
-            f"{path}: no such file, allowed is a campaign.toml or a folder with one"
-        ) from None
+        fault = "no such file, allowed is a campaign.toml or a folder with one"
     except OSError as error:
-        raise CampaignError(f"{path}: cannot be read: {error.strerror}") from None
+        fault = f"cannot be read: {error.strerror}"
     except UnicodeDecodeError as error:
-        raise CampaignError(
-            f"{path}: byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"
-        ) from None
+        fault = f"byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"
     except (ValueError, RecursionError) as error:  # TOMLDecodeError is a ValueError
-        raise CampaignError(f"{path}: not TOML: {' '.join(str(error).split())}") from None
+        fault = f"not TOML: {' '.join(str(error).split())}"
+    raise CampaignError(f"{path}: {fault}")
 
 
 def _checked(model: type[Checked], tables: Mapping[str, Any], where: str) -> Checked:

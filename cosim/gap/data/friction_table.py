@@ -68,27 +68,26 @@ def read_friction_table(
     if not table.friction.table:
         return None
     file = path.parent / table.friction.table
-    where = f"{path}: friction.table"
     try:
         read = Friction.model_validate({"table": str(file)}, strict=True)
     except ValidationError as report:
         raise CampaignError(f"{path}: friction.{describe_faults(report, Friction)}") from None
-    if read.table_temperature_degC:
-        raise CampaignError(
-            f"{where}: {file}: column T_degC: mu over the temperature of the interface, which no "
-            "run measures and `gap` does not compute (its heat is that of thermal_weakening); "
-            "allowed are v and mu, at the temperature of these runs"
-        )
-    if table.model.scheme != "exact":
-        raise CampaignError(
-            f'{where}: beside model.scheme = "{table.model.scheme}", which knows mu_s and mu_k '
-            'alone; allowed with model.scheme = "exact"'
-        )
     typical = float(np.mean(np.abs(speeds)))
     found = FrictionTable(file, read.table_speed, read.table_mu, typical)
-    if not found.level > 0.0:
-        raise CampaignError(
-            f"{where}: {file}: mu is {found.level:g} at {typical:.3g} m/s, the speed of the "
-            "surface; allowed is above 0 there"
+    fault = ""
+    if read.table_temperature_degC:
+        fault = (
+            f"{file}: column T_degC: mu over the temperature of the interface, which no run "
+            "measures; allowed are v and mu, at the temperature of these runs"
         )
+    elif table.model.scheme != "exact":
+        fault = (
+            f'beside model.scheme = "{table.model.scheme}", which knows mu_s and mu_k alone; '
+            'allowed with model.scheme = "exact"'
+        )
+    elif not found.level > 0.0:
+        fault = f"{file}: mu is {found.level:g} at {typical:.3g} m/s, the speed of the surface"
+        fault += "; allowed is above 0 there"
+    if fault:
+        raise CampaignError(f"{path}: friction.table: {fault}")
     return found

@@ -1,4 +1,4 @@
-"""What a measured campaign is made of: tracks, sticks, runs."""
+"""What a measured campaign is made of: tracks and runs."""
 
 from __future__ import annotations
 
@@ -16,9 +16,11 @@ from cosim.gap.data.reading.columns import Reading
 
 #: Measured quantities, in the order in which they are looked at.
 CHANNELS = ("x", "y", "phi", "force")
+#: Standard deviation of the tracker's zero along x and y where the campaign states none, m.
+ZERO = 5e-4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Track:
     """What a tracker saw of one run.
 
@@ -63,33 +65,7 @@ class Track:
         return float(np.median(np.diff(self.time)))
 
 
-@dataclass(frozen=True)
-class Stick:
-    """A stretch in which the block moves with the surface.
-
-    Attributes
-    ----------
-    start, end : re-stick and break-away, s on the track's clock; finer than the samples where the
-        noise allows
-    first, last : indices of the first and the last sample inside
-    start_sd, end_sd : their standard deviations, s; infinite where the track (or what lies between
-        two gaps) begins or ends in the stick, and re-stick or break-away was not seen
-    """
-
-    start: float
-    end: float
-    first: int
-    last: int
-    start_sd: float = math.inf
-    end_sd: float = math.inf
-
-    @property
-    def duration(self) -> float:
-        """s"""
-        return self.end - self.start
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MeasuredRun:
     """A run: how it was set up, and what was seen of it (a track, or figures alone).
 
@@ -102,7 +78,6 @@ class MeasuredRun:
     hold_out : never used for fitting
     track, summary : one of the two; summary is figure -> (value, standard deviation)
     noise : channel -> standard deviation of one sample of this run
-    sticks : from the track alone, in order of time
     reading : which column of the file is what, where its header does not say so
     """
 
@@ -116,7 +91,6 @@ class MeasuredRun:
     track: Track | None = field(default=None, repr=False)
     summary: Mapping[str, tuple[float, float]] | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
-    sticks: tuple[Stick, ...] = field(default=(), repr=False)
     reading: Reading = field(default_factory=Reading, repr=False)
 
     @property
@@ -156,6 +130,8 @@ class Campaign:
     friction : coefficient -> (value, standard deviation), of those that are known beforehand
     errors : how well the file's other numbers are known
     friction_table : kinetic friction over the sliding speed that the model sets out from, if any
+    limits : surface_speed (m/s), mass (kg), stiffness (N/m) -> (low, high), of those that are
+        stated: a next run is asked for within them
     """
 
     name: str
@@ -169,6 +145,7 @@ class Campaign:
     friction: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     errors: Errors = field(default_factory=Errors)
     friction_table: FrictionTable | None = None
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def known_friction(self) -> dict[str, tuple[float, float]]:
@@ -177,6 +154,12 @@ class Campaign:
             return dict(self.friction)
         level = self.friction_table.level
         return {**self.friction, "mu_k": (level, self.errors.friction_table * level)}
+
+    def zero_sd(self, run: MeasuredRun, channel: str = "x") -> float:
+        """Standard deviation of the tracker's zero in a run, in the channel's unit."""
+        if channel in ("x", "y") and "zero" not in self.errors.model_fields_set:
+            return ZERO
+        return self.errors.zero * run.noise[channel]
 
     @property
     def fit_runs(self) -> tuple[MeasuredRun, ...]:

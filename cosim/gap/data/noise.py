@@ -9,13 +9,21 @@ Gaussian noise within 5 %, and little moved by corners or by outliers that were 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from scipy import stats
+from scipy.optimize import fixed_point
+
+from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.measured import CHANNELS, MeasuredRun
 
 #: Samples beyond this many standard deviations count as if they were there (Huber's proposal 2).
 HUBER = 2.0
+#: Variance of a standard deviate that is clipped there.
+CLIPPED = stats.chi2.cdf(HUBER**2, 3) + HUBER**2 * stats.chi2.sf(HUBER**2, 1)
 #: A gap: longer than this many median intervals.
 GAP = 2.5
 
@@ -36,17 +44,12 @@ def third_differences(time: np.ndarray, values: np.ndarray, lag: int = 1) -> np.
     """Combinations of four samples, ``lag`` apart, that no parabola shows in, of unit norm."""
     there = np.isfinite(values)
     t, v = time[there], values[there]
-    count = len(t) - 3 * lag
-    if count < 1:
+    if len(t) < 4 + 3 * (lag - 1):
         return np.empty(0)
-    nodes = np.stack([t[i * lag : i * lag + count] for i in range(4)])
-    weights = np.ones((4, count))
-    for i in range(4):
-        for j in range(4):
-            if i != j:
-                weights[i] /= nodes[i] - nodes[j]
-    weights /= np.sqrt(np.sum(weights**2, axis=0))
-    samples = np.stack([v[i * lag : i * lag + count] for i in range(4)])
+    nodes, samples = (sliding_window_view(one, 3 * lag + 1)[:, ::lag].T for one in (t, v))
+    apart = nodes[:, None] - nodes[None] + np.eye(4)[:, :, None]
+    weights = 1.0 / np.prod(apart, axis=1)
+    weights /= np.linalg.norm(weights, axis=0)
     whole = np.max(np.diff(nodes, axis=0), axis=0) <= GAP * lag * np.median(np.diff(time))
     return np.sum(weights * samples, axis=0)[whole]
 
@@ -56,16 +59,51 @@ def huber_scale(values: np.ndarray) -> float:
     scale = float(np.median(np.abs(values))) / stats.norm.ppf(0.75)
     if scale == 0.0:  # half of the samples repeat: a coarse reading of the tracker
         return float(np.sqrt(np.mean(values**2)))
-    inside = stats.norm.cdf(HUBER) - stats.norm.cdf(-HUBER)
-    within = inside - 2.0 * HUBER * stats.norm.pdf(HUBER)
-    expected = within + HUBER**2 * (1.0 - inside)
-    for _ in range(50):
-        clipped = np.minimum(np.abs(values), HUBER * scale)
-        better = math.sqrt(float(np.mean(clipped**2)) / expected)
-        if abs(better - scale) <= 1e-9 * scale:
-            break
-        scale = better
-    return scale
+    size = np.abs(values)
+
+    def better(scale: float) -> float:
+        return math.sqrt(float(np.mean(np.minimum(size, HUBER * scale) ** 2)) / CLIPPED)
+
+    return float(fixed_point(better, scale, xtol=1e-9, maxiter=500))
+
+
+def with_noise(
+    runs: tuple[MeasuredRun, ...], given: Mapping[str, float]
+) -> tuple[tuple[MeasuredRun, ...], dict[str, float], tuple[str, ...], list[str]]:
+    """Runs with their noise, that of the campaign, which is estimated, and remarks.
+
+    Runs that agree share one estimate, else each has its own, and the campaign their median.
+    """
+    found: dict[str, dict[str, float]] = {run.name: {} for run in runs}
+    overall, remarks = dict(given), []
+    for channel in CHANNELS:
+        there = [run for run in runs if run.track and channel in run.track.channels]
+        values = [given.get(channel, 0.0)] * len(there)
+        if there and channel not in given:
+            values = _estimated(channel, there)
+            overall[channel] = float(np.median(values))
+        if len(set(values)) > 1:
+            span = f"{min(values):.2g} to {max(values):.2g}"
+            own = f"noise of {channel} differs from run to run ({span}): each run has its own"
+            remarks.append(own)
+        for run, value in zip(there, values, strict=True):
+            found[run.name][channel] = value
+    estimated = tuple(name for name in overall if name not in given)
+    return tuple(replace(run, noise=found[run.name]) for run in runs), overall, estimated, remarks
+
+
+def _estimated(channel: str, runs: list[MeasuredRun]) -> list[float]:
+    """Noise of each run, pooled where the runs agree."""
+    values = [difference_noise(run.motion.time, run.motion[channel]) for run in runs]
+    counts = [int(np.count_nonzero(np.isfinite(run.motion[channel]))) for run in runs]
+    silent = [run.file for run, value in zip(runs, values, strict=True) if not value > 0.0]
+    if silent:
+        raise CampaignError(
+            f"{silent[0]}: column {channel}: no noise can be estimated (no two samples differ, "
+            f"or too few in a row), allowed is noise.{channel} in campaign.toml"
+        )
+    pooled = float(np.sqrt(np.average(np.square(values), weights=counts)))
+    return [pooled] * len(runs) if agree(values, counts) else values
 
 
 def agree(estimates: Sequence[float], counts: Sequence[int]) -> bool:

@@ -69,9 +69,8 @@ def _contradiction(
     """How far targets are from what neighbours say, in standard deviations; 0 for no outlier."""
     predictions = (around[1:3], around, around[:2], around[2:])  # chord, cubic, before, after
     weights = [_lagrange(t, nodes, target) for nodes in predictions]
-    predicted = np.stack(
-        [np.sum(w * v[nodes], axis=0) for w, nodes in zip(weights, predictions, strict=True)]
-    )
+    told = zip(weights, predictions, strict=True)
+    predicted = np.stack([np.sum(w * v[nodes], axis=0) for w, nodes in told])
     sd = noise * np.stack([np.sqrt(1.0 + np.sum(w * w, axis=0)) for w in weights])
     deviation = v[target] - predicted
     score = np.abs(deviation) / sd
@@ -87,10 +86,6 @@ def _contradiction(
 
 def _lagrange(t: np.ndarray, nodes: np.ndarray, target: np.ndarray) -> np.ndarray:
     """Weights (k, n) of the polynomial through k samples at the target's time."""
-    at = t[target]
-    weights = np.ones((len(nodes), len(target)))
-    for i, node in enumerate(nodes):
-        for j, other in enumerate(nodes):
-            if i != j:
-                weights[i] *= (at - t[other]) / (t[node] - t[other])
-    return weights
+    own = np.eye(len(nodes))[:, :, None]
+    away, apart = t[target] - t[nodes], t[nodes][:, None] - t[nodes][None]
+    return np.asarray(np.prod(np.where(own == 1.0, 1.0, away[None]) / (apart + own), axis=1))

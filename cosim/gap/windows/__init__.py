@@ -3,8 +3,9 @@
 from .fit import fit, judge
 from .fitted import Fitted, FittedRun
 from .numbers import Number
+from .sticks import sticks_of
 from .user_model import user_model
-from .windows import Windows, sticks_of, windows_of, windows_of_campaign
+from .windows import Windows, windows_of, windows_of_campaign
 
 __all__ = [
     "Fitted",

@@ -11,10 +11,9 @@ from stickslip.packing import GRAVITY
 from cosim.gap.data import Campaign, MeasuredRun
 
 from .numbers import Number
-from .windows import moves_across, sticks_of
+from .sticks import sticks_of
+from .windows import moves_across
 
-#: Standard deviation of the tracker's zero where the campaign says nothing of it, m.
-ZERO = 0.5e-3
 #: Bounds of a friction coefficient that nobody has measured, in parts of its first guess.
 FRICTION_RANGE = (0.1, 10.0)
 #: Standard deviations within which a stated number stays: an effect that is missing would else pull
@@ -63,10 +62,9 @@ def _zeros(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Number]:
     """The tracker's zero in each run, along x and, where the block moves across, along y."""
     numbers = []
     for channel in ("x", "y") if moves_across(campaign) else ("x",):
-        noise = [run.noise[channel] for run in runs if channel in run.motion.channels]
-        if noise:
-            is_stated = "zero" in campaign.errors.model_fields_set
-            sd = campaign.errors.zero * float(np.median(noise)) if is_stated else ZERO
+        there = [run for run in runs if channel in run.motion.channels]
+        if there:
+            sd = float(np.median([campaign.zero_sd(run, channel) for run in there]))
             numbers.append(_stated(f"offset.{channel}", 0.0, sd, "run"))
     return numbers
 

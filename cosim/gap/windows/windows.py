@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.gap.data import Campaign, MeasuredRun, Stick, Track
+from cosim.gap.data import Campaign, MeasuredRun, Track
+
+from .sticks import Stick, sticks_of
 
 #: What the block's position is made of, in the order of the states.
 AXES = ("x", "y", "phi")
@@ -55,11 +57,6 @@ class Windows:
     def is_planar(self) -> bool:
         """Whether the block also moves across the surface."""
         return len(self.channels) > 1
-
-
-def sticks_of(run: MeasuredRun) -> tuple[Stick, ...]:
-    """The stretches in which the block moves with the surface, as seen in the data."""
-    return run.sticks
 
 
 def windows_of_campaign(campaign: Campaign, cycles: float = CYCLES) -> dict[str, Windows]:
@@ -161,7 +158,7 @@ def moves_across(campaign: Campaign) -> bool:
     """Whether any run shows motion along y, or a turn; False where the rig allows neither."""
     free = set(campaign.rig.degrees_of_freedom) & {"y", "phi"}
     return bool(free) and any(
-        _moves(run, channel, campaign.errors.zero)
+        _moves(run, channel, campaign.zero_sd(run, channel) / run.noise[channel])
         for run in campaign.runs
         if run.track is not None
         for channel in ("y", "phi")

@@ -17,18 +17,15 @@ from blind.laboratory.simulation import COLUMNS, simulate  # noqa: E402
 from blind.motion import walk  # noqa: E402
 from blind.simulator.hidden import Hidden, State  # noqa: E402
 
-from cosim.gap.data.partition import partition  # noqa: E402
 from cosim.studies.reproduction.cases import DATASET_1, scheme_motion  # noqa: E402
 
 
 def compile_all() -> None:
-    """The study's scheme, the gap's partition of a track, both foreign simulators."""
+    """The study's scheme, both foreign simulators."""
     scheme_motion(DATASET_1, PRINTED, cycles=1)
     simulate(apparatus(0.67, 20.0, 0.1, 0.1, 0.1, contact="jump"), np.zeros(COLUMNS), 1e-3)
     for plane in (False, True):
         walk(Hidden(), State(), plane, 1e-3, 1)
-    time = np.linspace(0.0, 1.0, 50)
-    partition(time, np.sin(9.0 * time), 0.1, 9.0, 1e-3)
 
 
 if __name__ == "__main__":

@@ -7,17 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cosim.coupling.conversion import IDENTITY, Affine
 from cosim.gap.data.errors import CampaignError
 from cosim.names import nearest
 
 from .unit_names import SI, to_si
 
-ALIASES = {"time": "t"}
 #: `x`, `x [m]`, `x (m)`, `x/m`
-#: `x_mm`, `x mm`, `x.mm`
-SUFFIX = re.compile(r"^.*[^\W_][_ .-](?P<unit>[^\W\d_]+|°)$")
 HEADER = re.compile(r"^\s*(?P<name>[^\[(/]*?)\s*(?:[\[(/]\s*(?P<unit>[^\])]*?)\s*[\])]?)?\s*$")
+#: `x_mm`, `x mm`, `x.mm`
+SUFFIX = re.compile(r"^(?P<name>.*[^\W_])[_ .-](?P<unit>[^\W\d_]+|°)$")
 
 
 @dataclass(frozen=True)
@@ -32,12 +30,12 @@ class Reading:
 class Column:
     """A channel's column in a file.
 
-    number : its place; unit : that it is in; factor : to SI; by : who says so, for a reader
+    number : its place; unit : that it is in; to_si : factor; by : who says so, for a reader
     """
 
     number: int
     unit: str
-    to_si: Affine = IDENTITY
+    to_si: float = 1.0
     by: str = ""
 
 
@@ -51,6 +49,11 @@ def header_parts(cell: str) -> tuple[str, str]:
     return (match["name"], match["unit"] or "") if match else (cell, "")
 
 
+def channel_of(name: str) -> str:
+    """The channel that a name is by itself."""
+    return "t" if name.strip().lower() == "time" else name.strip().lower()
+
+
 def unit_in_name(channel: str, name: str) -> str:
     """The unit that a column's name ends in, of those of a channel; "" where it ends in none.
 
@@ -58,22 +61,18 @@ def unit_in_name(channel: str, name: str) -> str:
     ('mm', 'deg', '')
     """
     match = SUFFIX.match(name.strip())
-    if match is None:
-        return ""
     try:
-        to_si(channel, match["unit"])
+        return match["unit"] if match and to_si(channel, match["unit"]) else ""
     except ValueError:
         return ""
-    return match["unit"]
 
 
 def named_with_unit(channel: str, cells: Sequence[str]) -> tuple[str, str] | None:
     """The first cell such as `x_mm`, and its unit."""
-    for cell in cells:
+    for cell in map(str.strip, cells):
         unit = unit_in_name(channel, cell)
-        name = cell.strip()[: -len(unit) - 1].lower() if unit else ""
-        if unit and ALIASES.get(name, name) == channel:
-            return cell.strip(), unit
+        if unit and channel_of(cell[: -len(unit) - 1]) == channel:
+            return cell, unit
     return None
 
 
@@ -84,102 +83,76 @@ def find_columns(path: Path, cells: Sequence[str], reading: Reading) -> dict[str
         number = _number(path, channel, cells, reading)
         if number is not None:
             found[channel] = _column(path, channel, number, cells[number], reading)
-    for channel in ("t", "x"):
-        if channel not in found:
-            _refuse_missing(path, channel, cells)
+        elif channel in ("t", "x"):
+            raise CampaignError(f"{path}: {_missing(channel, cells)}")
     return found
 
 
-def has_times(cells: Sequence[str], reading: Reading) -> bool:
-    """Whether a line of text is a header: it names the times."""
-    return bool(_places("t", cells, reading))
-
-
-def unused(cells: Sequence[str], found: Mapping[str, Column]) -> tuple[str, ...]:
-    """Cells of columns that are no channel's."""
-    used = {column.number for column in found.values()}
-    return tuple(cell for number, cell in enumerate(cells) if cell and number not in used)
-
-
-def _places(channel: str, cells: Sequence[str], reading: Reading) -> list[int]:
+def places_of(channel: str, cells: Sequence[str], reading: Reading) -> list[int]:
+    """Where a channel's name stands among the cells of a header."""
+    names = [header_parts(cell)[0].lower() for cell in cells]
     if channel in reading.columns:
         wanted = reading.columns[channel].strip()
         whole = [number for number, cell in enumerate(cells) if cell == wanted]
-        names = [header_parts(cell)[0].lower() for cell in cells]
         return whole or [number for number, name in enumerate(names) if name == wanted.lower()]
     taken = {name.strip().lower() for name in reading.columns.values()}
     return [
         number
-        for number, cell in enumerate(cells)
-        if ALIASES.get(header_parts(cell)[0].lower(), header_parts(cell)[0].lower()) == channel
-        and not {cell.lower(), header_parts(cell)[0].lower()} & taken
+        for number, (cell, name) in enumerate(zip(cells, names, strict=True))
+        if channel_of(name) == channel and not {cell.lower(), name} & taken
     ]
 
 
 def _number(path: Path, channel: str, cells: Sequence[str], reading: Reading) -> int | None:
-    places = _places(channel, cells, reading)
+    places = places_of(channel, cells, reading)
     name = reading.columns.get(channel)
     if len(places) > 1:
         raise CampaignError(f"{path}: column {name or channel}: there twice, allowed is once")
     if name and not places:
-        there = [cell for cell in cells if cell]
-        near = nearest(name, there)
-        hint = f" (nearest: {near})" if near else ""
-        raise CampaignError(
-            f"{path}: columns.{channel}: {name} is no column of this file, allowed is one of "
-            f"{', '.join(there)}{hint}"
-        )
+        there, near = [cell for cell in cells if cell], nearest(name, cells)
+        one = f"{', '.join(there)}{f' (nearest: {near})' if near else ''}"
+        none = f"columns.{channel}: {name} is no column of this file"
+        raise CampaignError(f"{path}: {none}, allowed is one of {one}")
     return places[0] if places else None
 
 
 def _column(path: Path, channel: str, number: int, cell: str, reading: Reading) -> Column:
-    """With its unit: what the header says, what campaign.toml says, or SI."""
+    """With its unit: what campaign.toml says, what the header says, or SI."""
     stated, said = header_parts(cell)[1], reading.units.get(channel, "")
     if not (stated or said):
-        _refuse_unit_in_name(path, channel, cell)
+        unit = unit_in_name(channel, cell)
+        if unit and to_si(channel, unit) != 1.0:  # a name is no word on it
+            raise CampaignError(
+                f"{path}: column {channel}: the name {cell} ends in {unit}, and no unit is stated; "
+                f'allowed is [units] {channel} = "{unit}" in campaign.toml, or "{SI[channel]}" '
+                "where it is that"
+            )
         return Column(number, SI[channel])
+    factor = to_si(channel, said) if said else None
     try:
-        by_header = to_si(channel, stated) if stated else None
-    except ValueError as fault:
-        if not said:
+        by_header = to_si(channel, stated) if stated else factor
+    except ValueError as fault:  # a bracket may hold no unit: campaign.toml then says which it is
+        if factor is None:
             raise CampaignError(f"{path}: column {channel}: unit {fault}") from None
-        by_header = None  # a bracket that holds no unit: campaign.toml says which it is
-    by_campaign = to_si(channel, said) if said else by_header
-    assert by_campaign is not None
-    if by_header is not None and by_header != by_campaign:
-        raise CampaignError(
-            f"{path}: units.{channel}: {said}, but its header says {cell}; allowed is the same "
-            "unit, or a header without one"
-        )
-    unit = said or stated
-    return Column(number, unit, by_campaign, "campaign.toml" if said else "its header")
+        by_header = factor
+    if factor is not None and by_header != factor:
+        differs = f"units.{channel}: {said}, but its header says {cell}"
+        raise CampaignError(f"{path}: {differs}; allowed is the same, or a header without one")
+    assert by_header is not None
+    return Column(number, said or stated, by_header, "campaign.toml" if said else "its header")
 
 
-def _refuse_unit_in_name(path: Path, channel: str, cell: str) -> None:
-    """A name that ends in a unit other than SI's is no word on it: which it is has to be said."""
-    unit = unit_in_name(channel, cell)
-    if unit and to_si(channel, unit) != IDENTITY:
-        raise CampaignError(
-            f"{path}: column {channel}: the name {cell} ends in {unit}, and no unit is stated; "
-            f'allowed is [units] {channel} = "{unit}" in campaign.toml, or "{SI[channel]}" where '
-            "it is that"
-        )
-
-
-def _refuse_missing(path: Path, channel: str, cells: Sequence[str]) -> None:
+def _missing(channel: str, cells: Sequence[str]) -> str:
+    line = f"column {channel}: missing (there: {', '.join(cells)})"
     meant = named_with_unit(channel, cells)
     if meant:
-        raise CampaignError(
-            f"{path}: column {channel}: missing (there: {', '.join(cells)}); is {meant[0]} meant? "
-            f'allowed is [columns] {channel} = "{meant[0]}" with [units] {channel} = "{meant[1]}" '
-            "in campaign.toml, or a header "
-            f"{channel} [{meant[1]}]"
+        name, unit = meant
+        return (
+            f'{line}; is {name} meant? allowed is [columns] {channel} = "{name}" with [units] '
+            f'{channel} = "{unit}" in campaign.toml, or a header {channel} [{unit}]'
         )
-    names = [header_parts(cell)[0].lower() for cell in cells]
-    near = nearest(channel, [name for name in names if name and name not in SI])
-    hint = f"; is {near} meant?" if near else ""
-    raise CampaignError(
-        f"{path}: column {channel}: missing (there: {', '.join(cells)}), allowed is "
-        f"t,x[,y][,phi][,force]{hint} or the name of its column as columns.{channel} in "
-        "campaign.toml"
+    near = nearest(channel, [header_parts(cell)[0].lower() for cell in cells if cell not in SI])
+    return (
+        f"{line}, allowed is t,x[,y][,phi][,force]{f'; is {near} meant?' if near else ''} or the "
+        f"name of its column as columns.{channel} in campaign.toml"
     )

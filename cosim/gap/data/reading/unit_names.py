@@ -2,52 +2,46 @@
 
 from __future__ import annotations
 
-from cosim.coupling.conversion import BASE_UNITS, Affine, conversion
-from cosim.coupling.participant import Causality, CouplingError, Port, UnitDefinition
-from cosim.fmu.units import UNITS as DEFINED
+import math
+
 from cosim.names import nearest
 
 #: Channel -> what it is in inside.
 SI = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}
 _WHAT = {"s": "time", "m": "length", "rad": "angle", "N": "force"}
-_PREFIXES = {"n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3}
-#: SI unit -> prefixes that somebody measures with.
-_PREFIXED = {"s": "nuµμm", "m": "nuµμmck", "rad": "uµμm", "N": "uµμmk"}
+_PREFIXES = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3}
+_SPELLED = {"n": "nano", "u": "micro", "m": "milli", "c": "centi", "k": "kilo"}
+#: SI unit -> name of a unit that somebody measures in -> factor.
+FACTORS = {
+    unit: {unit: 1.0} | {prefix + unit: _PREFIXES[prefix] for prefix in prefixes}
+    for unit, prefixes in {"s": "num", "m": "numck", "rad": "um", "N": "umk"}.items()
+}
+FACTORS["s"]["min"] = 60.0
+FACTORS["rad"]["deg"] = math.pi / 180.0
 #: Other words -> the unit.
 _WORDS = {
     "°": "deg", "degree": "deg", "degrees": "deg", "sec": "s", "second": "s", "seconds": "s",
     "metre": "m", "metres": "m", "meter": "m", "meters": "m", "radian": "rad", "radians": "rad",
     "newton": "N", "newtons": "N",
 }  # fmt: skip
-#: Prefixes in full, and the signs for micro as they are shown.
-_SPELLED = {
-    "n": "nano", "u": "micro", "µ": "micro", "μ": "micro", "m": "milli", "c": "centi", "k": "kilo",
-}  # fmt: skip
-_ASCII = {"µ": "u", "μ": "u"}
-#: Minutes, by the second.
-_MINUTE = 60.0
 
 
-def to_si(channel: str, unit: str) -> Affine:
-    """From a unit to that of a channel; ValueError: what is wrong with it and what is allowed.
+def to_si(channel: str, unit: str) -> float:
+    """Factor from a unit to that of a channel; ValueError: what is wrong and what is allowed.
 
-    >>> to_si("x", "mm")(12.0), round(to_si("phi", "deg")(180.0), 4)
-    (0.012, 3.1416)
+    >>> to_si("x", "mm"), to_si("y", "µm"), round(180.0 * to_si("phi", "°"), 4)
+    (0.001, 1e-06, 3.1416)
     """
-    wanted = SI[channel]
-    known = _definitions()
-    name = _WORDS.get(unit, unit)
-    allowed = f"allowed is a {_WHAT[wanted]}: {', '.join(_of(wanted))}"
-    if name not in known:
-        meant = _meant(unit, wanted)
-        hint = f" (nearest: {meant})" if meant else ""
-        raise ValueError(f"{unit} is no unit that is known, {allowed}{hint}")
-    source = Port(channel, name, Causality.OUTPUT, definition=known[name])
-    sink = Port(channel, wanted, Causality.INPUT, definition=known[wanted])
-    try:
-        return conversion(source, sink)[0]
-    except CouplingError:
-        raise ValueError(f"{unit} is of another kind, {allowed}") from None
+    units = FACTORS[SI[channel]]
+    if (name := _name(unit)) in units:
+        return units[name]
+    allowed = f"allowed is a {_WHAT[SI[channel]]}: {', '.join(units)}"
+    if is_unit(unit):
+        raise ValueError(f"{unit} is of another kind, {allowed}")
+    near = nearest(unit.lower(), words := _words(SI[channel]))
+    raise ValueError(
+        f"{unit} is no unit that is known, {allowed}{f' (nearest: {words[near]})' if near else ''}"
+    )
 
 
 def is_unit(text: str) -> bool:
@@ -56,39 +50,19 @@ def is_unit(text: str) -> bool:
     >>> is_unit("mm"), is_unit("[ms]"), is_unit("lost")
     (True, True, False)
     """
-    bare = text.strip().strip("[]()").strip()
-    return _WORDS.get(bare, bare) in _definitions()
+    return any(_name(text.strip().strip("[]()").strip()) in units for units in FACTORS.values())
 
 
-def _meant(unit: str, wanted: str) -> str | None:
-    """The unit of one kind that a word is most like: `MM` is mm, `msec` and `millimetre` too."""
-    spelled = {name.lower(): name for name in _of(wanted)}
-    words = [wanted, *(word for word, name in _WORDS.items() if name == wanted and len(word) > 1)]
-    for prefix in _PREFIXED[wanted]:
-        for begin in {prefix, _SPELLED[prefix]}:
-            spelled |= {begin + word: _ASCII.get(prefix, prefix) + wanted for word in words}
-    near = nearest(unit.lower(), spelled)
-    return spelled[near] if near else None
+def _name(unit: str) -> str:
+    """As it is listed: there are two signs for micro."""
+    return _WORDS.get(unit, unit.replace("µ", "u").replace("μ", "u"))
 
 
-def _of(wanted: str) -> list[str]:
-    """What is shown of the units of one kind: without the two other signs for micro."""
-    prefixed = [prefix + wanted for prefix in _PREFIXED[wanted] if prefix not in "µμ"]
-    return [wanted, *prefixed, *{"rad": ["deg"], "s": ["min"]}.get(wanted, [])]
-
-
-def _definitions() -> dict[str, UnitDefinition]:
-    """Unit -> what it is made of."""
-    found = {name: _definition(name) for name in ("s", "m", "rad", "N", "deg")}
-    for unit, prefixes in _PREFIXED.items():
-        for prefix in prefixes:
-            whole = found[unit]
-            found[prefix + unit] = UnitDefinition(whole.exponents, _PREFIXES[prefix] * whole.factor)
-    found["min"] = UnitDefinition(found["s"].exponents, _MINUTE)
-    return found
-
-
-def _definition(name: str) -> UnitDefinition:
-    parts = DEFINED[name] or {}
-    kg, m, s, a, k, mol, cd, rad = (int(parts.get(base, 0)) for base in BASE_UNITS)
-    return UnitDefinition((kg, m, s, a, k, mol, cd, rad), float(parts.get("factor", 1.0)))
+def _words(wanted: str) -> dict[str, str]:
+    """What a word may be meant for: `MM` for mm, `msec` and `millimetre` too."""
+    words = [wanted, *(word for word, name in _WORDS.items() if name == wanted)]
+    spelled = {name.lower(): name for name in FACTORS[wanted]}
+    for prefix, whole in _SPELLED.items():
+        if prefix + wanted in FACTORS[wanted]:
+            spelled |= {begin + w: prefix + wanted for begin in (prefix, whole) for w in words}
+    return spelled
