@@ -37,8 +37,6 @@ MOST_OVERSHOOT = 0.8
 SHORTEST_STICK = 0.08
 
 # What a rig's own numbers may be beforehand: standard deviations.
-#: Of a tracker's zero in a run, m, where the campaign states none.
-ZERO = 5e-4
 #: Speed over which a contact's friction falls from static to kinetic, m/s, and by what part of
 #: mu_k: dry contacts fall over 1 to 8 mm/s.
 CONTACT_SPEED, CONTACT_FALL = 4e-3, 1.0

@@ -19,7 +19,6 @@ from cosim.gap.weak_form.constants import (
     CREEP,
     OWN_STATIC,
     STATIC_FLOOR,
-    ZERO,
 )
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.unknowns import Unknown, column
@@ -54,11 +53,6 @@ class Level:
 def rung_zero(campaign: Campaign, runs: list[RunRows]) -> list[Unknown]:
     """Coefficients, springs of each set-up, zero of each run."""
     setups = sorted({(run.track.run.mass, run.track.run.stiffness) for run in runs})
-    zero = ZERO if "zero" not in campaign.errors.model_fields_set else None
-
-    def sd_of_zero(run: RunRows) -> float:
-        return zero or campaign.errors.zero * run.track.run.noise["x"]
-
     return [
         Unknown(MU_K, "", lambda run: Response(force=column(run.weight * run.track.direction)),
                 np.eye(1)),
@@ -69,7 +63,8 @@ def rung_zero(campaign: Campaign, runs: list[RunRows]) -> list[Unknown]:
             for mass, stiffness in setups
         ),
         Unknown(ZERO_NAME, "", lambda run: Response(
-            place=np.full((run.track.time.size, 1), sd_of_zero(run))), np.eye(1), per_run=True),
+            place=np.full((run.track.time.size, 1), campaign.zero_sd(run.track.run))),
+            np.eye(1), per_run=True),
     ]  # fmt: skip
 
 
