@@ -15,7 +15,8 @@ FAULT = "measurement."
 NOISE_LEFT = 1.1
 #: Channel -> how its noise is written, from SI and from thousandths.
 NOISE_OF = {
-    "x": "x: {1:.3g} mm", "y": "y: {1:.3g} mm", "phi": "φ: {1:.3g} mrad", "force": "force: {0:.3g} N"
+    "x": "x: {1:.3g} mm", "y": "y: {1:.3g} mm", "phi": "φ: {1:.3g} mrad",
+    "force": "a force: {0:.3g} N",
 }  # fmt: skip
 
 

@@ -72,7 +72,7 @@ def answer(folder):
         laws=(law(),),
         exponents=(Exponent("velocity_weakening", "sliding speed", 1.04, 0.9, 1.2, 1.0),),
         scatter=(0.004, 0.0, 0.02),
-        rig=(RigNumber("surface speed of run02", "m/s", 0.12, 0.0012, 0.1204, 0.0003),),
+        rig=(RigNumber("surface speed of run02", "m/s", 0.12, 0.0012, 0.1231, 0.0003),),
         rates=Rates(50, {"velocity_weakening": {"velocity_weakening": 47, "none": 3},
                          "film_drag": {"film_drag": 50}}),
         next_experiment={"surface_speed": 0.4, "mass": 0.87, "stiffness": 38.5},
@@ -166,9 +166,7 @@ def without_held_out(gap):
         replace(rung, gap=Score(rung.gap.fit, None), weak=Score(rung.weak.fit, None))
         for rung in gap.ladder
     ]
-    ranking = [
-        replace(row, gap=row.gap and Score(row.gap.fit, None)) for row in gap.ranking
-    ]
+    ranking = [replace(row, gap=row.gap and Score(row.gap.fit, None)) for row in gap.ranking]
     plain, extended = (
         replace(model, runs=tuple(run for run in model.runs if run.name in runs))
         for model in (gap.plain, gap.extended)

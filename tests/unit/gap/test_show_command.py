@@ -1,7 +1,10 @@
 """`stickslip gap`: files, JSON, refusals, interruptions."""
 
 import json
+import sys
+from types import SimpleNamespace
 
+import gap_answers as answers
 import pytest
 from gap_campaigns import write_campaign
 
@@ -9,6 +12,8 @@ from cosim.cli import main
 from cosim.cli.measurements import gap as gap_command
 from cosim.gap import read_campaign
 from cosim.gap.show import files
+
+DATA = {"gap.json", "model.toml", "made_by.json"}
 
 
 @pytest.fixture
@@ -24,45 +29,43 @@ def test_command_leaves_its_files(found, tmp_path, capsys):
     given = ["-o", str(tmp_path / "out"), "--json", str(tmp_path / "copy.json")]
     assert main(["gap", campaign, *given, "--seed", "7", "--jobs", "1"]) == 0
     assert asked[0][1:3] == (7, 1)
-    for name in ("gap.json", "model.toml", "report.html", "overlay_x.png"):
+    for name in ("gap.json", "model.toml", "report.html", "ladder.png", "curve.png", "run.png"):
         assert (tmp_path / "out" / name).stat().st_size > 0
     assert (tmp_path / "copy.json").read_text() == (tmp_path / "out" / "gap.json").read_text()
     out = capsys.readouterr().out
-    assert out.startswith("cold room, week 3: Named: velocity_weakening")
+    assert out.startswith("cold room, week 3: named\n  Kinetic friction falls")
     assert str(tmp_path / "out" / "model.toml") in out
-    assert "fmu        run03, from one initial state: gap " in out
 
 
-def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(files, "write_page", lambda *given: [])
-    assert main(["gap", found[0], "-o", str(tmp_path), "--json", "-"]) == 0
+def test_corrected_data_are_told_of(gap, tmp_path, capsys, monkeypatch):
+    faulty = answers.with_a_fault(gap, scale=0.02)
+    monkeypatch.setattr(gap_command, "_find", lambda *given: faulty)
+    assert main(["gap", str(gap.campaign.path), "-o", str(tmp_path)]) == 0
+    assert "corrected/campaign.toml" in capsys.readouterr().out
+    assert "freed of measurement.scale" in (tmp_path / "report.html").read_text()
+
+
+def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys):
+    assert main(["gap", found[0], "-o", str(tmp_path), "--json", "-", "--no-page"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["verdict"] == "named"
-    assert "Named: velocity_weakening" in err
+    assert "velocity_weakening" in err and "report.html" not in err
+    assert {file.name for file in tmp_path.iterdir()} == DATA
 
 
 def test_the_folder_has_the_campaigns_name(found, tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "write_page", lambda *given: [])
     monkeypatch.chdir(tmp_path)
-    assert main(["gap", found[0]]) == 0
+    assert main(["gap", found[0], "--no-page"]) == 0
     assert (tmp_path / "results" / "cold-room-week-3-gap" / "gap.json").is_file()
-
-
-def test_numbers_alone(found, tmp_path, capsys):
-    assert main(["gap", found[0], "-o", str(tmp_path), "--no-page"]) == 0
-    assert {file.name for file in tmp_path.iterdir()} == {"gap.json", "model.toml", "made_by.json"}
-    assert "report.html" not in capsys.readouterr().out
 
 
 def test_ctrl_c_while_drawing_keeps_the_answer(found, tmp_path, capsys, monkeypatch):
     def interrupted(*given):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(files, "draw_gaps", interrupted)
+    monkeypatch.setattr(files, "draw_run", interrupted)
     assert main(["gap", found[0], "-o", str(tmp_path)]) == 1
-    assert {file.name for file in tmp_path.iterdir()} == {
-        "gap.json", "model.toml", "overlay_x.png", "made_by.json",
-    }  # fmt: skip
+    assert {file.name for file in tmp_path.iterdir()} == DATA | {"ladder.png", "curve.png"}
     assert "interrupted while drawing" in capsys.readouterr().err
 
 
@@ -76,6 +79,18 @@ def test_ctrl_c_before_there_is_an_answer(gap, tmp_path, capsys, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
+def test_the_bar_has_a_known_end(gap, monkeypatch):
+    def find(campaign, jobs, progress):
+        for done in (3, 5):
+            progress(done, 9)
+        return gap
+
+    monkeypatch.setitem(sys.modules, "cosim.gap.find", SimpleNamespace(find_gap=find))
+    with gap_command.Bar(disable=False) as bar:
+        assert gap_command._find(gap.campaign, 0, 1, bar) is gap
+        assert (bar.n, bar.total) == (5, 9)
+
+
 def test_runs_of_figures_alone_have_their_own_way(tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(
@@ -84,7 +99,8 @@ def test_runs_of_figures_alone_have_their_own_way(tmp_path, monkeypatch):
     )
     run = {"summary": {"frequency": [1.7, 0.05]}}
     campaign = read_campaign(write_campaign(tmp_path, [run]))
-    gap_command._find(campaign, 0, 1, lambda count: None)
+    with gap_command.Bar(disable=True) as bar:
+        gap_command._find(campaign, 0, 1, bar)
     assert asked == [campaign]
 
 

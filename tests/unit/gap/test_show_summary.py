@@ -8,14 +8,16 @@ import pytest
 
 from cosim.cli.measurements.gap import CAMPAIGNS
 from cosim.gap import read_campaign
-from cosim.gap.result import Ranked
-from cosim.gap.show.files import write_page
-from cosim.gap.show.model_file import model_text
-from cosim.gap.show.numbers import as_json
-from cosim.gap.show.words import closing_lines
+from cosim.gap.result import Ranked, Score
 from cosim.studies.reproduction.summary.draws import observations
 from cosim.studies.reproduction.summary.result import SummaryGap, Where
 from cosim.studies.reproduction.summary.search import FittedSummary
+from cosim.studies.reproduction.summary.show import (
+    as_json,
+    closing_lines,
+    model_text,
+    write_page,
+)
 
 PLAIN = {"friction.mu_s": 0.28, "friction.mu_k": 0.21}
 EXTENDED = {**PLAIN, "stick_stiffness.ratio": 0.9}
@@ -34,14 +36,9 @@ def gap():
     printed, plain = fitted(PLAIN, [30, -20, 5, 1, 9]), fitted(PLAIN, [20, -9, 5, 1, 2])
     extended = fitted(EXTENDED, [1, -1, 0.5, 0, 2])
     found = Ranked(
-        "stick_stiffness",
-        "part",
-        1.4,
-        1.1,
-        146.0,
-        EXTENDED,
+        "stick_stiffness", "part", 73.0, 1.0, Score(1.1, 1.4), EXTENDED,
         {"stick_stiffness.ratio": (0.86, 0.96)},
-    )
+    )  # fmt: skip
     return SummaryGap(
         campaign=campaign, observations=observations(campaign), verdict="named",
         effects=("stick_stiffness",), found=("stick_stiffness",), classes=(),
@@ -60,6 +57,8 @@ def test_json_has_the_observations(gap):
     assert data["effects"] == ["stick_stiffness"] and data["model"] == "model.toml"
     assert data["gap"]["after"]["fit"] == pytest.approx(gap.gap_after[0], rel=1e-5)
     assert len(data["observations"]) == len(data["extended"]["shown"]) == 5
+    (row,) = data["ranking"]
+    assert (row["fit_gap"], row["held_out_gap"], row["delta_bic"]) == (1.1, 1.4, 146.0)
     assert data["open_figures"] == {"mean_y of run 2": "still off"}
 
 
@@ -74,10 +73,9 @@ def test_model_says_where_its_numbers_are_from(gap):
 def test_page_and_closing_lines(gap, tmp_path):
     write_page(gap, tmp_path, tmp_path / "report.html", lambda: None)
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert sorted(file.name for file in tmp_path.glob("*.png")) == [
-        "observations.png", "ranking.png",
-    ]  # fmt: skip
-    assert html.count("data:image/png;base64,") == 2 and "http" not in html
+    assert [file.name for file in tmp_path.glob("*.png")] == ["observations.png"]
+    assert html.count("data:image/png;base64,") == 1 and "http" not in html
     assert "all runs have one mass" in html and "still off" in html
     text = "\n".join(closing_lines(gap))
-    assert "standard deviations" in text and "stick_stiffness.ratio = 0.9 (0.86 to 0.96)" in text
+    assert "standard deviations" in text
+    assert "stick_stiffness.ratio = 0.900 (0.860 to 0.960)" in text

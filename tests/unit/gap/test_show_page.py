@@ -1,0 +1,106 @@
+"""The page: its first lines and pictures, one value for each number, and every kind of answer."""
+
+import re
+from dataclasses import replace
+from html import unescape
+
+import gap_answers as answers
+import pytest
+
+from cosim.gap.show import files
+from cosim.gap.show.quantities import digits
+from cosim.gap.show.text import closing_lines, rates_lines, what_is_left
+
+JARGON = ("offset.", "rung 0", "nan", "None", "{")
+
+
+def written(gap, folder):
+    """The page's text without tags, scripts and styles."""
+    files.write_page(gap, folder, folder / "report.html", lambda: None)
+    html = (folder / "report.html").read_text(encoding="utf-8")
+    body = re.sub(r"<(style|script)\b.*?</\1>", "", html[html.index("<main") :], flags=re.S)
+    return html, re.sub(r"\s+", " ", unescape(re.sub(r"<[^>]+>", " ", body)))
+
+
+@pytest.mark.parametrize("verdict", [*answers.VERDICTS, "fault", "nothing held out"])
+def test_every_answer_has_a_page(gap, verdict, tmp_path):
+    if verdict == "fault":
+        gap = answers.with_a_fault(gap, scale=0.02)
+    elif verdict == "nothing held out":
+        gap = answers.without_held_out(gap)
+    else:
+        gap = answers.other(gap, verdict)
+    html, text = written(gap, tmp_path)
+    names = re.findall(r'data-name="(\w+)"', html)
+    first = ["ladder", "curve", "run"] if gap.laws else ["ladder", "run"]
+    assert names == [*first, "residuals_x", "overlay_x"]
+    assert text.index(gap.sentence) < 200 and text.index(gap.sentence) < text.index("Gap (1 is")
+    assert not [word for word in JARGON if word in text]
+    assert "http" not in html
+    noise = "as large as the tracker's noise" in text
+    assert noise == (max(gap.after.fit, gap.after.held_out or 0.0) <= 1.1)
+    assert ("no run was held out" in text) == (gap.after.held_out is None)
+
+
+def test_no_number_has_two_values(gap, tmp_path):
+    """None is another one, less rounded."""
+    _, text = written(gap, tmp_path)
+    tokens = {t for t in re.findall(r"(?<![\w.])\d+\.\d+(?![\w.])", text)}
+    for short in tokens:
+        decimals = len(short.partition(".")[2])
+        for other in tokens:
+            if len(other.partition(".")[2]) > decimals and len(short.strip("0.")) > 1:
+                alike = round(float(other), decimals) == float(short) != float(other)
+                assert not alike, (short, other)
+    assert text.count(digits(gap.after.held_out)) >= 3
+
+
+def test_a_held_out_gap_above_noise_is_said(gap):
+    last = replace(gap.ladder[-1], gap=replace(gap.after, held_out=1.3))
+    left = what_is_left(replace(gap, ladder=(gap.ladder[0], last)))
+    assert left == "What is left in the held-out runs is more than the tracker's noise explains."
+
+
+def test_what_runs_would_mislead_to(gap):
+    rates = replace(gap.rates, table={"structural_damping": {"velocity_weakening": 3, "none": 47}})
+    assert rates_lines(replace(gap, rates=rates)) == [
+        "If it were structural_damping, these runs would say velocity_weakening 3 times in 50."
+    ]
+    assert rates_lines(replace(gap, rates=None)) == []
+
+
+def test_closing_lines(gap):
+    text = "\n".join(closing_lines(gap))
+    assert gap.sentence in text and "runner-up  film_drag, probability < 0.001" in text
+    ends = f"{digits(gap.before.held_out)} → {digits(gap.after.held_out)}"
+    assert f"held-out runs {ends} (1 is noise)" in text
+
+
+# --- in Python ---
+
+
+def test_figures_have_axes_with_names(gap):
+    for name in ("ladder", "curve", "run", "residuals_x", "overlay_x"):
+        axes = gap.plot(name).axes
+        assert all(axis.get_ylabel() for axis in axes) and all(axis.lines for axis in axes)
+        assert axes[-1].get_xlabel() or name == "ladder"
+    labels = [tick.get_text() for tick in gap.plot("ladder").axes[0].get_xticklabels()]
+    assert labels == ["user's\nmodel", "velocity_\nweakening"]
+    with pytest.raises(ValueError, match=r"ladder"):
+        gap.plot("lader")
+
+
+def test_where_the_user_s_model_is_worst_is_what_is_shown(gap):
+    (axis,) = gap.plot("run").axes
+    assert axis.get_title(loc="left").startswith("run03")  # the gap of 10, others have 3 and 5
+    begin, end = axis.get_xlim()
+    assert 1.0 < end - begin < 3.0
+
+
+def test_the_answer_as_a_dataset(gap):
+    data = gap.to_xarray()
+    assert data.sizes == {"sample": 3 * 601, "run": 3}
+    assert list(data.run.values) == ["run01", "run02", "run03"] and data.attrs["case"] == "gap"
+    left = data.x_left_extended[data.number == 2]
+    assert float((left**2).mean() ** 0.5) == pytest.approx(gap.extended.run("run03").gap)
+    assert "velocity_weakening" in repr(gap) and len(repr(gap)) < 120
