@@ -10,16 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from scipy.signal import lfilter
+from scipy.signal import bilinear, lfilter
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form.constants import (
     CURVE_NODES,
     LEAST_LOG_RANGE,
     LONGEST_MEMORY,
+    RESONATOR_DAMPING,
+    RESONATOR_STEP,
+    RESONATORS,
     SHORTEST_MEMORY,
     SINCE_RELEASE,
     SLIP_PERCENTILE,
+    STOP_LENGTHS,
     WIDER_SPRINGS,
 )
 from cosim.gap.weak_form.rig_unknowns import Level
@@ -31,7 +35,10 @@ CATALOGUE = (
     "velocity_weakening", "film_drag", "structural_damping", "spring_hardening", "run_in",
     "thermal_weakening", "load_dependence", "static_strengthening",
 )  # fmt: skip
-OTHER = ("other.time", "other.frame", "other.release", "other.springs", "other.room", "other.order")
+OTHER = (
+    "other.time", "other.hysteresis", "other.resonator", "other.release", "other.springs",
+    "other.room", "other.order", "other.shaking",
+)  # fmt: skip
 
 
 class Arguments:
@@ -54,7 +61,8 @@ class Arguments:
                 "run_in": list(self._over_distance()),
                 "thermal_weakening": list(self._over_heat()),
                 "other.time": list(self._over_time()),
-                "other.frame": [self._frame()],
+                "other.hysteresis": [self._hysteresis()],
+                "other.resonator": list(self._resonators()),
                 "other.release": [self._since_release()],
                 "other.springs": [self._springs()],
             }
@@ -120,13 +128,30 @@ class Arguments:
 
         return Unknown("other.springs", "", respond, WIDER_SPRINGS**2 * np.eye(1))
 
-    def _frame(self) -> Unknown:
-        """Dry friction against the frame: a guide, or springs with hysteresis."""
+    def _hysteresis(self) -> Unknown:
+        """Springs, or guides, that give way: stop operators of several lengths (Prandtl 1928).
+
+        The shortest is dry friction against the frame, the longest a spring beside the springs.
+        """
+        farthest = self._largest(lambda run: np.abs(run.track.place))
+        lengths = farthest * np.array(STOP_LENGTHS)
 
         def respond(run: RunRows) -> Response:
-            return Response(force=column(-self.force * np.sign(run.track.velocity)))
+            stops = np.column_stack([_stopped(run.track.place, one) for one in lengths])
+            return Response(force=-self.force * stops)
 
-        return Unknown("other.frame", "", respond, np.eye(1))
+        return Unknown("other.hysteresis", "", respond, np.eye(lengths.size))
+
+    def _resonators(self) -> Iterator[Unknown]:
+        """A mass on a spring that the block carries: it rings after every jolt."""
+        lowest, highest = RESONATORS
+        for frequency in np.exp(np.arange(np.log(lowest), np.log(highest), RESONATOR_STEP)):
+
+            def respond(run: RunRows, omega: float = 2.0 * np.pi * frequency) -> Response:
+                pull = _resonator(run.track.acceleration, run.track.interval, omega)
+                return Response(force=column(run.track.run.mass * pull))
+
+            yield Unknown("other.resonator", f"{frequency:.2g} Hz", respond, np.eye(1))
 
     def _over_distance(self) -> Iterator[Unknown]:
         """Coefficient over the distance slid in the run; static friction with it, or not."""
@@ -148,7 +173,7 @@ class Arguments:
         """Coefficient over the friction heat that is remembered, of the contact or per weight."""
         typical = float(np.mean([run.weight for run in self.runs]))
         weights = {run.track.run.mass for run in self.runs}
-        count = round(2.0 * np.log2(LONGEST_MEMORY / SHORTEST_MEMORY)) + 1
+        count = round(np.log2(LONGEST_MEMORY / SHORTEST_MEMORY)) + 1
         for memory in np.geomspace(SHORTEST_MEMORY, LONGEST_MEMORY, count):
             for per_weight in (False, True) if len(weights) > 1 else (False,):
                 heat = {}
@@ -241,6 +266,25 @@ class Arguments:
     def _slid(self, run: RunRows) -> np.ndarray:
         """(n,) distance slid since the start, m."""
         return np.cumsum(self._sliding(run)) * run.track.interval
+
+
+def _stopped(place: np.ndarray, length: float) -> np.ndarray:
+    """(n,) force of a spring that slips beyond a deflection, m, in parts of the force there."""
+    stopped, last = np.empty(place.size), 0.0
+    for number, step in enumerate(np.diff(place, prepend=place[0]).tolist()):
+        last = min(max(last + step, -length), length)
+        stopped[number] = last
+    return stopped / length
+
+
+def _resonator(acceleration: np.ndarray, interval: float, omega: float) -> np.ndarray:
+    """(n,) m/s2, force on its carrier per carried mass, beyond that of a mass that is fixed to it.
+
+    u'' + 2 zeta omega u' + omega^2 u = -x'' from rest, by the bilinear rule; the force is -u''.
+    """
+    damping = 2.0 * RESONATOR_DAMPING * omega
+    above, below = bilinear([1.0, 0.0, 0.0], [1.0, damping, omega**2], 1.0 / interval)
+    return np.asarray(lfilter(above, below, acceleration))
 
 
 def _decaying(rate: np.ndarray, interval: float, memory: float) -> np.ndarray:

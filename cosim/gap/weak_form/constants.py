@@ -79,11 +79,31 @@ BENDS_ASKED = (0.03, 0.3, 1.0)
 #: Harmonics of a wave's shape: bumps of a fifth of the wave length.
 HARMONICS = 4
 #: Wavenumbers are scanned at so many steps within the resolution 1 / (length of a run).
-SCAN_STEPS = 4
-#: Grid steps of a run within the shortest wave: test functions see no shorter one.
-WAVES_PER_SAMPLE = 8.0
+SCAN_STEPS = 2
+#: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one.
+SHORTEST_WAVE = 1.0
 #: Peaks of the scan that are fitted as one shape.
 WAVES_FITTED = 3
 #: Standard deviation of a phase of which nothing is known, rad (even over a turn), and rounds in
 #: which phases and shape follow one another.
 PHASE_SD, PHASE_ROUNDS = 1.8, 6
+
+# The ladder.
+#: ln of how much more probable the rows must be with a finding: with some twenty that are tried,
+#: one in twenty campaigns without any would gain 6 by chance.
+LEAST_GAIN = 6.0
+#: A further finding counts from this part of what is missing at first (root mean square): below,
+#: it may be what the first one's curve and smoothed arguments leave.
+LEAST_PART = 0.04
+#: More findings than these are no explanation.
+MOST_FINDINGS = 3
+
+# Arguments that no effect stands for.
+#: Lengths at which hysteretic springs give way, in parts of the largest deflection.
+STOP_LENGTHS = (0.02, 0.1, 0.3, 1.0)
+#: Frequencies of a carried mass, Hz, their steps (ln), and its damping ratio: it rings for three
+#: periods, so that its frequency counts to 5 %.
+RESONATORS, RESONATOR_STEP, RESONATOR_DAMPING = (1.5, 12.0), 0.05, 0.05
+#: Parts of the surface's speed within which a block may move with it while its ripple is looked
+#: for, and ln evidence from which it is one: no threshold of an answer, only of what is a stick.
+RIPPLE_BANDS, RIPPLE_GAIN = (0.35, 0.15), 10.0

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -17,8 +18,8 @@ from cosim.gap.weak_form.constants import (
     PHASE_ROUNDS,
     PHASE_SD,
     SCAN_STEPS,
+    SHORTEST_WAVE,
     WAVES_FITTED,
-    WAVES_PER_SAMPLE,
 )
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.system import Added, Rung
@@ -73,13 +74,15 @@ def kinds(level_of_friction: float, has_events: bool = True) -> tuple[Periodic, 
 
 def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | None:
     """ln evidence with the best wave of a kind, and what is added; None where none fits in."""
-    wavenumbers = _wavenumbers(rung.system.fitted, kind)
+    wavenumbers, gains = _scan(rung, kind)
     if wavenumbers.size == 0:
         return None
-    gains, _ = _scan(rung, kind, wavenumbers)
     best: tuple[float, tuple[Added, ...]] | None = None
-    for number in _peaks(gains)[:WAVES_FITTED]:
-        found = _as_one_shape(rung, kind, float(wavenumbers[number]))
+    tops = wavenumbers[_peaks(gains)[:WAVES_FITTED]]
+    # bumps are strongest in a harmonic: twice and three times the strongest wave's length too
+    longer = [tops[0] / part for part in (2.0, 3.0) if tops[0] / part >= wavenumbers[0]]
+    for wavenumber in (*tops, *longer):
+        found = _as_one_shape(rung, kind, float(wavenumber))
         if best is None or found[0] > best[0]:
             best = found
     if best is None:
@@ -89,39 +92,72 @@ def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | Non
 
 def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
     """(w,) 1/m or 1/s, finely enough: from a wave that a run sees twice to what its rows resolve."""
-    spans, steps = [], []
+    longest, finest = 0.0, np.inf
     for run in runs:
         at = kind.coordinate(run)
-        spans.append(np.ptp(at))
-        steps.append(np.ptp(at) / at.size)
-    longest, finest = max(spans), WAVES_PER_SAMPLE * min(steps)
+        longest = max(longest, float(np.ptp(at)))
+        resolved = SHORTEST_WAVE / run.track.run.natural_frequency
+        finest = min(finest, float(np.ptp(at)) * resolved / np.ptp(run.track.time))
     if longest / 2.0 <= finest:
         return np.empty(0)
     return np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
 
 
-def _scan(
-    rung: Rung, kind: Periodic, wavenumbers: np.ndarray
-) -> tuple[np.ndarray, list[np.ndarray]]:
-    """(w,) what free phases and sizes would take of the residuals' squares; the phases of each run."""
-    gains, phases = np.zeros(wavenumbers.size), []
-    first = 0
-    for run in rung.system.fitted:
-        rows = rung.residuals[first : first + len(run)]
-        first += len(run)
-        angles = 2.0 * np.pi * np.outer(kind.coordinate(run), wavenumbers)
-        cosines = run.respond(kind.effect(run, np.cos(angles)), wavenumbers.size)
-        sines = run.respond(kind.effect(run, np.sin(angles)), wavenumbers.size)
-        cc, ss, cs = (np.sum(a * b, axis=0) for a, b in
-                      ((cosines, cosines), (sines, sines), (cosines, sines)))  # fmt: skip
-        c, s = rows @ cosines, rows @ sines
+@dataclass(frozen=True)
+class _Waves:
+    """Rows of unit noise of cosines and sines of one run, (rows, w), and their products (w,)."""
+
+    cosines: np.ndarray
+    sines: np.ndarray
+
+    @classmethod
+    def of(cls, run: RunRows, kind: Periodic, wavenumbers: np.ndarray) -> _Waves:
+        turn = np.exp(2j * np.pi * np.outer(kind.coordinate(run), wavenumbers))
+        return cls(
+            run.respond(kind.effect(run, turn.real), wavenumbers.size).astype(np.float32),
+            run.respond(kind.effect(run, turn.imag), wavenumbers.size).astype(np.float32),
+        )
+
+    def fitted(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(w,) what a wave of free phase and size takes of the rows' squares, and its phase."""
+        c, s = rows @ self.cosines, rows @ self.sines
+        cc, ss, cs = self.products
         determinant = cc * ss - cs**2
-        seen = determinant > 1e-9 * (cc + ss + 1e-300) ** 2
+        seen = determinant > 1e-6 * (cc + ss + 1e-30) ** 2
         safe = np.where(seen, determinant, 1.0)
         a, b = (ss * c - cs * s) / safe, (cc * s - cs * c) / safe
-        gains += np.where(seen, a * c + b * s, 0.0)
-        phases.append(np.where(seen, np.arctan2(b, a), 0.0))
-    return gains, phases
+        return np.where(seen, a * c + b * s, 0.0), np.where(seen, np.arctan2(b, a), 0.0)
+
+    @cached_property
+    def products(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        pairs = ((self.cosines, self.cosines), (self.sines, self.sines), (self.cosines, self.sines))
+        cc, ss, cs = (np.einsum("rw,rw->w", a, b).astype(float) for a, b in pairs)
+        return cc, ss, cs
+
+
+def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
+    """(w,) wavenumbers, and what waves of free phases and sizes take of all runs' squares."""
+    system = rung.system
+    if kind not in system.waves:
+        wavenumbers = _wavenumbers(system.fitted, kind)
+        runs = [_Waves.of(run, kind, wavenumbers) for run in system.fitted]
+        system.waves[kind] = (wavenumbers, runs)
+    wavenumbers, runs = system.waves[kind]
+    gains = np.zeros(wavenumbers.size)
+    for run, waves in zip(system.fitted, runs, strict=True):
+        gains += waves.fitted(rung.left(run).astype(np.float32))[0]
+    return wavenumbers, gains
+
+
+def _phases(
+    rung: Rung, kind: Periodic, wavenumber: float, runs: Sequence[RunRows]
+) -> dict[str, float]:
+    """run -> phase of the wave that fits best what is left of it, rad."""
+    one = np.array([wavenumber])
+    return {
+        run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
+        for run in runs
+    }
 
 
 def _peaks(gains: np.ndarray) -> list[int]:
@@ -135,9 +171,8 @@ def _as_one_shape(
     rung: Rung, kind: Periodic, wavenumber: float
 ) -> tuple[float, tuple[Added, ...]]:
     """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber."""
-    _, found = _scan(rung, kind, np.array([wavenumber]))
-    names = [run.track.run.name for run in rung.system.fitted]
-    phases = {name: float(phase[0]) for name, phase in zip(names, found, strict=True)}
+    phases = _phases(rung, kind, wavenumber, rung.system.fitted)
+    names = list(phases)
     wave = Wave(kind, wavenumber, phases)
     best: tuple[float, tuple[Added, ...]] | None = None
     for _ in range(PHASE_ROUNDS):
@@ -153,7 +188,21 @@ def _as_one_shape(
         more = float(moving.posterior[0][moving.part_of(stretch)][0])
         wave = wave.moved(dict(zip(names, turns, strict=True)), more)
     assert best is not None
-    return best
+    return best[0], _with_held_out(rung, best[1])
+
+
+def _with_held_out(rung: Rung, added: tuple[Added, ...]) -> tuple[Added, ...]:
+    """The same wave, with the phases of runs that were held out read off these."""
+    shape, *others = added
+    if not rung.system.held_out:
+        return added
+    wave: Wave = shape.unknown.wave
+    here = rung.system.rung([*rung.added, *added], *rung.kinds)
+    sizes = here.posterior[0][here.part_of(shape)]
+    lag = float(np.arctan2(sizes[HARMONICS], sizes[0]))
+    found = _phases(rung, wave.kind, wave.wavenumber, rung.system.held_out)
+    wave.phases.update({name: phase - lag for name, phase in found.items()})
+    return (shape, *others)
 
 
 @dataclass(frozen=True)
@@ -173,6 +222,16 @@ class Wave:
         phase = self.phases.get(run.track.run.name, 0.0)
         return 2.0 * np.pi * self.wavenumber * self.kind.coordinate(run) - phase
 
+    def at_times(self, run: RunRows, sizes: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+        """The wave of one run as a function of the time, s."""
+        angle = self.angle(run)
+
+        def at(time: np.ndarray) -> np.ndarray:
+            angles = np.outer(np.interp(time, run.track.time, angle), np.arange(1, HARMONICS + 1))
+            return np.asarray(np.hstack([np.cos(angles), np.sin(angles)]) @ sizes)
+
+        return at
+
     def shape(self) -> Unknown:
         """Sizes of the harmonics, smaller the higher."""
 
@@ -183,7 +242,7 @@ class Wave:
         sizes = np.tile(1.0 / np.arange(1, HARMONICS + 1) ** 1.5, 2)
         words = f"{1.0 / self.wavenumber:.3g} {self.kind.unit}"
         variant = " ".join(filter(None, [self.kind.variant, words]))
-        return Unknown(self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings)
+        return Unknown(self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings, wave=self)
 
     def turned(self, sizes: np.ndarray) -> Unknown:
         """What a turn of a run's phase, rad, does to a wave of these sizes (2 HARMONICS,)."""

@@ -11,8 +11,7 @@ phi are B-splines inside one slip or stick; x'' and x' go over to phi by parts.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy import sparse
@@ -26,6 +25,10 @@ from cosim.gap.weak_form.breakaway import BreakAway, break_aways
 from cosim.gap.weak_form.constants import KNOTS
 from cosim.gap.weak_form.rig_geometry import spring_force
 from cosim.gap.weak_form.track import SmoothTrack
+
+
+#: Kinds of rows.
+SLIP, ACROSS, STICK, BREAK_AWAY = 0, 1, 2, 3
 
 
 @dataclass(frozen=True)
@@ -52,15 +55,13 @@ class Response:
 
 @dataclass(frozen=True)
 class _Block:
-    """Rows of one stretch: weights on the grid, and the Cholesky factor of their covariance.
+    """Rows of one kind: weights on the grid, and the Cholesky factor of their covariance.
 
     force : (r, n) weights of a force or a speed; place : (r, n) of the measured places;
     inertia : (r, n) the part of ``place`` that stands for m x''; all sparse, as splines overlap
     few others. factor : lower bands of the factor
     """
 
-    first: int
-    last: int
     force: sparse.csr_array
     place: sparse.csr_array
     inertia: sparse.csr_array
@@ -68,6 +69,8 @@ class _Block:
 
     def whitened(self, rows: np.ndarray) -> np.ndarray:
         """(r,) or (r, q) rows of unit noise."""
+        if rows.shape[0] == 0:
+            return rows
         solved, info = dtbtrs(self.factor, rows, uplo="L")
         if info != 0:
             raise ArithmeticError(f"dtbtrs: {info}")
@@ -81,17 +84,19 @@ class RunRows:
     values : (rows,) of unit noise: slips, then y in slips, then sticks, then break-aways
     kinds : (rows,) 0 slip, 1 across, 2 stick, 3 break-away
     restoring : (n,) N, force with which the springs, as stated, pull the block back along x
+    counted : (rows,) 1, or 0 for rows that are left out
     """
 
     track: SmoothTrack
     rig: Rig
     events: tuple[BreakAway, ...]
-    slip: tuple[_Block, ...] = field(repr=False)
-    across: tuple[_Block, ...] = field(repr=False)
-    stick: tuple[_Block, ...] = field(repr=False)
+    slip: _Block = field(repr=False)
+    across: _Block | None = field(repr=False)
+    stick: _Block = field(repr=False)
     values: np.ndarray = field(repr=False)
     kinds: np.ndarray = field(repr=False)
     restoring: np.ndarray = field(repr=False)
+    counted: np.ndarray = field(repr=False)
 
     @property
     def weight(self) -> float:
@@ -103,12 +108,16 @@ class RunRows:
 
     def respond(self, response: Response, unknowns: int) -> np.ndarray:
         """(rows, q) of unit noise."""
-        parts = [np.zeros((0, unknowns))]
-        parts += [_slip_part(block, response, unknowns, self.track) for block in self.slip]
-        parts += [_part(block, response.across, unknowns) for block in self.across]
-        parts += [_stick_part(block, response, unknowns) for block in self.stick]
-        parts.append(self._static(response, unknowns))
-        return np.concatenate(parts)
+        parts = [_slip_part(self.slip, response, unknowns, self.track)]
+        if self.across is not None:
+            parts.append(_part(self.across, response.across, unknowns))
+        parts += [_stick_part(self.stick, response, unknowns), self._static(response, unknowns)]
+        return self.counted[:, None] * np.concatenate(parts)
+
+    def only(self, kind: int) -> RunRows:
+        """The same, of which rows of one kind alone count."""
+        counted = (self.kinds == kind).astype(float)
+        return replace(self, values=counted * self.values, counted=counted)
 
     def _static(self, response: Response, unknowns: int) -> np.ndarray:
         rows = np.zeros((len(self.events), unknowns))
@@ -127,29 +136,27 @@ def _slip_part(
     block: _Block, response: Response, unknowns: int, track: SmoothTrack
 ) -> np.ndarray:
     rows = np.zeros((block.force.shape[0], unknowns))
-    here = slice(block.first, block.last)
     if response.force is not None:
-        rows = rows + block.force @ response.force[here]
+        rows += block.force @ response.force
     if response.place is not None:
-        rows = rows + block.place @ response.place[here]
+        rows += block.place @ response.place
     if response.inertia is not None:
-        rows = rows - np.outer(block.inertia @ track.x[here], response.inertia)
+        rows -= np.outer(block.inertia @ track.x, response.inertia)
     return block.whitened(rows)
 
 
 def _part(block: _Block, values: np.ndarray | None, unknowns: int) -> np.ndarray:
     if values is None:
         return np.zeros((block.force.shape[0], unknowns))
-    return block.whitened(block.force @ values[block.first : block.last])
+    return block.whitened(block.force @ values)
 
 
 def _stick_part(block: _Block, response: Response, unknowns: int) -> np.ndarray:
     rows = np.zeros((block.force.shape[0], unknowns))
-    here = slice(block.first, block.last)
     if response.speed is not None:
-        rows = rows + block.force @ response.speed[here]
+        rows += block.force @ response.speed
     if response.place is not None:
-        rows = rows + block.place @ response.place[here]
+        rows += block.place @ response.place
     return block.whitened(rows)
 
 
@@ -161,33 +168,22 @@ def rows_of(track: SmoothTrack, rig: Rig, planar: bool = False) -> RunRows:
     along, side = spring_force(
         rig, run.stiffness, track.x, 0.0 if y is None else y, 0.0 if phi is None else phi
     )
-    slip = _blocks(track, track.slips, _slip_weights(track, knots), run.noise["x"])
-    stick = _blocks(track, track.sticks, _stick_weights(track, knots), run.noise["x"])
-    values = [np.zeros(0)]
-    for block in slip:
-        here = slice(block.first, block.last)
-        values.append(
-            block.whitened(block.inertia @ track.x[here] - block.force @ along[here])
-        )
-    across = ()
+    slip = _block(track, track.slips, _slip_weights(track, knots), run.noise["x"])
+    stick = _block(track, track.sticks, _stick_weights(track, knots), run.noise["x"])
+    values = [slip.whitened(slip.inertia @ track.x - slip.force @ along)]
+    across = None
     if y is not None:
-        across = _blocks(
-            track, track.slips, _slip_weights(track, knots, _across_stiffness(rig, run)),
-            run.noise["y"],
-        )  # fmt: skip
-        for block in across:
-            here = slice(block.first, block.last)
-            values.append(block.whitened(block.inertia @ y[here] - block.force @ side[here]))
-    for block in stick:
-        here = slice(block.first, block.last)
-        driven = run.surface_speed * np.asarray(block.force.sum(axis=1)).ravel()
-        values.append(block.whitened(block.place @ track.x[here] - driven))
+        weights = _slip_weights(track, knots, _across_stiffness(rig, run))
+        across = _block(track, track.slips, weights, run.noise["y"])
+        values.append(across.whitened(across.inertia @ y - across.force @ side))
+    driven = run.surface_speed * np.asarray(stick.force.sum(axis=1)).ravel()
+    values.append(stick.whitened(stick.place @ track.x - driven))
     events = break_aways(track, rig)
-    if events:
-        values.append(np.array([event.force / event.sd for event in events]))
-    counts = [sum(b.force.shape[0] for b in blocks) for blocks in (slip, across, stick)]
-    kinds = np.repeat([0, 1, 2, 3], [*counts, len(events)])
-    return RunRows(track, rig, events, slip, across, stick, np.concatenate(values), kinds, -along)
+    values.append(np.array([event.force / event.sd for event in events]))
+    counts = [0 if b is None else b.force.shape[0] for b in (slip, across, stick)]
+    kinds = np.repeat([SLIP, ACROSS, STICK, BREAK_AWAY], [*counts, len(events)])
+    return RunRows(track, rig, events, slip, across, stick, np.concatenate(values), kinds,
+                   -along, np.ones(kinds.size))  # fmt: skip
 
 
 def _across_stiffness(rig: Rig, run) -> float:
@@ -224,27 +220,25 @@ def _spline(degree: int, knots: int, interval: float) -> list[np.ndarray]:
             for n in range(3)]  # fmt: skip
 
 
-def _blocks(
+def _block(
     track: SmoothTrack, stretches: tuple[tuple[int, int], ...], weights: _Weights, noise: float
-) -> tuple[_Block, ...]:
-    """Rows of every stretch that holds a spline, one for each shift by a knot."""
+) -> _Block:
+    """Rows of all stretches that hold a spline, one for each shift by a knot."""
     size = weights[0].size
     knots = (size + 1) // (6 if weights[2].any() else 4)
-    blocks = []
-    for first, last in stretches:
-        shifts = np.arange(0, last - first - size + 1, knots)
-        if shifts.size == 0:
-            continue
-        at = (np.repeat(np.arange(shifts.size), size), (shifts[:, None] + np.arange(size)).ravel())
-        shape = (shifts.size, last - first)
-        rows = [sparse.csr_array((np.tile(w, shifts.size), at), shape=shape) for w in weights]
-        noisy = rows[1] if track.samples is None else rows[1] @ track.samples[first:last]
-        blocks.append(_Block(first, last, *rows, _factor(noise**2 * (noisy @ noisy.T))))
-    return tuple(blocks)
+    starts = [np.arange(first, last - size + 1, knots) for first, last in stretches]
+    begin = np.concatenate([np.zeros(0, dtype=int), *starts])
+    at = (np.repeat(np.arange(begin.size), size), (begin[:, None] + np.arange(size)).ravel())
+    shape = (begin.size, track.time.size)
+    rows = [sparse.csr_array((np.tile(w, begin.size), at), shape=shape) for w in weights]
+    noisy = rows[1] if track.samples is None else rows[1] @ track.samples
+    return _Block(*rows, _factor(noise**2 * (noisy @ noisy.T)))
 
 
 def _factor(covariance: sparse.csr_array) -> np.ndarray:
     """Lower bands (b, r) of the Cholesky factor of a banded covariance (r, r)."""
+    if covariance.shape[0] == 0:
+        return np.ones((1, 0))
     entries = covariance.tocoo()
     below = entries.row - entries.col
     width = int(below.max()) + 1
@@ -254,5 +248,3 @@ def _factor(covariance: sparse.csr_array) -> np.ndarray:
     return np.asarray(cholesky_banded(bands, lower=True))
 
 
-#: An unknown's response, made from a run's rows.
-Responder = Callable[[RunRows], Response]

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -85,6 +86,8 @@ class System:
         self._grams: dict[tuple[int, int], np.ndarray] = {}
         self._rights: dict[int, np.ndarray] = {}
         self._kept: list[Unknown] = []
+        #: What scans for waves have made of the runs (see `periodic`).
+        self.waves: dict[Any, Any] = {}
 
     def columns(self, unknown: Unknown) -> np.ndarray:
         """(rows, unknowns) of the fitted runs; made once."""
@@ -263,6 +266,32 @@ class Rung:
         columns = np.hstack([self.system.columns(each.unknown) for each in self.unknowns])
         return self.system.rows - columns @ self.posterior[0]
 
+    def left(self, run: RunRows) -> np.ndarray:
+        """(rows,) residuals of a run that need not be among the fitted ones.
+
+        What is shared is as the fitted runs have it; what is the run's own, its zero and its
+        friction within the scatter that the others show, is free within its prior.
+        """
+        rows, own = run.values.copy(), []
+        mean = self.posterior[0]
+        scatter, zeros = self.settings[0][self.best]
+        for each in self.unknowns:
+            columns = each.unknown.columns([run])
+            if not each.unknown.per_run:
+                rows -= columns @ mean[self.part_of(each)]
+                continue
+            scale = {SCATTER: scatter, ZERO_NAME: zeros}.get(each.unknown.name, 1.0)
+            own.append(scale * (columns @ each.factor))
+        free = np.hstack(own)
+        inner = free.T @ free + np.eye(free.shape[1])
+        return np.asarray(rows - free @ np.linalg.solve(inner, free.T @ rows))
+
+    @property
+    def held_out_gap(self) -> float | None:
+        """Root mean square of what is left of the runs that were held out."""
+        left = [self.left(run)[run.counted > 0.0] for run in self.system.held_out]
+        return float(np.sqrt(np.mean(np.concatenate(left) ** 2))) if left else None
+
     def part(self, name: str) -> slice:
         """Where the first unknowns of a name stand."""
         first = 0
@@ -285,3 +314,8 @@ class Rung:
     def gap(self) -> float:
         """Root mean square of the residuals: 1 is noise."""
         return float(np.sqrt(np.mean(self.residuals**2)))
+
+    @property
+    def misfit(self) -> float:
+        """Sum of squares beyond the noise's."""
+        return float(max(self.residuals @ self.residuals - self.residuals.size, 0.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +34,7 @@ class SmoothTrack:
     x, y, phi : (n,) values on the grid (m, m, rad), not smoothed; None where not measured
     place, velocity, acceleration : (n,) of x, smoothed by local polynomials
     place_y, velocity_y : (n,) of y; zeros where it was not measured
+    surface_speed : (n,) of the surface, m/s: the set-point, and what sticks show it to vary by
     sliding : (n,) speed of the surface less that of the block, m/s
     seen : (n,) whether there are samples about it
     slips, sticks : (first, last + 1) of their grid points
@@ -50,6 +52,7 @@ class SmoothTrack:
     acceleration: np.ndarray
     place_y: np.ndarray
     velocity_y: np.ndarray
+    surface_speed: np.ndarray
     sliding: np.ndarray
     seen: np.ndarray
     slips: tuple[tuple[int, int], ...]
@@ -68,7 +71,8 @@ class SmoothTrack:
     @property
     def surface_place(self) -> np.ndarray:
         """(n,) place on the surface that lies under the block, m, from the start of the run."""
-        return self.run.surface_speed * self.time - self.place
+        travel = np.cumsum(self.surface_speed) - self.surface_speed[0]
+        return travel * self.interval - self.place
 
 
 def mask(stretches: tuple[tuple[int, int], ...], size: int) -> np.ndarray:
@@ -79,8 +83,15 @@ def mask(stretches: tuple[tuple[int, int], ...], size: int) -> np.ndarray:
     return inside
 
 
-def smooth(run: MeasuredRun) -> SmoothTrack:
+def smooth(
+    run: MeasuredRun,
+    varies: Callable[[np.ndarray], np.ndarray] | None = None,
+    band: float = 0.0,
+) -> SmoothTrack:
     """The track of a run, smoothed twice: across everything to find the slips, then inside them.
+
+    varies : times (n,), s, to the part by which the surface is faster than its set-point; band :
+    a block moves with the surface up to this part of its speed
 
     A polynomial that reaches over a break-away would round it off; inside a slip the motion is that
     of an oscillator, which a quintic over two radians follows to 1e-3.
@@ -102,8 +113,11 @@ def smooth(run: MeasuredRun) -> SmoothTrack:
     assert x is not None  # every track has it
     omega = max(run.natural_frequency, _stiffer(x, interval, run))
     rough = _derivatives(x, interval, _window(CUBIC_REACH / omega, interval), 3)
-    threshold = _sliding_threshold(run, interval)
-    sliding = run.surface_speed - rough[1]
+    threshold = max(_sliding_threshold(run, interval), band * abs(run.surface_speed))
+    surface = np.full(time.size, run.surface_speed)
+    if varies is not None:
+        surface *= 1.0 + varies(time)
+    sliding = surface - rough[1]
     slips = _real_slips(_stretches((np.abs(sliding) > threshold) & seen), sliding, run, interval)
     sticks = _sticks(slips, seen, round(STICK_MARGIN / omega / interval))
     fine = rough.copy()
@@ -115,7 +129,7 @@ def smooth(run: MeasuredRun) -> SmoothTrack:
     across = np.zeros((3, x.size)) if y is None else _derivatives(y, interval, window, 5)
     return SmoothTrack(
         run, time, interval, samples, x, y, phi, *fine, across[0], across[1],
-        run.surface_speed - fine[1], seen, slips, sticks,
+        surface, surface - fine[1], seen, slips, sticks,
     )  # fmt: skip
 
 

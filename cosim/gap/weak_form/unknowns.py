@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -59,6 +60,7 @@ class Unknown:
     per_run : every run has its own
     curve : axis, where they are values of a curve
     settings : the variant in numbers, for who fits the law
+    wave : of what is periodic (`periodic.Wave`)
     """
 
     name: str
@@ -69,6 +71,7 @@ class Unknown:
     curve: Curve | None = None
     settings: dict[str, float] = field(default_factory=dict)
     bends: np.ndarray | None = field(default=None, repr=False)
+    wave: Any = field(default=None, repr=False)
 
     @classmethod
     def over(

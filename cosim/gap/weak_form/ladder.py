@@ -1,0 +1,143 @@
+"""The ladder: the argument that the rows ask for most joins, and all others are asked again.
+
+What was added first for want of the true one is dropped again where its place is taken: after every
+step each earlier finding is asked whether the rows are less probable without it, and whether
+another does better in its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.constants import LEAST_GAIN, LEAST_PART, MOST_FINDINGS
+from cosim.gap.weak_form.system import Added, Rung, System
+from cosim.gap.weak_form.unknowns import Unknown
+
+#: ln evidence with one more finding, and its unknowns.
+Offer = tuple[float, tuple[Added, ...]]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What was found.
+
+    name : effect, measurement fault, or a finding that no effect stands for; added : its unknowns;
+    gain : ln of how much less probable the rows are without it; others : name -> ln evidence with
+    another in its place, less that with it
+    """
+
+    name: str
+    added: tuple[Added, ...]
+    gain: float
+    others: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def main(self) -> Added:
+        """The unknown that says how large it is; others are phases."""
+        return self.added[0]
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """Findings in their order, the rows with all of them, and what was offered first of all."""
+
+    system: System
+    findings: tuple[Finding, ...]
+    rung: Rung
+    first_offers: Mapping[str, Offer]
+
+
+class Search:
+    """Everything that can be asked of the rows."""
+
+    def __init__(
+        self, system: System, unknowns: Mapping[str, Sequence[Unknown]],
+        waves: Sequence[periodic.Periodic], progress: Callable[[], object] | None = None,
+    ):  # fmt: skip
+        self.system, self.unknowns, self.waves = system, unknowns, waves
+        self.progress = progress or (lambda: None)
+
+    def offers(self, rung: Rung, without: Sequence[str] = ()) -> dict[str, Offer]:
+        """name -> the best that each argument offers on a rung."""
+        found: dict[str, Offer] = {}
+        for name, variants in self.unknowns.items():
+            if name not in without:
+                evidence, added = rung.offered(variants)
+                found[name] = (evidence, (added,))
+        for kind in self.waves:
+            if kind.name in without:
+                continue
+            offer = periodic.offered(rung, kind)
+            if offer and (kind.name not in found or offer[0] > found[kind.name][0]):
+                found[kind.name] = offer
+        self.progress()
+        return found
+
+    def climb(self) -> Ladder:
+        """Add, drop and exchange until nothing more is asked for."""
+        found: list[tuple[str, tuple[Added, ...]]] = []
+        first: dict[str, Offer] = {}
+        for _ in range(MOST_FINDINGS):
+            rung = self._rung(found)
+            offers = self.offers(rung, [name for name, _ in found])
+            first = first or offers
+            if not offers:
+                break
+            name = max(offers, key=lambda each: offers[each][0])
+            more = self._rung([*found, (name, offers[name][1])])
+            if not self._is_missed(rung, more):
+                break
+            found = self._exchanged([*found, (name, offers[name][1])])
+        found = self._without_idle(found)
+        return self._ladder(found, first)
+
+    def _rung(self, found: Sequence[tuple[str, tuple[Added, ...]]]) -> Rung:
+        return self.system.rung([added for _, group in found for added in group])
+
+    def _is_missed(self, without: Rung, rung: Rung) -> bool:
+        """Whether rows miss a finding, and by more than a small part of all that is missing."""
+        part = without.misfit - rung.misfit > LEAST_PART**2 * self.system.rung().misfit
+        return part and rung.evidence - without.evidence > LEAST_GAIN
+
+    def _exchanged(
+        self, found: list[tuple[str, tuple[Added, ...]]]
+    ) -> list[tuple[str, tuple[Added, ...]]]:
+        """Earlier findings, each replaced by another that does better beside the last."""
+        for place in range(len(found) - 1):
+            rest = found[:place] + found[place + 1 :]
+            rung = self._rung(rest)
+            offers = self.offers(rung, [name for name, _ in rest])
+            best = max(offers, key=lambda each: offers[each][0])
+            if best != found[place][0]:
+                tried = [*found[:place], (best, offers[best][1]), *found[place + 1 :]]
+                if self._rung(tried).evidence > self._rung(found).evidence + LEAST_GAIN:
+                    found = tried
+        return self._without_idle(found)
+
+    def _without_idle(
+        self, found: list[tuple[str, tuple[Added, ...]]]
+    ) -> list[tuple[str, tuple[Added, ...]]]:
+        """Without findings that the rows do not miss."""
+        for one in list(found):
+            rest = [other for other in found if other is not one]
+            if not self._is_missed(self._rung(rest), self._rung(found)):
+                found = rest
+        return found
+
+    def _ladder(
+        self, found: list[tuple[str, tuple[Added, ...]]], first: Mapping[str, Offer]
+    ) -> Ladder:
+        rung = self._rung(found)
+        findings = []
+        for name, added in found:
+            rest = [other for other in found if other[0] != name]
+            without = self._rung(rest)
+            offers = first if not rest else self.offers(without, [n for n, _ in rest])
+            reference = offers[name][0] if name in offers else rung.evidence
+            others = {
+                other: offer[0] - reference for other, offer in offers.items() if other != name
+            }
+            findings.append(Finding(name, added, rung.evidence - without.evidence, others))
+        return Ladder(self.system, tuple(findings), rung, first)
