@@ -10,14 +10,13 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
+from cosim.gap.show.answer_figures import draw_ladder, draw_laws
+from cosim.gap.show.numbers import as_data
+from cosim.gap.show.run_figures import draw_overlay, draw_residuals, draw_run
+from cosim.gap.show.tracks import channels, modelled, residuals, shown_runs
 from cosim.names import unknown_name
 from cosim.report.files import json_text, provenance
 from cosim.report.style import shown
-
-from .answer_figures import draw_ladder, draw_laws
-from .numbers import as_data
-from .run_figures import draw_overlay, draw_residuals, draw_run
-from .tracks import channels, modelled, residuals, shown_runs
 
 CHANNELS = {
     "x": ("m", "place along the surface's motion"), "y": ("m", "place across it"),

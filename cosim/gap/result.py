@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: What draws; loaded when asked for.
-NOTEBOOK = "cosim.gap.show.notebook"
+NOTEBOOK = "cosim.gap.notebook"
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "partial", "unknown")
 

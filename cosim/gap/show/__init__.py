@@ -1,1 +1,1 @@
-"""An answer shown: its JSON, the extended model as a scenario, figures, one page, a notebook."""
+"""An answer shown: its JSON, the extended model as a scenario, figures and one page."""

@@ -16,6 +16,8 @@ from .quantities import NINETY, digits
 
 #: Inches: two beside each other on a wide screen, and large enough type on a phone.
 SIZE = {"height": 3.9, "width": 5.6}
+#: Height of each of several laws, inches.
+LOWER = 2.6
 #: Rungs whose names stand upright.
 UPRIGHT = 4
 #: A law over so wide a range has a logarithmic axis.
@@ -46,6 +48,7 @@ def draw_ladder(gap: Gap) -> Figure:
             axis.annotate(
                 digits(value), (place, value), (0.0, 4.0 * up), textcoords="offset points",
                 ha="center", va="bottom" if up > 0.0 else "top", fontsize=9.0, color=colour,
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
             )  # fmt: skip
     lowest = min(1.0, *(float(np.nanmin(values)) for _, _, values in series.values()))
     axis.set_ylim(lowest / 1.35, 1.5 * max(1.0, float(highest.max())))
@@ -76,7 +79,8 @@ def _logarithmic_y(axis: Axes) -> None:
 ))  # fmt: skip
 def draw_laws(gap: Gap) -> Figure:
     """A panel for each law."""
-    figure, axes = panels(len(gap.laws), 1, **SIZE)
+    height = SIZE["height"] if len(gap.laws) == 1 else LOWER
+    figure, axes = panels(len(gap.laws), 1, height=height, width=SIZE["width"])
     for axis, law in zip(axes.flat, gap.laws, strict=True):
         _draw_law(axis, law)
     return figure
