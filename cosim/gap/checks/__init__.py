@@ -1,0 +1,73 @@
+"""Data are checked before fitting: the record, and the numbers stated of the rig.
+
+A fit turns every number that it may, so a rig that is not as stated, or a record that cannot hold
+the motion, may come out as a missing effect, or as none. Each doubt names the runs, the figure and
+what would be expected of it. On campaigns that are as stated each check raises one in `LEVEL` of
+them at most, of campaigns whose noise, zeros and set-points scatter as said. A severe doubt is one
+beside which nothing can be concluded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.result import Doubt
+from cosim.gap.windows.windows import cycle
+
+from .constants import CYCLES, LEVEL, RUNS, WINDOWS
+from .motion import doubts_of_direction, doubts_of_force, doubts_of_speed, doubts_of_springs
+from .tracker import doubts_of_noise, doubts_of_sampling
+from .units import doubts_of_units
+
+__all__ = ["LEVEL", "doubts_of"]
+
+
+def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
+    """Of the runs that have a track, in the order of the checks.
+
+    A run whose units, samples, direction or speed are in doubt is not asked for more: what follows
+    takes them as they are.
+    """
+    every = [run for run in campaign.runs if run.track is not None]
+    doubts = doubts_of_units(every)
+    runs = _but(every, doubts)
+    doubts += _of_record(runs)
+    for check in (doubts_of_sampling, doubts_of_direction, doubts_of_speed):
+        found = check(campaign, runs)
+        runs = runs if len(found) == 1 and len(found[0].runs) > 1 else _but(runs, found)
+        doubts += found
+    for check in (doubts_of_springs, doubts_of_force, doubts_of_noise):
+        doubts += check(campaign, runs) if runs else []
+    return tuple(doubts)
+
+
+def _but(runs: Sequence[MeasuredRun], doubts: Sequence[Doubt]) -> list[MeasuredRun]:
+    """Runs without those in doubt."""
+    doubted = {name for doubt in doubts for name in doubt.runs}
+    return [run for run in runs if run.name not in doubted]
+
+
+def _of_record(runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """Of the cycles in all runs, and of their number.
+
+    Friction scatters from stretch to stretch and from run to run, and an effect is what goes beyond
+    that.
+    """
+    doubts = []
+    cycles = {run.name: int(run.motion.duration / cycle(run)) for run in runs}
+    beyond = sum(max(count // CYCLES - 1, 0) for count in cycles.values())
+    if cycles and beyond < WINDOWS:
+        text = (
+            f"all runs: {sum(run.motion.duration for run in runs):.3g} s hold "
+            f"{sum(cycles.values())} cycles, expected are {CYCLES * (WINDOWS + len(runs))}: how "
+            "far friction scatters within a run is not known"
+        )
+        doubts.append(Doubt("record", text, tuple(cycles), max(cycles.values()) < CYCLES))
+    if len(runs) == 1 < RUNS:
+        text = (
+            f"{runs[0].name}: a single run: how far friction scatters from run to run is not "
+            "known, and nothing is held out"
+        )
+        doubts.append(Doubt("runs", text, (runs[0].name,)))
+    return doubts

@@ -1,0 +1,223 @@
+"""Whether the block moves as its surface, springs and mass are stated."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.signal import savgol_filter
+
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.result import Doubt
+from cosim.gap.weak_form.constants import CUBIC_REACH
+from cosim.gap.weak_form.rows import Response, rows_of
+from cosim.gap.windows.sticks import smoothed, sticks_of
+
+from .constants import (
+    CREEPS,
+    CREST,
+    FEWEST_ROWS,
+    FEWEST_STICKS,
+    FRICTION,
+    SHAPE,
+    SHEARED,
+    SOFTEST,
+    SPEEDS,
+    THROUGHOUT,
+    TRAVEL,
+    UNIT,
+    WRONG_SPEED,
+    far,
+)
+from .units import cycle_of, swing_of
+
+
+def doubts_of_direction(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for each run in which friction would push against the surface.
+
+    The springs hold the mean of friction, K mean(x) = mean friction, but for the momentum at the
+    record's ends; and friction carries the block along.
+    """
+    doubts = []
+    for run in runs:
+        momentum = swing_of(run) / (run.natural_frequency * run.motion.duration)
+        least = far(len(runs)) * campaign.zero_sd(run) + momentum
+        mean = float(np.nanmean(run.motion.x))
+        if math.copysign(mean, mean * run.surface_speed) < -least:
+            text = (
+                f"{run.name}: x is {1e3 * mean:.3g} mm in the mean, against the surface "
+                f"({run.surface_speed:g} m/s), which carries the block along: sign of x, or of "
+                "surface_speed?"
+            )
+            doubts.append(Doubt("direction", text, (run.name,), True))
+    return doubts
+
+
+def doubts_of_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for each run that sticks at another speed than its set-point, or one for all of them.
+
+    A contact creeps: a block may be somewhat slower than its surface, but not faster.
+    """
+    found = [(run, *told) for run in runs if (told := stick_speed(run)) is not None]
+    known, limit = math.hypot(campaign.errors.surface_speed, SHEARED), far(len(found) + 1)
+    logs = np.array([math.log(abs(speed / run.surface_speed)) for run, speed, _ in found])
+    common = float(np.median(logs)) if len(found) > 2 else 0.0
+    if not _is_off(common, limit * known / math.sqrt(max(len(found), 1))):
+        common = 0.0
+    doubts = []
+    for (run, speed, error), log in zip(found, logs, strict=True):
+        if _is_off(log - common, limit * math.hypot(known, error / speed)):
+            doubts.append(_of_speed(run, speed))
+    if common:
+        names = tuple(run.name for run, *_ in found)
+        text = (
+            f"all runs: in sticks x moves at {math.exp(common):.3g} times the surface_speed "
+            "stated: the camera's scale, its clock, or the drive?"
+        )
+        doubts.append(Doubt("speed", text, names, abs(common) > WRONG_SPEED))
+    return doubts
+
+
+def _is_off(log: float, limit: float) -> bool:
+    return not math.log1p(-CREEPS) - limit < log < limit
+
+
+def _of_speed(run: MeasuredRun, speed: float) -> Doubt:
+    ratio = speed / abs(run.surface_speed)
+    unit = min(SPEEDS, key=lambda name: abs(math.log(ratio / SPEEDS[name])))
+    hint = f"{unit}?" if ratio < 1.0 / UNIT else "x in mm?" if ratio > UNIT else "wrong set-point?"
+    text = (
+        f"{run.name}: surface_speed = {run.surface_speed:g} m/s, but x moves at {speed:.3g} m/s in "
+        f"sticks: {hint}"
+    )
+    return Doubt("speed", text, (run.name,), abs(ratio - 1.0) > WRONG_SPEED)
+
+
+def stick_speed(run: MeasuredRun) -> tuple[float, float] | None:
+    """Along the surface and its standard error, m/s; None where too little sticks.
+
+    Whatever speed is stated: sticks are looked for at it, and at the one that x has most often.
+    """
+    tried = [abs(run.surface_speed), _most_often(run)]
+    found = [_sticks_at(run, speed) for speed in tried if speed > 0.0]
+    slopes, durations = max(found, key=lambda one: float(np.sum(one[1])))
+    if slopes.size < max(FEWEST_STICKS, THROUGHOUT * run.motion.duration / cycle_of(run)):
+        return None
+    middle = float(np.median(slopes))
+    error = 1.2533 * float(np.std(slopes)) / math.sqrt(slopes.size)
+    return (middle, error) if middle > 0.0 else None
+
+
+def _sticks_at(run: MeasuredRun, speed: float) -> tuple[np.ndarray, np.ndarray]:
+    """Slope (m/s, along the surface) and duration (s) of every stick, were this the speed.
+
+    None where they are the crests of a vibration, with a third derivative of -omega^2 x speed.
+    """
+    along = math.copysign(1.0, run.surface_speed)
+    slopes, durations, seen, crests = [], [], 0.0, 0.0
+    for stick in sticks_of(replace(run, surface_speed=along * speed)):
+        rows = np.arange(stick.first, stick.last + 1)
+        rows = rows[np.isfinite(run.motion.x[rows])]
+        if rows.size < 5 or speed * stick.duration < TRAVEL * swing_of(run):
+            continue
+        time, x = run.motion.time[rows] - run.motion.time[rows].mean(), along * run.motion.x[rows]
+        slopes.append(np.polyfit(time, x, 1)[0])
+        durations.append(stick.duration)
+        third = time**3 / 6.0 - np.polyval(np.polyfit(time, time**3 / 6.0, 2), time)
+        seen += float(third @ x)
+        crests -= run.natural_frequency**2 * speed * float(third @ third)
+    if seen / (crests or 1.0) > CREST:
+        return np.zeros(0), np.zeros(0)
+    return np.array(slopes), np.array(durations)
+
+
+def _most_often(run: MeasuredRun) -> float:
+    """The speed along the surface that x has most often, m/s; 0.0 where it never moves along."""
+    track = smoothed(run)
+    reach = max(2, round(CUBIC_REACH / run.natural_frequency / track.interval))
+    size = min(2 * reach + 1, (track.x.size - 1) // 2 * 2 + 1)
+    velocity = savgol_filter(track.x, size, 3, 1, track.interval)
+    velocity = velocity[track.seen] * math.copysign(1.0, run.surface_speed)
+    top = float(np.quantile(velocity, 0.99))
+    velocity = velocity[velocity > 0.2 * top]
+    if top <= 0.0 or velocity.size < FEWEST_ROWS:
+        return 0.0
+    counts, edges = np.histogram(velocity, 40)
+    return float(edges[:-1][np.argmax(counts)] + edges[1:][np.argmax(counts)]) / 2.0
+
+
+def doubts_of_springs(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for each set-up (mass and springs) whose slips swing otherwise than stated."""
+    told = [(run, *one) for run in runs if (one := stiffness_ratio(campaign, run)) is not None]
+    setups = sorted({(run.mass, run.stiffness) for run, *_ in told})
+    known, doubts = math.hypot(campaign.errors.stiffness, FRICTION), []
+    for mass, stiffness in setups:
+        mine = [one for one in told if (one[0].mass, one[0].stiffness) == (mass, stiffness)]
+        run, ratio, error = min(mine, key=lambda one: one[2])
+        if abs(math.log(ratio)) < far(len(setups)) * math.hypot(known, error / ratio):
+            continue
+        hertz = run.natural_frequency / (2.0 * math.pi)
+        names = tuple(one[0].name for one in mine)
+        text = (
+            f"{', '.join(names)}: slips swing at {hertz * math.sqrt(ratio):.3g} Hz, expected is "
+            f"{hertz:.3g} Hz, that of {mass:g} kg on four springs of {stiffness:g} N/m: "
+            f"{ratio * stiffness:.3g} N/m, or {mass / ratio:.3g} kg?"
+        )
+        doubts.append(Doubt("springs", text, names, ratio < SOFTEST))
+    return doubts
+
+
+def stiffness_ratio(campaign: Campaign, run: MeasuredRun) -> tuple[float, float] | None:
+    """Springs as slips have them in parts of what is stated, and its standard error; None: few.
+
+    From the weak form's rows, beside damping and a friction that changes slowly with time.
+    """
+    track = smoothed(run)
+    rows = rows_of(track, campaign.rig)
+    slips = rows.kinds == 0
+    if slips.sum() < FEWEST_ROWS:
+        return None
+    friction = rows.weight * track.direction * np.vander(track.time / track.time[-1], 3).T
+    force = np.stack([-rows.restoring, track.velocity, *friction], axis=1)
+    columns, values = rows.respond(Response(force=force), 5)[slips], rows.values[slips]
+    numbers = np.linalg.lstsq(columns, values, rcond=None)[0]
+    left = float(np.mean((values - columns @ numbers) ** 2))
+    error = math.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0] * max(left, 1.0))
+    ratio = 1.0 + float(numbers[0])
+    return (ratio, error) if ratio > 0.0 else None
+
+
+def doubts_of_force(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for each run whose measured force grows otherwise with x than its springs say.
+
+    force is what all springs together pull the block back with, positive where x is: K = 4 k.
+    """
+    measured = [run for run in runs if "force" in run.motion.channels]
+    known, doubts = math.hypot(campaign.errors.stiffness, SHAPE), []
+    for run in measured:
+        told = _force_slope(run)
+        wanted = run.total_stiffness
+        if told and abs(told[0] - wanted) > far(len(measured)) * math.hypot(
+            told[1], known * wanted
+        ):
+            hint = "its sign?" if told[0] < 0.0 else "stiffness, scale of x or unit of force?"
+            text = (
+                f"{run.name}: force grows by {told[0]:.3g} N/m, expected is {wanted:.3g} N/m, that "
+                f"of four springs of {run.stiffness:g} N/m: {hint}"
+            )
+            doubts.append(Doubt("force", text, (run.name,)))
+    return doubts
+
+
+def _force_slope(run: MeasuredRun) -> tuple[float, float] | None:
+    """Force for each metre of x, N/m, and its standard error; None where x hardly moves."""
+    seen = np.isfinite(run.motion["force"]) & np.isfinite(run.motion.x)
+    force, x = run.motion["force"][seen], run.motion.x[seen]
+    noise = x.size * run.noise["x"] ** 2
+    if x.size < 3 or (spread := float(np.sum((x - x.mean()) ** 2)) - noise) <= noise:
+        return None  # noise of x, which flattens the slope, is taken out
+    slope = float((x - x.mean()) @ force) / spread
+    left = force - force.mean() - slope * (x - x.mean())
+    return slope, math.sqrt(float(left @ left) / (x.size - 2) / spread)

@@ -1,0 +1,146 @@
+"""Whether the tracker is fast enough, white, as noisy as stated, and felt to write in steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from scipy import stats
+
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.result import Doubt
+from cosim.gap.windows.sticks import sticks_of
+
+from .constants import (
+    BARTLETT,
+    COARSEST,
+    HIDES,
+    LEVEL,
+    NEAR,
+    ON_LATTICE,
+    QUIET,
+    SMOOTHED,
+    TRIED,
+    WHITE,
+)
+
+#: Sum of the squares of the third difference's weights 1, 3, 3, 1.
+_THIRD = 20.0
+
+
+def doubts_of_sampling(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for all the runs whose samples are too far apart for the motion in slip."""
+    steps = {run.name: run.natural_frequency * run.motion.interval for run in runs}
+    coarse = tuple(name for name, step in steps.items() if step > COARSEST)
+    if not coarse:
+        return []
+    worst = next(run for run in runs if steps[run.name] == max(steps.values()))
+    text = (
+        f"{', '.join(coarse)}: {1.0 / worst.motion.interval:.3g} Hz are too few samples for slips "
+        f"that swing in {2.0 * math.pi / worst.natural_frequency:.3g} s: "
+        f"{worst.natural_frequency / COARSEST:.3g} Hz at least"
+    )
+    return [Doubt("sampling", text, coarse, True)]
+
+
+def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """Of steps, of noise that is not white, and of noise that is not as stated, in this order.
+
+    Noise is looked at in sticks, where the motion is a line.
+    """
+    steps = _of_steps(runs)
+    if steps:
+        return steps
+    size, variance, together = quiet(runs)
+    if size < QUIET or variance == 0.0:
+        return []
+    names, doubts = tuple(run.name for run in runs), []
+    higher = together / variance - WHITE
+    if higher > max(SMOOTHED, stats.norm.isf(LEVEL) * math.sqrt(BARTLETT / size)):
+        text = (
+            f"all runs: noise of x in sticks is not white (third differences of neighbours go "
+            f"together by {together / variance:.2f}, white noise's by {WHITE:g}): a tracker that "
+            "smooths? Give the samples as they were taken"
+        )
+        return [Doubt("smoothed", text, names, True)]
+    stated = math.sqrt(float(np.mean([run.noise["x"] ** 2 for run in runs])))
+    seen = math.sqrt(variance / _THIRD)
+    if not 1.0 / HIDES < seen / stated < HIDES:
+        text = (
+            f"all runs: noise of x in sticks is {1e3 * seen:.3g} mm, {1e3 * stated:.3g} mm "
+            f"{'is estimated from all samples' if 'x' in campaign.noise_estimated else 'is stated'}"
+        )
+        doubts.append(Doubt("noise", text, names))
+    return doubts
+
+
+def quiet(runs: Sequence[MeasuredRun]) -> tuple[int, float, float]:
+    """Of third differences in sticks: how many, their variance and covariance with the next, m2."""
+    squares, products = [np.zeros(0)], [np.zeros(0)]
+    for run in runs:
+        for stick in sticks_of(run):
+            rows = slice(stick.first, stick.last + 1)
+            time, x = run.motion.time[rows], run.motion.x[rows]
+            if x.size < 6 or not np.isfinite(x).all():
+                continue
+            thirds = np.diff(x - np.polyval(np.polyfit(time - time[0], x, 1), time - time[0]), 3)
+            squares.append(thirds**2)
+            products.append(thirds[1:] * thirds[:-1])
+    both = [np.concatenate(one) for one in (squares, products)]
+    means = [float(np.mean(one)) if one.size else 0.0 for one in both]
+    return both[1].size, means[0], means[1]
+
+
+def _of_steps(runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for all runs where a step q, of which more than half are written, is felt.
+
+    What rounding leaves is of variance q^2 / 12 (Bennett 1948) beside the noise: it is felt where
+    that is more than what chance makes of the noise's variance.
+    """
+    found = [(run, *lattice(run.motion.x)) for run in runs]
+    steps = [step for _, step, _ in found if step > 0.0]
+    if 2 * len(steps) <= len(runs):
+        return []
+    step = float(np.median(steps))
+    share = float(np.mean([share for *_, share in found if share > 0.0]))
+    samples = sum(int(np.isfinite(run.motion.x).sum()) for run in runs)
+    noise = math.sqrt(float(np.mean([run.noise["x"] ** 2 for run in runs])))
+    if felt(step, noise, samples) > LEVEL:
+        return []
+    text = (
+        f"all runs: {100.0 * share:.0f} % of x are multiples of {1e3 * step:.3g} mm, a step that "
+        f"is felt beside noise of {1e3 * noise:.3g} mm"
+    )
+    return [Doubt("steps", text, tuple(run.name for run in runs))]
+
+
+def felt(step: float, noise: float, samples: int) -> float:
+    """Chance that white noise of so many samples shows a variance larger by q^2 / 12."""
+    part = 1.0 + (step / noise) ** 2 / 12.0
+    return float(stats.chi2.sf(part * samples, samples))
+
+
+def lattice(values: np.ndarray) -> tuple[float, float]:
+    """(step, share of the values on it) of the coarsest lattice of values (n,); (0, 0): none.
+
+    On a lattice of q / 2 half of the values would be multiples of q as well: it is q where more
+    than three quarters are.
+    """
+    values = values[np.isfinite(values)]
+    levels, counts = np.unique(values, return_counts=True)
+    levels = levels[counts > 1]  # outliers do not come back
+    if levels.size <= 3:
+        return 0.0, 0.0
+    origin = levels[np.argmin(np.abs(levels - np.median(values)))]
+    gaps = np.unique(np.diff(levels))
+    for step in gaps[gaps > 1e-9 * np.ptp(levels)][:TRIED][::-1]:
+        numbers = np.rint((levels - origin) / step)
+        near = np.abs((levels - origin) / step - numbers) < 0.25
+        if np.any(numbers[near] != 0.0):
+            step = float(numbers[near] @ (levels - origin)[near] / (numbers[near] @ numbers[near]))
+        off = (values - origin) / step
+        share = float(np.mean(np.abs(off - np.rint(off)) < NEAR))
+        if share > ON_LATTICE and np.ptp(levels) > 3.0 * step:
+            return float(step), share
+    return 0.0, 0.0
