@@ -38,7 +38,7 @@ def sentence(gap: SummaryGap) -> str:
         return f"{groups}: these figures cannot tell which."
     if gap.verdict == "named":
         said = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
-        return f"{'; '.join(f'{said[one]}: {one}' for one in gap.effects)}."
+        return f"{'; '.join(f'{one}: {said[one]}' for one in gap.effects)}."
     if gap.effects:
         return (
             f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
