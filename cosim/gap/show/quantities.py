@@ -104,8 +104,7 @@ def quantity(
     factor, unit, meaning = BESIDE_THE_MODEL.get(key) or (1.0, *unit_and_meaning(key))
     if instead:
         return Quantity(key, owner, meaning, instead, "", unit)
-    width = 0.0 if interval is None else interval[1] - interval[0]
-    ends = interval if interval and 0.0 < width < math.inf else ()
+    ends = interval if interval and 0.0 < np.ptp(interval) < math.inf else ()
     shown, *around = with_digits(*(factor * number for number in (value, *ends)))
     return Quantity(key, owner, meaning, shown, " to ".join(around), unit)
 
