@@ -1,64 +1,208 @@
-"""From a campaign to its gap: fit, name, extend."""
+"""From a campaign to its gap: check, name, fit, judge."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
-from cosim.gap.answer.answer import answer
-from cosim.gap.answer.below_noise import doubts_of_noise
-from cosim.gap.answer.models import Bench
-from cosim.gap.answer.offered import offered
-from cosim.gap.answer.unsearched import unsearched
-from cosim.gap.camera.quantisation import find_quantisation, with_steps
-from cosim.gap.candidates.plain import moves_across, plain_free_parameters, plain_settings
+import numpy as np
+
+from cosim.gap.checks import doubts_of
 from cosim.gap.data import Campaign
-from cosim.gap.doubts import doubts_of, hopeless
-from cosim.gap.estimation.preparation import thinned
-from cosim.gap.estimation.segmented_run import SegmentedRun
-from cosim.gap.estimation.trial import Model
-from cosim.gap.result import Gap
-from cosim.gap.selection.powers import with_powers
-from cosim.gap.selection.search import Search
-from cosim.gap.selection.verdict import judge
-from cosim.processes import processes
+from cosim.gap.extended import (
+    Part,
+    contact_numbers,
+    part_of,
+    scatter_numbers,
+    started_at,
+)
+from cosim.gap.judge import judge
+from cosim.gap.report_of_findings import (
+    exponents_of,
+    law_of,
+    ranking_of,
+    rig_numbers,
+    sentence_of,
+    text_of,
+    where_of,
+)
+from cosim.gap.result import Gap, Rung, Score
+from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.arguments import CATALOGUE, Arguments
+from cosim.gap.weak_form.ladder import Ladder, Search
+from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.surface import tracks_of
+from cosim.gap.weak_form.system import Rung as Rows
+from cosim.gap.weak_form.system import System
+from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
+from cosim.gap.windows.windows import Windows
+
+#: Steps of the bar: checks, search, and the models that are fitted.
+STEPS = 6
+#: A nuisance is a finding where it takes this part of the fitted runs' misfit or more, or brings
+#: their gap down by a hundredth of noise.
+FELT_PART, FELT_GAP = 0.02, 0.01
+
+Progress = Callable[[int, int], object]
 
 
-def find_gap(
-    campaign: Campaign,
-    *,
-    jobs: int = 2,
-    progress: Callable[[int], object] | None = None,
-) -> Gap:
-    """What the plain model lacks in a campaign with tracks.
+def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
+    """What the user's model lacks in a campaign with tracks.
 
-    Nothing is drawn: the same campaign gives the same answer. progress : called with 1 after every
-    model tried. Runs of which only figures are known are left to `find_summary_gap`. Beside doubts
-    that leave nothing to believe (`cosim.gap.doubts`) the verdict is "unknown"; where no effect
-    could explain one of these, none is looked for.
+    Nothing is drawn: the same campaign gives the same answer. progress : called with the number of
+    steps done and of all
     """
+    step = _Steps(progress)
     doubts = doubts_of(campaign)
-    runs = tuple(thinned(run) if run.track is not None else run for run in campaign.runs)
-    campaign = replace(campaign, runs=runs)
-    steps = find_quantisation([run for run in runs if run.track is not None])
-    rounded = with_steps(campaign, steps.step) if steps else campaign
-    bench = Bench.of(rounded, moves_across(campaign))
-    model = Model(plain_free_parameters(rounded, bench.planar), plain_settings(rounded))
-    with processes(jobs, partial(_load, bench.short[0])) as mapped:
-        search = Search(bench.short, bench.runs, mapped, progress)
-        if hopeless(doubts):
-            gap = unsearched(campaign, bench, search.plain(model), doubts)
-        else:
-            finding = judge(search, model, partial(offered, bench))
-            finding, powers = with_powers(finding, bench.short, bench.runs)
-            gap = answer(campaign, bench, finding, powers, steps, mapped)
-    if not any(doubt.check == "sampling" for doubt in doubts):
-        estimated, nothing = "x" in campaign.noise_estimated, gap.verdict == "none"
-        doubts += tuple(doubts_of_noise(gap.model, estimated, nothing))
-    return gap.doubted(doubts)
+    step()
+    system, ladder = name(campaign)
+    step()
+    parts = [part_of(campaign, system, ladder.rung, finding) for finding in ladder.findings]
+    models = _Models.fitted(campaign, system, ladder, parts, step)
+    found = [part.effect for part in parts]
+    verdict = judge(ladder.findings, found, models.ladder, set(CATALOGUE) | _others())
+    severe = [doubt for doubt in doubts if doubt.severe]
+    if severe:
+        verdict = replace(verdict, verdict="unknown", effects=())
+    extended = models.fits[-1]
+    gap = Gap(
+        campaign=campaign,
+        verdict=verdict.verdict,
+        effects=verdict.effects,
+        sentence="",
+        classes=verdict.classes,
+        where=where_of(campaign, ladder, models.fits[0]),
+        ladder=tuple(models.ladder),
+        ranking=ranking_of(system, ladder, parts, extended, models.ladder[-1].gap),
+        plain=models.fits[0],
+        extended=extended,
+        laws=tuple(law for part in parts if (law := law_of(system, ladder.rung, part)) is not None),
+        exponents=tuple(one for part in parts for one in exponents_of(part)),
+        scatter=models.scatter,
+        rig=rig_numbers(campaign, extended),
+        doubts=doubts,
+    )
+    step.end()
+    return replace(gap, sentence=sentence_of(gap, parts))
 
 
-def _load(segmented: SegmentedRun) -> None:
-    """Have a process load what it needs."""
-    segmented.places({}, segmented.starts)
+def name(campaign: Campaign) -> tuple[System, Ladder]:
+    """What the rows ask for."""
+    runs = [run for run in campaign.runs if run.track is not None]
+    rows = [rows_of(track, campaign.rig) for track in tracks_of(campaign, runs)]
+    system = System(campaign, rows)
+    unknowns = Arguments(campaign, system.runs, system.level).unknowns()
+    waves = periodic.kinds(system.level.kinetic)
+    return system, Search(system, unknowns, waves).climb()
+
+
+def _others() -> set[str]:
+    from stickslip.effects import EFFECTS
+
+    return {effect.id for effect in EFFECTS}
+
+
+class _Steps:
+    def __init__(self, progress: Progress | None):
+        self.progress, self.done = progress or (lambda done, total: None), 0
+
+    def __call__(self) -> None:
+        self.done = min(self.done + 1, STEPS - 1)
+        self.progress(self.done, STEPS)
+
+    def end(self) -> None:
+        self.progress(STEPS, STEPS)
+
+
+@dataclass
+class _Models:
+    """The ladder's models, each fitted over the same windows."""
+
+    campaign: Campaign
+    windows: Mapping[str, Windows]
+    fits: list[Fitted] = field(default_factory=list)
+    ladder: list[Rung] = field(default_factory=list)
+    scatter: tuple[float, float, float] | None = None
+
+    @classmethod
+    def fitted(
+        cls, campaign: Campaign, system: System, ladder: Ladder, parts: list[Part], step: _Steps
+    ) -> _Models:
+        """The user's model, then the findings, then contact and scatter where they are felt."""
+        models = cls(campaign, windows_of_campaign(campaign))
+        numbers, settings = user_model(campaign)
+        weak = system.rung(contact=False, scatter=False)
+        models._add("user's model", "the model as stated", numbers, settings, weak, None)
+        step()
+        added, last = [], weak.evidence
+        for part in parts:
+            added += [*part.finding.added]
+            rung = system.rung(added, contact=False, scatter=False)
+            numbers, settings = [*numbers, *part.numbers], {**settings, **part.settings}
+            models._add(part.effect, text_of(part), numbers, settings, rung, rung.evidence - last)
+            last = rung.evidence
+        step()
+        fastest = max(
+            float(np.percentile(np.abs(run.track.sliding), 99)) for run in system.runs
+        )
+        rung = system.rung(added, scatter=False)
+        contact = contact_numbers(campaign, fastest)
+        if models._try("contact", "the contact is not a switch", [*numbers, *contact], settings,
+                       rung, rung.evidence - last):  # fmt: skip
+            numbers, last = [*numbers, *contact], rung.evidence
+        step()
+        models.scatter = scatter_of(ladder.rung)
+        spread = models.scatter[0]
+        rung = system.rung(added)
+        text = f"friction scatters from run to run by {100.0 * spread:.2g} %"
+        models._try("scatter", text, [*numbers, *scatter_numbers(spread)], settings, rung,
+                    rung.evidence - last, spread)  # fmt: skip
+        return models
+
+    def _fit(self, numbers: list[Number], settings: dict, scatter: float) -> Fitted:
+        start = self.fits[-1].values if self.fits else {}
+        return fit(self.campaign, self.windows, started_at(numbers, start), settings, scatter)
+
+    def _add(
+        self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
+        evidence: float | None, fitted: Fitted | None = None,
+    ) -> None:  # fmt: skip
+        fitted = fitted or self._fit(numbers, settings, 0.0)
+        self.fits.append(fitted)
+        gap = _score(*fitted.gap)
+        first = self.ladder[0].gap if self.ladder else gap
+        missing = max(first.fit**2 - 1.0, 1e-9)
+        share = min(max(1.0 - (gap.fit**2 - 1.0) / missing, 0.0), 1.0) if self.ladder else 0.0
+        weak = Score(rows.gap, rows.held_out_gap)
+        self.ladder.append(Rung(name, text, gap, weak, share, evidence))
+
+    def _try(
+        self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
+        evidence: float, scatter: float = 0.0,
+    ) -> bool:  # fmt: skip
+        """Add what is felt."""
+        before = self.ladder[-1].gap
+        fitted = self._fit(numbers, settings, scatter)
+        after = _score(*fitted.gap)
+        gained = before.fit**2 - after.fit**2
+        felt = gained > FELT_PART * max(before.fit**2 - 1.0, 0.0) and (
+            before.fit - after.fit > FELT_GAP
+        )
+        if scatter and before.held_out and after.held_out:
+            felt = felt or before.held_out - after.held_out > FELT_GAP
+        if felt:
+            self._add(name, text, numbers, settings, rows, evidence, fitted)
+        return felt
+
+
+def _score(fit: float, held_out: float) -> Score:
+    return Score(fit, None if math.isnan(held_out) else held_out)
+
+
+def scatter_of(rows: Rows) -> tuple[float, float, float]:
+    """Scatter of friction from run to run, and its 90 % interval."""
+    spreads, weights = rows.scatter_posterior()
+    cumulated = np.cumsum(weights)
+    low, middle, high = np.interp([0.05, 0.5, 0.95], cumulated, spreads)
+    return float(middle), float(low), float(high)

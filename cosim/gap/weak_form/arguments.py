@@ -144,14 +144,23 @@ class Arguments:
 
     def _resonators(self) -> Iterator[Unknown]:
         """A mass on a spring that the block carries: it rings after every jolt."""
-        lowest, highest = RESONATORS
-        for frequency in np.exp(np.arange(np.log(lowest), np.log(highest), RESONATOR_STEP)):
+        own = float(np.median([run.track.run.natural_frequency for run in self.runs]))
+        low, high = np.log(own * np.array(RESONATORS))
 
-            def respond(run: RunRows, omega: float = 2.0 * np.pi * frequency) -> Response:
-                pull = _resonator(run.track.acceleration, run.track.interval, omega)
+        for omega in np.exp(np.arange(low, high, RESONATOR_STEP)):
+
+            def respond(run: RunRows, omega: float = omega) -> Response:
+                pull = _resonator(self._acceleration(run), run.track.interval, omega)
                 return Response(force=column(run.track.run.mass * pull))
 
-            yield Unknown("other.resonator", f"{frequency:.2g} Hz", respond, np.eye(1))
+            words = f"{omega / (2.0 * np.pi):.2g} Hz"
+            yield Unknown("other.resonator", words, respond, np.eye(1))
+
+    def _acceleration(self, run: RunRows) -> np.ndarray:
+        """(n,) m/s2, by the balance of forces in slip, 0 in stick: without the noise of x''."""
+        rubbing = self.level.kinetic * run.weight * run.track.direction
+        pulled = run.track.run.total_stiffness * run.track.place
+        return np.where(run.track.slips_mask, rubbing - pulled, 0.0) / run.track.run.mass
 
     def _over_distance(self) -> Iterator[Unknown]:
         """Coefficient over the distance slid in the run; static friction with it, or not."""

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.data.campaign_file import Rig
+from cosim.gap.weak_form.across import Plane
 from cosim.gap.weak_form.constants import MOST_OVERSHOOT, SHORTEST_STICK
 from cosim.gap.weak_form.rig_geometry import spring_force
 from cosim.gap.weak_form.track import SmoothTrack
@@ -39,8 +40,13 @@ class BreakAway:
     hold: float
 
 
-def break_aways(track: SmoothTrack, rig: Rig) -> tuple[BreakAway, ...]:
-    """Of every stick that was seen from its beginning to its end."""
+def break_aways(
+    track: SmoothTrack, rig: Rig, plane: Plane | None = None
+) -> tuple[BreakAway, ...]:
+    """Of every stick that was seen from its beginning to its end.
+
+    plane : how the block moves across: the contact holds the springs' force along x and y together
+    """
     run = track.run
     sign = 1.0 if run.surface_speed >= 0.0 else -1.0
     balance = sign * _balance(track)
@@ -60,9 +66,18 @@ def break_aways(track: SmoothTrack, rig: Rig) -> tuple[BreakAway, ...]:
         if reach <= 0.0 or overshoot > MOST_OVERSHOOT * reach:
             continue
         place = balance + np.sqrt(reach**2 - overshoot**2)
-        force = -float(spring_force(rig, run.stiffness, np.array([sign * place]))[0][0])
+        force = _held(rig, run.stiffness, sign * place, begin, plane)
         found.append((begin, force, hold, reach / np.sqrt(reach**2 - overshoot**2)))
     return _weighed(track, found)
+
+
+def _held(rig: Rig, stiffness: float, x: float, at: int, plane: Plane | None) -> float:
+    """Force of the springs at x, N, its sign that of what they pull back along x."""
+    place = np.array([x])
+    if plane is None:
+        return -float(spring_force(rig, stiffness, place)[0][0])
+    along, across, _ = plane.at(at).loads(rig, stiffness, place)
+    return -float(np.copysign(np.hypot(along[0], across[0]), along[0]))
 
 
 def _balance(track: SmoothTrack) -> float:

@@ -101,9 +101,34 @@ MOST_FINDINGS = 3
 # Arguments that no effect stands for.
 #: Lengths at which hysteretic springs give way, in parts of the largest deflection.
 STOP_LENGTHS = (0.02, 0.1, 0.3, 1.0)
-#: Frequencies of a carried mass, Hz, their steps (ln), and its damping ratio: it rings for three
-#: periods, so that its frequency counts to 5 %.
-RESONATORS, RESONATOR_STEP, RESONATOR_DAMPING = (1.5, 12.0), 0.05, 0.05
+#: Frequencies of a carried mass in those of the block, their steps (ln), and its damping ratio: it
+#: rings for three periods, so that its frequency counts to 5 %.
+RESONATORS, RESONATOR_STEP, RESONATOR_DAMPING = (0.5, 4.0), 0.05, 0.05
 #: Parts of the surface's speed within which a block may move with it while its ripple is looked
 #: for, and ln evidence from which it is one: no threshold of an answer, only of what is a stick.
 RIPPLE_BANDS, RIPPLE_GAIN = (0.35, 0.15), 10.0
+
+# The plane.
+#: Chi-squared of the means of y, over pieces of so many seconds at least, beyond what noise leaves,
+#: in standard deviations: from there on y moves.
+STILL_PIECE, STILL_SIGMAS = 0.25, 6.0
+#: Sliding speed that stands for none, m/s: a block held so drifts by 1e-6 m in a minute's stick.
+SLOWEST_SLIDING = 1e-6
+#: Largest turn of a block whose turn is not measured, rad: the rim of one in springs goes no farther.
+MOST_TURN = 0.5
+#: Step of a derivative by place or angle, m or rad: errors of 1e-6 and of rounding 1e-10.
+PLANE_STEP = 1e-6
+#: Rounds in which the numbers follow the motion across, and in each the springs and the direction of
+#: sliding at these numbers: 1e-3 of the motion is left.
+PLANE_ROUNDS, PLANE_REPEATS = 3, 3
+#: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; and
+#: the least: a ratio of 0.2.
+SHARE_SD, LEAST_SHARE = 0.5, -3.2
+#: Largest curvature (1/m), turn (rad), shift (m) and camera angle (rad) that are expected: standard
+#: deviations; and the parts of them that are tried.
+CURVATURE_SD, TURN_SD, SHIFT_SD, ROTATION_SD = 3.0, 0.2, 0.03, 0.2
+PLANE_PARTS = (0.01, 0.03, 0.1, 0.3, 1.0)
+#: How far off the springs' axis a block may be put down, m: the values asked.
+STARTS_ASKED = (3e-4, 3e-3, 2e-2)
+#: Scatter of friction for which its probability is worked out: range, and steps of a fifth.
+SCATTER_RANGE, SCATTER_STEPS = (5e-4, 0.2), 33

@@ -21,6 +21,7 @@ from scipy.linalg.lapack import dtbtrs
 from stickslip.packing import GRAVITY
 
 from cosim.gap.data.campaign_file import Rig
+from cosim.gap.weak_form.across import Plane
 from cosim.gap.weak_form.breakaway import BreakAway, break_aways
 from cosim.gap.weak_form.constants import KNOTS
 from cosim.gap.weak_form.rig_geometry import spring_force
@@ -28,7 +29,7 @@ from cosim.gap.weak_form.track import SmoothTrack
 
 
 #: Kinds of rows.
-SLIP, ACROSS, STICK, BREAK_AWAY = 0, 1, 2, 3
+SLIP, STICK, BREAK_AWAY = 0, 2, 3
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,6 @@ class Response:
     Attributes
     ----------
     force : (n, q) N, on the block along x while it slips
-    across : (n, q) N, the same along y
     place : (n, q) m, by which the measured x is off
     speed : (n, q) m/s, by which the surface is faster than its set-point
     inertia : (q,) parts by which m x'' counts more
@@ -46,7 +46,6 @@ class Response:
     """
 
     force: np.ndarray | None = None
-    across: np.ndarray | None = None
     place: np.ndarray | None = None
     speed: np.ndarray | None = None
     inertia: np.ndarray | None = None
@@ -81,8 +80,8 @@ class _Block:
 class RunRows:
     """The rows of one run.
 
-    values : (rows,) of unit noise: slips, then y in slips, then sticks, then break-aways
-    kinds : (rows,) 0 slip, 1 across, 2 stick, 3 break-away
+    values : (rows,) of unit noise: slips, then sticks, then break-aways
+    kinds : (rows,) 0 slip, 2 stick, 3 break-away
     restoring : (n,) N, force with which the springs, as stated, pull the block back along x
     counted : (rows,) 1, or 0 for rows that are left out
     """
@@ -91,7 +90,6 @@ class RunRows:
     rig: Rig
     events: tuple[BreakAway, ...]
     slip: _Block = field(repr=False)
-    across: _Block | None = field(repr=False)
     stick: _Block = field(repr=False)
     values: np.ndarray = field(repr=False)
     kinds: np.ndarray = field(repr=False)
@@ -109,8 +107,6 @@ class RunRows:
     def respond(self, response: Response, unknowns: int) -> np.ndarray:
         """(rows, q) of unit noise."""
         parts = [_slip_part(self.slip, response, unknowns, self.track)]
-        if self.across is not None:
-            parts.append(_part(self.across, response.across, unknowns))
         parts += [_stick_part(self.stick, response, unknowns), self._static(response, unknowns)]
         return self.counted[:, None] * np.concatenate(parts)
 
@@ -145,12 +141,6 @@ def _slip_part(
     return block.whitened(rows)
 
 
-def _part(block: _Block, values: np.ndarray | None, unknowns: int) -> np.ndarray:
-    if values is None:
-        return np.zeros((block.force.shape[0], unknowns))
-    return block.whitened(block.force @ values)
-
-
 def _stick_part(block: _Block, response: Response, unknowns: int) -> np.ndarray:
     rows = np.zeros((block.force.shape[0], unknowns))
     if response.speed is not None:
@@ -160,49 +150,38 @@ def _stick_part(block: _Block, response: Response, unknowns: int) -> np.ndarray:
     return block.whitened(rows)
 
 
-def rows_of(track: SmoothTrack, rig: Rig, planar: bool = False) -> RunRows:
-    """Rows of a run. planar : those of y too, with the springs' force at the measured y and phi."""
+def rows_of(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> RunRows:
+    """Rows of a run. plane : how the block moves across, where it does."""
     run = track.run
     knots = max(1, round(KNOTS / run.natural_frequency / track.interval))
-    y, phi = (track.y if planar else None), (track.phi if planar else None)
-    along, side = spring_force(
-        rig, run.stiffness, track.x, 0.0 if y is None else y, 0.0 if phi is None else phi
-    )
     slip = _block(track, track.slips, _slip_weights(track, knots), run.noise["x"])
     stick = _block(track, track.sticks, _stick_weights(track, knots), run.noise["x"])
-    values = [slip.whitened(slip.inertia @ track.x - slip.force @ along)]
-    across = None
-    if y is not None:
-        weights = _slip_weights(track, knots, _across_stiffness(rig, run))
-        across = _block(track, track.slips, weights, run.noise["y"])
-        values.append(across.whitened(across.inertia @ y - across.force @ side))
-    driven = run.surface_speed * np.asarray(stick.force.sum(axis=1)).ravel()
-    values.append(stick.whitened(stick.place @ track.x - driven))
-    events = break_aways(track, rig)
-    values.append(np.array([event.force / event.sd for event in events]))
-    counts = [0 if b is None else b.force.shape[0] for b in (slip, across, stick)]
-    kinds = np.repeat([SLIP, ACROSS, STICK, BREAK_AWAY], [*counts, len(events)])
-    return RunRows(track, rig, events, slip, across, stick, np.concatenate(values), kinds,
+    drive = np.full(track.time.size, run.surface_speed)
+    if plane is None:
+        along = spring_force(rig, run.stiffness, track.x)[0]
+    else:
+        along, drive = plane.loads(rig, run.stiffness, track.x)[0], plane.drive(run.surface_speed)
+    events = break_aways(track, rig, plane)
+    values = [
+        slip.whitened(slip.inertia @ track.x - slip.force @ along),
+        stick.whitened(stick.place @ track.x - stick.force @ drive),
+        np.array([event.force / event.sd for event in events]),
+    ]
+    kinds = np.repeat([SLIP, STICK, BREAK_AWAY], [part.size for part in values])
+    return RunRows(track, rig, events, slip, stick, np.concatenate(values), kinds,
                    -along, np.ones(kinds.size))  # fmt: skip
-
-
-def _across_stiffness(rig: Rig, run) -> float:
-    """N/m, of the four springs along y at rest: their tension over their length."""
-    pretension = (rig.spring_length - rig.spring_natural_length) / rig.spring_length
-    return max(run.total_stiffness * pretension, 1e-3 * run.total_stiffness)
 
 
 #: Weights of the samples of one spline: of a force, of the places, of the part m x''.
 _Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def _slip_weights(track: SmoothTrack, knots: int, stiffness: float | None = None) -> _Weights:
+def _slip_weights(track: SmoothTrack, knots: int) -> _Weights:
     """phi, m phi'' + K phi, m phi'' of a quintic spline at its inner samples."""
     run = track.run
     value, _, second = _spline(5, knots, track.interval)
     inertia = run.mass * second
-    total = run.total_stiffness if stiffness is None else stiffness
-    return value, inertia + total * value, inertia
+    return value, inertia + run.total_stiffness * value, inertia
 
 
 def _stick_weights(track: SmoothTrack, knots: int) -> _Weights:

@@ -25,6 +25,8 @@ from cosim.gap.weak_form.constants import (
     SCALES_ASKED,
     SCATTER_ASKED,
     SCATTER_PRIOR,
+    SCATTER_RANGE,
+    SCATTER_STEPS,
     ZERO_PARTS_ASKED,
 )
 from cosim.gap.weak_form.rig_unknowns import (
@@ -319,3 +321,23 @@ class Rung:
     def misfit(self) -> float:
         """Sum of squares beyond the noise's."""
         return float(max(self.residuals @ self.residuals - self.residuals.size, 0.0))
+
+    def scatter_posterior(self) -> tuple[np.ndarray, np.ndarray]:
+        """(s,) values of the scatter of friction and their probabilities, at the best zeros."""
+        spreads = np.geomspace(*SCATTER_RANGE, SCATTER_STEPS)
+        zeros = self.settings[0][self.best][1]
+        unknowns = [each.unknown for each in self.unknowns]
+        gram = self._factor.T @ self.system.gram(unknowns, unknowns) @ self._factor
+        right = self._factor.T @ self.system.right(unknowns)
+        values = []
+        for spread in spreads:
+            scale = np.concatenate([
+                np.full(size, {SCATTER: spread, ZERO_NAME: zeros}.get(each.unknown.name, 1.0))
+                for each, size in zip(self.unknowns, self._size, strict=True)
+            ])  # fmt: skip
+            lower = np.linalg.cholesky(scale[:, None] * gram * scale + np.eye(scale.size))
+            w = np.linalg.solve(lower, scale * right)
+            values.append(0.5 * w @ w - np.log(np.diag(lower)).sum()
+                          - 0.5 * (spread / SCATTER_PRIOR) ** 2)  # fmt: skip
+        weights = np.exp(np.array(values) - max(values))
+        return spreads, weights / weights.sum()

@@ -10,7 +10,7 @@ import numpy as np
 from stickslip import Parameters
 from stickslip.effects import EFFECTS
 from stickslip.kernel import layout
-from stickslip.packing import pack
+from stickslip.packing import GRAVITY, pack
 from stickslip.restarted import Restarts, track_restarted
 
 from cosim.gap.data import Campaign, MeasuredRun
@@ -37,7 +37,12 @@ FRICTION = ("friction.mu_s", "friction.mu_k")
 #: Points of a table of friction, in parts of mu_k, which then scales the whole table.
 TABLE_PART = "friction.table_part["
 #: Of the tracker and the drive, not of the block.
-OUTSIDE = ("offset.", "measurement.")
+OUTSIDE = ("offset.", "measurement.", "per_weight.")
+#: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
+LOADING = "offset.loading"
+#: ``per_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
+#: runs it is less in proportion to theirs.
+PER_WEIGHT = "per_weight."
 
 
 def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, float]:
@@ -48,6 +53,13 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
     for key in FRICTION:
         if key in flat:
             flat[key] *= math.exp(values.get("offset.friction", 0.0))
+    weight = run.mass * GRAVITY
+    if LOADING in values:
+        rate = run.total_stiffness * abs(run.surface_speed) / weight
+        flat["friction.mu_s"] = max(flat["friction.mu_s"] - values[LOADING] * rate, 0.0)
+    for key, typical in values.items():
+        if key.startswith(PER_WEIGHT):
+            flat[key.removeprefix(PER_WEIGHT)] *= typical / weight
     for key in [key for key in flat if key.startswith(TABLE_PART)]:
         part = flat.pop(key)
         flat[key.replace("table_part", "table_mu")] = part * flat["friction.mu_k"]

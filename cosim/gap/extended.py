@@ -1,0 +1,170 @@
+"""A model with findings: which numbers of the kernel are fitted over the windows.
+
+The weak form says which findings there are, and nearly how large; shooting fits the few numbers of
+their laws, so that what is shown is the model that a unit would run.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from stickslip.effects.candidate import FreeParameter
+
+from cosim.gap.data import Campaign
+from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
+from cosim.gap.weak_form.constants import HARMONICS
+from cosim.gap.weak_form.ladder import Finding
+from cosim.gap.weak_form.system import Rung, System
+from cosim.gap.windows.numbers import Number
+
+#: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
+#: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
+FALLS, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
+
+
+@dataclass(frozen=True)
+class Part:
+    """What a finding puts into the model.
+
+    curve : its free curve, or None; fits : the catalogue's laws on it, the best first
+    numbers, settings : of the kernel
+    """
+
+    finding: Finding
+    curve: FreeCurve | None
+    fits: tuple[LawFit, ...]
+    numbers: tuple[Number, ...]
+    settings: dict[str, float]
+
+    @property
+    def effect(self) -> str:
+        """Id in the catalogue: of the law, where one of the user's own does better."""
+        return self.fits[0].effect if self.fits else self.finding.name
+
+
+def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) -> Part:
+    """A finding's law and the numbers that are fitted of it; none where no effect stands for it."""
+    level = system.level
+    scales = scales_of(campaign, system.runs, level.kinetic)
+    unknown = finding.main.unknown
+    if unknown.wave is not None:
+        return _wave(rung, finding)
+    if finding.name == "load_dependence":
+        return _load(rung, finding, scales.force)
+    force = level.kinetic * scales.force
+    if finding.name == "spring_hardening":
+        force = scales.travel * 4.0 * scales.stiffness
+    curve = free_curve(rung, finding, force, level.static / level.kinetic)
+    if curve is None:
+        return Part(finding, None, (), (), {})
+    context = Context(campaign, scales, {**unknown.settings, "mu_s": level.static}, _own())
+    fits = laws_of(finding.name, curve, context)
+    if not fits:
+        return Part(finding, curve, (), (), {})
+    best = fits[0]
+    numbers, settings = _numbers(best)
+    if finding.name == "thermal_weakening":
+        memory = unknown.settings["memory"]
+        numbers = [n for n in numbers if not n.key.endswith("relaxation_time")]
+        numbers.append(Number("thermal_weakening.relaxation_time", memory, None, 0.05, 1e3, log=True))
+        if unknown.settings["per_weight"]:
+            settings["per_weight.thermal_weakening.per_joule"] = scales.force
+    return Part(finding, curve, tuple(fits), tuple(numbers), settings)
+
+
+def _own() -> frozenset[str]:
+    from stickslip.effects import EFFECTS
+    from stickslip.plugins.load import file_of
+
+    return frozenset(effect.id for effect in EFFECTS if file_of(effect) is not None)
+
+
+def _numbers(fit: LawFit) -> tuple[list[Number], dict[str, float]]:
+    """Free parameters of a law, from where the curve puts them."""
+    numbers = []
+    for free in fit.candidate.free_parameters:
+        value = fit.values.get(free.key, free.start)
+        numbers.append(_number(free, value))
+    return numbers, dict(fit.candidate.settings)
+
+
+def _number(free: FreeParameter, value: float) -> Number:
+    inside = min(max(value, free.low), free.high)
+    if free.log:
+        inside = max(inside, 1e-12)
+    elif free.low <= 0.0 <= free.high and inside == 0.0:
+        inside = 0.1 * free.start  # at 0 the motion does not feel what else the law has
+    scope = "run" if free.per_run else "campaign"
+    return Number(free.key, inside, None, free.low, free.high, scope, free.log)  # type: ignore[arg-type]
+
+
+def _load(rung: Rung, finding: Finding, weight: float) -> Part:
+    """A power of the normal force, from the trend over its logarithm."""
+    unknown = finding.main.unknown
+    slope = float(rung.posterior[0][rung.part_of(finding.main)][0]) / unknown.settings["span"]
+    number = Number("load_dependence.exponent", -slope, None, -2.0, 2.0)
+    return Part(finding, None, (), (number,), {"load_dependence.reference_force": weight})
+
+
+def _wave(rung: Rung, finding: Finding) -> Part:
+    """Amplitude, period and phases of a wave, with its second harmonic."""
+    wave = finding.main.unknown.wave
+    sizes = rung.posterior[0][rung.part_of(finding.main)]
+    first = complex(sizes[0], -sizes[HARMONICS])
+    second = complex(sizes[1], -sizes[HARMONICS + 1])
+    name, length = finding.name, 1.0 / wave.wavenumber
+    amplitude = abs(first)
+    sine = 90.0 if name == "speed_ripple" else 0.0  # the ripple is a sine, the pattern a cosine
+    if name == "other.shaking":
+        return Part(finding, None, (), (), {})
+    numbers = [Number(f"{name}.amplitude", amplitude, None, 0.0, 1.0)]
+    settings: dict[str, float] = {}
+    if name == "surface_pattern":
+        numbers.append(Number(f"{name}.wavelength", length, None, 0.9 * length, 1.1 * length))
+    turn = math.degrees(np.angle(first))
+    for run in rung.system.runs:
+        phase = -math.degrees(wave.phases.get(run.track.run.name, 0.0)) + turn + sine
+        settings[f"{name}.phase_deg@{run.track.run.name}"] = (phase + 180.0) % 360.0 - 180.0
+        if name == "speed_ripple":
+            pace = abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
+            settings[f"{name}.frequency@{run.track.run.name}"] = wave.wavenumber * pace
+    if abs(second) > 0.1 * amplitude:
+        # cos(2 a + b) with a the first's angle: its phase where the first's is nothing
+        settings[f"{name}.second_amplitude"] = min(abs(second) / amplitude, 1.0)
+        settings[f"{name}.second_phase_deg"] = math.degrees(np.angle(second)) - 2.0 * turn
+    return Part(finding, None, (), tuple(numbers), settings)
+
+
+def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
+    """How the contact lets go: the fall to mu_k, creep under load, loss under fast loading.
+
+    fastest : sliding speed of the campaign, m/s
+    """
+    slowest = min(abs(run.surface_speed) for run in campaign.runs)
+    top = min(FALLS[1], max(FALL_PART * fastest, 2.0 * FALLS[0]))
+    return [
+        Number("friction.transition_speed", min(2e-3, 0.5 * top), None, FALLS[0], top, log=True),
+        Number("friction.transition_exponent", 1.3, 0.5, 0.5, 3.0),
+        Number("friction.stick_creep", 0.01 * slowest, None, 0.0, CREEP_PART * slowest),
+        Number("offset.loading", 1e-3, 0.02, -0.1, 0.1),
+    ]
+
+
+def scatter_numbers(scatter: float) -> list[Number]:
+    """Friction of each run about the campaign's; scatter : its standard deviation."""
+    return [Number("offset.friction", 0.0, scatter, -4.0 * scatter, 4.0 * scatter, "run")]
+
+
+def started_at(numbers: Sequence[Number], values: dict[str, float]) -> list[Number]:
+    """The same numbers, those of the campaign starting where a model before ended."""
+    from dataclasses import replace
+
+    started = []
+    for number in numbers:
+        known = number.prior is None and number.scope == "campaign" and number.key in values
+        value = min(max(values[number.key], number.low), number.high) if known else number.start
+        started.append(replace(number, start=value) if known and value > 0.0 else number)
+    return started

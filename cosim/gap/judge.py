@@ -1,0 +1,81 @@
+"""The verdict, in ten sentences.
+
+ 1. Rows of unit noise are made of every run: the equation of motion inside slips, the surface's
+    speed in sticks, the spring force at break-aways (`weak_form`).
+ 2. What every rig has unknown is in the rows with its stated error: both coefficients, springs,
+    zeros, set-points, the contact's own transition, friction that scatters from run to run.
+ 3. Whatever friction may depend on is an argument with one free curve; all have the same evidence.
+ 4. An argument is a finding where the rows are e^6 times as probable with it, and it takes more
+    than a small part of what was missing at first; the best joins, all others are asked again.
+ 5. Findings within e^3 of one another in the same place cannot be told apart: a class.
+ 6. A finding that no effect of the catalogue stands for makes the answer `unknown`.
+ 7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
+    windows of runs that no fit has seen; 1 is noise.
+ 8. `none`: no finding, and held-out runs at 1.1 at most with the contact and the scatter.
+ 9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
+    where they are better but stay above that, and most of the misfit is gone.
+10. Everything else is `unknown`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cosim.gap.result import Rung, Score
+from cosim.gap.weak_form.ladder import Finding
+
+#: ln of a Bayes factor below which two explanations are not told apart: 20 to 1 (Kass & Raftery,
+#: J. Am. Stat. Assoc. 90, 1995).
+ALIKE = 3.0
+#: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
+#: windows of three cycles add up of a scatter that was not foreseen.
+NOTHING_MISSING = 1.1
+#: Gap up to which what is named explains the runs.
+EXPLAINED = 1.3
+#: Part of the misfit that a finding must take to be named as a part of what is missing.
+MOST = 0.8
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """verdict : as `result.VERDICTS`; effects : its names; classes : groups that are alike"""
+
+    verdict: str
+    effects: tuple[str, ...]
+    classes: tuple[tuple[str, ...], ...]
+
+
+def judge(
+    findings: Sequence[Finding], names: Sequence[str], ladder: Sequence[Rung], physics: set[str]
+) -> Verdict:
+    """names : of the findings, by the laws that follow them; physics : what has a name at all."""
+    before, after = _judged(ladder[0].gap), _judged(ladder[-1].gap)
+    if not findings:
+        return Verdict("none" if after <= NOTHING_MISSING else "unknown", (), ())
+    classes = tuple(
+        group for finding, name in zip(findings, names, strict=True)
+        if len(group := _alike(finding, name)) > 1
+    )  # fmt: skip
+    if not set(names) <= physics:
+        return Verdict("unknown", (), classes)
+    improves = after < before
+    if improves and after <= EXPLAINED:
+        # two names for one thing: what cannot be told apart is one answer
+        if classes and len(findings) == 1:
+            return Verdict("class", classes[0], classes)
+        return Verdict("named", tuple(names), classes)
+    if improves and ladder[-1].share >= MOST and len(findings) < 3:
+        return Verdict("partial", tuple(names), classes)
+    return Verdict("unknown", (), classes)
+
+
+def _alike(finding: Finding, name: str) -> tuple[str, ...]:
+    """What explains the rows as well in a finding's place, itself first."""
+    near = sorted(finding.others, key=lambda other: -finding.others[other])
+    return (name, *(other for other in near if finding.others[other] > -ALIKE and other != name))
+
+
+def _judged(score: Score) -> float:
+    """Held-out runs; fitted ones where none was held out."""
+    return score.fit if score.held_out is None else score.held_out
