@@ -35,7 +35,7 @@ def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
     doubts += _of_record(runs)
     for check in (doubts_of_sampling, doubts_of_direction, doubts_of_speed):
         found = check(campaign, runs)
-        runs = runs if len(found) == 1 and len(found[0].runs) > 1 else _but(runs, found)
+        runs = _but(runs, [doubt for doubt in found if not doubt.text.startswith("all runs")])
         doubts += found
     for check in (doubts_of_springs, doubts_of_force, doubts_of_noise):
         doubts += check(campaign, runs) if runs else []

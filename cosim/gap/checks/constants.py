@@ -16,10 +16,11 @@ HALF = 0.5
 SHORT_CYCLE = 1.0 / 3.0
 #: Swing of the spring force over weight that no contact without glue gives.
 MOST_FRICTION = 5.0
-#: A speed in stick that is off by this factor is in another unit: the smallest is 60 (m/min).
-UNIT = 20.0
-#: Names of speeds in m/s that are written where m/s is meant.
-SPEEDS = {"mm/s": 1e-3, "cm/s": 1e-2, "m/min": 1.0 / 60.0, "um/s": 1e-6}
+#: A surface that is so many times faster than x ever moves, while the springs' force swings by this
+#: part of the weight: x would have to move at 0.005 g / omega, a few mm/s, at least.
+UNIT_SPEED, SWINGS = 300.0, 0.01
+#: Part of a free vibration over which x is seen to move.
+LAG = 1.0 / 8.0
 
 # Speed in stick.
 #: Part of the speed by which a contact that is sheared has the block swing past the surface.
@@ -33,9 +34,9 @@ FEWEST_STICKS = 3
 #: Least travel in a stick, as part of the range of x, and fewest sticks, as part of all cycles: the
 #: end of a vibration that dies out is straight, too.
 TRAVEL, THROUGHOUT = 0.2, 0.5
-#: Third derivative of x in sticks, as part of that in the crest of a vibration: 0 or 1, and half of
-#: it on springs that are half as stiff.
-CREST = 0.3
+#: Third derivative of x in sticks, as part of that in the crests of a vibration: 0, or 1; on
+#: springs that are half as stiff half of it.
+CREST = 0.5
 
 # Springs.
 #: Standard deviation of what friction that goes with the place, or with what was slid, makes of the
@@ -55,7 +56,9 @@ SHAPE = 0.02
 COARSEST = 1.0 / 3.0
 #: Noise that is so many times too large, or too small, hides as much misfit as any effect makes.
 HIDES = 1.35
-#: Samples in stick that tell noise; and autocorrelation of third differences at a lag of one for
+#: Most of a vibration's third difference, in parts of the noise, where noise is told from motion.
+LEAK = 0.5
+#: Samples that tell noise; and autocorrelation of third differences at a lag of one for
 #: white noise, with n times its variance (Bartlett 1946, from -3/4, 3/10, -1/20 at lags 1 to 3).
 QUIET, WHITE, BARTLETT = 200, -0.75, 0.20625
 #: By how much it is higher where smoothing is felt: a Gaussian of half an interval makes it so.

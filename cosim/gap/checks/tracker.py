@@ -16,6 +16,7 @@ from .constants import (
     BARTLETT,
     COARSEST,
     HIDES,
+    LEAK,
     LEVEL,
     NEAR,
     ON_LATTICE,
@@ -24,6 +25,7 @@ from .constants import (
     TRIED,
     WHITE,
 )
+from .units import swing_of
 
 #: Sum of the squares of the third difference's weights 1, 3, 3, 1.
 _THIRD = 20.0
@@ -47,7 +49,7 @@ def doubts_of_sampling(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[
 def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
     """Of steps, of noise that is not white, and of noise that is not as stated, in this order.
 
-    Noise is looked at in sticks, where the motion is a line.
+    Noise is looked at where the motion hardly shows in third differences.
     """
     steps = _of_steps(runs)
     if steps:
@@ -59,7 +61,7 @@ def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
     higher = together / variance - WHITE
     if higher > max(SMOOTHED, stats.norm.isf(LEVEL) * math.sqrt(BARTLETT / size)):
         text = (
-            f"all runs: noise of x in sticks is not white (third differences of neighbours go "
+            f"all runs: noise of x is not white (third differences of neighbours go "
             f"together by {together / variance:.2f}, white noise's by {WHITE:g}): a tracker that "
             "smooths? Give the samples as they were taken"
         )
@@ -68,7 +70,7 @@ def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
     seen = math.sqrt(variance / _THIRD)
     if not 1.0 / HIDES < seen / stated < HIDES:
         text = (
-            f"all runs: noise of x in sticks is {1e3 * seen:.3g} mm, {1e3 * stated:.3g} mm "
+            f"all runs: noise of x is {1e3 * seen:.3g} mm, {1e3 * stated:.3g} mm "
             f"{'is estimated from all samples' if 'x' in campaign.noise_estimated else 'is stated'}"
         )
         doubts.append(Doubt("noise", text, names))
@@ -76,11 +78,10 @@ def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
 
 
 def quiet(runs: Sequence[MeasuredRun]) -> tuple[int, float, float]:
-    """Of third differences in sticks: how many, their variance and covariance with the next, m2."""
+    """Of third differences: how many, their variance and their covariance with the next, m2."""
     squares, products = [np.zeros(0)], [np.zeros(0)]
     for run in runs:
-        for stick in sticks_of(run):
-            rows = slice(stick.first, stick.last + 1)
+        for rows in _stretches(run):
             time, x = run.motion.time[rows], run.motion.x[rows]
             if x.size < 6 or not np.isfinite(x).all():
                 continue
@@ -90,6 +91,13 @@ def quiet(runs: Sequence[MeasuredRun]) -> tuple[int, float, float]:
     both = [np.concatenate(one) for one in (squares, products)]
     means = [float(np.mean(one)) if one.size else 0.0 for one in both]
     return both[1].size, means[0], means[1]
+
+
+def _stretches(run: MeasuredRun) -> list[slice]:
+    """Rows in which third differences see noise alone: sticks; all, where nothing sticks."""
+    sticks = [slice(stick.first, stick.last + 1) for stick in sticks_of(run)]
+    leak = 0.5 * swing_of(run) * (run.natural_frequency * run.motion.interval) ** 3
+    return sticks or [slice(None)] * (leak < LEAK * run.noise["x"])
 
 
 def _of_steps(runs: Sequence[MeasuredRun]) -> list[Doubt]:

@@ -11,7 +11,7 @@ from stickslip.packing import GRAVITY
 from cosim.gap.data import MeasuredRun
 from cosim.gap.result import Doubt
 
-from .constants import HALF, MOST_FRICTION, SHORT_CYCLE
+from .constants import HALF, LAG, MOST_FRICTION, SHORT_CYCLE, SWINGS, UNIT_SPEED
 
 
 def doubts_of_units(runs: Sequence[MeasuredRun]) -> list[Doubt]:
@@ -35,7 +35,16 @@ def _wrong(run: MeasuredRun) -> str:
     load = run.total_stiffness * swing / (run.mass * GRAVITY)
     if load > MOST_FRICTION:
         return f"x swings by {swing:.3g} m, a spring force of {load:.3g} times the weight: mm?"
+    fastest = _fastest(run, max(1, round(LAG * period / track.interval)))
+    if load > SWINGS and abs(run.surface_speed) > UNIT_SPEED * fastest:
+        return f"surface_speed = {run.surface_speed:g} m/s, but x moves at {fastest:.2g} m/s: mm/s?"
     return ""
+
+
+def _fastest(run: MeasuredRun, lag: int) -> float:
+    """Speed that x reaches in a hundredth of the time, over so many samples, m/s."""
+    x, time = run.motion.x, run.motion.time
+    return float(np.nanquantile(np.abs((x[lag:] - x[:-lag]) / (time[lag:] - time[:-lag])), 0.99))
 
 
 def swing_of(run: MeasuredRun) -> float:
