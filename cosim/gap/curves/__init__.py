@@ -1,1 +1,0 @@
-"""Effects as free curves over their axes: an independent vote on what is missing."""

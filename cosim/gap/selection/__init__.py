@@ -1,1 +1,0 @@
-"""Which effect the plain model lacks: refit, compare, allow for chance, or say unknown."""
