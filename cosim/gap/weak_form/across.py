@@ -134,11 +134,9 @@ class Course:
             np.clip(q[1], *_range(track.phi, track.run.noise.get("phi", 0.0), MOST_TURN)),
         ])  # fmt: skip
         rates = np.gradient(q, track.interval, axis=1)
+        curvature, turn, shift = (values.get(name, 0.0) for name in (CURVATURE, TURN, SHIFT))
         share = float(np.exp(values[SHARE])) if SHARE in values else 0.0
-        return Plane(
-            q[0], q[1], rates[0], rates[1],
-            *(values.get(name, 0.0) for name in (CURVATURE, TURN, SHIFT)), share,
-        )  # fmt: skip
+        return Plane(q[0], q[1], rates[0], rates[1], curvature, turn, shift, share)
 
 
 def _range(values: np.ndarray | None, noise: float, most: float) -> tuple[float, float]:
@@ -157,9 +155,7 @@ def course(
     drag = _drag(track, rig, friction, about) if SHARE in unknowns else np.zeros((2, x.size))
     load = np.array(about.loads(rig, track.run.stiffness, x)[1:])
     here = np.array([about.y, about.phi])
-    slope = np.array([
-        _slope(about, track, rig, "y", load), _slope(about, track, rig, "phi", load),
-    ])  # (by, of, n) fmt: skip
+    slope = np.array([_slope(about, track, rig, name, load) for name in ("y", "phi")])
     surface = np.array([v * x, v])
     columns = {
         CURVATURE: drag * surface,
@@ -191,9 +187,7 @@ def _drag(track: SmoothTrack, rig: Rig, friction: float, about: Plane) -> np.nda
     return np.array([share * force / sliding, share * radius**2 * per_spin])
 
 
-def _slope(
-    about: Plane, track: SmoothTrack, rig: Rig, name: str, load: np.ndarray
-) -> np.ndarray:
+def _slope(about: Plane, track: SmoothTrack, rig: Rig, name: str, load: np.ndarray) -> np.ndarray:
     """(2, n) derivative of the springs' force along y and moment."""
     more = replace(about, **{name: getattr(about, name) + PLANE_STEP})
     there = more.loads(rig, track.run.stiffness, track.place)

@@ -80,8 +80,9 @@ BENDS_ASKED = (0.03, 0.3, 1.0)
 HARMONICS = 4
 #: Wavenumbers are scanned at so many steps within the resolution 1 / (length of a run).
 SCAN_STEPS = 2
-#: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one.
-SHORTEST_WAVE = 1.0
+#: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one,
+#: and what differs within a slip alone is the contact's.
+SHORTEST_WAVE = 2.0
 #: Peaks of the scan that are fitted as one shape.
 WAVES_FITTED = 3
 #: Standard deviation of a phase of which nothing is known, rad (even over a turn), and rounds in
@@ -109,17 +110,19 @@ RESONATORS, RESONATOR_STEP, RESONATOR_DAMPING = (0.5, 4.0), 0.05, 0.05
 RIPPLE_BANDS, RIPPLE_GAIN = (0.35, 0.15), 10.0
 
 # The plane.
-#: Chi-squared of the means of y, over pieces of so many seconds at least, beyond what noise leaves,
-#: in standard deviations: from there on y moves.
-STILL_PIECE, STILL_SIGMAS = 0.25, 6.0
+#: Samples of a piece of which y is averaged; by how many standard deviations chi-squared of the
+#: means must exceed what noise makes it where y moves.
+STILL_PIECE, STILL_SIGMAS = 20, 6.0
+#: Standard deviations within which a number of a form may be zero.
+STILL_NUMBER = 4.0
 #: Sliding speed that stands for none, m/s: a block held so drifts by 1e-6 m in a minute's stick.
 SLOWEST_SLIDING = 1e-6
-#: Largest turn of a block whose turn is not measured, rad: the rim of one in springs goes no farther.
+#: Largest turn of a block whose turn is not measured, rad: springs let it go no farther.
 MOST_TURN = 0.5
 #: Step of a derivative by place or angle, m or rad: errors of 1e-6 and of rounding 1e-10.
 PLANE_STEP = 1e-6
-#: Rounds in which the numbers follow the motion across, and in each the springs and the direction of
-#: sliding at these numbers: 1e-3 of the motion is left.
+#: Rounds in which the numbers follow the motion across, and in each the springs and the direction
+#: of sliding at these numbers: 1e-3 of the motion is left.
 PLANE_ROUNDS, PLANE_REPEATS = 3, 3
 #: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; and
 #: the least: a ratio of 0.2.
@@ -128,7 +131,35 @@ SHARE_SD, LEAST_SHARE = 0.5, -3.2
 #: deviations; and the parts of them that are tried.
 CURVATURE_SD, TURN_SD, SHIFT_SD, ROTATION_SD = 3.0, 0.2, 0.03, 0.2
 PLANE_PARTS = (0.01, 0.03, 0.1, 0.3, 1.0)
-#: How far off the springs' axis a block may be put down, m: the values asked.
-STARTS_ASKED = (3e-4, 3e-3, 2e-2)
+#: How far off the springs' axis a block may be put down, m: the values asked, from nowhere to be
+#: seen on.
+STARTS_ASKED = (1e-5, 3e-4, 3e-3, 2e-2)
+#: How far it may be turned then, rad: a degree.
+START_TURN = 0.02
 #: Scatter of friction for which its probability is worked out: range, and steps of a fifth.
 SCATTER_RANGE, SCATTER_STEPS = (5e-4, 0.2), 33
+#: Phases of a ripple that are tried in a run that seldom sticks.
+PHASES_TRIED = 12
+
+# Corners, and faults of the camera.
+#: Reach of a test function from a corner into its slip, and of the line in its stick, and the least
+#: of either, in 1 / omega: the longer, the less noise; the shorter, the less is asked of springs.
+CORNER_REACH, CORNER_LINE, CORNER_SHORTEST = 2.0, 3.0, 0.8
+#: Square of the time for which a contact rounds a corner as a filter would, s^2: bristles of 50 um
+#: under mu = 0.2 do as one of sqrt(2 z / (mu g)) = 7 ms.
+CORNER_CONTACT = 7e-3**2
+#: What faults are at the largest, as standard deviations: smaller ones are asked for too.
+#: Parts of scale and clock: who calibrates by hand is off by 1 to 4 %, who does not by 10 %.
+FAULT_PART = 0.1
+#: Course of the zero in a run, m: a stand that settles by 1 to 10 mm.
+FAULT_DRIFT = 1e-2
+#: Delay over 0.1 m, s: read-out of the frame of a slow chip (10 to 30 ms, Meingast et al. 2005)
+#: with a block that crosses it in a third.
+FAULT_LATENCY = 0.1
+#: Standard deviations of filters that are tried, s: a third of a frame of 60 a second, which none
+#: sees, up to some frames of 30 a second; their squares lie apart by less than a scale asked for.
+FILTER_WIDTHS = (0.007, 0.012, 0.02, 0.035, 0.06)
+#: Scale at which the runs are ordered by their own size of a fault.
+FAULT_ORDERED_AT = 0.3
+#: Zero of a run, m: a target moved by hand.
+FAULT_ZERO = 3e-3

@@ -7,14 +7,15 @@ are the same for all. "Nothing across" is a block that keeps its y, or swings fr
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import product
 
 import numpy as np
 from scipy.special import logsumexp
 
-from cosim.gap.data import Campaign
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import (
     CURVATURE,
     SHARE,
@@ -38,7 +39,9 @@ from cosim.gap.weak_form.constants import (
     SHARE_SD,
     SHIFT_SD,
     SLOWEST_SLIDING,
+    START_TURN,
     STARTS_ASKED,
+    STILL_NUMBER,
     STILL_PIECE,
     STILL_SIGMAS,
     TURN_SD,
@@ -82,7 +85,8 @@ class Planar:
     """What moves the block across.
 
     evidence : effect -> ln evidence, less that of nothing across; answer, runner_up : the two most
-    probable, "" is nothing; numbers : 1/m, rad, m, ratio, (value, sd) of the answer
+    probable, "" is nothing, and lateral_friction with a zero beside it no rival of its own;
+    numbers : 1/m, rad, m, ratio, (value, sd) of the answer;
     fits : effect or "" -> its best form
     """
 
@@ -103,7 +107,7 @@ NOTHING = Planar({}, "", "", {})
 def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     """The effect that moves the block across, by evidence; runs held out are predicted alone."""
     runs = [run for run in runs if run.track.y is not None and run.track.slips]
-    if not any(_moves(run.track) for run in runs):
+    if not any(_moves(run.track.run) for run in runs):
         return NOTHING
     free = set(campaign.rig.degrees_of_freedom) >= {"y", "phi"}
     names = list(FORMS) if free else ["", ROTATION]
@@ -116,10 +120,19 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     nothing = evidence.pop("")
     evidence = {name: value - nothing for name, value in evidence.items()}
     ranked = sorted(evidence, key=lambda name: -evidence[name])
-    if evidence[ranked[0]] < LEAST_GAIN:
-        return Planar(evidence, "", ranked[0], fits)
-    second = ranked[1] if len(ranked) > 1 and evidence[ranked[1]] > 0.0 else ""
-    return Planar(evidence, ranked[0], second, fits)
+    answer = ranked[0] if evidence[ranked[0]] > LEAST_GAIN else ""
+    rivals = [
+        name
+        for name in ranked
+        if name != answer and not (answer == LATERAL and _is_lateral(fits[name]))
+    ]
+    return Planar(evidence, answer, rivals[0] if evidence[rivals[0]] > 0.0 else "", fits)
+
+
+def _is_lateral(fitted: Fitted) -> bool:
+    """Whether a form is friction across alone, as its other number may be zero."""
+    others = [number for name, number in fitted.numbers.items() if name != "ratio"]
+    return "ratio" in fitted.numbers and all(abs(value) < STILL_NUMBER * sd for value, sd in others)
 
 
 def rows_in_plane(
@@ -164,14 +177,15 @@ def _in_plane(track: SmoothTrack, plane: Plane, rig: Rig) -> TrackInPlane:
     return TrackInPlane(**values | {"sliding": np.copysign(sliding, along), "part": part})
 
 
-def _moves(track: SmoothTrack) -> bool:
+def _moves(run: MeasuredRun) -> bool:
     """Whether means of y over short pieces differ by more than noise makes them."""
-    assert track.y is not None
-    each = max(5, round(STILL_PIECE / track.interval))
-    means = track.y[: track.y.size // each * each].reshape(-1, each).mean(axis=1)
+    y = run.motion["y"][np.isfinite(run.motion["y"])]
+    means = y[: y.size // STILL_PIECE * STILL_PIECE].reshape(-1, STILL_PIECE).mean(axis=1)
     free = means.size - 1
-    square = np.sum((means - means.mean()) ** 2) * each / track.run.noise["y"] ** 2
-    return bool(free > 2 and square > free + STILL_SIGMAS * np.sqrt(2.0 * free))
+    if free < 1:
+        return False
+    square = free * np.var(means, ddof=1) * STILL_PIECE / run.noise["y"] ** 2
+    return bool(square > free + STILL_SIGMAS * np.sqrt(2.0 * free))
 
 
 @dataclass(frozen=True)
@@ -227,10 +241,10 @@ def _fit(
 def _setting(form: tuple[str, ...], part: float, start: float) -> tuple[np.ndarray, np.ndarray]:
     """Standard deviations of what the runs share, and of starts and zeros of a run.
 
-    start : m off the axis; as much in the time of a swing, and on the rim
+    start : m off the axis, and as much in the time of a swing
     """
     shared = [SHARE_SD if name == SHARE else part * SD[name] for name in form]
-    return np.array(shared), np.array([start, 10.0 * start, 10.0 * start, 1.0, 1.0])
+    return np.array(shared), np.array([start, 10.0 * start, START_TURN, 1.0, 1.0])
 
 
 def _samples(
@@ -241,26 +255,27 @@ def _samples(
     for axis, channel in enumerate(("y", "phi")):
         if channel not in track.run.motion.channels:
             continue
-        seen = np.isfinite(track.run.motion[channel])
-        times = track.run.motion.time[seen]
-        at = np.clip((times - track.time[0]) / track.interval, 0.0, track.time.size - 1.0)
-        low = np.minimum(at.astype(int), track.time.size - 2)
-        part = at - low
-
-        def read(values: np.ndarray) -> np.ndarray:
-            return values[..., low] * (1.0 - part) + values[..., low + 1] * part
-
         noise = track.run.noise[channel]
+        seen = np.isfinite(track.run.motion[channel])
+        read = _reader(track, track.run.motion.time[seen])
         columns = read(made.columns[:, axis]) / noise
         turned = read(-track.place * (axis == 0)) / noise
         moving = iter(columns)
         shared.append(np.array([turned if name == ROTATION else next(moving) for name in form])
-                      .reshape(len(form), times.size).T)  # fmt: skip
-        zeros = np.zeros((2, times.size))
+                      .reshape(len(form), turned.size).T)  # fmt: skip
+        zeros = np.zeros((2, turned.size))
         zeros[axis] = campaign.zero_sd(track.run, channel) / noise
-        own.append(np.vstack([*columns[-len(STARTS):], zeros]).T)
+        own.append(np.vstack([*columns[-len(STARTS) :], zeros]).T)
         rows.append((track.run.motion[channel][seen] - read(made.offset[axis])) / noise)
     return _Samples(np.concatenate(rows), np.concatenate(shared), np.concatenate(own))
+
+
+def _reader(track: SmoothTrack, times: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """Values (..., n) on the grid to those at times (m,), s: (..., m)."""
+    at = np.clip((times - track.time[0]) / track.interval, 0.0, track.time.size - 1.0)
+    low = np.minimum(at.astype(int), track.time.size - 2)
+    part = at - low
+    return lambda values: values[..., low] * (1.0 - part) + values[..., low + 1] * part
 
 
 def _solved(

@@ -27,7 +27,6 @@ from cosim.gap.weak_form.constants import KNOTS
 from cosim.gap.weak_form.rig_geometry import spring_force
 from cosim.gap.weak_form.track import SmoothTrack
 
-
 #: Kinds of rows.
 SLIP, STICK, BREAK_AWAY = 0, 2, 3
 
