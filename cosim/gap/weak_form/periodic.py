@@ -269,9 +269,9 @@ class Wave:
         return np.hstack([-orders * np.sin(angle), orders * np.cos(angle)]) @ sizes
 
     def moved(self, turns: dict[str, float], more: float) -> Wave:
-        """With phases turned by so much, rad, half a turn at most, and another wavenumber."""
+        """With phases turned by so much, rad, and another wavenumber."""
         phases = {
-            name: phase + float(np.clip(turns.get(name, 0.0), -np.pi, np.pi))
+            name: phase + (turns.get(name, 0.0) + np.pi) % (2.0 * np.pi) - np.pi
             for name, phase in self.phases.items()
         }
         return Wave(self.kind, self.wavenumber + more, phases)

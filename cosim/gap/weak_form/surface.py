@@ -12,15 +12,23 @@ import numpy as np
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.constants import RIPPLE_BANDS, RIPPLE_GAIN
-from cosim.gap.weak_form.rows import STICK, RunRows, rows_of
+from cosim.gap.weak_form.constants import (
+    CONTACT_SPEED,
+    PHASES_TRIED,
+    RIPPLE_BANDS,
+    RIPPLE_GAIN,
+)
+from cosim.gap.weak_form.rows import BREAK_AWAY, STICK, Response, RunRows, rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import SmoothTrack, smooth
+
+#: Times (n,), s -> the part by which a surface is faster than its set-point.
+Varies = Callable[[np.ndarray], np.ndarray]
 
 
 def tracks_of(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[SmoothTrack]:
     """Smoothed tracks, relative to the surface as it moves."""
-    varies: dict[str, Callable[[np.ndarray], np.ndarray]] = {}
+    varies: dict[str, Varies] = {}
     for band in RIPPLE_BANDS:
         tracks = [smooth(run, varies.get(run.name), band) for run in runs]
         found = _ripple(campaign, [rows_of(track, campaign.rig) for track in tracks])
@@ -32,7 +40,7 @@ def tracks_of(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[SmoothTra
 
 def _ripple(
     campaign: Campaign, rows: list[RunRows]
-) -> dict[str, Callable[[np.ndarray], np.ndarray]]:
+) -> dict[str, Varies]:
     """run -> the part by which its surface is faster at times; {} where none is."""
     system = System(campaign, [run.only(STICK) for run in rows])
     if not system.rows.any():
@@ -49,4 +57,31 @@ def _ripple(
     after = system.rung(best[1])
     sizes = after.posterior[0][after.part_of(best[1][0])]
     wave = best[1][0].unknown.wave
-    return {run.track.run.name: wave.at_times(run, sizes) for run in system.runs}
+    return {
+        run.track.run.name: _with_best_phase(campaign, run, wave, sizes) for run in system.runs
+    }
+
+
+def _with_best_phase(
+    campaign: Campaign, run: RunRows, wave: periodic.Wave, sizes: np.ndarray
+) -> Varies:
+    """The wave of one run, of the phase that leaves least: where it seldom sticks, slips tell."""
+    name, measured = run.track.run.name, run.track.run
+    turns = 2.0 * np.pi * np.arange(PHASES_TRIED) / PHASES_TRIED
+    tried = [wave.moved({name: turn}, 0.0).at_times(run, sizes) for turn in turns]
+    return min(tried, key=lambda varies: _left(campaign, measured, varies))
+
+
+def _left(campaign: Campaign, measured: MeasuredRun, varies: Varies) -> float:
+    """Mean square of a run's rows beside one coefficient, a zero and a fall at low speeds."""
+    rows = rows_of(smooth(measured, varies), campaign.rig)
+    track = rows.track
+    friction = rows.weight * track.direction
+    slow = friction * np.exp(-np.abs(track.sliding) / CONTACT_SPEED)
+    forces = np.column_stack([friction, slow, measured.total_stiffness * np.ones_like(slow)])
+    faster = (measured.surface_speed * varies(track.time))[:, None]
+    left = rows.values - rows.respond(Response(speed=faster), 1)[:, 0]
+    here = rows.kinds != BREAK_AWAY
+    columns = rows.respond(Response(force=forces), 3)[here]
+    solution = np.linalg.lstsq(columns, left[here], rcond=None)[0]
+    return float(np.mean((left[here] - columns @ solution) ** 2)) if here.any() else 0.0

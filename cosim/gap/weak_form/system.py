@@ -271,17 +271,23 @@ class Rung:
     def left(self, run: RunRows) -> np.ndarray:
         """(rows,) residuals of a run that need not be among the fitted ones.
 
-        What is shared is as the fitted runs have it; what is the run's own, its zero and its
-        friction within the scatter that the others show, is free within its prior.
+        What is shared is free within what the fitted runs leave of it, which is much where they
+        never show it; what is the run's own, its zero and its friction within the scatter that the
+        others show, is free within its prior.
         """
         rows, own = run.values.copy(), []
-        mean = self.posterior[0]
+        mean, covariance = self.posterior
+        shared = [(each, part) for each, part in self._parts if not each.unknown.per_run]
+        columns = np.hstack([each.unknown.columns([run]) for each, _ in shared])
+        places = np.concatenate([np.arange(part.start, part.stop) for _, part in shared])
+        rows -= columns @ mean[places]
+        inside = covariance[np.ix_(places, places)]
+        own.append(columns @ np.linalg.cholesky(inside + 1e-12 * np.diag(np.diag(inside))))
         scatter, zeros = self.settings[0][self.best]
         for each in self.unknowns:
-            columns = each.unknown.columns([run])
             if not each.unknown.per_run:
-                rows -= columns @ mean[self.part_of(each)]
                 continue
+            columns = each.unknown.columns([run])
             scale = {SCATTER: scatter, ZERO_NAME: zeros}.get(each.unknown.name, 1.0)
             own.append(scale * (columns @ each.factor))
         free = np.hstack(own)
@@ -294,22 +300,18 @@ class Rung:
         left = [self.left(run)[run.counted > 0.0] for run in self.system.held_out]
         return float(np.sqrt(np.mean(np.concatenate(left) ** 2))) if left else None
 
-    def part(self, name: str) -> slice:
-        """Where the first unknowns of a name stand."""
-        first = 0
-        for each, size in zip(self.unknowns, self._size, strict=True):
-            if each.unknown.name == name:
-                return slice(first, first + size)
-            first += size
-        raise KeyError(name)
+    @cached_property
+    def _parts(self) -> list[tuple[Added, slice]]:
+        """Unknowns, and where their numbers stand."""
+        ends = np.cumsum([0, *self._size])
+        pairs = zip(self.unknowns, zip(ends, ends[1:], strict=False), strict=True)
+        return [(each, slice(int(a), int(b))) for each, (a, b) in pairs]
 
     def part_of(self, added: Added) -> slice:
         """Where an added unknown's numbers stand."""
-        first = 0
-        for each, size in zip(self.unknowns, self._size, strict=True):
+        for each, part in self._parts:
             if each is added:
-                return slice(first, first + size)
-            first += size
+                return part
         raise KeyError(added.unknown.name)
 
     @property
