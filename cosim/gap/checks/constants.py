@@ -29,6 +29,9 @@ SHEARED = 0.02
 CREEPS = 0.1
 #: Beyond this part a set-point is another one: what runs at it says nothing of the one stated.
 WRONG_SPEED = 0.15
+#: Velocities are counted in so many bins; the median within this part about the fullest is what x
+#: has most often: noise of a velocity is as wide on slow surfaces.
+BINS, PEAK = 40, 0.3
 #: Fewest sticks whose scatter tells the error of their mean slope.
 FEWEST_STICKS = 3
 #: Least travel in a stick, as part of the range of x, and fewest sticks, as part of all cycles: the

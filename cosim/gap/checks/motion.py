@@ -17,12 +17,14 @@ from cosim.gap.weak_form.rows import Response, rows_of
 from cosim.gap.windows.sticks import smoothed, sticks_of
 
 from .constants import (
+    BINS,
     CREEPS,
     CREST,
     FEWEST_ROWS,
     FEWEST_STICKS,
     FRICTION,
     LEVEL,
+    PEAK,
     SHAPE,
     SHEARED,
     SOFTEST,
@@ -143,8 +145,11 @@ def _most_often(run: MeasuredRun) -> float:
     velocity = velocity[velocity > 0.2 * top]
     if top <= 0.0 or velocity.size < FEWEST_ROWS:
         return 0.0
-    counts, edges = np.histogram(velocity, 40)
-    return float(edges[:-1][np.argmax(counts)] + edges[1:][np.argmax(counts)]) / 2.0
+    counts, edges = np.histogram(velocity, BINS)
+    peak = float(edges[np.argmax(counts)])
+    for _ in range(BINS):
+        peak = float(np.median(velocity[np.abs(velocity - peak) < PEAK * peak]))
+    return peak
 
 
 def doubts_of_springs(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
