@@ -1,0 +1,269 @@
+"""How often a design would mislead: the decision made again on campaigns of the same design.
+
+Rows z = X b + e are drawn, X the campaign's own columns, e of unit noise, b a truth's unknown at
+its fitted size and the rig's own numbers as their priors have them. In the evidence of arguments
+(see `weak_form.system`) only X'z is new then: what it is multiplied by is made once, and hundreds
+of campaigns are decided in a second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import block_diag
+from scipy.special import logsumexp
+
+from cosim.gap.judge import ALIKE
+from cosim.gap.result import Rates
+from cosim.gap.weak_form.constants import BENDS_ASKED, LEAST_GAIN, SCALES_ASKED, SCAN_STEPS
+from cosim.gap.weak_form.ladder import Finding, Ladder
+from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER
+from cosim.gap.weak_form.system import Added, Rung, System
+from cosim.gap.weak_form.unknowns import Unknown
+
+#: Campaigns of every truth: a chance of 10 % is known to 4 %.
+EACH = 50
+#: Explanations that might stand in a finding's place, the most probable ones, that are tried.
+RUNNERS_UP = 3
+#: A name is a class where another truth would be given that name in more than this part of the
+#: campaigns: the usual error of the second kind is 10 to 20 % (Cohen 1988).
+CONFUSED = 0.1
+#: Truth and answer where nothing is missing.
+NONE = "none"
+
+
+@dataclass(frozen=True)
+class Option:
+    """A way in which an argument can join the rows.
+
+    factors : (q, q) each, from unit unknowns to columns, one for every bend; scales : all are tried
+    price : ln by which it is less probable than the sum over factors and scales
+    """
+
+    unknowns: tuple[Unknown, ...]
+    factors: tuple[np.ndarray, ...]
+    scales: np.ndarray
+    price: float
+
+
+def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
+    """Every variant of an argument, over scales and bends as `Rung.offered` has them."""
+    found = []
+    for unknown in variants:
+        bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
+        factors = tuple(_factor(Added(unknown, 1.0, bend), runs) for bend in bends)
+        price = float(np.log(len(variants) * len(bends) * len(SCALES_ASKED)))
+        found.append(Option((unknown,), factors, np.array(SCALES_ASKED), price))
+    return found
+
+
+def option_of_wave(added: Sequence[Added], system: System) -> Option:
+    """A wave that a scan has found, at its wave length alone; the scan has its price."""
+    count = system.waves[added[0].unknown.wave.kind][0].size
+    factor = block_diag(*(_factor(each, len(system.fitted)) for each in added))
+    price = float(np.log(count / SCAN_STEPS))
+    return Option(tuple(each.unknown for each in added), (factor,), np.ones(1), price)
+
+
+def _factor(added: Added, runs: int) -> np.ndarray:
+    return np.kron(np.eye(runs), added.factor) if added.unknown.per_run else added.factor
+
+
+@dataclass(frozen=True)
+class Offers:
+    """What c campaigns are offered, ln evidence beyond that of the rows without it.
+
+    evidence : (n, c) averaged over variants, scales and bends; gain : (n, c) at the best of these
+    """
+
+    names: tuple[str, ...]
+    evidence: np.ndarray
+    gain: np.ndarray
+
+    def answers(self) -> list[tuple[str, ...]]:
+        """(c) what is named, and what is as probable within `ALIKE`; () where nothing is missed."""
+        said: list[tuple[str, ...]] = []
+        for evidence, gain in zip(self.evidence.T, self.gain.T, strict=True):
+            order = np.argsort(-evidence)
+            near = [self.names[i] for i in order if evidence[i] > evidence[order[0]] - ALIKE]
+            said.append(tuple(near) if gain[order[0]] > LEAST_GAIN else ())
+        return said
+
+
+class Decision:
+    """The first step of the ladder beyond a rung, for many campaigns of one design at once."""
+
+    def __init__(self, rung: Rung, options: Mapping[str, Sequence[Option]]):
+        self.system, self.options = rung.system, options
+        self.base = [each.unknown for each in rung.unknowns]
+        lower = rung._solved[0]
+        #: (h, Q, Q) from X'z to w, and (h,) ln weight and determinant of each setting.
+        self.whitens = np.linalg.solve(lower, rung._deviations[:, :, None] * rung._factor.T)
+        self.weights = rung.settings[1] - np.log(np.einsum("hii->hi", lower)).sum(axis=1)
+
+    def offers(self, rows: np.ndarray) -> Offers:
+        """Of the rows of c campaigns (rows, c)."""
+        w = self.whitens @ self._right(self.base, rows)
+        base = 0.5 * np.sum(w**2, axis=1) + self.weights[:, None]
+        without = logsumexp(base, axis=0)
+        evidence, gain = [], []
+        for options in self.options.values():
+            offered = [self._offered(option, rows, w, base) for option in options]
+            sums = np.array([total for total, _ in offered])
+            best = np.argmax(sums, axis=0)
+            evidence.append(logsumexp(sums, axis=0) - without)
+            gain.append(np.choose(best, [most for _, most in offered]) - without)
+        return Offers(tuple(self.options), np.array(evidence), np.array(gain))
+
+    def _right(self, unknowns: Sequence[Unknown], rows: np.ndarray) -> np.ndarray:
+        """X'z (q, c)"""
+        return np.concatenate([self.system.columns(each).T @ rows for each in unknowns])
+
+    def _offered(
+        self, option: Option, rows: np.ndarray, w: np.ndarray, base: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """(c,) ln evidence over scales and bends, with their price, and at the best of them.
+
+        With G = X'X and r = X'z beside what is there already, F'G F = V diag(g) V' and u = V'F'r,
+        an unknown of scale s adds 1/2 sum of s^2 u^2 / (1 + s^2 g) - ln(1 + s^2 g).
+        """
+        unknowns = option.unknowns
+        half = self.whitens @ self.system.gram(self.base, unknowns)
+        gram = self.system.gram(unknowns, unknowns) - np.swapaxes(half, 1, 2) @ half
+        right = self._right(unknowns, rows) - np.swapaxes(half, 1, 2) @ w
+        values = []
+        for factor in option.factors:
+            g, v = np.linalg.eigh(factor.T @ gram @ factor)
+            u = np.swapaxes(factor @ v, 1, 2) @ right  # (h, q, c)
+            for scale in option.scales:
+                added = scale**2 * np.maximum(g, 0.0)
+                part = scale**2 / (1.0 + added)
+                more = np.einsum("hq,hqc->hc", part, u**2) - np.log1p(added).sum(axis=1)[:, None]
+                values.append(logsumexp(base + 0.5 * more, axis=0))
+        return logsumexp(values, axis=0) - option.price, np.max(values, axis=0)
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What is there: unknowns and their sizes (q,) each."""
+
+    name: str
+    unknowns: tuple[Unknown, ...] = ()
+    sizes: tuple[np.ndarray, ...] = ()
+
+    @classmethod
+    def of(cls, name: str, rung: Rung) -> Truth:
+        """What is added on a rung, as large as its rows have it."""
+        mean = rung.posterior[0]
+        parts = tuple(mean[rung.part_of(each)] for each in rung.added)
+        return cls(name, tuple(each.unknown for each in rung.added), parts)
+
+    def rows(self, system: System) -> np.ndarray:
+        """(rows,)"""
+        rows = np.zeros(system.rows.size)
+        for unknown, sizes in zip(self.unknowns, self.sizes, strict=True):
+            rows += system.columns(unknown) @ sizes
+        return rows
+
+
+def drawn(rung: Rung, count: int, random: np.random.Generator, scatter: float) -> np.ndarray:
+    """(rows, c) of noise and of the rig's own numbers as their priors have them.
+
+    Zeros are spread as on the rung, friction by the scatter. Coefficients stay where they are: they
+    are free, and no decision depends on them.
+    """
+    system, spreads = rung.system, rung._deviations[rung.best]
+    rows = random.standard_normal((system.rows.size, count))
+    first = 0
+    for each in rung.base:
+        factor = _factor(each, len(system.fitted))
+        spread = spreads[first : first + len(factor), None]
+        first += len(factor)
+        sizes = random.standard_normal((len(factor), count))
+        if each.unknown.name == SCATTER:
+            spread = scatter
+        if each.unknown.name not in (MU_K, MU_S):
+            rows += system.columns(each.unknown) @ (factor @ (spread * sizes))
+    return rows
+
+
+def rates_of(
+    ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], each: int = EACH, seed: int = 0
+) -> Rates:
+    """What this design would say of every finding, of what might stand in its place, of nothing.
+
+    unknowns : of `Arguments`. Each finding is asked beside the others; the same seed draws the same
+    campaigns.
+    """
+    table: dict[str, dict[str, int]] = {}
+    random = np.random.default_rng(seed)
+    for finding in ladder.findings or (None,):
+        rest = [more for other in ladder.findings if other is not finding for more in other.added]
+        rung = ladder.system.rung(rest)
+        truths = _truths(ladder, unknowns, finding, rung)
+        decision = Decision(rung, _asked(ladder, unknowns, finding))
+        spreads, weights = ladder.rung.scatter_posterior()
+        scatter = float(np.interp(0.5, np.cumsum(weights), spreads))
+        rows = drawn(rung, each * len(truths), random, scatter)
+        for place, truth in enumerate(truths):
+            rows[:, place * each : (place + 1) * each] += truth.rows(rung.system)[:, None]
+        answers = decision.offers(rows).answers()
+        for place, truth in enumerate(truths):
+            row = counted(answers[place * each : (place + 1) * each])
+            table.setdefault(truth.name, row)
+    return Rates(each, table)
+
+
+def _truths(
+    ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], finding: Finding | None, rung: Rung
+) -> list[Truth]:
+    """The finding, what might stand in its place, and neither."""
+    nothing = Truth.of(NONE, rung)
+    if finding is None:
+        return [nothing]
+    found = [Truth.of(finding.name, rung.system.rung([*finding.added, *rung.added]))]
+    near = sorted(finding.others, key=lambda name: -finding.others[name])
+    for name in near[:RUNNERS_UP]:
+        if name in unknowns:
+            added: Sequence[Added] = [rung.offered(unknowns[name])[1]]
+        else:
+            added = ladder.first_offers[name][1]
+        found.append(Truth.of(name, rung.system.rung([*added, *rung.added])))
+    return [*found, nothing]
+
+
+def _asked(
+    ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], finding: Finding | None
+) -> dict[str, list[Option]]:
+    """All arguments but those that are there already, and the waves that were found."""
+    system = ladder.system
+    there = {other.name for other in ladder.findings if other is not finding}
+    asked = {name: options_of(variants, len(system.fitted))
+             for name, variants in unknowns.items() if name not in there}  # fmt: skip
+    waves = {name: offer[1] for name, offer in ladder.first_offers.items()}
+    if finding is not None:
+        waves[finding.name] = finding.added
+    for name, added in waves.items():
+        if name not in there and added[0].unknown.wave is not None:
+            asked[name] = [option_of_wave(added, system)]
+    return asked
+
+
+def counted(answers: Sequence[tuple[str, ...]]) -> dict[str, int]:
+    """answer -> how often; "class: a, b" where several are alike, in the order of their names."""
+    table: dict[str, int] = {}
+    for near in answers:
+        said = f"class: {', '.join(sorted(near))}" if len(near) > 1 else (near or (NONE,))[0]
+        table[said] = table.get(said, 0) + 1
+    return dict(sorted(table.items(), key=lambda pair: -pair[1]))
+
+
+def confirmed(rates: Rates, name: str, level: float = CONFUSED) -> tuple[str, ...]:
+    """A name, and what would have been given that name too often: a class where it is not alone."""
+    taken = [
+        truth for truth, answers in rates.table.items()
+        if truth not in (name, NONE) and answers.get(name, 0) > level * rates.each
+    ]  # fmt: skip
+    return (name, *taken)

@@ -1,0 +1,127 @@
+"""Error rates of a design: the ladder's own decision, drawn campaigns, when a name is a class."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from gap_campaigns import motion, noisy, write_campaign
+
+from cosim.gap.data import read_campaign
+from cosim.gap.rates import (
+    NONE,
+    Decision,
+    Offers,
+    Truth,
+    confirmed,
+    counted,
+    drawn,
+    options_of,
+    rates_of,
+)
+from cosim.gap.result import Rates
+from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.ladder import Search
+from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.track import smooth
+
+PAIR = ("film_drag", "velocity_weakening")
+ASKED = (*PAIR, "structural_damping", "run_in")
+
+
+@cache
+def campaign_of(folder, masses):
+    """Three speeds with each mass, ten seconds; friction falls linearly with the speed."""
+    runs = []
+    for number, (mass, speed) in enumerate((m, v) for m in masses for v in (0.05, 0.1, 0.2)):
+        run = motion(speed, mass, duration=10.0, velocity_weakening={"linear": 0.4})
+        columns = {"t": run.time, "x": noisy(run["x"], number)}
+        runs.append({"surface_speed": speed, "mass": mass, "columns": columns})
+    folder.mkdir(exist_ok=True)
+    campaign = read_campaign(write_campaign(folder, runs, noise={"x": 2e-4}))
+    system = System(campaign, [rows_of(smooth(run), campaign.rig) for run in campaign.runs])
+    unknowns = Arguments(campaign, system.runs, system.level).unknowns()
+    return system, {name: unknowns[name] for name in ASKED}
+
+
+@pytest.fixture(scope="module", params=[(0.87,), (0.5, 1.4)], ids=["one mass", "two masses"])
+def searched(request, tmp_path_factory):
+    folder = tmp_path_factory.getbasetemp() / f"rates{len(request.param)}"
+    system, unknowns = campaign_of(folder, request.param)
+    return Search(system, unknowns, ()).climb(), unknowns, len(request.param)
+
+
+def test_the_decision_is_that_of_the_ladder(searched):
+    """Evidence of every argument as the ladder itself asks for it, of the measured rows."""
+    ladder, unknowns, _ = searched
+    system = ladder.system
+    rung = system.rung()
+    options = {name: options_of(some, len(system.fitted)) for name, some in unknowns.items()}
+    offers = Decision(rung, options).offers(system.rows[:, None])
+    for name, evidence, gain in zip(offers.names, offers.evidence, offers.gain, strict=True):
+        total, added = rung.offered(unknowns[name])
+        assert evidence[0] == pytest.approx(total - rung.evidence, abs=1e-6)
+        assert gain[0] == pytest.approx(system.rung([added]).evidence - rung.evidence, abs=1e-6)
+
+
+def test_one_mass_cannot_tell_force_from_coefficient(searched):
+    """Two masses can; where nothing is missing nothing is named."""
+    ladder, unknowns, masses = searched
+    assert ladder.findings[0].name in PAIR
+    rates = rates_of(ladder, unknowns)
+    truth = "velocity_weakening"
+    assert sum(rates.table[truth].values()) == rates.each == 50
+    both = sum(n for said, n in rates.table[truth].items() if all(one in said for one in PAIR))
+    alone = rates.table[truth].get(truth, 0)
+    assert both >= 45 if masses == 1 else alone >= 45
+    assert rates.table[NONE].get(NONE, 0) >= 47
+
+
+def test_a_seed_draws_the_same_campaigns(searched):
+    ladder, unknowns, _ = searched
+    first = rates_of(ladder, unknowns, each=5, seed=1)
+    assert first == rates_of(ladder, unknowns, each=5, seed=1)
+
+
+def test_what_is_drawn_is_as_large_as_stated(searched):
+    """Mean squares of drawn rows: noise, and the rig's own numbers as wide as their priors."""
+    system = searched[0].system
+    rung = system.rung(contact=False)
+    spread = 0.03
+    rows = drawn(rung, 400, np.random.default_rng(0), spread)
+    zeros = rung.settings[0][rung.best][1]
+    expected = np.ones(system.rows.size)
+    for added in rung.base:
+        scale = {"scatter": spread, "zero": zeros, "mu_k": 0.0, "mu_s": 0.0}
+        factor = added.factor * scale.get(added.unknown.name, 1.0)
+        blocks = np.kron(np.eye(len(system.fitted)), factor) if added.unknown.per_run else factor
+        expected += np.sum((system.columns(added.unknown) @ blocks) ** 2, axis=1)
+    assert np.mean(rows**2) / np.mean(expected) == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_truth_is_as_large_as_the_rows_have_it(searched):
+    """What it adds is what a rung's posterior mean adds."""
+    ladder = searched[0]
+    truth = Truth.of("it", ladder.rung)
+    mean = ladder.rung.posterior[0]
+    columns = [ladder.system.columns(one.unknown) for one in ladder.rung.added]
+    parts = [mean[ladder.rung.part_of(one)] for one in ladder.rung.added]
+    expected = sum(c @ p for c, p in zip(columns, parts, strict=True))
+    assert truth.rows(ladder.system) == pytest.approx(expected)
+
+
+def test_a_name_takes_six_nats_and_a_class_three():
+    """A third more or less of either threshold would answer otherwise."""
+    evidence = np.array([[9.0, 9.0, 9.0, 9.0], [6.5, 5.5, 6.5, 5.5]])
+    gain = np.array([[6.5, 6.5, 5.5, 5.5], [6.5, 6.5, 5.5, 5.5]])
+    answers = Offers(("a", "b"), evidence, gain).answers()
+    assert answers == [("a", "b"), ("a",), (), ()]
+    assert counted(answers) == {NONE: 2, "class: a, b": 1, "a": 1}
+    assert counted([("b", "a"), ("a", "b")]) == {"class: a, b": 2}
+
+
+@pytest.mark.parametrize(("times", "members"), [(4, ("a",)), (6, ("a", "b"))])
+def test_a_name_that_another_truth_would_be_given_is_a_class(times, members):
+    """One in ten."""
+    table = {"a": {"a": 50}, "b": {"b": 50 - times, "a": times}, NONE: {NONE: 40, "a": 10}}
+    assert confirmed(Rates(50, table), "a") == members
