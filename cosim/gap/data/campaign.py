@@ -43,12 +43,12 @@ def read_campaign(path: str | Path) -> Campaign:
     runs: list[MeasuredRun] = []
     converted: dict[str, list[str]] = {}
     for number, run_table in enumerate(run_tables, 1):
-        reading = _reading(path, table, run_table, number)
+        reading = _reading(f"{path}: run {number}", table, run_table)
         run, notes, units = _read_run(path, campaign, run_table, number, reading)
         runs.append(run)
         remarks += notes
         if units:
-            converted.setdefault("; ".join(units), []).append(run_table.file)
+            converted.setdefault(units, []).append(run_table.file)
     remarks += [f"{', '.join(who)}: converted: {what}" for what, who in converted.items()]
     kept, copies = without_duplicates(_unique_names(runs), str(path))
     kept, held = with_hold_outs(kept, str(path))
@@ -70,20 +70,20 @@ def campaign_of(path: Path, table: CampaignTable, runs: list[RunTable]) -> Campa
     )  # fmt: skip
 
 
-def _reading(path: Path, table: CampaignTable, run: RunTable, number: int) -> Reading:
+def _reading(where: str, table: CampaignTable, run: RunTable) -> Reading:
     """Columns and units of a run's file: its own, else those of the campaign."""
     columns = {**table.columns.given, **run.columns.given}
     first: dict[str, str] = {}
     for channel, name in columns.items():
         if first.setdefault(name, channel) != channel:
             fault = f"columns.{channel}: {name} is columns.{first[name]} too"
-            raise CampaignError(f"{path}: run {number}: {fault}, allowed is a column for each")
+            raise CampaignError(f"{where}: {fault}, allowed is a column for each")
     return Reading(columns, {**table.units.given, **run.units.given})
 
 
 def _read_run(
     path: Path, campaign: Campaign, table: RunTable, number: int, reading: Reading
-) -> tuple[MeasuredRun, list[str], tuple[str, ...]]:
+) -> tuple[MeasuredRun, list[str], str]:
     """A run, remarks on it, and which of its columns were in other units."""
     run = MeasuredRun(
         name=Path(table.file).stem if table.file else f"run {number}",
@@ -99,7 +99,7 @@ def _read_run(
         fault = describe_faults(report, Parameters)
         raise CampaignError(f"{path}: run {number}: {fault}") from None
     if run.file is None:
-        return run, [], ()
+        return run, [], ""
     track, remarks, converted = read_track(run.file, reading)
     remarks += check_units(run.file, run, track, campaign.rig)
     return replace(run, track=track), remarks, converted

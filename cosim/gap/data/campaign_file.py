@@ -23,16 +23,10 @@ if TYPE_CHECKING:
     Rig = stickslip.Rig  # for those who read its keys: they are the same
 else:
     #: The rig as the experimenter knows it; each run has its own mass.
-    Rig = create_model(
-        "Rig",
-        __base__=Table,
-        __doc__="Springs, attachments, contact and guides of the rig.",
-        **{
-            key: (field.annotation, field)
-            for key, field in stickslip.Rig.model_fields.items()
-            if key != "mass"
-        },
-    )
+    _FIELDS = stickslip.Rig.model_fields.items()
+    _KEYS = {key: (field.annotation, field) for key, field in _FIELDS if key != "mass"}
+    _SAID = "Springs, attachments, contact and guides of the rig."
+    Rig = create_model("Rig", __base__=Table, __doc__=_SAID, **_KEYS)
 
 
 class Model(Table):
@@ -42,10 +36,9 @@ class Model(Table):
         "exact", description="exact geometry and events, or the source study's scheme as printed"
     )
     effects: tuple[str, ...] = Field(
-        (),
-        description="files of effects of one's own, beside campaign.toml, which are tried like "
+        (), description="files of effects of one's own, beside campaign.toml, which are tried like "
         "those of the catalogue: their code is run",
-    )
+    )  # fmt: skip
 
 
 #: Of a sample, in its unit: a thousandth of an atom, and still far above the rounding of the model.
@@ -94,21 +87,18 @@ class Errors(Table):
     friction_table: float = _part(0.05, "of the level of friction.table")
 
 
-Interval = tuple[float, float] | tuple[()]
-
-
 class Limits(Named):
     """Where the rig can run: a next run is asked for within [low, high]."""
 
-    surface_speed: Interval = quantity((), "m/s", "slowest and fastest")
-    mass: Interval = quantity((), "kg", "of the block")
-    stiffness: Interval = quantity((), "N/m", "of one of the four springs")
+    surface_speed: tuple[float, ...] = quantity((), "m/s", "slowest and fastest")
+    mass: tuple[float, ...] = quantity((), "kg", "of the block")
+    stiffness: tuple[float, ...] = quantity((), "N/m", "of one of the four springs")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, (low, high) in self.given.items():
-            if not 0.0 < low <= high:
-                raise ValueError(f"{key} = [{low:g}, {high:g}], allowed is 0 < low <= high")
+        for key, ends in self.given.items():
+            if not (len(ends) == 2 and 0.0 < ends[0] <= ends[1]):
+                raise ValueError(f"{key} = {list(ends)}, allowed is [low, high], 0 < low <= high")
         return self
 
 
@@ -268,10 +258,10 @@ class MeasuredRunTable(RunTable):
 
     @model_validator(mode="after")
     def _check_source(self) -> Self:
+        plan = "neither given, allowed is one of the two (a run still to be made: stickslip plan)"
         if bool(self.file) == bool(self.summary.given):
-            what = "both" if self.file else "neither"
-            plan = "" if self.file else " (a run that is still to be made: stickslip plan)"
-            raise ValueError(f"file and summary: {what} given, allowed is one of the two{plan}")
+            both = "both given, allowed is one of the two"
+            raise ValueError(f"file and summary: {both if self.file else plan}")
         return self
 
 

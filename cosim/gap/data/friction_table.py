@@ -76,18 +76,13 @@ def read_friction_table(
     found = FrictionTable(file, read.table_speed, read.table_mu, typical)
     fault = ""
     if read.table_temperature_degC:
-        fault = (
-            f"{file}: column T_degC: mu over the temperature of the interface, which no run "
-            "measures; allowed are v and mu, at the temperature of these runs"
-        )
+        fault = f"{file}: column T_degC: no run measures it; allowed are v and mu"
     elif table.model.scheme != "exact":
-        fault = (
-            f'beside model.scheme = "{table.model.scheme}", which knows mu_s and mu_k alone; '
-            'allowed with model.scheme = "exact"'
-        )
+        alone = f'model.scheme = "{table.model.scheme}", which knows mu_s and mu_k alone'
+        fault = f'beside {alone}; allowed with model.scheme = "exact"'
     elif not found.level > 0.0:
-        fault = f"{file}: mu is {found.level:g} at {typical:.3g} m/s, the speed of the surface"
-        fault += "; allowed is above 0 there"
+        here = f"{typical:.3g} m/s, the speed of the surface"
+        fault = f"{file}: mu is {found.level:g} at {here}; allowed is above 0 there"
     if fault:
         raise CampaignError(f"{path}: friction.table: {fault}")
     return found

@@ -46,7 +46,7 @@ def _same_data(run: MeasuredRun, other: MeasuredRun) -> bool:
     """Whether one track is the other or a part of it."""
     if run.track is None or other.track is None:
         return run.summary is not None and run.summary == other.summary
-    present = [one.track.x[np.isfinite(one.track.x)] for one in (run, other)]
+    present = [one.motion.x[np.isfinite(one.motion.x)] for one in (run, other)]
     short, long = sorted(present, key=len)
     if len(short) < PATTERN:
         return False

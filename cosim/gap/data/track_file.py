@@ -24,9 +24,7 @@ MOST_EMPTY, MOST_PLACES = 100, 5_000_000
 WITH_SURFACE, LAG, ALWAYS, NEVER = 0.1, 1.0 / 8.0, 0.9, 0.05
 
 
-def read_track(
-    file: Path, reading: Reading | None = None
-) -> tuple[Track, list[str], tuple[str, ...]]:
+def read_track(file: Path, reading: Reading | None = None) -> tuple[Track, list[str], str]:
     """The track, remarks on it, what was converted; CampaignError in one line."""
     columns = read_columns(file, reading)
     time = columns.values.pop("t")
@@ -46,7 +44,7 @@ def read_track(
         elif values is not None:
             remarks.append(f"{file.name}: column {channel} has {count} samples and is not used")
     track = Track(time=time - time[0], time_offset=float(time[0]), outliers=outliers, **channels)
-    return track, remarks, columns.converted
+    return track, remarks, "; ".join(columns.converted)
 
 
 def _unused(name: str) -> str:

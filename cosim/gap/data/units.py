@@ -32,10 +32,8 @@ def check_units(file: Path, run: MeasuredRun, track: Track, rig: Rig) -> list[st
     if wrong:
         raise CampaignError(f"{file}: column {wrong}")
     friction = _friction(run, track)
-    little = f"{file.name}: the spring force swings by only {friction:.1e} of the weight"
-    if friction < LEAST_FRICTION:
-        return [f"{little}; check mass, stiffness and the unit of x"]
-    return []
+    little = f"{file.name}: the spring force swings by only {friction:.1e} of the weight; check "
+    return [f"{little}mass, stiffness and the unit of x"] if friction < LEAST_FRICTION else []
 
 
 def _of_time(track: Track, period: float) -> str:
@@ -51,11 +49,8 @@ def _of_time(track: Track, period: float) -> str:
         hint = " (thousandths of seconds, divided by 1000 once more?)" if again else ""
         return f"t: covers {span:.4g} s, {free}; allowed is at least half of it{hint}"
     if span > MOST_PERIODS * period:
-        return (
-            f"t: covers {span:.4g} s, which is {span / period:.3g} free vibrations of the block "
-            f"(each {period:.3g} s, by mass and stiffness); allowed are up to {MOST_PERIODS:g}: "
-            "check mass and stiffness, or give a part of the record"
-        )
+        most = f"{MOST_PERIODS:g} times that: check mass and stiffness, or give a part of it"
+        return f"t: covers {span:.4g} s, {free}; allowed are up to {most}"
     return ""
 
 
@@ -65,15 +60,12 @@ def _of_places(run: MeasuredRun, track: Track, rig: Rig) -> str:
     if swing == 0.0:
         return "x: does not change, allowed is a measured motion"
     if friction > MOST_FRICTION:
-        return (
-            f"x: swings by {swing:.4g} m, a spring force of {friction:.3g} times the weight; "
-            f"allowed is metres ({_hint(friction, USUAL_FRICTION)}check mass and stiffness)"
-        )
+        allowed = f"metres ({_hint(friction, USUAL_FRICTION)}check mass and stiffness)"
+        force = f"a spring force of {friction:.3g} times the weight"
+        return f"x: swings by {swing:.4g} m, {force}; allowed is {allowed}"
     if track.y is not None and (part := _swing(track.y) / rig.spring_length) > 1.0:
-        return (
-            f"y: swings by {_swing(track.y):.4g} m, {part:.3g} times rig.spring_length; allowed is "
-            f"metres ({_hint(part, USUAL_PART)}check the rig)"
-        )
+        springs = f"swings by {part:.3g} times rig.spring_length"
+        return f"y: {springs}; allowed is metres ({_hint(part, USUAL_PART)}check the rig)"
     if track.phi is not None and (turn := np.nanmax(np.abs(track.phi))) > 2.0 * math.pi:
         return f"phi: reaches {turn:.4g} rad, allowed is radians up to a turn (are these degrees?)"
     return ""
