@@ -19,7 +19,7 @@ from cosim.gap.judge import ALIKE
 from cosim.gap.result import Rates
 from cosim.gap.weak_form.constants import BENDS_ASKED, LEAST_GAIN, SCALES_ASKED, SCAN_STEPS
 from cosim.gap.weak_form.ladder import Finding, Ladder
-from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER
+from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
 from cosim.gap.weak_form.system import Added, Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
 
@@ -82,67 +82,99 @@ class Offers:
     evidence: np.ndarray
     gain: np.ndarray
 
+    @property
+    def near(self) -> np.ndarray:
+        """(n, c) whether it is named, or as probable as what is named within `ALIKE`."""
+        named = np.take_along_axis(self.gain, self.evidence.argmax(axis=0)[None], axis=0)
+        alike = self.evidence > self.evidence.max(axis=0) - ALIKE
+        return np.asarray(alike & (named > LEAST_GAIN))
+
     def answers(self) -> list[tuple[str, ...]]:
-        """(c) what is named, and what is as probable within `ALIKE`; () where nothing is missed."""
-        said: list[tuple[str, ...]] = []
-        for evidence, gain in zip(self.evidence.T, self.gain.T, strict=True):
-            order = np.argsort(-evidence)
-            near = [self.names[i] for i in order if evidence[i] > evidence[order[0]] - ALIKE]
-            said.append(tuple(near) if gain[order[0]] > LEAST_GAIN else ())
-        return said
+        """(c) what is named, the most probable first; () where nothing is missed."""
+        order, near = np.argsort(-self.evidence, axis=0), self.near
+        return [
+            tuple(self.names[i] for i in order[:, c] if near[i, c]) for c in range(near.shape[1])
+        ]
 
 
 class Decision:
     """The first step of the ladder beyond a rung, for many campaigns of one design at once."""
 
     def __init__(self, rung: Rung, options: Mapping[str, Sequence[Option]]):
-        self.system, self.options = rung.system, options
-        self.base = [each.unknown for each in rung.unknowns]
+        self.system, self.base = rung.system, [each.unknown for each in rung.unknowns]
         lower = rung._solved[0]
         #: (h, Q, Q) from X'z to w, and (h,) ln weight and determinant of each setting.
         self.whitens = np.linalg.solve(lower, rung._deviations[:, :, None] * rung._factor.T)
         self.weights = rung.settings[1] - np.log(np.einsum("hii->hi", lower)).sum(axis=1)
+        self.options = {name: [self._turned(one) for one in some] for name, some in options.items()}
 
     def offers(self, rows: np.ndarray) -> Offers:
         """Of the rows of c campaigns (rows, c)."""
-        w = self.whitens @ self._right(self.base, rows)
+        return self.decided(self.projected(rows))
+
+    def projected(self, rows: np.ndarray) -> list[np.ndarray]:
+        """X'z (q, c) of the base and of every option; all that a decision needs to know of z."""
+        options = [one.unknowns for some in self.options.values() for one in some]
+        return [self._right(unknowns, rows) for unknowns in (self.base, *options)]
+
+    def _right(self, unknowns: Sequence[Unknown], rows: np.ndarray) -> np.ndarray:
+        return np.concatenate([self.system.columns(each).T @ rows for each in unknowns])
+
+    def decided(self, projected: Sequence[np.ndarray]) -> Offers:
+        """Of what `projected` makes of rows; it is linear in them."""
+        first, *others = projected
+        w = self.whitens @ first
         base = 0.5 * np.sum(w**2, axis=1) + self.weights[:, None]
-        without = logsumexp(base, axis=0)
+        without, rights = logsumexp(base, axis=0), iter(others)
         evidence, gain = [], []
         for options in self.options.values():
-            offered = [self._offered(option, rows, w, base) for option in options]
+            offered = [option.offered(next(rights), w, base) for option in options]
             sums = np.array([total for total, _ in offered])
             best = np.argmax(sums, axis=0)
             evidence.append(logsumexp(sums, axis=0) - without)
             gain.append(np.choose(best, [most for _, most in offered]) - without)
         return Offers(tuple(self.options), np.array(evidence), np.array(gain))
 
-    def _right(self, unknowns: Sequence[Unknown], rows: np.ndarray) -> np.ndarray:
-        """X'z (q, c)"""
-        return np.concatenate([self.system.columns(each).T @ rows for each in unknowns])
-
-    def _offered(
-        self, option: Option, rows: np.ndarray, w: np.ndarray, base: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """(c,) ln evidence over scales and bends, with their price, and at the best of them.
-
-        With G = X'X and r = X'z beside what is there already, F'G F = V diag(g) V' and u = V'F'r,
-        an unknown of scale s adds 1/2 sum of s^2 u^2 / (1 + s^2 g) - ln(1 + s^2 g).
-        """
+    def _turned(self, option: Option) -> _Turned:
         unknowns = option.unknowns
         half = self.whitens @ self.system.gram(self.base, unknowns)
         gram = self.system.gram(unknowns, unknowns) - np.swapaxes(half, 1, 2) @ half
-        right = self._right(unknowns, rows) - np.swapaxes(half, 1, 2) @ w
-        values = []
+        axes = []
         for factor in option.factors:
             g, v = np.linalg.eigh(factor.T @ gram @ factor)
-            u = np.swapaxes(factor @ v, 1, 2) @ right  # (h, q, c)
-            for scale in option.scales:
-                added = scale**2 * np.maximum(g, 0.0)
-                part = scale**2 / (1.0 + added)
-                more = np.einsum("hq,hqc->hc", part, u**2) - np.log1p(added).sum(axis=1)[:, None]
+            axes.append((np.maximum(g, 0.0), np.swapaxes(factor @ v, 1, 2)))
+        return _Turned(unknowns, np.swapaxes(half, 1, 2), axes, option.scales, option.price)
+
+
+@dataclass(frozen=True)
+class _Turned:
+    """An option in its own axes, beside what is there already.
+
+    With G and r what base leaves of X'X and X'z, F'G F = V diag(g) V' and u = V'F'r, an unknown of
+    scale s adds 1/2 sum of s^2 u^2 / (1 + s^2 g) - ln(1 + s^2 g) to the ln evidence.
+
+    half : (h, q, Q) from w to what is not left of X'z; axes : of every factor g (h, q), V'F'
+    """
+
+    unknowns: tuple[Unknown, ...]
+    half: np.ndarray
+    axes: list[tuple[np.ndarray, np.ndarray]]
+    scales: np.ndarray
+    price: float
+
+    def offered(
+        self, right: np.ndarray, w: np.ndarray, base: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """(c,) ln evidence over scales and bends, with their price, and at the best of them."""
+        right, values = right - self.half @ w, []
+        for g, turn in self.axes:
+            squares = np.square(turn @ right)  # (h, q, c)
+            for scale in self.scales:
+                added = scale**2 * g
+                part = (scale**2 / (1.0 + added))[:, None]
+                more = (part @ squares)[:, 0] - np.log1p(added).sum(axis=1)[:, None]
                 values.append(logsumexp(base + 0.5 * more, axis=0))
-        return logsumexp(values, axis=0) - option.price, np.max(values, axis=0)
+        return logsumexp(values, axis=0) - self.price, np.max(values, axis=0)
 
 
 @dataclass(frozen=True)
@@ -168,24 +200,20 @@ class Truth:
         return rows
 
 
-def drawn(rung: Rung, count: int, random: np.random.Generator, scatter: float) -> np.ndarray:
+def drawn(
+    rung: Rung, count: int, random: np.random.Generator, scatter: float, zeros: float
+) -> np.ndarray:
     """(rows, c) of noise and of the rig's own numbers as their priors have them.
 
-    Zeros are spread as on the rung, friction by the scatter. Coefficients stay where they are: they
-    are free, and no decision depends on them.
+    scatter : of friction from run to run; zeros : spread of the tracker's, part of what is stated.
+    Coefficients stay where they are: they are free, and no decision depends on them.
     """
-    system, spreads = rung.system, rung._deviations[rung.best]
+    system, spreads = rung.system, {SCATTER: scatter, ZERO_NAME: zeros, MU_K: 0.0, MU_S: 0.0}
     rows = random.standard_normal((system.rows.size, count))
-    first = 0
     for each in rung.base:
-        factor = _factor(each, len(system.fitted))
-        spread = spreads[first : first + len(factor), None]
-        first += len(factor)
+        factor = spreads.get(each.unknown.name, 1.0) * _factor(each, len(system.fitted))
         sizes = random.standard_normal((len(factor), count))
-        if each.unknown.name == SCATTER:
-            spread = scatter
-        if each.unknown.name not in (MU_K, MU_S):
-            rows += system.columns(each.unknown) @ (factor @ (spread * sizes))
+        rows += system.columns(each.unknown) @ (factor @ sizes)
     return rows
 
 
@@ -206,7 +234,8 @@ def rates_of(
         decision = Decision(rung, _asked(ladder, unknowns, finding))
         spreads, weights = ladder.rung.scatter_posterior()
         scatter = float(np.interp(0.5, np.cumsum(weights), spreads))
-        rows = drawn(rung, each * len(truths), random, scatter)
+        zeros = rung.settings[0][rung.best][1]
+        rows = drawn(rung, each * len(truths), random, scatter, zeros)
         for place, truth in enumerate(truths):
             rows[:, place * each : (place + 1) * each] += truth.rows(rung.system)[:, None]
         answers = decision.offers(rows).answers()

@@ -87,9 +87,8 @@ def test_what_is_drawn_is_as_large_as_stated(searched):
     """Mean squares of drawn rows: noise, and the rig's own numbers as wide as their priors."""
     system = searched[0].system
     rung = system.rung(contact=False)
-    spread = 0.03
-    rows = drawn(rung, 400, np.random.default_rng(0), spread)
-    zeros = rung.settings[0][rung.best][1]
+    spread, zeros = 0.03, 0.5
+    rows = drawn(rung, 400, np.random.default_rng(0), spread, zeros)
     expected = np.ones(system.rows.size)
     for added in rung.base:
         scale = {"scatter": spread, "zero": zeros, "mu_k": 0.0, "mu_s": 0.0}
