@@ -7,7 +7,7 @@ their laws, so that what is shown is the model that a unit would run.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,13 +66,23 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         return Part(finding, curve, (), (), {})
     best = fits[0]
     numbers, settings = _numbers(best)
+    settings |= _shares(best.effect, unknown.settings)
     if finding.name == "thermal_weakening":
         memory = unknown.settings["memory"]
         numbers = [n for n in numbers if not n.key.endswith("relaxation_time")]
-        numbers.append(Number("thermal_weakening.relaxation_time", memory, None, 0.05, 1e3, log=True))
+        numbers.append(Number(f"{best.effect}.relaxation_time", memory, None, 0.05, 1e3, log=True))
+        settings[f"{best.effect}.diffusion"] = unknown.settings["diffusion"]
         if unknown.settings["per_weight"]:
-            settings["per_weight.thermal_weakening.per_joule"] = scales.force
+            settings[f"per_weight.{best.effect}.per_joule"] = scales.force
     return Part(finding, curve, tuple(fits), tuple(numbers), settings)
+
+
+def _shares(effect: str, settings: Mapping[str, float]) -> dict[str, float]:
+    """How static friction follows a drift of mu_k: not, by as much, or in proportion."""
+    share = settings.get("static", 0.0)
+    if share == 0.0:
+        return {}
+    return {f"{effect}.static_{'absolute' if share == 1.0 else 'relative'}": 1.0}
 
 
 def _own() -> frozenset[str]:

@@ -88,13 +88,18 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
 
 
 def name(campaign: Campaign) -> tuple[System, Ladder]:
-    """What the rows ask for."""
+    """What the rows of all runs ask for, and the rows of the fitted ones, for its numbers.
+
+    Which argument it is, every run may say; how large it is, only those that are fitted.
+    """
     runs = [run for run in campaign.runs if run.track is not None]
     rows = [rows_of(track, campaign.rig) for track in tracks_of(campaign, runs)]
-    system = System(campaign, rows)
-    unknowns = Arguments(campaign, system.runs, system.level).unknowns()
-    waves = periodic.kinds(system.level.kinetic)
-    return system, Search(system, unknowns, waves).climb()
+    every, fitted = System(campaign, rows, every=True), System(campaign, rows)
+    arguments = Arguments(campaign, every.runs, every.level)
+    waves = periodic.kinds(every.level.kinetic)
+    ladder = Search(every, arguments.unknowns(), waves, arguments.near).climb()
+    added = [one for finding in ladder.findings for one in finding.added]
+    return fitted, replace(ladder, rung=fitted.rung(added))
 
 
 def _others() -> set[str]:

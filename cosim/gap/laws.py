@@ -116,12 +116,10 @@ class Context:
     own: frozenset[str] = frozenset()
 
     def allows(self, name: str, effect: Effect, candidate: Candidate) -> bool:
-        """Static friction takes its share as the argument's variant says it does."""
-        if name not in ("run_in", "thermal_weakening") or effect.id != name:
+        """What the argument's variant has settled is set by it, not by a candidate's settings."""
+        if effect.id not in ("run_in", "thermal_weakening"):
             return True
-        with_static = any(key.rpartition(".")[2].startswith("static_")
-                          for key in candidate.settings)  # fmt: skip
-        return with_static == bool(self.settings.get("static"))
+        return not candidate.settings
 
 
 #: (q,) arguments and parameters -> (q,) values of the law.

@@ -11,12 +11,19 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from scipy.signal import bilinear, lfilter
+from stickslip.effects.friction.thermal_weakening import (
+    FAST_WEIGHT,
+    FASTER,
+    SLOW_WEIGHT,
+    SLOWER,
+)
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form.constants import (
     CURVE_NODES,
     LEAST_LOG_RANGE,
     LONGEST_MEMORY,
+    NEAR_MEMORIES,
     RESONATOR_DAMPING,
     RESONATOR_STEP,
     RESONATORS,
@@ -180,32 +187,58 @@ class Arguments:
 
     def _over_heat(self) -> Iterator[Unknown]:
         """Coefficient over the friction heat that is remembered, of the contact or per weight."""
-        typical = float(np.mean([run.weight for run in self.runs]))
-        weights = {run.track.run.mass for run in self.runs}
         count = round(np.log2(LONGEST_MEMORY / SHORTEST_MEMORY)) + 1
+        per_weight = (False, True) if len({run.track.run.mass for run in self.runs}) > 1 else (False,)
         for memory in np.geomspace(SHORTEST_MEMORY, LONGEST_MEMORY, count):
-            for per_weight in (False, True) if len(weights) > 1 else (False,):
-                heat = {}
-                for run in self.runs:
-                    power = self._sliding(run) * (typical if per_weight else run.weight)
-                    heat[run.track.run.name] = self.level.kinetic * _decaying(
-                        power, run.track.interval, memory
-                    )
-                most = max(values.max() for values in heat.values())
-                nodes = most * np.linspace(0.0, 1.0, CURVE_NODES - 3)
-                unit = "J per typical weight" if per_weight else "J"
-                yield from self._remembered(
-                    "thermal_weakening", f"memory {memory:.2g} s{', per weight' * per_weight}",
-                    heat, Curve("friction heat remembered", unit, nodes, "mu_k"),
-                    {"memory": memory, "per_weight": float(per_weight)},
-                )  # fmt: skip
+            for each in per_weight:
+                yield from self._of_memory(float(memory), each, False)
+        for memory in np.geomspace(SHORTEST_MEMORY, LONGEST_MEMORY, count // 2 + 1):
+            yield from self._of_memory(float(memory), False, True)
+
+    def near(self, unknown: Unknown) -> list[Unknown]:
+        """The same argument with settings between those that were tried; [] where it has none."""
+        if "memory" not in unknown.settings:
+            return []
+        memory, static = unknown.settings["memory"], unknown.settings["static"]
+        per_weight, spread = unknown.settings["per_weight"], unknown.settings["diffusion"]
+        return [
+            one for factor in NEAR_MEMORIES
+            for one in self._of_memory(memory * factor, bool(per_weight), bool(spread))
+            if one.settings["static"] == static
+        ]  # fmt: skip
+
+    def _of_memory(self, memory: float, per_weight: bool, spread: bool) -> Iterator[Unknown]:
+        """spread : heat goes into a half-space, as the effect thermal_weakening has it."""
+        typical = float(np.mean([run.weight for run in self.runs]))
+        memories = {memory: 1.0}
+        if spread:
+            memories |= {memory / FASTER: FAST_WEIGHT, memory * SLOWER: SLOW_WEIGHT}
+        heat = {}
+        for run in self.runs:
+            power = self.level.kinetic * self._sliding(run)
+            power *= typical if per_weight else run.weight
+            heat[run.track.run.name] = sum(
+                weight * _decaying(power, run.track.interval, time)
+                for time, weight in memories.items()
+            )
+        most = max(values.max() for values in heat.values())
+        nodes = most * np.linspace(0.0, 1.0, CURVE_NODES - 3)
+        curve = Curve("friction heat remembered", "J", nodes, "mu_k")
+        kind = ", half-space" * spread + ", per weight" * per_weight
+        settings = {"memory": memory, "per_weight": float(per_weight), "diffusion": float(spread)}
+        yield from self._remembered(
+            "thermal_weakening", f"memory {memory:.2g} s{kind}", heat, curve, settings
+        )
 
     def _remembered(
         self, name: str, variant: str, values: dict[str, np.ndarray], curve: Curve,
         settings: dict[str, float],
     ) -> Iterator[Unknown]:  # fmt: skip
-        """A coefficient over what a run remembers: of mu_k alone, or mu_s falls by as much."""
-        for share in (0.0, 1.0):
+        """A coefficient over what a run remembers: mu_s stays, moves by as much, or in proportion."""
+        shares = {"mu_k alone": 0.0, "mu_s by as much": 1.0}
+        if any(run.events for run in self.runs):
+            shares["mu_s in proportion"] = self.level.static / self.level.kinetic
+        for form, share in shares.items():
 
             def respond(run: RunRows, share: float = share) -> Response:
                 at = curve.at(values[run.track.run.name])
@@ -213,7 +246,7 @@ class Arguments:
                 static = share * unit * at[[event.at for event in run.events]]
                 return Response(force=unit * run.track.direction[:, None] * at, static=static)
 
-            words = ", ".join(filter(None, [variant, "mu_s too" if share else "mu_k alone"]))
+            words = ", ".join(filter(None, [variant, form]))
             yield Unknown.over(name, curve, respond, words, {**settings, "static": share})
 
     def _trend(self, name: str, quantity: Callable[[RunRows], float]) -> Iterator[Unknown]:

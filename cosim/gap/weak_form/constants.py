@@ -64,6 +64,8 @@ SLIP_PERCENTILE = 99.0
 #: Memories of friction heat that are tried, s: shorter ones are a law of the sliding speed, longer
 #: ones of the distance.
 SHORTEST_MEMORY, LONGEST_MEMORY = 0.5, 32.0
+#: Memories about the one found, in parts of it, once it is found.
+NEAR_MEMORIES = (0.6, 0.71, 0.84, 1.19, 1.41, 1.68)
 #: Natural logarithm by which hold times must differ to tell of their law.
 LEAST_LOG_RANGE = 0.3
 #: Time after a break-away in which what a rest has built up may still be felt, s.
@@ -93,9 +95,9 @@ PHASE_SD, PHASE_ROUNDS = 1.8, 6
 #: ln of how much more probable the rows must be with a finding: with some twenty that are tried,
 #: one in twenty campaigns without any would gain 6 by chance.
 LEAST_GAIN = 6.0
-#: A further finding counts from this part of what is missing at first (root mean square): below,
-#: it may be what the first one's curve and smoothed arguments leave.
-LEAST_PART = 0.04
+#: A further finding counts from this part of what is missing at first (root mean square): what is
+#: smaller may be what smoothed arguments and the nodes of the first one's curve leave.
+LEAST_PART = 0.12
 #: More findings than these are no explanation.
 MOST_FINDINGS = 3
 

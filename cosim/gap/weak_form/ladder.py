@@ -54,10 +54,12 @@ class Search:
 
     def __init__(
         self, system: System, unknowns: Mapping[str, Sequence[Unknown]],
-        waves: Sequence[periodic.Periodic], progress: Callable[[], object] | None = None,
+        waves: Sequence[periodic.Periodic],
+        near: Callable[[Unknown], Sequence[Unknown]] = lambda unknown: (),
     ):  # fmt: skip
+        """near : unknown -> the same argument with settings between those that were tried"""
         self.system, self.unknowns, self.waves = system, unknowns, waves
-        self.progress = progress or (lambda: None)
+        self.near = near
 
     def offers(self, rung: Rung, without: Sequence[str] = ()) -> dict[str, Offer]:
         """name -> the best that each argument offers on a rung."""
@@ -72,7 +74,6 @@ class Search:
             offer = periodic.offered(rung, kind)
             if offer and (kind.name not in found or offer[0] > found[kind.name][0]):
                 found[kind.name] = offer
-        self.progress()
         return found
 
     def climb(self) -> Ladder:
@@ -86,6 +87,7 @@ class Search:
             if not offers:
                 break
             name = max(offers, key=lambda each: offers[each][0])
+            offers[name] = self._finer(rung, offers[name])
             more = self._rung([*found, (name, offers[name][1])])
             if not self._is_missed(rung, more):
                 break
@@ -93,13 +95,24 @@ class Search:
         found = self._without_idle(found)
         return self._ladder(found, first)
 
+    def _finer(self, rung: Rung, offer: Offer) -> Offer:
+        """The best of an argument's settings, also between those that were tried."""
+        best = (rung.system.rung([*rung.added, *offer[1]]).evidence, offer[1])
+        for unknown in self.near(offer[1][0].unknown):
+            _, added = rung.offered([unknown])
+            value = rung.system.rung([*rung.added, added]).evidence
+            best = max(best, (value, (added,)), key=lambda pair: pair[0])
+        return offer[0], best[1]
+
     def _rung(self, found: Sequence[tuple[str, tuple[Added, ...]]]) -> Rung:
         return self.system.rung([added for _, group in found for added in group])
 
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
-        """Whether rows miss a finding, and by more than a small part of all that is missing."""
+        """Whether rows miss a finding; beside others, by more than a small part of all misfit."""
+        if rung.evidence - without.evidence <= LEAST_GAIN:
+            return False
         part = without.misfit - rung.misfit > LEAST_PART**2 * self.system.rung().misfit
-        return part and rung.evidence - without.evidence > LEAST_GAIN
+        return part or not without.added
 
     def _exchanged(
         self, found: list[tuple[str, tuple[Added, ...]]]

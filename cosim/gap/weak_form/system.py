@@ -72,11 +72,12 @@ class System:
     rung_zero, contact, scatter : unknowns of every rig
     """
 
-    def __init__(self, campaign: Campaign, runs: Sequence[RunRows]):
+    def __init__(self, campaign: Campaign, runs: Sequence[RunRows], every: bool = False):
+        """every : runs that are held out count among the fitted ones"""
         self.campaign = campaign
         self.runs = [run for run in runs if len(run)]
-        self.fitted = [run for run in self.runs if not run.track.run.hold_out]
-        self.held_out = [run for run in self.runs if run.track.run.hold_out]
+        self.fitted = [run for run in self.runs if every or not run.track.run.hold_out]
+        self.held_out = [run for run in self.runs if run.track.run.hold_out and not every]
         self.level = Level.of(self.runs)
         self.rung_zero = [
             *rung_zero(campaign, self.runs), reading(self.level), set_points(campaign),
