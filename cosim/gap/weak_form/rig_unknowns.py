@@ -54,8 +54,7 @@ def rung_zero(campaign: Campaign, runs: list[RunRows]) -> list[Unknown]:
     """Coefficients, springs of each set-up, zero of each run."""
     setups = sorted({(run.track.run.mass, run.track.run.stiffness) for run in runs})
     return [
-        Unknown(MU_K, "", lambda run: Response(force=column(run.weight * run.track.direction)),
-                np.eye(1)),
+        Unknown(MU_K, "", lambda run: Response(force=_kinetic(campaign, run)), np.eye(1)),
         Unknown(MU_S, "", lambda run: Response(static=_static(run, run.weight)), np.eye(1)),
         *(
             Unknown(SPRINGS, f"{mass:g} kg, {stiffness:g} N/m", _springs(mass, stiffness),
@@ -123,6 +122,13 @@ def set_points(campaign: Campaign) -> Unknown:
         return Response(speed=np.full((run.track.time.size, 1), run.track.run.surface_speed))
 
     return Unknown(SPEED, "", faster, campaign.errors.surface_speed**2 * np.eye(1), per_run=True)
+
+
+def _kinetic(campaign: Campaign, run: RunRows) -> np.ndarray:
+    """(n, 1) kinetic friction at a coefficient of 1, N; over the speed as a stated table has it."""
+    table, speed = campaign.friction_table, np.abs(run.track.sliding)
+    part = 1.0 if table is None else table.at(speed) / table.level
+    return column(run.weight * run.track.direction * part)
 
 
 def _static(run: RunRows, force: float) -> np.ndarray:
