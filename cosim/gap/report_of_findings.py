@@ -180,7 +180,7 @@ def ranking_of(
         evidence = {first.finding.name: first.finding.gain}
         evidence |= {name: first.finding.gain + more for name, more in first.finding.others.items()}
     else:
-        rung = ladder.rung.evidence
+        rung = ladder.system.rung().evidence  # of the rows that the offers are of
         evidence = {name: offer[0] - rung for name, offer in ladder.first_offers.items()}
     total = logsumexp(list(evidence.values()) or [0.0])
     named = {part.finding.name: part for part in parts}
