@@ -146,7 +146,7 @@ PHASES_TRIED = 12
 # Corners, and faults of the camera.
 #: Reach of a test function from a corner into its slip, and of the line in its stick, and the least
 #: of either, in 1 / omega: the longer, the less noise; the shorter, the less is asked of springs.
-CORNER_REACH, CORNER_LINE, CORNER_SHORTEST = 2.0, 3.0, 0.8
+CORNER_REACH, CORNER_LINE, CORNER_SHORTEST = 2.4, 3.0, 0.8
 #: Square of the time for which a contact rounds a corner as a filter would, s^2: bristles of 50 um
 #: under mu = 0.2 do as one of sqrt(2 z / (mu g)) = 7 ms.
 CORNER_CONTACT = 7e-3**2

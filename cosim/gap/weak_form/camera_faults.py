@@ -1,0 +1,353 @@
+"""Faults of the camera as unknowns, asked beside the effects.
+
+What each does to the rows, for a belt of speed V under a block on linear springs, omega^2 = K / m,
+m x'' + K x = F in slip, x' = V in stick; x~ is what is written:
+
+* **scale**, x~ = (1 + a) x: F and V are larger by a. F is fitted, so the slopes of the sticks tell,
+  and break-aways a little, whose overshoot V / omega is taken off unscaled. Exactly a surface that
+  is faster by a in every run. Not a wrong spring, which has another period.
+* **clock**, t~ = (1 + b) t: m x'' counts more by 2 b and V is less by b. Exactly springs softer by
+  2 b *on a surface slower by b*; without sticks springs alone, without slips a scale of -b.
+* **drift**, x~ = x + d(t): friction, static and kinetic, that changes by K d / (m g), by the same
+  amount. Runs of other m / K tell, and the slopes of sticks (V + d').
+* **latency**, x~(t) = x(t + c x / 0.1 m) = x + c x x' / 0.1 m: sticks of the slope V (1 + c V / 0.1
+  m) and strokes that lean over. With one speed nearly a scale. A delay of all samples alike is not
+  seen by any data of one clock.
+* **smoothing**, x~ = x convolved with a kernel of the standard deviation w: inside slips and sticks
+  that commutes with the equation of motion and is not seen. A corner, where x'' jumps by J, is
+  rounded: a gap of w^2 J / 2 opens between line and curve (see `corners`), and about it stays
+
+      Gaussian       J w^2 [(u^2 + 1) / 2 (P(u) - H(u)) + u p(u) / 2],   u = t / w, p = P' normal
+      of the past   -J w^2 exp(-u - 1) after it,
+
+  on the side of the slip; H is the step. A filter of the past is a delay as well, which is not
+  seen. A contact that lets go and grips as bristles do leaves gaps alike, up to w of some 10 ms.
+* **zero**: places of a run, or of all, off by more than the campaign states.
+
+A fault often sits in some runs only. Which these may be is read off the fault's size in each run by
+itself: the runs are ordered by it, and the first of the order are asked together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.signal import savgol_filter
+from scipy.special import ndtr
+
+from cosim.gap.weak_form.constants import (
+    FAULT_DRIFT,
+    FAULT_LATENCY,
+    FAULT_ORDERED_AT,
+    FAULT_PART,
+    FAULT_ZERO,
+    FILTER_WIDTHS,
+)
+from cosim.gap.weak_form.corners import CornerResponse, CornerRows
+from cosim.gap.weak_form.rig_unknowns import Level
+from cosim.gap.weak_form.rows import Response, RunRows
+from cosim.gap.weak_form.system import Added, Rung
+from cosim.gap.weak_form.unknowns import Unknown, column
+
+#: Place along x over which a rolling shutter's delay is stated, m.
+ACROSS = 0.1
+#: Courses of a zero that creeps, from 0 at the beginning of a run (u = 0) to 1 at its end (u = 1).
+COURSES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "linear": lambda u: u,
+    "settling": lambda u: -np.expm1(-5.0 * u),
+    "root": np.sqrt,
+    "logarithmic": lambda u: np.log1p(20.0 * u) / np.log(21.0),
+}
+#: Fault -> what no data of this kind can tell it from.
+ALIKE = {
+    "measurement.scale": (
+        "a surface that is faster by as much in every run",
+        "where nothing sticks: friction that is larger by as much",
+    ),
+    "measurement.clock": (
+        "springs softer by twice as much on a surface that is slower by as much",
+        "where nothing sticks: springs softer by twice as much, or a block heavier by that",
+    ),
+    "measurement.drift": ("in runs of one mass and stiffness: friction that drifts in time",),
+    "measurement.latency": ("in runs of one speed, nearly: a scale",),
+    "measurement.smoothing": (
+        "up to 10 ms: a contact that lets go and grips over some 50 um, as bristles do",
+    ),
+    "measurement.zero": (
+        "friction that scatters from run to run, nearly",
+        "in runs of one stiffness: a force that is the same in all, and springs off the middle",
+    ),
+}
+
+Respond = Callable[[RunRows], Response]
+
+
+@dataclass(frozen=True)
+class InRuns(Unknown):
+    """An unknown of one size in some runs, and none in the others.
+
+    among : the names of these runs; None: all. each : one size for each run instead.
+    made : run -> its rows, which variants share
+    """
+
+    among: frozenset[str] | None = None
+    made: dict[str, np.ndarray] = field(default_factory=dict, repr=False, compare=False)
+
+    def columns(self, runs: Sequence[RunRows]) -> np.ndarray:
+        """(rows of all runs, unknowns)"""
+        parts = [self._rows(run) for run in runs]
+        if not self.per_run:
+            return np.concatenate(parts)
+        columns = np.zeros((sum(map(len, runs)), len(runs)))
+        ends = np.cumsum([0, *map(len, runs)])
+        for number, part in enumerate(parts):
+            columns[ends[number] : ends[number + 1], number] = part[:, 0]
+        return columns
+
+    def _rows(self, run: RunRows) -> np.ndarray:
+        """(rows, 1)"""
+        name = run.track.run.name
+        if self.among is not None and name not in self.among:
+            return np.zeros((len(run), 1))
+        if name not in self.made:
+            self.made[name] = run.respond(self.respond(run), 1)
+        return self.made[name]
+
+
+def alike(name: str) -> tuple[str, ...]:
+    """What a fault is confounded with, in words."""
+    return ALIKE.get(name, ())
+
+
+def camera_faults(rung: Rung) -> dict[str, list[Unknown]]:
+    """fault -> its variants: in all runs, and in those which a rung's rows ask for."""
+    level = rung.system.level
+    made = {
+        "measurement.scale": _of_one_form(rung, "measurement.scale", scale(level), FAULT_PART),
+        "measurement.clock": _of_one_form(rung, "measurement.clock", clock(level), FAULT_PART),
+        "measurement.drift": _drifts(rung),
+        "measurement.latency": _of_one_form(rung, "measurement.latency", latency, FAULT_LATENCY),
+        "measurement.smoothing": _filters(rung),
+        "measurement.zero": _zeros(rung),
+    }
+    return {name: found for name, variants in made.items() if (found := list(variants))}
+
+
+def scale(level: Level) -> Respond:
+    """x~ = (1 + a) x, by a."""
+
+    def respond(run: RunRows) -> Response:
+        track = run.track
+        held = column([event.force for event in run.events])
+        return Response(
+            force=column(level.kinetic * run.weight * track.direction),
+            speed=np.full((track.time.size, 1), track.run.surface_speed),
+            static=held + run.track.run.total_stiffness * _overshoot(run),
+        )
+
+    return respond
+
+
+def clock(level: Level) -> Respond:
+    """t~ = (1 + b) t, by b: m x'' = F - K x counts 2 b more."""
+
+    def respond(run: RunRows) -> Response:
+        track = run.track
+        inertia = level.kinetic * run.weight * track.direction - run.restoring
+        return Response(
+            force=column(-2.0 * inertia),
+            speed=np.full((track.time.size, 1), -track.run.surface_speed),
+        )
+
+    return respond
+
+
+def drift(course: str) -> Respond:
+    """x~ = x + d, by d at the end of a run, m."""
+
+    def respond(run: RunRows) -> Response:
+        time = run.track.time
+        return Response(place=column(COURSES[course]((time - time[0]) / (time[-1] - time[0]))))
+
+    return respond
+
+
+def latency(run: RunRows) -> Response:
+    """x~(t) = x(t + c x / 0.1 m), by c, s."""
+    track = run.track
+    velocity = np.where(track.slips_mask, track.velocity, track.run.surface_speed)
+    later = track.place * velocity / ACROSS
+    static = -track.run.total_stiffness * _at_events(run, later)
+    return Response(place=column(later), static=static)
+
+
+def zero(run: RunRows) -> Response:
+    """x~ = x + z, by z, m."""
+    return Response(place=np.ones((run.track.time.size, 1)))
+
+
+def smoothing(width: float, past: bool) -> Respond:
+    """A filter of a standard deviation, s, by how much of w^2 there is."""
+
+    def respond(run: RunRows) -> Response:
+        if not isinstance(run, CornerRows):
+            return Response(place=_undone(run, width)) if past else Response()
+        own = run.track.run
+        rounded = np.zeros(run.track.time.size)
+        for corner in run.touched:
+            at = (run.track.time - corner.time) / width
+            forward = at if corner.breaks or past else -at
+            size = corner.acceleration * width**2 * (1.0 if corner.breaks or not past else -1.0)
+            rounded += size * (_past(forward) if past else _gaussian(forward))
+        rounded += width * _at_the_ends(run, width, past)
+        lower = -0.5 * (own.natural_frequency * width) ** 2 * _turning(run)
+        return CornerResponse(
+            place=column(rounded),
+            static=own.total_stiffness * (lower - _at_events(run, rounded)),
+            gap=column([0.5 * width**2 * corner.acceleration for corner in run.corners]),
+        )
+
+    return respond
+
+
+def _at_the_ends(run: RunRows, width: float, past: bool) -> np.ndarray:
+    """(n,) m/s: what a filter leaves where a record begins and ends, as it holds the sample there.
+
+    Of a velocity v there: v exp(-u) after the beginning, or v (p(u) - u P(-u)) at either end.
+    """
+    time, surface = run.track.time, run.track.run.surface_speed
+    velocity = np.where(run.track.slips_mask, run.track.velocity, surface)
+    begun, left = (time - time[0]) / width, (time[-1] - time) / width
+    if past:
+        return np.asarray(velocity[0] * np.exp(-begun))
+    ends = [np.exp(-0.5 * u**2) / np.sqrt(2.0 * np.pi) - u * ndtr(-u) for u in (begun, left)]
+    return np.asarray(velocity[0] * ends[0] - velocity[-1] * ends[1])
+
+
+def _undone(run: RunRows, width: float) -> np.ndarray:
+    """(n, 1) m: what an exponential filter takes off, -w x~' exactly, where no corner is found.
+
+    So in fast runs: where a stick is shorter than the filter no slip reaches the surface's speed.
+    """
+    track = run.track
+    window = 2 * max(2, round(0.5 * width / track.interval)) + 1
+    return -width * column(savgol_filter(track.x, window, 3, 1, track.interval))
+
+
+def _gaussian(u: np.ndarray) -> np.ndarray:
+    """What is left of a rounded corner, in J w^2: the slip is at u > 0, its own share taken off."""
+    near = np.abs(u) < 6.0
+    v = np.where(near, u, 0.0)
+    density = np.exp(-0.5 * v**2) / np.sqrt(2.0 * np.pi)
+    left = 0.5 * (v**2 + 1.0) * (ndtr(v) - (v > 0.0)) + 0.5 * v * density
+    return np.where(near, left, 0.0)
+
+
+def _past(u: np.ndarray) -> np.ndarray:
+    """The same of an exponential filter: u = 0 is where curve and line seem to touch, w late."""
+    return np.where(u > 0.0, -np.exp(-np.maximum(u, 0.0) - 1.0), 0.0)
+
+
+def _at_events(run: RunRows, place: np.ndarray) -> np.ndarray:
+    """(events, 1) m: a place (n,) where the block lets go, ahead along the surface's motion.
+
+    Break-aways are read off where the block turns: what is off at their instant alone is not seen.
+    """
+    return column(np.sign(run.track.run.surface_speed) * place[[e.at for e in run.events]])
+
+
+def _turning(run: RunRows) -> np.ndarray:
+    """(events, 1) m: what x_b = x_k + sqrt(A^2 - (V / omega)^2) is off by for A off by a part."""
+    ahead, over = _ahead(run)
+    return column((ahead**2 + over**2) / ahead) if run.events else np.zeros((0, 1))
+
+
+def _overshoot(run: RunRows) -> np.ndarray:
+    """(events, 1) m: the same for all scaled by a part, but V / omega."""
+    ahead, over = _ahead(run)
+    return column(over**2 / ahead) if run.events else np.zeros((0, 1))
+
+
+def _ahead(run: RunRows) -> tuple[np.ndarray, float]:
+    """(events,) x_b - x_k, m, and the overshoot V / omega, m."""
+    own, track = run.track.run, run.track
+    slips = track.slips_mask
+    balance = track.place[slips] + track.acceleration[slips] / own.natural_frequency**2
+    middle = float(np.sign(own.surface_speed) * np.median(balance)) if slips.any() else 0.0
+    over = abs(own.surface_speed) / own.natural_frequency
+    ahead = np.array([event.force / own.total_stiffness - middle for event in run.events])
+    return np.maximum(ahead, 0.3 * over + 1e-9), over
+
+
+def _of_one_form(rung: Rung, name: str, respond: Respond, sd: float) -> Iterator[Unknown]:
+    yield from _among(rung, InRuns(name, "", respond, sd**2 * np.eye(1)))
+
+
+def _drifts(rung: Rung) -> Iterator[Unknown]:
+    """Every course in all runs; the root, which is between the others, in some."""
+    for course in COURSES:
+        whole = InRuns("measurement.drift", course, drift(course), FAULT_DRIFT**2 * np.eye(1))
+        yield from _among(rung, whole, in_some=course == "root")
+
+
+def _filters(rung: Rung) -> Iterator[Unknown]:
+    """Every width in all runs; that which the rows prefer in some; none that would sharpen."""
+    if not any(isinstance(run, CornerRows) for run in rung.system.fitted):
+        return
+    for past, words in ((False, "Gaussian"), (True, "of the past")):
+        forms = [
+            InRuns(
+                "measurement.smoothing", f"{words}, {1e3 * width:.0f} ms", smoothing(width, past),
+                np.eye(1), settings={"width": width, "past": float(past)},
+            )
+            for width in FILTER_WIDTHS
+        ]  # fmt: skip
+        best = max(forms, key=lambda form: rung.offered([_each(form)])[0])
+        variants = [*(whole for form in forms for whole in _among(rung, form, in_some=False)),
+                    *_among(rung, best, in_all=False)]  # fmt: skip
+        yield from (variant for variant in variants if _sizes(rung, variant)[0][0] > 0.0)
+
+
+def _zeros(rung: Rung) -> Iterator[Unknown]:
+    """Each run its own; and of all runs alike, where another stiffness tells it from a force."""
+    prior = FAULT_ZERO**2 * np.eye(1)
+    yield Unknown("measurement.zero", "each run", zero, prior, per_run=True)
+    if len({run.track.run.stiffness for run in rung.system.fitted}) > 1:
+        yield Unknown("measurement.zero", "all runs", zero, prior)
+
+
+def _each(unknown: InRuns) -> InRuns:
+    """Of another size in every run."""
+    return replace(unknown, per_run=True, among=None)
+
+
+def _among(
+    rung: Rung, unknown: InRuns, in_all: bool = True, in_some: bool = True
+) -> Iterator[Unknown]:
+    """In all runs, and in the first of these as the sizes of each by itself order them."""
+    words = [unknown.variant] if unknown.variant else []
+    if in_all:
+        yield replace(unknown, variant=", ".join([*words, "all runs"]))
+    for names in _subsets(rung, unknown) if in_some else ():
+        among = "in " + ", ".join(sorted(names))
+        yield replace(unknown, variant=", ".join([*words, among]), among=names)
+
+
+def _subsets(rung: Rung, unknown: InRuns) -> list[frozenset[str]]:
+    """Runs where the fault is largest, and where it is the most negative: one, two, ... of them."""
+    names = [run.track.run.name for run in rung.system.fitted]
+    mean, sd = _sizes(rung, _each(unknown))
+    order = [names[number] for number in np.argsort(-mean / sd)]
+    firsts = [frozenset(each[:n]) for each in (order, order[::-1]) for n in range(1, len(order))]
+    return list(dict.fromkeys(firsts))
+
+
+def _sizes(rung: Rung, unknown: Unknown) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and standard deviation of an unknown's numbers on a rung."""
+    added = Added(unknown, FAULT_ORDERED_AT)
+    with_it = rung.system.rung([*rung.added, added], *rung.kinds)
+    mean, covariance = with_it.posterior
+    part = with_it.part_of(added)
+    return mean[part], np.sqrt(np.diag(covariance)[part])

@@ -1,0 +1,206 @@
+"""Faults of the camera: each is put on a simulated track exactly, named, and its size recovered."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from gap_campaigns import RIG, motion, noisy, write_campaign
+
+from cosim.gap.data import read_campaign
+from cosim.gap.weak_form.camera_faults import COURSES, alike, camera_faults, smoothing
+from cosim.gap.weak_form.corners import CORNER, CornerRows, corner_contact, with_corners
+from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.system import Added, System
+from cosim.gap.weak_form.track import smooth
+
+NOISE, FINE, EVERY, DURATION = 5e-5, 1e-3, 10, 10.0
+#: Speed and mass; the last is held out.
+RUNS = ((0.03, 0.87), (0.06, 0.87), (0.1, 0.87), (0.05, 1.6), (0.08, 0.87))
+#: How well surface and springs are known, so that a size that is recovered is the fault's.
+KNOWN_WELL = {"errors": {"surface_speed": 1e-3, "stiffness": 1e-3}}
+FAULTS = ("scale", "clock", "drift", "latency", "smoothing", "zero")
+ALL = range(len(RUNS))
+#: nats
+FOUND = 6.0
+
+
+@cache
+def path(speed, mass):
+    """(times, places) every millisecond"""
+    moved = motion(speed=speed, mass=mass, duration=DURATION, interval=FINE)
+    return moved.time, np.asarray(moved["x"])
+
+
+def convolved(x, delays, weights):
+    """x at its own times, of a filter with weights at delays that are multiples of FINE."""
+    margin = int(np.max(np.abs(delays)) / FINE) + 1
+    kernel = np.zeros(2 * margin + 1)
+    np.add.at(kernel, margin + np.round(delays / FINE).astype(int), weights / weights.sum())
+    return np.convolve(np.pad(x, margin, mode="edge"), kernel, mode="valid")
+
+
+def written(fault, size, t, x):
+    """Times and places as a camera with a fault writes them."""
+    u = np.arange(-400, 401) * FINE
+    if fault == "scale":
+        x = (1.0 + size) * x
+    elif fault == "clock":
+        t = (1.0 + size) * t
+    elif fault == "drift":
+        x = x + size * np.sqrt(t / t[-1])
+    elif fault == "latency":
+        x = np.interp(t + size * x / 0.1, t, x)
+    elif fault == "smoothing":
+        x = convolved(x, u, np.exp(-0.5 * (u / size) ** 2))
+    elif fault == "smoothing of the past":
+        x = convolved(x, u, np.where(u < 0.0, 0.0, np.exp(-u / size)))
+    elif fault == "zero":
+        x = x + size
+    return t, x
+
+
+def system(folder, fault="", size=0.0, among=ALL, runs=RUNS, **tables):
+    """Rows of a campaign in which a fault is in some runs."""
+    entries = []
+    for number, (speed, mass) in enumerate(runs):
+        t, x = path(speed, mass)
+        if number in among:
+            t, x = written(fault, size, t, x)
+        columns = {"t": t[::EVERY], "x": noisy(x[::EVERY], number, NOISE)}
+        entries.append(
+            {"surface_speed": speed, "mass": mass, "columns": columns, "hold_out": number == 4}
+        )
+    rig = {**RIG, "degrees_of_freedom": ["x"]}
+    campaign = read_campaign(write_campaign(folder, entries, noise={"x": NOISE}, rig=rig, **tables))
+    made = System(
+        campaign, [with_corners(rows_of(smooth(run), campaign.rig)) for run in campaign.runs]
+    )
+    made.contact = [*made.contact, *corner_contact()]
+    return made
+
+
+def offers(rung):
+    """fault -> (nats that it gains, the best of its variants)"""
+    found = {}
+    for name, variants in camera_faults(rung).items():
+        evidence, added = rung.offered(variants)
+        found[name.removeprefix("measurement.")] = (evidence - rung.evidence, added)
+    return found
+
+
+def size_of(made, unknown):
+    """(value, standard deviation) of an unknown's first number"""
+    added = Added(unknown)
+    rung = made.rung([added])
+    mean, covariance = rung.posterior
+    at = rung.part_of(added).start
+    return mean[at], np.sqrt(covariance[at, at])
+
+
+@pytest.mark.parametrize(
+    ("fault", "size", "within"),
+    [
+        ("scale", 0.03, 0.05),
+        ("scale", -0.03, 0.05),
+        ("clock", 0.03, 0.08),
+        ("clock", -0.03, 0.08),
+        ("drift", 2e-3, 0.03),
+        ("latency", 0.01, 0.1),
+        ("latency", -0.01, 0.1),
+    ],
+)
+def test_sign_and_size_are_recovered(tmp_path, fault, size, within):
+    made = system(tmp_path, fault, size, **KNOWN_WELL)
+    variants = camera_faults(made.rung())[f"measurement.{fault}"]
+    whole = next(v for v in variants if v.variant in ("all runs", "root, all runs"))
+    value, sd = size_of(made, whole)
+    assert abs(value - size) < within * abs(size) + 3.0 * sd
+
+
+@pytest.mark.parametrize("past", [False, True])
+def test_a_filters_width_is_recovered(tmp_path, past):
+    """The unknown of a filter of that width is 1."""
+    fault = "smoothing of the past" if past else "smoothing"
+    made = system(tmp_path, fault, 0.02, **KNOWN_WELL)
+    _, added = made.rung().offered(camera_faults(made.rung())["measurement.smoothing"])
+    part, _ = size_of(made, added.unknown)
+    width = added.unknown.settings["width"] * np.sqrt(part)
+    assert width == pytest.approx(0.02, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("fault", "size"),
+    [
+        ("clock", 0.03), ("drift", 2e-3), ("latency", 0.01),
+        ("smoothing", 0.02), ("smoothing of the past", 0.02),
+    ],
+)  # fmt: skip
+def test_a_fault_in_all_runs_is_named(tmp_path, fault, size):
+    found = offers(system(tmp_path, fault, size).rung())
+    best = max(found, key=lambda name: found[name][0])
+    assert best == fault.split()[0]
+    assert found[best][0] > FOUND
+
+
+def test_a_scale_is_named_where_no_contact_creeps(tmp_path):
+    """Creep by 1 % of the surface's speed makes sticks as much less steep in all runs."""
+    made = system(tmp_path, "scale", 0.03, errors={"surface_speed": 0.005})
+    made.contact = [each for each in made.contact if each.variant != "creep"]
+    found = offers(made.rung())
+    assert found["scale"][0] == max(gain for gain, _ in found.values()) > FOUND
+
+
+@pytest.mark.parametrize(("fault", "size"), [("clock", 0.03), ("drift", 2e-3), ("latency", 0.02)])
+def test_the_runs_with_the_fault_are_told(tmp_path, fault, size):
+    found = offers(system(tmp_path, fault, size, among=(0, 3)).rung())
+    gain, added = found[fault]
+    assert gain == max(each for each, _ in found.values())
+    assert added.unknown.among == {"run01", "run04"}
+
+
+def test_zeros_beyond_what_is_stated(tmp_path):
+    found = offers(system(tmp_path, "zero", 4e-3, among=(1,)).rung())
+    assert found["zero"][0] == max(gain for gain, _ in found.values()) > FOUND
+
+
+def test_nothing_is_found_without_a_fault(tmp_path):
+    assert all(gain < FOUND for gain, _ in offers(system(tmp_path).rung()).values())
+
+
+@pytest.mark.parametrize("breaks", [True, False])
+def test_rows_of_corners_are_of_unit_noise_and_of_no_gap(tmp_path, breaks):
+    rung = system(tmp_path).rung(contact=False)
+    runs = rung.system.fitted
+    kinds = np.concatenate([run.kinds for run in runs])
+    sides = np.concatenate([[c.breaks for c in run.corners] for run in runs])
+    rows = rung.residuals[kinds == CORNER][sides == breaks]
+    assert rows.size > 40
+    assert abs(rows.mean()) < 3.5 / np.sqrt(rows.size)
+    assert np.std(rows) == pytest.approx(1.0, abs=0.2)
+
+
+def test_what_is_rounded_is_what_a_filter_leaves(tmp_path):
+    """In a stick, the response's place is the filtered path less the straight one."""
+    width = 0.03
+    made = system(tmp_path, "smoothing", width)
+    for number, run in enumerate(made.fitted):
+        assert isinstance(run, CornerRows)
+        response = smoothing(width, past=False)(run)
+        t, x = path(*RUNS[number])
+        exact = (written("smoothing", width, t, x)[1] - x)[::EVERY]
+        for first, last in run.track.sticks:
+            if first > 0 and last < exact.size:
+                left = response.place[first:last, 0] - exact[first:last]
+                assert np.max(np.abs(left)) < 0.3 * np.max(np.abs(exact))
+
+
+def test_what_is_alike_is_said():
+    for name in FAULTS:
+        assert alike(f"measurement.{name}")
+    assert alike("film_drag") == ()
+
+
+@pytest.mark.parametrize("course", COURSES)
+def test_courses_begin_at_0_and_end_at_1(course):
+    ends = COURSES[course](np.array([0.0, 1.0]))
+    assert ends == pytest.approx([0.0, 1.0], abs=0.01)
