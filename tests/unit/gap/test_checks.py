@@ -1,0 +1,329 @@
+"""Data are checked before fitting: what is as stated is not doubted, and limits are where they are.
+
+Limits are tried from both sides, so closely that a third more or less of one is noticed.
+"""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from gap_campaigns import KNOWN, NOISE, RIG, motion
+from scipy.ndimage import gaussian_filter1d
+from scipy.optimize import brentq
+
+from cosim.gap import Campaign, MeasuredRun, Track, read_campaign
+from cosim.gap.checks import LEVEL, constants, doubts_of
+from cosim.gap.checks.constants import BARTLETT, WHITE, far
+from cosim.gap.checks.motion import doubts_of_direction, stick_speed, stiffness_ratio
+from cosim.gap.checks.tracker import doubts_of_noise, doubts_of_sampling, felt, lattice
+from cosim.gap.checks.units import cycle_of, doubts_of_units, swing_of
+from cosim.gap.data.campaign_file import Rig
+
+SPEEDS = (0.03, 0.06, 0.3)
+#: Stated errors of the speed, beside what a sheared contact makes; of springs, beside friction.
+OF_SPEED, OF_SPRINGS = math.hypot(0.01, 0.02), math.hypot(0.01, 0.02)
+
+
+def run_of(speed, number=1, noise=NOISE, filtered=None, **more):
+    """A run as the tracker has it. filtered : what it makes of places and noise."""
+    done = motion(speed=speed, **more)
+    draw = np.random.default_rng(number)
+    x = done["x"] + noise * draw.standard_normal(done.time.size)
+    return MeasuredRun(
+        f"run{number:02d}", None, KNOWN["mass"], KNOWN["stiffness"], speed, -8.0, False,
+        Track(done.time, x if filtered is None else filtered(x)), None, {"x": noise},
+    )  # fmt: skip
+
+
+def campaign_of(runs):
+    return Campaign(
+        "made", Path(), Rig(spring_natural_length=0.17), "exact", {"x": NOISE}, (), tuple(runs)
+    )
+
+
+def with_track(run, **channels):
+    return replace(run, track=replace(run.track, **channels))
+
+
+@pytest.fixture(scope="module")
+def sound():
+    assert RIG == {"spring_natural_length": 0.17}
+    return campaign_of([run_of(speed, number) for number, speed in enumerate(SPEEDS, 1)])
+
+
+def changed(campaign, change, *numbers):
+    """Some runs, or all, changed."""
+    places = [number - 1 for number in numbers] or range(len(campaign.runs))
+    runs = [change(run) if i in places else run for i, run in enumerate(campaign.runs)]
+    return replace(campaign, runs=tuple(runs))
+
+
+def thinned(run, hertz):
+    rows = slice(None, None, round(1.0 / hertz / run.track.interval))
+    return with_track(run, time=run.track.time[rows], x=run.track.x[rows])
+
+
+def smoothed(run, width):
+    return with_track(run, x=gaussian_filter1d(run.track.x, width / run.track.interval))
+
+
+def test_what_is_as_stated_is_not_doubted(sound):
+    assert doubts_of(sound) == ()
+    back = changed(
+        sound,
+        lambda run: replace(with_track(run, x=-run.track.x), surface_speed=-run.surface_speed),
+    )
+    assert doubts_of(back) == ()
+
+
+#: What is done to runs, which ones, and the check, words and severity of what must be said.
+WRONG = {
+    "stiffness": (lambda r: replace(r, stiffness=2.0 * r.stiffness), (), "springs", "Hz", True),
+    "mass": (lambda r: replace(r, mass=1.15 * r.mass), (), "springs", "0.87 kg", False),
+    "speed": (
+        lambda r: replace(r, surface_speed=1.25 * r.surface_speed), (2,), "speed",
+        "run02: surface_speed = 0.075 m/s, but x moves at 0.0", True,
+    ),
+    "sign": (lambda r: with_track(r, x=-r.track.x), (), "direction", "sign of x", True),
+    "x in mm": (lambda r: with_track(r, x=1e3 * r.track.x), (1,), "units", "mm?", True),
+    "t in ms": (lambda r: with_track(r, time=1e3 * r.track.time), (), "units", "ms?", True),
+    "t / 1000": (lambda r: with_track(r, time=1e-3 * r.track.time), (), "units", "1000?", True),
+    "mm/s": (
+        lambda r: replace(r, surface_speed=1e3 * r.surface_speed), (2,), "units",
+        "run02: surface_speed = 60 m/s, but x moves at 0.", True,
+    ),
+    "g": (lambda r: replace(r, mass=1e3 * r.mass), (), "units", "mass in g", True),
+    "8 Hz": (lambda r: thinned(r, 8.0), (), "sampling", "too few samples", True),
+    "25 ms": (lambda r: smoothed(r, 0.025), (), "smoothed", "not white", True),
+    "noise": (lambda r: replace(r, noise={"x": 2.0 * NOISE}), (), "noise", "0.4 mm", False),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_is_not_as_stated_is_doubted(case, sound):
+    change, numbers, check, words, severe = WRONG[case]
+    doubts = doubts_of(changed(sound, change, *numbers))
+    mine = [doubt for doubt in doubts if doubt.check == check]
+    assert mine and any(doubt.severe for doubt in mine) == severe, doubts
+    assert words in mine[0].text and "\n" not in mine[0].text
+    assert not numbers or {name for doubt in mine for name in doubt.runs} == {
+        f"run{number:02d}" for number in numbers
+    }
+
+
+def said(doubts, check):
+    return any(doubt.check == check for doubt in doubts)
+
+
+@pytest.mark.parametrize(
+    ("log", "doubted"),
+    [(0.9, False), (1.2, True), (-0.9, False), (-1.15, True)],
+)
+def test_the_speed_in_sticks_is_that_of_the_surface(log, doubted, sound):
+    """In parts of the limit; to the lower side a contact may creep."""
+    limit = far(3) * OF_SPEED - (math.log1p(-constants.CREEPS) if log < 0.0 else 0.0)
+    off = math.exp(-log * limit)
+    doubts = doubts_of(changed(sound, lambda r: replace(r, surface_speed=off * 0.06), 2))
+    assert said(doubts, "speed") == doubted
+
+
+@pytest.mark.parametrize(("ratio", "severe"), [(1.12, False), (1.18, True)])
+def test_another_set_point_is_severe(ratio, severe, sound):
+    doubts = doubts_of(changed(sound, lambda r: replace(r, surface_speed=0.06 / ratio), 2))
+    assert [doubt.severe for doubt in doubts if doubt.check == "speed"] == [severe]
+
+
+def test_a_scale_of_all_runs_is_one_doubt():
+    runs = [run_of(speed, number) for number, speed in enumerate((0.02, 0.04, 0.06), 1)]
+    scaled = changed(campaign_of(runs), lambda run: with_track(run, x=1.08 * run.track.x))
+    (doubt,) = [doubt for doubt in doubts_of(scaled) if doubt.check == "speed"]
+    assert doubt.text.startswith("all runs") and "1.08 times" in doubt.text and not doubt.severe
+
+
+@pytest.mark.parametrize("stated", [0.5, 0.8, 1.0, 1.25, 3.0])
+def test_the_surface_s_speed_is_read_off_sticks_whatever_is_stated(stated, sound):
+    for run in sound.runs[:2]:
+        found, error = stick_speed(replace(run, surface_speed=stated * run.surface_speed))
+        assert abs(found - run.surface_speed) < 5.0 * error + 0.01 * run.surface_speed
+    assert stick_speed(sound.runs[2]) is None  # it never sticks
+
+
+def test_crests_of_a_vibration_are_no_sticks():
+    for speed in (0.2, 0.4):
+        for seed in range(5):
+            run = run_of(speed, seed, initial={"x": 0.03}, duration=10.0)
+            assert stick_speed(replace(run, surface_speed=2.0 * speed)) is None
+
+
+@pytest.mark.parametrize("log", [-1.2, -0.8, 0.8, 1.2])
+def test_slips_swing_as_stated(log, sound):
+    """In parts of the limit."""
+    off = math.exp(log * far(1) * OF_SPRINGS)
+    doubts = doubts_of(changed(sound, lambda run: replace(run, stiffness=off * run.stiffness)))
+    assert said(doubts, "springs") == (abs(log) > 1.0)
+
+
+@pytest.mark.parametrize(("ratio", "severe"), [(0.75, False), (0.65, True), (3.0, False)])
+def test_springs_are_read_off_slips(ratio, severe, sound):
+    """Softer ones than anything makes are severe; harder ones are an effect."""
+    stated = changed(sound, lambda run: replace(run, stiffness=run.stiffness / ratio))
+    found, error = stiffness_ratio(stated, stated.runs[1])
+    assert found == pytest.approx(ratio, rel=0.03) and abs(found - ratio) < 5.0 * error
+    assert [d.severe for d in doubts_of(stated) if d.check == "springs"] == [severe]
+
+
+@pytest.mark.parametrize("part", [0.8, 1.2])
+def test_friction_carries_the_block_along(part, sound):
+    run = sound.runs[0]
+    momentum = swing_of(run) / (run.natural_frequency * run.track.duration)
+    least = far(1) * 5e-4 + momentum
+    turned = with_track(run, x=run.track.x - run.track.x.mean() - part * least)
+    assert bool(doubts_of_direction(sound, [turned])) == (part > 1.0)
+
+
+def test_units_are_told_where_the_limits_say(sound):
+    run = sound.runs[1]
+    cycle, load = cycle_of(run), run.total_stiffness * swing_of(run) / (run.mass * 9.81)
+    for part in (0.9, 1.1):
+        period = cycle / (part * constants.SHORT_CYCLE)
+        heavy = replace(run, mass=run.total_stiffness * (period / (2.0 * math.pi)) ** 2)
+        assert bool(doubts_of_units([heavy])) == (part < 1.0)
+        large = with_track(run, x=part * constants.MOST_FRICTION / load * run.track.x)
+        assert ("mm?" in str(doubts_of_units([large]))) == (part > 1.0)
+        dense = round(constants.HALF * 2.0 * math.pi / run.natural_frequency / 0.01 * part)
+        coarse = with_track(run, time=run.track.time * dense)
+        assert ("ms?" in str(doubts_of_units([coarse]))) == (part > 1.0)
+
+
+@pytest.mark.parametrize("step", [0.3, 0.36])
+def test_slips_want_samples(step, sound):
+    """omega times the interval: a third at most."""
+    run = with_track(sound.runs[0], time=np.arange(100) * step / sound.runs[0].natural_frequency)
+    doubts = doubts_of_sampling(sound, [run])
+    assert [doubt.severe for doubt in doubts] == ([True] if step > 1.0 / 3.0 else [])
+
+
+@pytest.mark.parametrize("factor", [1.0 / 1.45, 1.0 / 1.25, 1.25, 1.45])
+def test_noise_is_as_stated(factor, sound):
+    louder = changed(sound, lambda run: replace(run, noise={"x": factor * NOISE}))
+    assert said(doubts_of_noise(louder, louder.runs), "noise") == (abs(math.log(factor)) > 0.3)
+
+
+@pytest.mark.parametrize("size", [200, 2000])
+def test_third_differences_of_white_noise_scatter_as_foretold(size):
+    """Mean and variance of their autocorrelation, of which the level is made."""
+    draws = np.random.default_rng(1).standard_normal((2000, size))
+    thirds = np.diff(draws, 3, axis=1)
+    products = np.mean(thirds[:, 1:] * thirds[:, :-1], axis=1) / np.mean(thirds**2, axis=1)
+    assert np.mean(products) == pytest.approx(WHITE, abs=0.01)
+    assert size * np.var(products) == pytest.approx(BARTLETT, rel=0.15)
+
+
+def raised(side):
+    """By how much a filter (a, 1 - 2 a, a) makes neighbours' third differences go together."""
+    taps = np.convolve([1.0, -3.0, 3.0, -1.0], [side, 1.0 - 2.0 * side, side])
+    return float(taps[1:] @ taps[:-1] / (taps @ taps)) - WHITE
+
+
+@pytest.mark.parametrize("part", [0.85, 1.15])
+def test_a_tracker_that_smooths_is_told_from_one_that_does_not(part):
+    side = brentq(lambda a: raised(a) - part * constants.SMOOTHED, 0.0, 0.2)
+    taps = [side, 1.0 - 2.0 * side, side]
+    runs = [
+        run_of(0.004, number, duration=60.0, filtered=lambda x: np.convolve(x, taps, "same"))
+        for number in (1, 2)
+    ]
+    # what a filter takes of the noise is not stated, here
+    doubts = doubts_of_noise(campaign_of(runs), runs)
+    assert said(doubts, "smoothed") == (part > 1.0)
+
+
+def test_no_false_alarm_on_white_noise():
+    """Of stick-slip motion, slow and fast, dense and coarse."""
+    for number, (speed, interval) in enumerate([(0.01, 0.01), (0.1, 0.01), (0.05, 0.002)] * 4):
+        run = run_of(speed, number, interval=interval, duration=8.0)
+        assert doubts_of_noise(campaign_of([run]), [run]) == [], (speed, interval)
+
+
+@pytest.mark.parametrize("decimals", [1e-9, 1e-6])
+@pytest.mark.parametrize("step", [2.37e-4, 1e-3, 3.9e-3])
+def test_steps_are_found(step, decimals):
+    def written(x):
+        x = step * np.round(x / step) + 1.23e-4
+        x[::300] += 30.0 * NOISE
+        return decimals * np.round(x / decimals)
+
+    run = run_of(0.1, filtered=written)
+    found, share = lattice(run.track.x)
+    assert found == pytest.approx(step, rel=2e-3) and share > 0.98
+    (doubt,) = doubts_of_noise(campaign_of([run]), [run])
+    assert doubt.check == "steps" and not doubt.severe
+
+
+@pytest.mark.parametrize("decimals", [1e-9, 1e-6, 1e-5])
+def test_decimals_of_a_file_are_no_steps(decimals):
+    for seed in range(20):
+        run = run_of(0.1, seed, filtered=lambda x: decimals * np.round(x / decimals), duration=5.0)
+        assert lattice(run.track.x)[0] < 1.01 * decimals
+        assert doubts_of_noise(campaign_of([run]), [run]) == []
+
+
+def test_a_step_is_felt_at_the_stated_level():
+    """Variances of noise alone: as often beyond the smallest step that is felt as is stated."""
+    samples, level = 400, 0.05
+    steps = np.linspace(0.1, 3.0, 2901)
+    least = next(step for step in steps if felt(step, 1.0, samples) < level)
+    noise = np.random.default_rng(1).standard_normal((4000, samples))
+    beyond = np.mean(np.mean(noise**2, axis=1) > 1.0 + least**2 / 12.0)
+    assert beyond == pytest.approx(level, abs=0.0125)  # 3.6 standard errors
+
+
+def test_the_stated_level_is_that_of_all_runs():
+    worst = np.abs(np.random.default_rng(1).standard_normal((200_000, 6))).max(axis=1)
+    share = np.mean(worst > far(6))
+    assert share == pytest.approx(1e-3, abs=3.0 * np.sqrt(1e-3 / worst.size)) and LEVEL == 1e-3
+
+
+@pytest.mark.parametrize(("cycles", "doubted", "severe"), [(2, 1, 1), (5, 1, 0), (7, 0, 0)])
+def test_seconds_that_are_too_few_are_said(cycles, doubted, severe):
+    """A window of three cycles in each run, and two more."""
+    runs = [run_of(0.1, number, interval=0.005, duration=0.5 * cycles) for number in (1, 2)]
+    assert cycle_of(run_of(0.1)) == pytest.approx(0.49, abs=0.01)
+    found = [d.severe for d in doubts_of(campaign_of(runs)) if d.check == "record"]
+    assert found == [bool(severe)] * doubted
+
+
+def test_a_single_run_is_said(sound):
+    (doubt,) = doubts_of(replace(sound, runs=sound.runs[:1]))
+    assert (doubt.check, doubt.severe) == ("runs", False)
+
+
+@pytest.mark.parametrize(
+    ("factor", "words"), [(1.0, None), (-1.0, "its sign"), (1.06, None), (1.2, "stiffness, scale")]
+)
+def test_a_force_is_that_of_the_springs(factor, words, sound):
+    """K = 4 k, positive where x is."""
+
+    def pulled(run):
+        noise = 0.02 * np.random.default_rng(9).standard_normal(run.track.x.size)
+        force = factor * run.total_stiffness * run.track.x + noise
+        return replace(with_track(run, force=force), noise={"x": NOISE, "force": 0.02})
+
+    doubts = doubts_of(changed(sound, pulled, 2))
+    assert [doubt.check for doubt in doubts] == (["force"] if words else [])
+    assert all(words in doubt.text and not doubt.severe for doubt in doubts)
+
+
+#: Foreign campaigns with other springs than stated: a second mass on one, hardening, hysteresis.
+OTHERWISE = {"h09", "h15", "h16", "c11", "c12", "c23", "c28", "e5"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["blind_campaigns", "blind_campaigns_2", "blind_examples"])
+def test_foreign_campaigns_are_doubted_where_they_are_not_as_stated_alone(name, shared):
+    for file in sorted(shared(f"data/{name}").glob("*/campaign.toml")):
+        doubts = doubts_of(read_campaign(file))
+        assert not any(doubt.severe for doubt in doubts), file
+        assert bool(doubts) == (file.parent.name in OTHERWISE), file
