@@ -47,6 +47,8 @@ class Part:
 
 def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) -> Part:
     """A finding's law and the numbers that are fitted of it; none where no effect stands for it."""
+    if finding.numbers:
+        return _across(finding)
     level = system.level
     scales = scales_of(campaign, system.runs, level.kinetic)
     unknown = finding.main.unknown
@@ -109,6 +111,33 @@ def _number(free: FreeParameter, value: float) -> Number:
         inside = 0.1 * free.start  # at 0 the motion does not feel what else the law has
     scope = "run" if free.per_run else "campaign"
     return Number(free.key, inside, None, free.low, free.high, scope, free.log)  # type: ignore[arg-type]
+
+
+#: Bounds of what moves the block across: 1/m, degrees, m, friction across in parts of that along.
+_ACROSS = {
+    "turning_surface.curvature": (-20.0, 20.0),
+    "spring_misalignment.angle_deg": (-60.0, 60.0),
+    "spring_misalignment.lateral_offset": (-1.0, 1.0),
+    "measurement.rotation": (-0.5, 0.5),
+}
+
+
+def _across(finding: Finding) -> Part:
+    """What moves the block across: its numbers as y has them; friction across as it is or not."""
+    keys = {
+        "curvature": ("turning_surface.curvature", 1.0),
+        "turn": ("spring_misalignment.angle_deg", 180.0 / math.pi),
+        "shift": ("spring_misalignment.lateral_offset", 1.0),
+        "rotation": ("measurement.rotation", 1.0),
+    }
+    numbers, settings = [], {}
+    for name, (value, _) in finding.numbers.items():
+        key, unit = keys.get(name.rpartition(".")[2], ("", 1.0))
+        if key:
+            numbers.append(Number(key, unit * value, None, *_ACROSS[key]))
+        elif name == "ratio":
+            settings["lateral_friction.ratio"] = 1.0
+    return Part(finding, None, (), tuple(numbers), settings)
 
 
 def _load(rung: Rung, finding: Finding, weight: float) -> Part:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from stickslip.effects import EFFECTS
 
 from cosim.gap.checks import doubts_of
 from cosim.gap.data import Campaign
@@ -18,6 +19,7 @@ from cosim.gap.extended import (
     started_at,
 )
 from cosim.gap.judge import judge
+from cosim.gap.rates import rates_of
 from cosim.gap.report_of_findings import (
     exponents_of,
     law_of,
@@ -29,8 +31,11 @@ from cosim.gap.report_of_findings import (
 )
 from cosim.gap.result import Gap, Rung, Score
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.arguments import CATALOGUE, Arguments
-from cosim.gap.weak_form.ladder import Ladder, Search
+from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.camera_faults import FAULTS, camera_faults
+from cosim.gap.weak_form.corners import with_corners
+from cosim.gap.weak_form.ladder import Finding, Ladder, Search
+from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
 from cosim.gap.weak_form.rows import rows_of
 from cosim.gap.weak_form.surface import tracks_of
 from cosim.gap.weak_form.system import Rung as Rows
@@ -56,12 +61,14 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     step = _Steps(progress)
     doubts = doubts_of(campaign)
     step()
-    system, ladder = name(campaign)
+    named = name(campaign)
+    system, ladder, rung = named.system, named.ladder, named.rung
     step()
-    parts = [part_of(campaign, system, ladder.rung, finding) for finding in ladder.findings]
-    models = _Models.fitted(campaign, system, ladder, parts, step)
+    parts = [part_of(campaign, system, rung, finding) for finding in named.findings]
+    models = _Models.fitted(campaign, system, rung, parts, step)
     found = [part.effect for part in parts]
-    verdict = judge(ladder.findings, found, models.ladder, set(CATALOGUE) | _others())
+    rates = rates_of(ladder, named.unknowns)
+    verdict = judge(named.findings, found, models.ladder, _physics(), rates)
     severe = [doubt for doubt in doubts if doubt.severe]
     if severe:
         verdict = replace(verdict, verdict="unknown", effects=())
@@ -74,38 +81,69 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
         classes=verdict.classes,
         where=where_of(campaign, ladder, models.fits[0]),
         ladder=tuple(models.ladder),
-        ranking=ranking_of(system, ladder, parts, extended, models.ladder[-1].gap),
+        ranking=ranking_of(ladder, parts, extended, models.ladder[-1].gap),
         plain=models.fits[0],
         extended=extended,
-        laws=tuple(law for part in parts if (law := law_of(system, ladder.rung, part)) is not None),
+        laws=tuple(law for part in parts if (law := law_of(system, rung, part)) is not None),
         exponents=tuple(one for part in parts for one in exponents_of(part)),
         scatter=models.scatter,
         rig=rig_numbers(campaign, extended),
+        rates=rates,
         doubts=doubts,
     )
     step.end()
     return replace(gap, sentence=sentence_of(gap, parts))
 
 
-def name(campaign: Campaign) -> tuple[System, Ladder]:
+@dataclass(frozen=True)
+class Named:
+    """What the rows ask for.
+
+    ladder : of all runs' rows; findings : what moves the block across first, then the ladder's;
+    system, rung : rows of the fitted runs, with all findings; unknowns : that were asked
+    """
+
+    ladder: Ladder
+    findings: tuple[Finding, ...]
+    system: System
+    rung: Rows
+    unknowns: Mapping[str, Sequence[Unknown]]
+
+
+def name(campaign: Campaign) -> Named:
     """What the rows of all runs ask for, and the rows of the fitted ones, for its numbers.
 
     Which argument it is, every run may say; how large it is, only those that are fitted.
     """
     runs = [run for run in campaign.runs if run.track is not None]
-    rows = [rows_of(track, campaign.rig) for track in tracks_of(campaign, runs)]
+    tracks = tracks_of(campaign, runs)
+    rows = [rows_of(track, campaign.rig) for track in tracks]
+    planar = planar_effects(campaign, rows)
+    if planar.answer:
+        rows = rows_in_plane(tracks, campaign, planar)
+    rows = [with_corners(run) for run in rows]
     every, fitted = System(campaign, rows, every=True), System(campaign, rows)
     arguments = Arguments(campaign, every.runs, every.level)
+    unknowns = {**arguments.unknowns(), **camera_faults(every.rung())}
     waves = periodic.kinds(every.level.kinetic)
-    ladder = Search(every, arguments.unknowns(), waves, arguments.near).climb()
+    ladder = Search(every, unknowns, waves, arguments.near).climb()
     added = [one for finding in ladder.findings for one in finding.added]
-    return fitted, replace(ladder, rung=fitted.rung(added))
+    findings = (*_across(planar), *ladder.findings)
+    return Named(ladder, findings, fitted, fitted.rung(added), unknowns)
 
 
-def _others() -> set[str]:
-    from stickslip.effects import EFFECTS
+def _across(planar: Planar) -> Iterator[Finding]:
+    """What moves the block across, as a finding."""
+    if planar.answer:
+        gain = planar.evidence[planar.answer]
+        others = {name: value - gain for name, value in planar.evidence.items()
+                  if name == planar.runner_up}  # fmt: skip
+        yield Finding(planar.answer, (), gain, others, planar.numbers)
 
-    return {effect.id for effect in EFFECTS}
+
+def _physics() -> set[str]:
+    """What has a name: effects of the catalogue, of the user's own files, and faults."""
+    return {effect.id for effect in EFFECTS} | set(FAULTS)
 
 
 class _Steps:
@@ -132,7 +170,7 @@ class _Models:
 
     @classmethod
     def fitted(
-        cls, campaign: Campaign, system: System, ladder: Ladder, parts: list[Part], step: _Steps
+        cls, campaign: Campaign, system: System, rows: Rows, parts: list[Part], step: _Steps
     ) -> _Models:
         """The user's model, then the findings, then contact and scatter where they are felt."""
         models = cls(campaign, windows_of_campaign(campaign))
@@ -157,7 +195,7 @@ class _Models:
                        rung, rung.evidence - last):  # fmt: skip
             numbers, last = [*numbers, *contact], rung.evidence
         step()
-        models.scatter = scatter_of(ladder.rung)
+        models.scatter = scatter_of(rows)
         spread = models.scatter[0]
         rung = system.rung(added)
         text = f"friction scatters from run to run by {100.0 * spread:.2g} %"

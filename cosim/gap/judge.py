@@ -22,12 +22,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cosim.gap.result import Rung, Score
+from cosim.gap.rates import confirmed
+from cosim.gap.result import Rates, Rung, Score
+from cosim.gap.weak_form.constants import ALIKE, NEARLY_ALIKE
 from cosim.gap.weak_form.ladder import Finding
 
-#: ln of a Bayes factor below which two explanations are not told apart: 20 to 1 (Kass & Raftery,
-#: J. Am. Stat. Assoc. 90, 1995).
-ALIKE = 3.0
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
 #: windows of three cycles add up of a scatter that was not foreseen.
 NOTHING_MISSING = 1.1
@@ -47,15 +46,19 @@ class Verdict:
 
 
 def judge(
-    findings: Sequence[Finding], names: Sequence[str], ladder: Sequence[Rung], physics: set[str]
-) -> Verdict:
-    """names : of the findings, by the laws that follow them; physics : what has a name at all."""
+    findings: Sequence[Finding], names: Sequence[str], ladder: Sequence[Rung], physics: set[str],
+    rates: Rates | None = None,
+) -> Verdict:  # fmt: skip
+    """names : of the findings, by the laws that follow them; physics : what has a name at all.
+
+    rates : what this design would answer, were something else true
+    """
     before, after = _judged(ladder[0].gap), _judged(ladder[-1].gap)
     if not findings:
         return Verdict("none" if after <= NOTHING_MISSING else "unknown", (), ())
     classes = tuple(
         group for finding, name in zip(findings, names, strict=True)
-        if len(group := _alike(finding, name)) > 1
+        if len(group := _alike(finding, name, rates)) > 1
     )  # fmt: skip
     if not set(names) <= physics:
         return Verdict("unknown", (), classes)
@@ -70,10 +73,20 @@ def judge(
     return Verdict("unknown", (), classes)
 
 
-def _alike(finding: Finding, name: str) -> tuple[str, ...]:
-    """What explains the rows as well in a finding's place, itself first."""
+def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
+    """What explains the rows as well in a finding's place, itself first.
+
+    Also what these runs would too often have called by this name, if it explains them nearly as well.
+    """
+    confused = confirmed(rates, name)[1:] if rates is not None else ()
     near = sorted(finding.others, key=lambda other: -finding.others[other])
-    return (name, *(other for other in near if finding.others[other] > -ALIKE and other != name))
+    return (
+        name,
+        *(
+            other for other in near if other != name
+            and finding.others[other] > (-NEARLY_ALIKE if other in confused else -ALIKE)
+        ),
+    )  # fmt: skip
 
 
 def _judged(score: Score) -> float:

@@ -15,9 +15,14 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.special import logsumexp
 
-from cosim.gap.judge import ALIKE
 from cosim.gap.result import Rates
-from cosim.gap.weak_form.constants import BENDS_ASKED, LEAST_GAIN, SCALES_ASKED, SCAN_STEPS
+from cosim.gap.weak_form.constants import (
+    ALIKE,
+    BENDS_ASKED,
+    LEAST_GAIN,
+    SCALES_ASKED,
+    SCAN_STEPS,
+)
 from cosim.gap.weak_form.ladder import Finding, Ladder
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
 from cosim.gap.weak_form.system import Added, Rung, System

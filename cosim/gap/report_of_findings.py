@@ -10,7 +10,6 @@ from scipy.special import logsumexp
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
-from cosim.gap.judge import ALIKE
 from cosim.gap.result import Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
@@ -172,11 +171,12 @@ def exponents_of(part: Part) -> Iterator[Exponent]:
 
 
 def ranking_of(
-    system: System, ladder: Ladder, parts: Sequence[Part], extended: Fitted, after: Score
+    ladder: Ladder, parts: Sequence[Part], extended: Fitted, after: Score
 ) -> tuple[Ranked, ...]:
     """Every effect in the place of what was found first, or on the rig's own unknowns."""
     if parts:
-        first = parts[0]
+        along = [part for part in parts if part.finding.added]
+        first = (along or list(parts))[0]
         evidence = {first.finding.name: first.finding.gain}
         evidence |= {name: first.finding.gain + more for name, more in first.finding.others.items()}
     else:
@@ -256,6 +256,6 @@ def where_of(campaign: Campaign, ladder: Ladder, plain: Fitted) -> Where:
 
 
 __all__ = [
-    "ALIKE", "exponents_of", "intervals_of", "law_of", "ranking_of", "rig_numbers", "says",
+    "exponents_of", "intervals_of", "law_of", "ranking_of", "rig_numbers", "says",
     "sentence_of", "text_of", "where_of",
 ]  # fmt: skip

@@ -81,6 +81,9 @@ ALIKE = {
     ),
 }
 
+#: Every fault that has a name; a turned camera is found in the plane.
+FAULTS = (*ALIKE, "measurement.rotation", "measurement.quantisation")
+
 Respond = Callable[[RunRows], Response]
 
 

@@ -117,18 +117,20 @@ RIPPLE_BANDS, RIPPLE_GAIN = (0.35, 0.15), 10.0
 STILL_PIECE, STILL_SIGMAS = 20, 6.0
 #: Standard deviations within which a number of a form may be zero.
 STILL_NUMBER = 4.0
+#: Part of the misfit of y that an effect may leave: a swing that no form follows has small numbers
+#: of high evidence.
+PLANE_PART = 0.5
 #: Sliding speed that stands for none, m/s: a block held so drifts by 1e-6 m in a minute's stick.
 SLOWEST_SLIDING = 1e-6
 #: Largest turn of a block whose turn is not measured, rad: springs let it go no farther.
 MOST_TURN = 0.5
 #: Step of a derivative by place or angle, m or rad: errors of 1e-6 and of rounding 1e-10.
 PLANE_STEP = 1e-6
-#: Rounds in which the numbers follow the motion across, and in each the springs and the direction
-#: of sliding at these numbers: 1e-3 of the motion is left.
-PLANE_ROUNDS, PLANE_REPEATS = 3, 3
-#: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; and
-#: the least: a ratio of 0.2.
-SHARE_SD, LEAST_SHARE = 0.5, -3.2
+#: Rounds in which numbers, sliding direction and turn follow one another: 1e-3 of them is left.
+PLANE_ROUNDS = 6
+#: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; the
+#: least, a ratio of 0.2; and the largest step in a round.
+SHARE_SD, LEAST_SHARE, SHARE_STEP = 0.5, -3.2, 0.7
 #: Largest curvature (1/m), turn (rad), shift (m) and camera angle (rad) that are expected: standard
 #: deviations; and the parts of them that are tried.
 CURVATURE_SD, TURN_SD, SHIFT_SD, ROTATION_SD = 3.0, 0.2, 0.03, 0.2
@@ -136,8 +138,9 @@ PLANE_PARTS = (0.01, 0.03, 0.1, 0.3, 1.0)
 #: How far off the springs' axis a block may be put down, m: the values asked, from nowhere to be
 #: seen on.
 STARTS_ASKED = (1e-5, 3e-4, 3e-3, 2e-2)
-#: How far it may be turned then, rad: a degree.
-START_TURN = 0.02
+#: How far it may be turned then, rad: a degree where only friction over the disc tells of it, and
+#: five.
+START_TURN = (0.02, 0.1)
 #: Scatter of friction for which its probability is worked out: range, and steps of a fifth.
 SCATTER_RANGE, SCATTER_STEPS = (5e-4, 0.2), 33
 #: Phases of a ripple that are tried in a run that seldom sticks.
@@ -165,3 +168,11 @@ FILTER_WIDTHS = (0.007, 0.012, 0.02, 0.035, 0.06)
 FAULT_ORDERED_AT = 0.3
 #: Zero of a run, m: a target moved by hand.
 FAULT_ZERO = 3e-3
+
+# What cannot be told apart.
+#: ln of a Bayes factor below which two explanations are not told apart: 20 to 1 (Kass & Raftery,
+#: J. Am. Stat. Assoc. 90, 1995).
+ALIKE = 3.0
+#: The same of two that this design confuses: what is 400 to 1 here may be the rare campaign of the
+#: design in which they differ by so much.
+NEARLY_ALIKE = 6.0

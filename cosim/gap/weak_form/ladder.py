@@ -23,15 +23,17 @@ Offer = tuple[float, tuple[Added, ...]]
 class Finding:
     """What was found.
 
-    name : effect, measurement fault, or a finding that no effect stands for; added : its unknowns;
-    gain : ln of how much less probable the rows are without it; others : name -> ln evidence with
-    another in its place, less that with it
+    name : effect, measurement fault, or a finding that no effect stands for; added : its unknowns,
+    none of what moves the block across (`planar`); gain : ln of how much less probable the rows are
+    without it; others : name -> ln evidence with another in its place, less that with it
+    numbers : of what moves the block across, (value, standard deviation), SI
     """
 
     name: str
     added: tuple[Added, ...]
     gain: float
     others: Mapping[str, float] = field(default_factory=dict)
+    numbers: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def main(self) -> Added:

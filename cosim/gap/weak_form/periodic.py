@@ -87,7 +87,8 @@ def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | Non
             best = found
     if best is None:
         return None
-    return best[0] - float(np.log(wavenumbers.size / SCAN_STEPS)), best[1]
+    shapes = WAVES_FITTED + len(longer)
+    return best[0] - float(np.log(wavenumbers.size / SCAN_STEPS * shapes)), best[1]
 
 
 def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
