@@ -1,0 +1,202 @@
+"""The decision: every threshold where it is, and parts of an answer that cannot contradict."""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cosim.gap.judge import judge
+from cosim.gap.report_of_findings import ranking_of, sentence_of
+from cosim.gap.result import VERDICTS, Rates, Rung, Score
+from cosim.gap.weak_form.ladder import Finding, Search
+
+PHYSICS = {"run_in", "film_drag", "structural_damping", "speed_ripple"}
+
+
+def finding(name, **others):
+    return Finding(name, (), 50.0, others)
+
+
+def rung(fit, held_out, share=0.0):
+    return Rung("", "", Score(fit, held_out), Score(1.0, 1.0), share)
+
+
+def judged(names, before, after, share=1.0, **others):
+    """Verdict and effects; before, after : gaps of runs held out, or of fitted ones where alone."""
+    ladder = [rung(9.0, before), rung(9.0, after, share)]
+    found = [finding(name, **others) for name in names]
+    verdict = judge(found, names, ladder, PHYSICS)
+    return verdict.verdict, verdict.effects
+
+
+@pytest.mark.parametrize(("gap", "verdict"), [(1.09, "none"), (1.11, "unknown")])
+def test_nothing_is_missing_up_to_a_tenth_more_than_noise(gap, verdict):
+    assert judged([], gap, gap) == (verdict, ())
+
+
+@pytest.mark.parametrize(("gap", "verdict"), [(1.29, "named"), (1.31, "unknown")])
+def test_what_is_named_explains_the_runs(gap, verdict):
+    assert judged(["run_in"], 5.0, gap, 0.5)[0] == verdict
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.79, "unknown"), (0.81, "partial")])
+def test_a_part_is_most_of_the_misfit(share, verdict):
+    assert judged(["run_in"], 5.0, 2.0, share)[0] == verdict
+
+
+@pytest.mark.parametrize(
+    ("less", "verdict"), [(2.9, ("class", ("run_in", "film_drag"))), (3.1, ("named", ("run_in",)))]
+)
+def test_twenty_to_one_tells_two_apart(less, verdict):
+    assert judged(["run_in"], 5.0, 1.0, film_drag=-less) == verdict
+
+
+@pytest.mark.parametrize(
+    ("less", "verdict"), [(5.9, ("class", ("run_in", "film_drag"))), (6.1, ("named", ("run_in",)))]
+)
+def test_what_the_design_confuses_is_told_apart_by_four_hundred_to_one(less, verdict):
+    """This name would be given to 20 of 50 campaigns with the other."""
+    rates = Rates(50, {"run_in": {"run_in": 50}, "film_drag": {"run_in": 20, "film_drag": 30}})
+    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
+    found = judge([finding("run_in", film_drag=-less)], ["run_in"], ladder, PHYSICS, rates)
+    assert (found.verdict, found.effects) == verdict
+
+
+def test_held_out_runs_judge_where_there_are_some():
+    assert judged(["run_in"], 5.0, None)[0] == "unknown"  # fitted runs: 9 before and after
+    ladder = [rung(9.0, None), rung(1.0, None, 1.0)]
+    assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == "named"
+    assert judged(["run_in"], 1.2, 1.25)[0] == "unknown"  # worse than without it
+
+
+def test_what_has_no_name_is_unknown():
+    assert judged(["other.time"], 5.0, 1.0) == ("unknown", ())
+    assert judged(["run_in", "other.time"], 5.0, 1.0) == ("unknown", ())
+
+
+@dataclass
+class Rows:
+    """Stands for the rows: each unknown adds its own to the evidence and takes its own misfit."""
+
+    gains: dict
+    misfits: dict
+    added: list = field(default_factory=list)
+
+    def rung(self, added=(), **_):
+        return Rows(self.gains, self.misfits, list(added))
+
+    @property
+    def system(self):
+        return self
+
+    @property
+    def evidence(self):
+        return sum(self.gains[one] for one in self.added)
+
+    @property
+    def misfit(self):
+        return sum(self.misfits.values()) - sum(self.misfits[one] for one in self.added)
+
+    def offered(self, variants):
+        return self.evidence + self.gains[variants[0].name], variants[0].name
+
+
+def climbed(**unknowns):
+    """Names of the findings; unknowns : name -> gain, part of the misfit's root mean square."""
+    gains = {name: gain for name, (gain, _) in unknowns.items()}
+    misfits = {name: part**2 for name, (_, part) in unknowns.items()}
+    offered = {name: [SimpleNamespace(name=name)] for name in unknowns}
+
+    class Plain(Search):
+        def _finer(self, rung, offer):
+            return offer
+
+        def offers(self, rung, without=()):
+            return {
+                name: (rung.offered(each)[0], (rung.offered(each)[1],))
+                for name, each in offered.items() if name not in without
+            }  # fmt: skip
+
+    return [each.name for each in Plain(Rows(gains, misfits), offered, ()).climb().findings]
+
+
+def test_a_finding_is_e6_times_as_probable():
+    assert climbed(a=(5.9, 1.0)) == [] and climbed(a=(6.1, 1.0)) == ["a"]
+
+
+def test_a_second_finding_takes_a_part_that_counts():
+    """Misfits add up as squares."""
+    assert climbed(a=(90.0, 1.0), b=(50.0, 0.115)) == ["a"]
+    assert climbed(a=(90.0, 1.0), b=(50.0, 0.126)) == ["a", "b"]
+
+
+def test_more_than_three_findings_are_no_explanation():
+    assert climbed(**{name: (90.0 - at, 1.0) for at, name in enumerate("abcd")}) == ["a", "b", "c"]
+
+
+GAPS = st.floats(0.9, 10.0)
+NAMES = st.lists(st.sampled_from([*sorted(PHYSICS), "other.time"]), max_size=3, unique=True)
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    names=NAMES, gaps=st.lists(st.tuples(GAPS, st.none() | GAPS), min_size=4, max_size=4),
+    share=st.floats(0.0, 1.0), gains=st.lists(st.floats(6.0, 1e3), min_size=3, max_size=3),
+    others=st.dictionaries(st.sampled_from(sorted(PHYSICS)), st.floats(-50.0, 5.0)),
+)  # fmt: skip
+def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others):
+    """Headline, verdict, ladder and ranking, whatever was found."""
+    findings = [
+        Finding(name, (), gain, {k: v for k, v in others.items() if k not in names})
+        for name, gain in zip(names, gains, strict=False)
+    ]
+    ladder = [rung(*pair, share) for pair in gaps[: len(names) + 1]]
+    verdict = judge(findings, names, ladder, PHYSICS)
+    parts = [part(each) for each in findings]
+    answer = SimpleNamespace(
+        verdict=verdict.verdict, effects=verdict.effects, ladder=ladder, share=share, exponents=()
+    )
+    headline = sentence_of(answer, parts)
+    before, after = (
+        one.gap.fit if one.gap.held_out is None else one.gap.held_out
+        for one in (ladder[0], ladder[-1])
+    )
+    assert verdict.verdict in VERDICTS
+    assert bool(verdict.effects) == (verdict.verdict in ("named", "class", "partial"))
+    assert set(verdict.effects) <= PHYSICS
+    assert ("No effect is missing" in headline) == (verdict.verdict == "none")
+    if verdict.verdict == "none":
+        assert not names and after <= 1.1
+    if verdict.effects:
+        assert after < before and names[0] in headline
+        assert verdict.effects[0] == names[0]
+        assert not headline.startswith("The model")
+    if verdict.verdict == "class":
+        assert verdict.classes == (verdict.effects,) and "cannot tell" in headline
+    if verdict.verdict == "named":
+        assert verdict.effects == tuple(names)
+    if findings:
+        ladders = SimpleNamespace(first_offers={})
+        model = SimpleNamespace(values={}, sd={}, at_bound=())
+        rows = ranking_of(ladders, parts, model, ladder[-1].gap)
+        probable = [row.probability for row in rows]
+        assert probable == sorted(probable, reverse=True)
+        assert sum(probable) == pytest.approx(1.0)
+        if verdict.verdict == "class":
+            # nobody outside the class is as probable as the least of its members
+            least = min(r.evidence for r in rows if r.effect in verdict.effects)
+            rest = [r.evidence for r in rows if r.effect not in verdict.effects]
+            assert max(rest, default=-1e9) <= least
+        elif not verdict.classes and verdict.effects:
+            assert rows[0].effect == names[0]
+
+
+def part(each):
+    unknown = SimpleNamespace(variant="", curve=None)
+    found = SimpleNamespace(
+        name=each.name, gain=each.gain, others=each.others, added=(),
+        main=SimpleNamespace(unknown=unknown),
+    )  # fmt: skip
+    return SimpleNamespace(finding=found, effect=each.name, curve=None, fits=(), numbers=())
