@@ -179,5 +179,5 @@ def test_known_friction_is_read_and_checked(tmp_path):
     path.write_text(text.format("0.01"))
     assert read_campaign(path).friction == {"mu_s": (0.3, 0.01)}
     path.write_text(text.format("-0.01"))
-    with pytest.raises(CampaignError, match="friction.*both above 0"):
+    with pytest.raises(CampaignError, match="friction.*deviation > 0"):
         read_campaign(path)
