@@ -176,7 +176,7 @@ def _covariances(rows: RunRows, samples: np.ndarray) -> tuple[np.ndarray, np.nda
     None where nothing is left, to rounding.
     """
     noise = rows.track.run.noise["x"]
-    shared = noise**2 * samples @ _earlier(rows).T
+    shared = noise**2 * _along(rows, samples)
     own = noise**2 * samples @ samples.T - shared @ shared.T
     own[np.diag_indices_from(own)] += FLOOR * noise**2 * np.sum(samples**2, axis=1)
     try:
@@ -207,15 +207,16 @@ def _sampled(track: SmoothTrack, weights: np.ndarray) -> np.ndarray:
     return weights if track.samples is None else np.asarray((track.samples.T @ weights.T).T)
 
 
-def _earlier(rows: RunRows) -> np.ndarray:
-    """(rows, m) weights of the samples of x in the rows of slips and sticks, whitened."""
-    track = rows.track
-    width = track.time.size if track.samples is None else track.samples.shape[1]
-    weights = np.zeros((rows.values.size, width))
+def _along(rows: RunRows, samples: np.ndarray) -> np.ndarray:
+    """(c, rows) products of weights of the samples (c, m) with those of slips and sticks."""
+    matrix = rows.track.samples
+    gridded = samples.T if matrix is None else matrix @ samples.T
+    products = np.zeros((rows.values.size, samples.shape[0]))
+    if samples.shape[0] == 0:  # LAPACK may not be asked for nothing
+        return products.T
     for kind, block in ((SLIP, rows.slip), (STICK, rows.stick)):
-        if (rows.kinds == kind).any():
-            weights[rows.kinds == kind] = _sampled(track, block.whitened(block.place.toarray()))
-    return weights
+        products[rows.kinds == kind] = block.whitened(block.place @ gridded)
+    return products.T
 
 
 #: A corner with its weights of a force, of m x'', and of the line.
