@@ -4,7 +4,8 @@ Along x everything is measured; what is left is a linear equation for q = (y, ph
 
     M q'' + W (q' - V c (x, 1)) = P(x, q),    M = diag(m, J),
 
-with the springs P, linear about the last round's q, and friction that goes with the direction of
+with the springs P, linear about the measured q (phi of the last round, where it is not measured),
+and friction that goes with the direction of
 sliding (`stickslip.kernel.friction`; U sliding speed, s rim speed, f and m of the disc):
 
     W = g mu_k N diag(f / U, a^2 m / s),    U^2 = U_x^2 + g U_y^2,    s^2 = g a^2 Omega^2.
@@ -21,16 +22,23 @@ from functools import cache
 
 import numpy as np
 from scipy.linalg.lapack import dtbtrs
+from scipy.signal import savgol_filter
 
 from cosim.gap.data.campaign_file import Rig
-from cosim.gap.weak_form.constants import MOST_TURN, PLANE_STEP, SLOWEST_SLIDING
+from cosim.gap.weak_form.constants import (
+    MOST_TURN,
+    PLANE_STEP,
+    QUINTIC_REACH,
+    SLOWEST_SLIDING,
+)
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
 #: Unknowns of a form: 1/R (1/m), turn of the springs (rad), shift of their anchors (m), ln g.
 CURVATURE, TURN, SHIFT, SHARE = "curvature", "turn", "shift", "share"
-#: Unknowns of every run: y (m), y' (m/s) and phi (rad) where the record begins.
-STARTS = ("y", "vy", "phi")
+#: Unknowns of every run: part by which the springs are stiffer; y (m), y' (m/s), phi (rad) and its
+#: rate (rad/s) where the record begins.
+OWN = ("springs", "y", "vy", "phi", "omega")
 
 
 @dataclass(frozen=True)
@@ -79,10 +87,17 @@ class Plane:
         return spring_loads(rig, stiffness, x, self.y - self.shift, self.phi, self.turn)
 
 
-def at_rest(track: SmoothTrack) -> Plane:
-    """A block that goes along x alone."""
-    still = np.zeros(track.time.size)
-    return Plane(still, still, still, still)
+def measured(track: SmoothTrack) -> Plane:
+    """As the tracker saw it, smoothed; a turn that it did not see is none."""
+    phi = np.zeros((2, track.time.size))
+    if track.phi is not None:
+        reach = max(2, round(QUINTIC_REACH / track.run.natural_frequency / track.interval))
+        window = min(2 * reach + 1, (track.time.size - 1) // 2 * 2 + 1)
+        for rate in range(2):
+            phi[rate] = savgol_filter(
+                track.phi, window, min(5, window - 2), deriv=rate, delta=track.interval
+            )
+    return Plane(track.place_y, phi[0], track.velocity_y, phi[1])
 
 
 @cache
@@ -125,25 +140,22 @@ class Course:
     def plane(self, track: SmoothTrack, values: dict[str, float]) -> Plane:
         """q for values of all unknowns, in the order of the columns.
 
-        Where it leaves the measured range it is cut off: springs and sliding direction follow it in
+        Where it leaves the measured range it is cut off: sliding direction and springs follow it in
         the next round, and a wrong form could carry them away.
         """
         q = self.offset + np.tensordot(np.array(list(values.values())), self.columns, 1)
-        q = np.array([
-            np.clip(q[0], *_range(track.y, track.run.noise.get("y", 0.0), 0.0)),
-            np.clip(q[1], *_range(track.phi, track.run.noise.get("phi", 0.0), MOST_TURN)),
-        ])  # fmt: skip
+        q = np.array([_within(q[0], track.y, 0.0), _within(q[1], track.phi, MOST_TURN)])
         rates = np.gradient(q, track.interval, axis=1)
         curvature, turn, shift = (values.get(name, 0.0) for name in (CURVATURE, TURN, SHIFT))
         share = float(np.exp(values[SHARE])) if SHARE in values else 0.0
         return Plane(q[0], q[1], rates[0], rates[1], curvature, turn, shift, share)
 
 
-def _range(values: np.ndarray | None, noise: float, most: float) -> tuple[float, float]:
-    """Least and largest measured value, m or rad; -most and most where there are none."""
-    if values is None:
-        return -most, most
-    return float(np.min(values)) - noise, float(np.max(values)) + noise
+def _within(values: np.ndarray, seen: np.ndarray | None, most: float) -> np.ndarray:
+    """Cut off at the least and the largest that was seen; at -most and most where nothing was."""
+    if seen is None:
+        return np.clip(values, -most, most)
+    return np.clip(values, np.min(seen), np.max(seen))
 
 
 def course(
@@ -153,23 +165,25 @@ def course(
     h, x, v = track.interval, track.place, track.surface_speed
     mass = np.array([track.run.mass, inertia(rig, track.run.mass)])[:, None]
     drag = _drag(track, rig, friction, about) if SHARE in unknowns else np.zeros((2, x.size))
-    load = np.array(about.loads(rig, track.run.stiffness, x)[1:])
-    here = np.array([about.y, about.phi])
-    slope = np.array([_slope(about, track, rig, name, load) for name in ("y", "phi")])
+    held = measured(track)
+    held = replace(about, y=held.y, phi=about.phi if track.phi is None else held.phi)
+    load = np.array(held.loads(rig, track.run.stiffness, x)[1:])
+    slope = np.array([_slope(held, track, rig, name, load) for name in ("y", "phi")])
     surface = np.array([v * x, v])
     columns = {
         CURVATURE: drag * surface,
-        TURN: _slope(about, track, rig, "turn", load),
+        TURN: _slope(held, track, rig, "turn", load),
         SHIFT: -slope[0],
         SHARE: drag * (about.curvature * surface - [about.velocity_y, about.turning]),
     }
     known = {CURVATURE: 0.0, TURN: about.turn, SHIFT: about.shift,
              SHARE: np.log(max(about.share, 1e-12))}  # fmt: skip
-    right = np.zeros((1 + len(unknowns) + len(STARTS), 2, x.size))
-    right[0] = load - np.einsum("qcn,qn->cn", slope, here)
+    right = np.zeros((1 + len(unknowns) + len(OWN), 2, x.size))
+    right[0] = load - np.einsum("qcn,qn->cn", slope, [held.y, held.phi])
     for number, name in enumerate(unknowns, 1):
         right[number] = columns[name]
         right[0] -= columns[name] * known[name]
+    right[1 + len(unknowns)] = load
     solved = _solve(mass, drag, slope, right, h)
     return Course(solved[0], solved[1:])
 
@@ -197,7 +211,7 @@ def _slope(about: Plane, track: SmoothTrack, rig: Rig, name: str, load: np.ndarr
 def _solve(
     mass: np.ndarray, drag: np.ndarray, slope: np.ndarray, right: np.ndarray, h: float
 ) -> np.ndarray:
-    """(u, 2, n) q of right sides (u, 2, n); the last three set out from y, y' and phi of 1.
+    """(u, 2, n) q of right sides (u, 2, n); the last four set out from y, y', phi, phi' of 1.
 
     M (q+ - 2 q + q-) / h^2 + W (b (q+ - q) + (1 - b) (q - q-)) / h - P' q = right, where b makes
     the decay over a step exact (exponential fitting): 1/2 for weak friction, 1 in stick. One
@@ -218,10 +232,10 @@ def _solve(
     bands[4, :-4:2], bands[4, 1:-4:2] = before[:, 1:-1]
     sides = np.zeros((2 * n, right.shape[0]))
     sides[2::2], sides[3::2] = right[:, 0, :-1].T, right[:, 1, :-1].T
-    sides[0, -3] = sides[1, -1] = 1.0
-    # q- of the first step is q - h q': it joins the entries of q, and y' the right side
+    sides[0, -4] = sides[1, -2] = 1.0
+    # q- of the first step is q - h q': it joins the entries of q, and q' the right side
     bands[2, :2] += before[:, 0]
-    sides[2, -2] = before[0, 0] * h
+    sides[2, -3], sides[3, -1] = before[:, 0] * h
     solved, info = dtbtrs(bands, sides, uplo="L")
     if info != 0:
         raise ArithmeticError(f"dtbtrs: {info}")

@@ -18,25 +18,26 @@ from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import (
     CURVATURE,
+    OWN,
     SHARE,
     SHIFT,
-    STARTS,
     TURN,
     Course,
     Plane,
-    at_rest,
     course,
     disc,
+    measured,
 )
 from cosim.gap.weak_form.constants import (
     CURVATURE_SD,
     LEAST_GAIN,
     LEAST_SHARE,
+    PLANE_PART,
     PLANE_PARTS,
-    PLANE_REPEATS,
     PLANE_ROUNDS,
     ROTATION_SD,
     SHARE_SD,
+    SHARE_STEP,
     SHIFT_SD,
     SLOWEST_SLIDING,
     START_TURN,
@@ -60,7 +61,14 @@ FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
     ROTATION: ((ROTATION,),),
     LATERAL: ((SHARE,),),
     TURNING: ((CURVATURE, SHARE),),
-    MISALIGNED: ((TURN, SHARE), (SHIFT, SHARE), (TURN,), (SHIFT,)),
+    MISALIGNED: (
+        (TURN, SHARE),
+        (SHIFT, SHARE),
+        (TURN, SHIFT, SHARE),
+        (TURN,),
+        (SHIFT,),
+        (TURN, SHIFT),
+    ),  # fmt: skip
 }
 SD = {CURVATURE: CURVATURE_SD, TURN: TURN_SD, SHIFT: SHIFT_SD, ROTATION: ROTATION_SD}
 
@@ -78,6 +86,11 @@ class Fitted:
     numbers: Mapping[str, tuple[float, float]]
     planes: Mapping[str, Plane] = field(repr=False)
     gap: float
+
+    @property
+    def misfit(self) -> float:
+        """Mean square of what is left, beyond that of noise."""
+        return max(self.gap**2 - 1.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -118,9 +131,14 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
         fits[name] = max(tried, key=lambda each: each.evidence)
         evidence[name] = float(logsumexp([each.evidence for each in tried]) - np.log(len(tried)))
     nothing = evidence.pop("")
-    evidence = {name: value - nothing for name, value in evidence.items()}
+    most = max(fits, key=lambda name: fits[name].evidence)
+    noise = max(fits[most].gap, 1.0)  # what no form explains counts as noise
+    evidence = {name: (value - nothing) / noise**2 for name, value in evidence.items()}
     ranked = sorted(evidence, key=lambda name: -evidence[name])
-    answer = ranked[0] if evidence[ranked[0]] > LEAST_GAIN else ""
+    if evidence[ranked[0]] - evidence.get(LATERAL, -np.inf) < LEAST_GAIN:
+        ranked.insert(0, ranked.pop(ranked.index(LATERAL)))  # it is in the others, with a zero
+    explains = fits[ranked[0]].misfit < PLANE_PART * fits[""].misfit
+    answer = ranked[0] if evidence[ranked[0]] > LEAST_GAIN and explains else ""
     rivals = [
         name
         for name in ranked
@@ -130,7 +148,7 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
 
 
 def _is_lateral(fitted: Fitted) -> bool:
-    """Whether a form is friction across alone, as its other number may be zero."""
+    """Whether a form is friction across alone, as its other numbers may be zero."""
     others = [number for name, number in fitted.numbers.items() if name != "ratio"]
     return "ratio" in fitted.numbers and all(abs(value) < STILL_NUMBER * sd for value, sd in others)
 
@@ -143,7 +161,7 @@ def rows_in_plane(
     Springs, sliding speed and surface are those of the place in the plane; friction along x is its
     part f U_x / U. A turned camera sees x shortened by cos alpha, and the springs along x are so.
     """
-    planes = planar.fits[planar.answer].planes if planar.answer else {}
+    planes = planar.fits[planar.answer].planes if planar.fits else {}
     rows = []
     for track in tracks:
         plane = planes.get(track.run.name)
@@ -204,47 +222,63 @@ def _fit(
     campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...]
 ) -> Fitted:
     """A form, its courses made anew about what came out until they stay."""
-    moving = tuple(name for name in form if name != ROTATION)
+    planes = [replace(measured(run.track), share=float(SHARE in form)) for run in runs]
     values = np.zeros(len(form))
-    own = [np.zeros(len(STARTS) + 2) for _ in runs]
-    planes = [replace(at_rest(run.track), share=float(SHARE in form)) for run in runs]
-    fit = [not run.track.run.hold_out for run in runs]
+    best: Fitted | None = None
     for number in range(PLANE_ROUNDS):
-        for _ in range(PLANE_REPEATS):
-            courses = [
-                course(run.track, campaign.rig, level * run.weight, moving, plane)
-                for run, plane in zip(runs, planes, strict=True)
-            ]
-            planes = [_plane(run.track, form, made, values, starts)
-                      for run, made, starts in zip(runs, courses, own, strict=True)]  # fmt: skip
-        samples = [_samples(campaign, run.track, form, made)
-                   for run, made in zip(runs, courses, strict=True)]  # fmt: skip
-        last = number == PLANE_ROUNDS - 1
-        settings = [_setting(form, *pair) for pair in product(PLANE_PARTS, STARTS_ASKED)]
-        evidence, values, sd, prior = _solved(
-            [part for part, use in zip(samples, fit, strict=True) if use],
-            settings if last else settings[-2:-1],
-        )
-        values = _bounded(form, values)
+        solved = _round(campaign, runs, level, form, planes, values)
+        if solved is None:
+            break
+        found, planes, values = solved
+        if number and (best is None or found.evidence > best.evidence):
+            best = found
+    return best or Fitted(form, -np.inf, {}, {}, np.inf)
+
+
+def _round(
+    campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
+    planes: list[Plane], before: np.ndarray,
+) -> tuple[Fitted, list[Plane], np.ndarray] | None:  # fmt: skip
+    """The numbers from courses about the last round's; None where these run away."""
+    moving = tuple(name for name in form if name != ROTATION)
+    courses = [
+        course(run.track, campaign.rig, level * run.weight, moving, plane)
+        for run, plane in zip(runs, planes, strict=True)
+    ]
+    samples = [_samples(campaign, run.track, form, made)
+               for run, made in zip(runs, courses, strict=True)]  # fmt: skip
+    measured_turn = any(run.track.phi is not None for run in runs)
+    turn = START_TURN[int(measured_turn or SHARE not in form)]
+    settings = [_setting(form, part, start, turn, campaign.errors.stiffness)
+                for part, start in product(PLANE_PARTS, STARTS_ASKED)]  # fmt: skip
+    fitted = [part for part, run in zip(samples, runs, strict=True) if not run.track.run.hold_out]
+    try:
+        evidence, values, sd, prior = _solved(fitted, settings)
+        values = _bounded(form, values, before)
         own = [_own(part, values, prior) for part in samples]
-        planes = [_plane(run.track, form, made, values, starts)
-                  for run, made, starts in zip(runs, courses, own, strict=True)]  # fmt: skip
+    except np.linalg.LinAlgError:
+        return None
+    planes = [_plane(run.track, form, made, values, starts)
+              for run, made, starts in zip(runs, courses, own, strict=True)]  # fmt: skip
     left = [
         part.rows - part.shared @ values - part.own @ starts
         for part, starts in zip(samples, own, strict=True)
     ]
     by_run = {run.track.run.name: plane for run, plane in zip(runs, planes, strict=True)}
-    return Fitted(form, evidence, _numbers(form, values, sd), by_run,
-                  float(np.sqrt(np.mean(np.concatenate(left) ** 2))))  # fmt: skip
+    gap = float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
+    return Fitted(form, evidence, _numbers(form, values, sd), by_run, gap), planes, values
 
 
-def _setting(form: tuple[str, ...], part: float, start: float) -> tuple[np.ndarray, np.ndarray]:
-    """Standard deviations of what the runs share, and of starts and zeros of a run.
+def _setting(
+    form: tuple[str, ...], part: float, start: float, turn: float, stiffness: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Standard deviations of what the runs share, and of springs, starts and zeros of a run.
 
-    start : m off the axis, and as much in the time of a swing
+    start : m off the axis, and as much in the time of a swing; turn : rad, likewise
     """
     shared = [SHARE_SD if name == SHARE else part * SD[name] for name in form]
-    return np.array(shared), np.array([start, 10.0 * start, START_TURN, 1.0, 1.0])
+    starts = [2.0 * stiffness, start, 10.0 * start, turn, 10.0 * turn]
+    return np.array(shared), np.array([*starts, 1.0, 1.0])
 
 
 def _samples(
@@ -265,7 +299,7 @@ def _samples(
                       .reshape(len(form), turned.size).T)  # fmt: skip
         zeros = np.zeros((2, turned.size))
         zeros[axis] = campaign.zero_sd(track.run, channel) / noise
-        own.append(np.vstack([*columns[-len(STARTS) :], zeros]).T)
+        own.append(np.vstack([*columns[-len(OWN) :], zeros]).T)
         rows.append((track.run.motion[channel][seen] - read(made.offset[axis])) / noise)
     return _Samples(np.concatenate(rows), np.concatenate(shared), np.concatenate(own))
 
@@ -303,10 +337,13 @@ def _solved(
     return evidence, found[best].mean[:count], deviations, settings[best][1]
 
 
-def _bounded(form: tuple[str, ...], shared: np.ndarray) -> np.ndarray:
-    """With friction across no more than isotropic, and no less than a model may have."""
-    low = [LEAST_SHARE if name == SHARE else -np.inf for name in form]
-    return np.clip(shared, low, [0.0 if name == SHARE else np.inf for name in form])
+def _bounded(form: tuple[str, ...], shared: np.ndarray, before: np.ndarray) -> np.ndarray:
+    """With friction across no more than isotropic, and no far step from the last round's."""
+    for place, name in enumerate(form):
+        if name == SHARE:
+            low = max(before[place] - SHARE_STEP, LEAST_SHARE)
+            shared[place] = np.clip(shared[place], low, min(before[place] + SHARE_STEP, 0.0))
+    return shared
 
 
 def _own(part: _Samples, shared: np.ndarray, sd: np.ndarray) -> np.ndarray:
@@ -320,8 +357,8 @@ def _plane(
     track: SmoothTrack, form: tuple[str, ...], made: Course, shared: np.ndarray, own: np.ndarray
 ) -> Plane:
     values = {name: float(v) for name, v in zip(form, shared, strict=True) if name != ROTATION}
-    starts = dict(zip(STARTS, own, strict=False))
-    return made.plane(track, values | {f"start {name}": float(v) for name, v in starts.items()})
+    starts = dict(zip(OWN, own, strict=False))
+    return made.plane(track, values | {f"own {name}": float(v) for name, v in starts.items()})
 
 
 def _numbers(
