@@ -6,13 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from cosim.gap.data import Campaign, MeasuredRun
 
-from .fitted import Fitted, joined
+from .fitted import Fitted, Leeway, joined
 from .numbers import Number
 from .problem import Problem
 from .windows import Windows
-
-#: A run's own numbers that are as stated where nothing is fitted to its data.
-STATED = ("offset.speed", "offset.friction", "offset.stiffness")
 
 
 def fit(
@@ -38,7 +35,7 @@ def fit(
     if not held_out:
         return fitted
     values = {**settings, **fitted.values}
-    judged = judge(campaign, windows, numbers, values, scatter, held_out)
+    judged = judge(campaign, windows, numbers, values, scatter, held_out, fitted.leeway)
     return joined(fitted, judged, [run.name for run in campaign.runs])
 
 
@@ -49,16 +46,20 @@ def judge(
     values: Mapping[str, float],
     scatter: float = 0.0,
     runs: Sequence[MeasuredRun] | None = None,
+    leeway: Leeway | None = None,
 ) -> Fitted:
     """How well given values describe some runs, those held out if not said.
 
     Free are the windows' start states and what no other run can tell: the tracker's zero, within
-    its prior, phases, and friction if ``scatter``, its relative standard deviation from run to run,
-    is not 0. Surface speed and springs are as the values, else the campaign, state them.
+    its prior, phases, springs of a set-up that was not fitted, and friction if ``scatter``, its
+    relative standard deviation from run to run, is not 0; the surface's speed, within its stated
+    error, where that is a number of the fit's. With a ``leeway`` the numbers that all runs share
+    may move within the errors of their fit, too: what the fitted runs do not determine they do not
+    predict.
     """
-    own = [n for n in numbers if n.scope == "run" and n.key not in STATED]
-    if scatter > 0.0:
+    own = [number for number in numbers if number.scope == "run" or leeway is not None]
+    if scatter > 0.0 and all(number.key != "offset.friction" for number in own):
         own.append(Number("offset.friction", 0.0, scatter, -1.0, 1.0, "run"))
     runs = campaign.held_out_runs if runs is None else runs
     runs = [run for run in runs if run.name in windows]
-    return Problem(campaign, runs, windows, own, values).solved()
+    return Problem(campaign, runs, windows, own, values, leeway).solved()

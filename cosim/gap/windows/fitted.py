@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -15,6 +16,8 @@ NEAR = 0.02
 RANK = 1e-9
 #: A number with more than this of such a direction in it is not determined either.
 UNFELT = 1e-3
+#: Shared numbers may be off in held-out runs by sqrt(k) + this many standard deviations in all.
+FURTHEST = 2.0
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,49 @@ class FittedRun:
 
 
 @dataclass(frozen=True)
+class Leeway:
+    """What a fit leaves open of the numbers that all runs share.
+
+    labels : of the numbers; centre : (k,) their scaled values as fitted
+    rows : (k, k) of unit variance by the scaled numbers: the fit's information, other numbers
+        eliminated; what the runs do not determine has next to none
+    """
+
+    labels: tuple[str, ...]
+    centre: np.ndarray
+    rows: np.ndarray
+    weight: float = 1.0
+
+    @classmethod
+    def at(cls, unknowns: Sequence[Unknown], scaled: np.ndarray, derivatives: np.ndarray) -> Leeway:
+        """From the derivatives (rows, k) of a fit where it ended."""
+        shared = np.array([unknown.number.scope != "run" for unknown in unknowns], dtype=bool)
+        order = np.argsort(shared, kind="stable")
+        first = int(np.sum(~shared))
+        rows = np.linalg.qr(derivatives[:, order], mode="r")[first:, first:]
+        labels = tuple(unknowns[i].label for i in order[first:])
+        return cls(labels, scaled[order[first:]], rows)
+
+    def of(self, labels: Sequence[str]) -> Leeway:
+        """Of these numbers alone, the others staying as fitted."""
+        kept = [i for i, label in enumerate(self.labels) if label in labels]
+        known = tuple(self.labels[i] for i in kept)
+        return Leeway(known, self.centre[kept], self.rows[:, kept], self.weight)
+
+    def is_left(self, scaled: np.ndarray, labels: Sequence[str]) -> bool:
+        """Whether numbers are further from the fit than its errors explain, 3 in 1000."""
+        if not self.labels:
+            return False
+        moved = np.array([scaled[labels.index(label)] for label in self.labels]) - self.centre
+        size = float(np.linalg.norm(self.rows @ moved)) / self.weight
+        return size > math.sqrt(len(self.labels)) + FURTHEST
+
+    def tightened(self) -> Leeway:
+        """The same, held harder."""
+        return Leeway(self.labels, self.centre, 2.0 * self.rows, 2.0 * self.weight)
+
+
+@dataclass(frozen=True)
 class Fitted:
     """A fitted model.
 
@@ -55,12 +101,14 @@ class Fitted:
         the noise does not explain count as much noise more; infinite where no motion depends on it
     at_bound : label -> the bound that the value is at
     runs : fitted ones and held-out ones
+    leeway : of the numbers that all runs share
     """
 
     values: dict[str, float]
     sd: dict[str, float]
     at_bound: dict[str, float]
     runs: tuple[FittedRun, ...]
+    leeway: Leeway | None = field(default=None, repr=False)
 
     @classmethod
     def at(
@@ -75,7 +123,7 @@ class Fitted:
         The covariance of the scaled numbers is (J'J)^-1, sd = |d value / d scaled| times the root
         of its diagonal.
         """
-        _, singular, right = np.linalg.svd(derivatives, full_matrices=False)
+        _, singular, right = np.linalg.svd(np.linalg.qr(derivatives, mode="r"))
         is_felt = singular > RANK * singular.max(initial=0.0)
         spread = np.linalg.norm(right[is_felt] / singular[is_felt, None], axis=0)
         spread = spread * max(1.0, _rms(runs))
@@ -88,7 +136,7 @@ class Fitted:
             for bound in (number.low, number.high):
                 if abs(place - number.scaled(bound)) < NEAR:
                     at_bound[label] = bound
-        return cls(values, sd, at_bound, runs)
+        return cls(values, sd, at_bound, runs, Leeway.at(unknowns, scaled, derivatives))
 
     @property
     def gap(self) -> tuple[float, float]:

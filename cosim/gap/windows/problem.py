@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from cosim.gap.data import Campaign, MeasuredRun
 
-from .fitted import Fitted
+from .descent import descend
+from .fitted import Fitted, Leeway
 from .numbers import Number, owners_of, unknowns_of
 from .run_fit import RunFit
 from .run_model import RunModel
@@ -18,8 +18,6 @@ from .scan import valleys
 from .start_states import Started
 from .windows import Windows
 
-#: A fit ends where a step would change the sum of squares by less than this part of it.
-SETTLED = 1e-5
 #: Most evaluations of a fit, and of one that only shows which start leads on.
 MOST_TRIES, FIRST_TRIES = 40, 8
 #: Gap up to which nothing is missing, and there is no other minimum to look for.
@@ -46,9 +44,13 @@ class Problem:
         windows: Mapping[str, Windows],
         numbers: Sequence[Number],
         settings: Mapping[str, float],
+        leeway: Leeway | None = None,
     ):
+        """leeway : what another fit left open of some of the numbers, in place of their priors."""
         self.settings = dict(settings)
         self.unknowns = unknowns_of(campaign, runs, numbers)
+        self.labels = [unknown.label for unknown in self.unknowns]
+        self.leeway = None if leeway is None else leeway.of(self.labels)
         self.parts = []
         for run in runs:
             owners = set(owners_of(campaign, run).values())
@@ -72,20 +74,34 @@ class Problem:
 
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         rows, slopes = np.zeros(len(self.unknowns)), np.zeros(len(self.unknowns))
+        known = () if self.leeway is None else self.leeway.labels
         for i, (number, _) in enumerate(self.unknowns):
-            if number.prior is not None:
+            if number.prior is not None and self.labels[i] not in known:
                 rows[i] = (number.value(scaled[i]) - number.start) / number.prior
                 slopes[i] = number.slope(scaled[i]) / number.prior
-        return rows, np.diag(slopes)
+        if self.leeway is None:
+            return rows, np.diag(slopes)
+        there = [self.labels.index(label) for label in known]
+        more = np.zeros((len(self.leeway.rows), len(self.unknowns)))
+        more[:, there] = self.leeway.rows
+        off = self.leeway.rows @ (scaled[there] - self.leeway.centre)
+        return np.concatenate([rows, off]), np.vstack([np.diag(slopes), more])
 
     def solved(self, scan: bool = False) -> Fitted:
         """The best numbers; scan: sets out from the best of several starts."""
         best = self._settled(self._first() if scan else self._descended(self._start, MOST_TRIES))
+        while self.leeway is not None and self.leeway.is_left(best.scaled, self.labels):
+            self.leeway = self.leeway.tightened()
+            best = self._descended(best.scaled, MOST_TRIES)
         return self._fitted(best.scaled)
 
     @property
     def _start(self) -> np.ndarray:
-        return np.zeros(len(self.unknowns))
+        start = np.zeros(len(self.unknowns))
+        if self.leeway is not None:
+            for label, place in zip(self.leeway.labels, self.leeway.centre, strict=True):
+                start[self.labels.index(label)] = place
+        return start
 
     def _settled(self, at: Point) -> Point:
         """The best nearby; again from where windows off course find better states."""
@@ -124,11 +140,8 @@ class Problem:
             return self._point(at)
         low = [u.number.scaled(u.number.low) for u in self.unknowns]
         high = [u.number.scaled(u.number.high) for u in self.unknowns]
-        found = least_squares(
-            self.residuals, np.clip(at, low, high), self.derivatives, (low, high),
-            ftol=SETTLED, xtol=1e-4, max_nfev=tries,
-        )  # fmt: skip
-        return self._point(found.x)
+        found = descend(self, np.clip(at, low, high), np.array(low), np.array(high), tries)
+        return self._point(found)
 
     def _fitted(self, at: np.ndarray) -> Fitted:
         derivatives = self.derivatives(at)

@@ -12,9 +12,9 @@ from .run_model import RunModel
 from .start_states import Started, StartStates
 
 #: Finite differences of a number, in its scales. Numbers that compensate each other but for their
-#: priors (mu_s, mu_k and all zeros) need derivatives to 1e-4 of themselves: with ten times the step
-#: the curvature of the motion seems to tell them apart.
-STEP = 1e-4
+#: priors (mu_s, mu_k and all zeros) need derivatives to 1e-3 of themselves; with ten times the step
+#: the curvature of the motion seems to tell them apart, with a tenth the integrator's error does.
+STEP = 1e-3
 #: A window whose misfit grows by this factor, and by this, in a step has lost its course.
 LOST, LOST_SQUARES = 2.0, 10.0
 #: States found elsewhere are better if a run's sum of squares falls by this part.

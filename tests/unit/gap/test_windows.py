@@ -198,7 +198,9 @@ def test_the_track_is_what_the_residuals_are_of(plain, found):
         assert model.track.shape == (run.motion.time.size, 3)
         off = (model.track[:, 0] - run.motion.x) / NOISE
         assert np.allclose(off, model.residuals, atol=1e-6)
-        assert model.values["friction.mu_s"] == found.values["friction.mu_s"]
+        # held-out runs may have shared numbers within the errors of the fit
+        off = abs(model.values["friction.mu_s"] - found.values["friction.mu_s"])
+        assert off <= 4.0 * found.sd["friction.mu_s"] * model.hold_out
 
 
 def test_a_planar_motion_is_fitted_in_both_directions(tmp_path):
