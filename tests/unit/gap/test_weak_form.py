@@ -1,0 +1,204 @@
+"""Rows of the equation of motion: exact integrals, unit noise, evidence, and what they ask for."""
+
+import numpy as np
+import pytest
+from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
+from scipy.special import logsumexp
+from scipy.stats import multivariate_normal
+
+from cosim.gap import read_campaign
+from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.evidence import posterior
+from cosim.gap.weak_form.ladder import Search
+from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
+from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.surface import tracks_of
+from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.track import smooth
+
+MASS, STIFFNESS = KNOWN["mass"], 4.0 * KNOWN["stiffness"]
+#: Masses and speeds of five runs.
+RUNS = ((0.6, 0.05), (0.6, 0.1), (0.6, 0.2), (1.1, 0.05), (1.1, 0.1))
+FRICTION = {"mu_s": 0.3, "mu_k": 0.2}
+#: Every argument that an effect stands for, at a plain size; "" is none.
+EFFECTS = {
+    "": {},
+    "velocity_weakening": {"linear": 0.6},
+    "film_drag": {"coefficient": 0.6},
+    "structural_damping": {"coefficient": 0.6},
+    "spring_hardening": {"cubic": 2e4},
+    "run_in": {"change": -0.2, "distance": 0.3},
+    "thermal_weakening": {"per_joule": 0.5, "relaxation_time": 3.0},
+    "load_dependence": {"exponent": -0.25, "reference_force": 8.0},
+    "static_strengthening": {"rate": 0.1, "hold_time": 0.1},
+    "surface_pattern": {"amplitude": 0.1, "wavelength": 0.07},
+    "speed_ripple": {"amplitude": 0.05, "frequency": 0.9},
+}
+#: Those that no effect of the catalogue stands for, by what differs from run to run.
+FROM_RUN_TO_RUN = {
+    "other.order": [{}] * len(RUNS),
+    "other.room": [{"ambient_degC": degrees} for degrees in (0.0, 12.0, 4.0, 15.0, 0.0)],
+}
+QUICK = ("", "velocity_weakening", "surface_pattern")
+
+
+def written(folder, parts=None, more=None, duration=10.0, held_out=(), seed=0, **blocks):
+    """A campaign. parts : of friction in each run; more : keys of its table."""
+    runs = []
+    for number, (mass, speed) in enumerate(RUNS):
+        part = 1.0 if parts is None else parts[number]
+        friction = {name: part * mu for name, mu in FRICTION.items()}
+        run = moved(speed, mass, duration, tuple(friction.items()), repr(blocks), blocks=blocks)
+        columns = {"t": run.time, "x": noisy(run["x"], 100 * seed + number)}
+        table = {"surface_speed": speed, "mass": mass, "hold_out": number in held_out}
+        runs.append(table | {"columns": columns} | ({} if more is None else more[number]))
+    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+
+
+class _Motions(dict):
+    """Motions are computed once."""
+
+    def __call__(self, speed, mass, duration, friction, key, blocks):
+        name = (speed, mass, duration, friction, key)
+        if name not in self:
+            self[name] = motion(speed, mass, duration=duration, **dict(friction), **blocks)
+        return self[name]
+
+
+moved = _Motions()
+
+
+def system_of(campaign, every=True):
+    rows = [rows_of(track, campaign.rig) for track in tracks_of(campaign, list(campaign.runs))]
+    return System(campaign, rows, every=every)
+
+
+def found_in(campaign):
+    """Names of the findings."""
+    system = system_of(campaign)
+    arguments = Arguments(campaign, system.runs, system.level)
+    waves = periodic.kinds(system.level.kinetic)
+    ladder = Search(system, arguments.unknowns(), waves, arguments.near).climb()
+    return [finding.name for finding in ladder.findings]
+
+
+@pytest.mark.parametrize(
+    "effect", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow)
+               for name in EFFECTS]
+)  # fmt: skip
+def test_what_is_there_is_named_first(effect, tmp_path):
+    blocks = {effect: EFFECTS[effect]} if effect else {}
+    assert found_in(written(tmp_path, **blocks))[:1] == [effect] * bool(effect)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FROM_RUN_TO_RUN)
+def test_what_no_effect_stands_for_is_found_by_its_own_name(name, tmp_path):
+    more = FROM_RUN_TO_RUN[name]
+    warmth = [each.get("ambient_degC", 4.0 * number) for number, each in enumerate(more)]
+    parts = [1.0 + 0.012 * degrees for degrees in warmth]
+    assert found_in(written(tmp_path, parts, more))[:1] == [name]
+
+
+@pytest.fixture(scope="module")
+def swinging(tmp_path_factory):
+    """Rows of a block that swings, slower than the surface; amplitude and angular frequency."""
+    time, (amplitude, omega) = np.arange(400) * 0.01, (0.02, 11.0)
+    columns = {"t": time, "x": amplitude * np.cos(omega * time)}
+    folder = tmp_path_factory.mktemp("swinging")
+    path = write_campaign(folder, [{"surface_speed": 1.0, "columns": columns}], noise={"x": NOISE})
+    campaign = read_campaign(path)
+    return rows_of(smooth(campaign.runs[0]), campaign.rig), amplitude, omega
+
+
+def test_integrals_of_a_swing_are_exact(swinging):
+    """phi (m x'' + K x) of a cosine: a B-spline's transform is a power of sinc."""
+    rows, amplitude, omega = swinging
+    track, block = rows.track, rows.slip
+    done = block.inertia @ track.x + block.force @ (STIFFNESS * track.x)
+    support = np.diff(block.force.indptr)
+    knots = (support[0] + 1) // 6
+    step = knots * track.interval
+    middle = np.array([track.time[row].mean() for row in np.split(block.force.indices,
+                       block.force.indptr[1:-1])])  # fmt: skip
+    transform = step * np.sinc(omega * step / (2.0 * np.pi)) ** 6
+    force = (STIFFNESS - MASS * omega**2) * amplitude * np.cos(omega * middle)
+    scale = STIFFNESS * amplitude * step
+    np.testing.assert_allclose(done, transform * force, atol=1e-5 * scale)
+
+
+def test_rows_of_noise_have_unit_variance_and_are_independent(swinging):
+    block = swinging[0].slip
+    noise = NOISE * np.random.default_rng(1).standard_normal((block.place.shape[1], 2000))
+    rows = block.whitened(block.place @ noise)
+    correlated = np.cov(rows)
+    np.testing.assert_allclose(np.diag(correlated), 1.0, atol=5.0 * np.sqrt(2.0 / 2000))
+    off = correlated - np.diag(np.diag(correlated))
+    assert np.max(np.abs(off)) < 5.5 / np.sqrt(2000)
+
+
+def test_evidence_is_the_density_of_the_rows():
+    random = np.random.default_rng(2)
+    columns, rows = random.standard_normal((30, 3)), random.standard_normal(30)
+    root = random.standard_normal((3, 3))
+    prior = root @ root.T
+    found = posterior(columns.T @ columns, columns.T @ rows, rows @ rows, prior)
+    covariance = np.eye(30) + columns @ prior @ columns.T
+    density = multivariate_normal(np.zeros(30), covariance).logpdf(rows)
+    assert found.log_evidence - 15.0 * np.log(2.0 * np.pi) == pytest.approx(density)
+    gain = prior @ columns.T @ np.linalg.inv(covariance)
+    np.testing.assert_allclose(found.mean, gain @ rows)
+    np.testing.assert_allclose(found.covariance, prior - gain @ columns @ prior, atol=1e-12)
+
+
+@pytest.fixture(scope="module")
+def system(tmp_path_factory):
+    """Of a campaign that lacks nothing; the last run is held out."""
+    return system_of(written(tmp_path_factory.mktemp("plain"), held_out=(4,)), every=False)
+
+
+def test_evidence_of_a_campaign_is_that_of_its_dense_covariance(system):
+    """Averaged over how far friction scatters and how far the zeros lie apart."""
+    rung, count, runs = system.rung(), system.rows.size, len(system.fitted)
+    densities = []
+    for (scatter, zeros), weight in zip(*rung.settings, strict=True):
+        covariance = np.eye(count)
+        for each in rung.unknowns:
+            unknown = each.unknown
+            part = {SCATTER: scatter, ZERO_NAME: zeros}.get(unknown.name, 1.0)
+            columns = unknown.columns(system.fitted)
+            prior = np.kron(np.eye(runs), unknown.prior) if unknown.per_run else unknown.prior
+            covariance += part**2 * columns @ prior @ columns.T
+        lower = np.linalg.cholesky(covariance)
+        white = np.linalg.solve(lower, system.rows)
+        densities.append(weight - 0.5 * white @ white - np.log(np.diag(lower)).sum())
+    assert rung.evidence == pytest.approx(logsumexp(densities), rel=1e-9)
+
+
+def test_a_run_that_no_fit_has_seen_is_left_with_its_noise(system, tmp_path):
+    rung, run = system.rung(), system.held_out[0]
+    left = rung.left(run)
+    assert np.sqrt(np.mean(left**2)) == pytest.approx(1.0, abs=4.0 / np.sqrt(2.0 * left.size))
+    assert rung.held_out_gap == pytest.approx(np.sqrt(np.mean(left**2)))
+    # friction of its own by a fifth is more than the scatter that the others show
+    other = system_of(written(tmp_path, [1.0, 1.0, 1.0, 1.0, 1.2], held_out=(4,)), every=False)
+    assert other.rung().held_out_gap > 1.3 * rung.held_out_gap
+
+
+def test_intervals_of_both_coefficients_hold_the_truth(tmp_path):
+    """Over twelve recordings: the squares of what they are off by, in standard deviations."""
+    off = []
+    for seed in range(12):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        campaign = written(folder, seed=seed)
+        rows = [rows_of(smooth(run), campaign.rig) for run in campaign.runs]
+        rung = System(campaign, rows).rung()
+        mean, covariance = rung.posterior
+        for name, truth in ((MU_K, FRICTION["mu_k"]), (MU_S, FRICTION["mu_s"])):
+            added = next(each for each in rung.base if each.unknown.name == name)
+            part = rung.part_of(added)
+            off.append((mean[part][0] - truth) / np.sqrt(covariance[part, part][0, 0]))
+    within = np.mean(np.abs(off) < 1.645)
+    assert within >= 0.7, off  # 90 % of 24: 17 at least
