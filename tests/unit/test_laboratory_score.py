@@ -8,7 +8,6 @@ import pytest
 from laboratory_score.answers import Row, read_lines, rows_of, truth_of
 from laboratory_score.calibration import (
     interval_points,
-    none_points,
     probability_points,
     write_calibration,
 )
@@ -133,20 +132,19 @@ def test_a_fault_that_is_named_as_physics():
 def test_exponents_of_mass_and_load_are_one():
     answer = told("run_in", exponents={"run_in": {"mass": -1.0}})
 
-    def near(stated=True, **powers):
-        """As gap.json has them."""
+    def near(**powers):
+        """As gap.json has them: the whole power, and that of the law."""
         said = [
-            {"effect": "run_in", "quantity": quantity, "value": value, "stated": stated}
+            {"effect": "run_in", "quantity": quantity, "value": 1.0 + value, "catalogue": 1.0}
             for quantity, value in powers.items()
         ]
         return exponents_are_near(row(answer, found("named", ["run_in"], exponents=said)))
 
     assert near(mass=-0.85)
     assert near(load=-1.1)
-    assert not near(mass=-1.0, stated=False)
     assert not near(mass=-0.7)
     assert not near(speed=-1.0)
-    assert not near(mass=-1.0, speed=0.4)
+    assert not near(**{"mass": -1.0, "sliding speed": 0.4})
     assert not near()
 
 
@@ -157,53 +155,50 @@ def test_shares_have_exact_intervals():
     assert str(Share(0, 0)) == "–"
 
 
-def with_interval(key, value, half, answer, verdict="named", effects=("speed_ripple",)):
-    """An answer with one fitted parameter and its 95 % interval."""
-    fitted = {"parameters": {key: value}, "intervals": {key: [value - half, value + half]}}
+def with_sd(key, value, sd, answer, verdict="named", effects=("speed_ripple",)):
+    """An answer with one fitted parameter and its standard deviation."""
+    fitted = {"parameters": {key: value}, "sd": {key: sd}, "at_bound": []}
     return row(answer, found(verdict, effects, extended=fitted))
 
 
 def test_coverage_is_counted_at_90_per_cent():
-    # 1.96 standard deviations are stated, 1.645 are counted
     for off, covered in ((1.6, True), (1.7, False)):
         value = 0.25 + off * 0.01
-        one = with_interval("friction.mu_k", value, 1.96 * 0.01, told("speed_ripple"))
+        one = with_sd("friction.mu_k", value, 0.01, told("speed_ripple"))
         (each,) = compared(one)
         assert each.covers() is covered
         assert each.distance == pytest.approx(off, rel=1e-3)
 
 
 def test_parameters_without_a_counterpart_are_not_compared():
-    drifting = with_interval("friction.mu_k", 0.2, 0.1, told("run_in"), effects=["run_in"])
-    wrong = with_interval("friction.mu_k", 0.2, 0.1, told("speed_ripple"), effects=["run_in"])
+    drifting = with_sd("friction.mu_k", 0.2, 0.1, told("run_in"), effects=["run_in"])
+    wrong = with_sd("friction.mu_k", 0.2, 0.1, told("speed_ripple"), effects=["run_in"])
     smooth = told("speed_ripple", contact=CONTACT | {"form": "smooth"})
-    peak = with_interval("friction.mu_s", 0.4, 0.1, smooth)
+    peak = with_sd("friction.mu_s", 0.4, 0.1, smooth)
     assert not compared(drifting) and not compared(wrong) and not compared(peak)
 
 
 def test_a_period_is_known_as_far_as_it_is_written():
     answer = told("speed_ripple")
     answer["hidden"][0]["law"] = "speed (1 + strength * sawtooth), 0.874 Hz"
-    near = with_interval("speed_ripple.frequency", 0.8744, 1e-6, answer)
-    far = with_interval("speed_ripple.frequency", 0.8752, 1e-6, answer)
+    near = with_sd("speed_ripple.frequency", 0.8744, 1e-6, answer)
+    far = with_sd("speed_ripple.frequency", 0.8752, 1e-6, answer)
     assert [each.covers() for each in (*compared(near), *compared(far))] == [True, False]
     assert rounded("0.0874") == pytest.approx((0.0874, 0.00005))
     answer["hidden"][0]["law"] += " at 0.2 m/s, in proportion"
-    assert not compared(with_interval("speed_ripple.frequency", 0.8744, 1e-6, answer))
+    assert not compared(with_sd("speed_ripple.frequency", 0.8744, 1e-6, answer))
 
 
 def test_amounts_of_faults_have_their_own_parameters():
     turned = told("measurement.rotation")
     turned["hidden"][0] |= {"shape": "rotation", "strength": 0.08}
     said = ["measurement.rotation"]
-    (each,) = compared(with_interval("measurement.rotation", -0.07, 0.02, turned, effects=said))
-    assert (each.value, each.low, each.high) == pytest.approx((0.07, 0.05, 0.09))
+    (each,) = compared(with_sd("measurement.rotation", -0.07, 0.02, turned, effects=said))
+    assert (each.value, each.true) == pytest.approx((0.07, 0.08))
     past = told("measurement.smoothing")
     past["hidden"][0] |= {"shape": "lagging", "strength": 0.01}
     said = ["measurement.smoothing"]
-    (each,) = compared(
-        with_interval("measurement.smoothing_past", 0.012, 0.004, past, effects=said)
-    )
+    (each,) = compared(with_sd("measurement.smoothing_past", 0.012, 0.004, past, effects=said))
     assert each.covers()
 
 
@@ -217,30 +212,29 @@ def test_what_a_suite_has_to_show():
     assert by_name["named by effect"].met
     assert by_name["nothing hidden: named"].share == Share(1, 5)
     assert by_name["nothing hidden: named"].met is False
-    refused = by_name["nothing hidden: `none` refused (level 5%)"]
+    refused = by_name["nothing hidden: `none` refused"]
     assert refused.share == Share(1, 5) and refused.met
     assert by_name["right answers: held-out gap after <= 1.1"].share == Share(9, 9)
+
+
+def ranked(effect):
+    return [{"effect": effect, "probability": 0.97, "form": "", "held_out_gap": 1.0, "fit_gap": 1.0,
+             "delta_bic": 9.0, "parameters": {}}]  # fmt: skip
 
 
 @pytest.mark.filterwarnings("error")
 def test_calibration_is_on_the_diagonal_for_exact_tests(tmp_path):
     random = np.random.default_rng(0)
-    empty = [
-        row(told(), found("none", chance={"p": float(p), "draws": 199}), "nothing")
-        for p in (np.arange(200) + 0.5) / 200
-    ]
-    for level, seen in none_points(empty):
-        assert seen.value == pytest.approx(level, abs=0.005)
     estimates = 0.25 + 0.01 * random.standard_normal(600)
-    fitted = [with_interval("friction.mu_k", x, 0.0196, told("speed_ripple")) for x in estimates]
+    fitted = [with_sd("friction.mu_k", x, 0.01, told("speed_ripple")) for x in estimates]
     for level, seen in interval_points(fitted):
         low, high = seen.interval(0.999)
         assert low <= level <= high
-    sure = [row(told("run_in"), found("named", ["run_in"], probability=0.97))] * 97
-    sure += [row(told("run_in"), found("named", ["film_drag"], probability=0.97))] * 3
+    sure = [row(told("run_in"), found("named", ["run_in"], ranking=ranked("run_in")))] * 97
+    sure += [row(told("run_in"), found("named", ["film_drag"], ranking=ranked("film_drag")))] * 3
     ((stated, seen),) = probability_points(sure)
     assert stated == pytest.approx(0.03) and seen == Share(3, 100)
-    for rows in ([*empty, *fitted, *sure], empty, []):  # panels may have nothing to show yet
+    for rows in ([*fitted, *sure], fitted, []):  # panels may have nothing to show yet
         write_calibration(rows, tmp_path / "calibration.png")
         assert (tmp_path / "calibration.png").stat().st_size > 10_000
 

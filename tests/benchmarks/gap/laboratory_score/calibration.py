@@ -1,8 +1,7 @@
 """Stated against observed error rates, with exact 95 % intervals of what was observed.
 
-On the diagonal a level of 5 % errs in 5 %. Of p-values of `none`, where nothing is hidden: how
-often they are at or below a level. Of intervals, in right answers: how often they miss the truth.
-Of the stated probability of what is named: how often it is right.
+On the diagonal a level of 5 % errs in 5 %. Of intervals, in right answers: how often they miss the
+truth. Of the stated probability of what is named alone: how often it is right.
 """
 
 from __future__ import annotations
@@ -14,34 +13,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.report.style import BLUE, GREY, RED, panels, png, styled
+from cosim.report.style import BLUE, GREY, panels, png, styled
 
 from .answers import Row
-from .outcome import Outcome, outcome, p_of_none, probability
+from .outcome import Outcome, outcome, probability
 from .parameters import compared
 from .shares import Share, share
-from .targets import hides_nothing, refuses_none
 
 TICKS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0)
 LEVELS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
 BINS = (0.0, 0.5, 0.8, 0.9, 0.95, 0.99, 1.0)  # of stated probabilities
-TESTED = 0.05  # level of the test behind the verdict `none`
 
 Points = list[tuple[float, Share]]
-
-
-def none_points(rows: Sequence[Row]) -> Points:
-    """Level, share of campaigns without anything hidden whose p is at or below it."""
-    empty = [row for row in rows if hides_nothing(row)]
-    stated = [p for row in empty if (p := p_of_none(row)) is not None]
-    counts = [(level, sum(p <= level for p in stated)) for level in LEVELS if stated]
-    return [(level, Share(hits, len(stated))) for level, hits in counts]
-
-
-def verdict_point(rows: Sequence[Row]) -> Points:
-    """The level of `none`, and how often anything else was said where nothing is hidden."""
-    empty = [row for row in rows if hides_nothing(row) and row.found is not None]
-    return [(TESTED, share(empty, refuses_none))] if empty else []
 
 
 def interval_points(rows: Sequence[Row]) -> Points:
@@ -100,12 +83,9 @@ def frame(axes: Axes, stated: str, seen: str) -> None:
 
 @styled
 def calibration_figure(rows: Sequence[Row]) -> Figure:
-    """Three panels, all on the diagonal where the error rates are as stated."""
-    figure, grid = panels(1, 3, height=4.4, width=12.5)
-    none, intervals, names = grid[0]
-    draw(none, none_points(rows), BLUE, "p of the plain model")
-    draw(none, verdict_point(rows), RED, "verdict not `none`", "s")
-    frame(none, "level", "nothing hidden: refused at that level")
+    """Two panels, both on the diagonal where the error rates are as stated."""
+    figure, grid = panels(1, 2, height=4.4, width=8.5)
+    intervals, names = grid[0]
     draw(intervals, interval_points(rows), BLUE, "parameters")
     frame(intervals, "1 - level of an interval", "right answers: intervals that miss the truth")
     draw(names, probability_points(rows), BLUE, "stated probability", "D")

@@ -1,27 +1,27 @@
 """Powers of mass and speed with which an effect's strength goes, stated against true.
 
-Both are beside the law as it is written: a share of mu, a force in N, heat in J. Where every run
-has the same gravity, a power of the load is one of the mass.
+The true ones are beside the law as it is written: a share of mu, a force in N, heat in J; gap.json
+has the whole power and that of the catalogue's law, and what it has more is compared. Where every
+run has the same gravity, a power of the load is one of the mass.
 """
 
 from __future__ import annotations
 
 from .answers import Row
 
-SAME = {"load": "mass", "normal_force": "mass", "surface_speed": "speed"}
+SAME = {
+    "load": "mass", "normal_force": "mass", "surface_speed": "speed", "sliding speed": "speed",
+}  # fmt: skip
 NEAR = 0.2  # as near as the exponent has to be
 
 
 def exponents_stated(row: Row) -> dict[str, dict[str, float]]:
-    """effect -> quantity -> power, under the laboratory's names of quantities.
-
-    Of those in gap.json that are stated: one that was tried and left out is no answer.
-    """
+    """effect -> quantity -> power over the catalogue's, under the laboratory's names."""
     powers: dict[str, dict[str, float]] = {}
     for each in (row.found or {}).get("exponents") or []:
-        if each["stated"]:
-            quantity = SAME.get(each["quantity"], each["quantity"])
-            powers.setdefault(each["effect"], {})[quantity] = float(each["value"])
+        quantity = SAME.get(each["quantity"], each["quantity"])
+        more = float(each["value"]) - float(each["catalogue"])
+        powers.setdefault(each["effect"], {})[quantity] = more
     return powers
 
 

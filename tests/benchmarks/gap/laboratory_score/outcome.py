@@ -91,18 +91,14 @@ def names_fault(row: Row) -> bool:
     return bool(names) and all(name.startswith(FAULT) for name in names)
 
 
-def p_of_none(row: Row) -> float | None:
-    """Level at which `none` would just be refused; None where the answer has no such number."""
-    p = ((row.found or {}).get("chance") or {}).get("p")
-    return None if p is None else float(p)
-
-
 def probability(row: Row) -> float | None:
-    """What the answer says to be the probability of what it names; None where it does not."""
-    value = (row.found or {}).get("probability")
-    if isinstance(value, dict):
-        value = value.get("named")
-    return None if value is None or verdict(row) != "named" else float(value)
+    """How probable the answer says the one that it names to be; None where it names no one."""
+    if verdict(row) != "named" or len(given(row)) != 1:
+        return None
+    ranked = (row.found or {}).get("ranking") or ()
+    return next(
+        (float(each["probability"]) for each in ranked if each["effect"] in given(row)), None
+    )
 
 
 def gap(row: Row, when: str, part: str = "held_out") -> float | None:

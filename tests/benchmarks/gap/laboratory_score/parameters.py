@@ -18,8 +18,7 @@ from statistics import NormalDist
 from .answers import FAULT, Row
 from .outcome import is_right
 
-STATED = 0.95  # level of the intervals of gap.json
-WANTED = 0.9  # level at which coverage is counted
+WANTED = 0.9  # level of an interval at which coverage is counted
 
 # Hidden things that leave mu_k and mu_s numbers of the contact.
 STEADY = {
@@ -31,7 +30,7 @@ STEADY = {
     "speed_ripple",
 }
 # Contacts whose static friction is a number of their own, and not the peak of a curve.
-WITH_STATIC = {"jump", "lugre", "elasto_plastic"}
+WITH_STATIC = {"jump", "lugre", "elasto_plastic", "iwan"}
 # Shape of a fault -> the parameter that is its amount, in the same unit.
 AMOUNTS = {
     "scale": f"{FAULT}scale",
@@ -51,29 +50,24 @@ def deviations(level: float) -> float:
 
 @dataclass(frozen=True)
 class Compared:
-    """A parameter with its 95 % interval and the true value, known up to `slack` either way."""
+    """A parameter with its standard deviation and its true value, known up to `slack` either way."""
 
     row: Row
     key: str
     value: float
-    low: float
-    high: float
+    sd: float
     true: float
     slack: float = 0.0
 
     def covers(self, level: float = WANTED) -> bool:
         """Whether the interval of that level, of a normal estimate, holds the true value."""
-        shrink = deviations(level) / deviations(STATED)
-        low = self.value - (self.value - self.low) * shrink - self.slack
-        high = self.value + (self.high - self.value) * shrink + self.slack
-        return bool(low <= self.true <= high)
+        return bool(self.distance <= deviations(level))
 
     @property
     def distance(self) -> float:
         """Of the estimate from the truth, in standard deviations of the estimate."""
-        side = self.high - self.value if self.true > self.value else self.value - self.low
         off = max(abs(self.true - self.value) - self.slack, 0.0)
-        return off / (side / deviations(STATED)) if side > 0.0 else math.inf
+        return off / self.sd if self.sd > 0.0 else math.inf
 
 
 def rounded(text: str) -> tuple[float, float]:
@@ -108,16 +102,14 @@ def compared(row: Row) -> list[Compared]:
     """Parameters of a right answer that can be compared, with their intervals."""
     if row.found is None or not is_right(row) or row.found["verdict"] == "unknown":
         return []
-    fitted = row.found.get("extended") or row.found.get("plain") or {}
-    values, intervals = fitted.get("parameters") or {}, fitted.get("intervals") or {}
+    fitted = row.found.get("extended") or {}
+    values, deviation = fitted.get("parameters") or {}, fitted.get("sd") or {}
     found = []
     for key, true, slack in true_values(row):
-        if key not in values or key not in intervals or None in intervals[key]:
+        if key not in values or deviation.get(key) is None or key in fitted.get("at_bound", ()):
             continue
-        value, (low, high) = float(values[key]), map(float, intervals[key])
+        value = float(values[key])
         if key in UNSIGNED:
-            true = abs(true)
-            if value < 0.0:
-                value, low, high = -value, -high, -low
-        found.append(Compared(row, key, value, low, high, true, slack))
+            value, true = abs(value), abs(true)
+        found.append(Compared(row, key, value, float(deviation[key]), true, slack))
     return found

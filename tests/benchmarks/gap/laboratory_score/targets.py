@@ -13,7 +13,7 @@ from .shares import Share, share
 
 Holds = Callable[[Row], bool]
 SMALL_GAP = 1.1  # noise units that may be left on held-out runs
-LEVEL = 0.05  # of the test that refuses `none`
+LEVEL = 0.05  # part of the campaigns without anything that may gain `LEAST_GAIN` by chance
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def scores(suite: str, rows: Sequence[Row]) -> list[Score]:
             counted(empty, "nothing hidden: named, or as a part", gives_part),
             counted(
                 empty,
-                f"nothing hidden: `none` refused (level {LEVEL:.0%})",
+                "nothing hidden: `none` refused",
                 refuses_none,
                 f"~{LEVEL}",
             ),

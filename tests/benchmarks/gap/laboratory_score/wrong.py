@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from .answers import Row
 from .exponents import exponents_are_near, exponents_stated
-from .outcome import gap, is_right, outcome, p_of_none, verdict
+from .outcome import gap, is_right, outcome, verdict
 
 FIRST = 3  # of the ranking
 
@@ -48,8 +48,7 @@ def answer_lines(row: Row) -> list[str]:
         f"{part} {number(gap(row, 'before', part))} → {number(gap(row, 'after', part))}"
         for part in ("fit", "held_out")
     )
-    more = f"; p of none {number(p_of_none(row))}; {row.seconds:.0f} s"
-    lines = [said, f"- gap {gaps.replace('held_out', 'held out')}{more}"]
+    lines = [said, f"- gap {gaps.replace('held_out', 'held out')}; {row.seconds:.0f} s"]
     for place, each in enumerate(row.found.get("ranking", [])[:FIRST], 1):
         numbers = ", ".join(f"{key} {number(v)}" for key, v in each["parameters"].items())
         lines.append(
