@@ -50,7 +50,7 @@ def deviations(level: float) -> float:
 
 @dataclass(frozen=True)
 class Compared:
-    """A parameter with its standard deviation and its true value, known up to `slack` either way."""
+    """A parameter with its standard deviation; its true value, known up to `slack` either way."""
 
     row: Row
     key: str
