@@ -67,7 +67,8 @@ class Leeway:
         shared = np.array([unknown.number.scope != "run" for unknown in unknowns], dtype=bool)
         order = np.argsort(shared, kind="stable")
         first = int(np.sum(~shared))
-        rows = np.linalg.qr(derivatives[:, order], mode="r")[first:, first:]
+        whole = np.asarray(np.linalg.qr(derivatives[:, order], mode="r"))
+        rows = whole[first:, first:]
         labels = tuple(unknowns[i].label for i in order[first:])
         return cls(labels, scaled[order[first:]], rows)
 
