@@ -22,6 +22,7 @@ from cosim.gap.weak_form.constants import (
     LEAST_GAIN,
     SCALES_ASKED,
     SCAN_STEPS,
+    WAVES_FITTED,
 )
 from cosim.gap.weak_form.ladder import Finding, Ladder
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
@@ -58,7 +59,7 @@ def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
     found = []
     for unknown in variants:
         bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
-        factors = tuple(_factor(Added(unknown, 1.0, bend), runs) for bend in bends)
+        factors = tuple(factor_of(Added(unknown, 1.0, bend), runs) for bend in bends)
         price = float(np.log(len(variants) * len(bends) * len(SCALES_ASKED)))
         found.append(Option((unknown,), factors, np.array(SCALES_ASKED), price))
     return found
@@ -67,12 +68,17 @@ def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
 def option_of_wave(added: Sequence[Added], system: System) -> Option:
     """A wave that a scan has found, at its wave length alone; the scan has its price."""
     count = system.waves[added[0].unknown.wave.kind][0].size
-    factor = block_diag(*(_factor(each, len(system.fitted)) for each in added))
-    price = float(np.log(count / SCAN_STEPS))
-    return Option(tuple(each.unknown for each in added), (factor,), np.ones(1), price)
+    factor = block_diag(*(factor_of(each, len(system.fitted)) for each in added))
+    unknowns = tuple(each.unknown for each in added)
+    return Option(unknowns, (factor,), np.ones(1), price_of_scan(count))
 
 
-def _factor(added: Added, runs: int) -> np.ndarray:
+def price_of_scan(wavenumbers: int) -> float:
+    """ln of how many waves a scan chooses among, see `periodic.offered`."""
+    return float(np.log(wavenumbers / SCAN_STEPS * (WAVES_FITTED + 2)))
+
+
+def factor_of(added: Added, runs: int) -> np.ndarray:
     return np.kron(np.eye(runs), added.factor) if added.unknown.per_run else added.factor
 
 
@@ -216,7 +222,7 @@ def drawn(
     system, spreads = rung.system, {SCATTER: scatter, ZERO_NAME: zeros, MU_K: 0.0, MU_S: 0.0}
     rows = random.standard_normal((system.rows.size, count))
     for each in rung.base:
-        factor = spreads.get(each.unknown.name, 1.0) * _factor(each, len(system.fitted))
+        factor = spreads.get(each.unknown.name, 1.0) * factor_of(each, len(system.fitted))
         sizes = random.standard_normal((len(factor), count))
         rows += system.columns(each.unknown) @ (factor @ sizes)
     return rows

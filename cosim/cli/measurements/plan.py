@@ -10,7 +10,6 @@ from typing import Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
-from cosim.cli.measurements.gap import count
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.saying import Bar, note
 from cosim.files import OutputRefused, writable, write_text
@@ -43,20 +42,15 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="write a small plan there to try this command on, and do nothing else",
     )
     parser.add_argument(
-        "--level",
-        metavar="P",
-        type=_chance,
-        default=0.05,
-        help="chance that something is named where nothing is (default: 0.05)",
-    )
-    parser.add_argument(
-        "--power", metavar="P", type=_chance, default=0.9,
-        help="chance that an effect of the smallest size is named (default: 0.9)",
+        "--power", metavar="P", type=_chance, default=0.8,
+        help="chance that an effect of the smallest size is named (default: 0.8)",
     )  # fmt: skip
+    parser.add_argument(
+        "--seed", metavar="N", type=int, default=0, help="of the campaigns drawn (default: 0)"
+    )
     parser.add_argument(
         "--no-page", action="store_true", help=f"only {RESULT}: no figures, no page"
     )
-    parser.add_argument("--jobs", metavar="N", type=count, default=2, help="processes (default: 2)")
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -87,10 +81,14 @@ def execute(arguments: Namespace) -> int:
     for remark in planned.campaign.remarks:
         note(remark)
     with Bar(unit="step") as bar:
+
+        def progress(done: int, total: int) -> None:
+            bar.total = total
+            bar.update(done - bar.n)
+
         answer = plan.make_plan(
-            planned, level=arguments.level, wanted=arguments.power, jobs=arguments.jobs,
-            progress=bar.update,
-        )  # fmt: skip
+            planned, wanted=arguments.power, seed=arguments.seed, progress=progress
+        )
     text = data.as_json(answer)
     made = made_by(campaign=str(Path(arguments.campaign).resolve()))
     with results_in(folder, made, force=arguments.force) as results:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
 from typing import Any
 
+from stickslip import EFFECTS
+from stickslip.quantity import details
+
+from cosim.gap.plan.plan import Plan
+from cosim.gap.plan.sizes import DRAWS, Size
 from cosim.report.files import json_text
 from cosim.report.page import unit_text
 
-from .next_run import NextRun
-from .plan import Plan, Size
-
 #: Significant digits: more than a smallest size has a meaning.
-_DIGITS = 4
+DIGITS = 3
 
 
 def as_json(plan: Plan) -> str:
@@ -23,47 +24,51 @@ def as_json(plan: Plan) -> str:
 
 
 def as_data(plan: Plan) -> dict[str, Any]:
-    """A tree of plain values."""
+    """A tree of plain values. Of an effect with two directions the larger size is its smallest."""
     planned = plan.planned
-    return _plain(
-        {
-            "campaign": planned.campaign.name,
-            "level": plan.level,
-            "power": plan.wanted,
-            "friction": dict(planned.friction),
-            "noise": dict(planned.campaign.noise),
-            "runs": [
-                {
-                    "mass": run.setting.mass,
-                    "stiffness": run.setting.stiffness,
-                    "surface_speed": run.setting.surface_speed,
-                    "duration": run.duration,
-                    "rate": run.rate,
-                }
-                for run in planned.runs
-            ],
-            "smallest": {size.effect: _of(size) for size in plan.sizes},
-            "laws": [{"effect": size.effect, **_of(size, alone=False)} for size in plan.laws],
-            "not_tried": plan.silent,
-            "pairs": [asdict(pair) for pair in plan.pairs],
-            "classes": plan.indistinguishable,
-            "next_runs": [asdict(run) for run in plan.next_runs],
-            "next_runs_tried": plan.grid,
-            "remarks": planned.campaign.remarks,
-        }
-    )
+    smallest: dict[str, Size] = {}
+    for size in plan.sizes:
+        other = smallest.setdefault(size.law.candidate.effect, size)
+        if (size.percent or math.inf) > (other.percent or math.inf):
+            smallest[size.law.candidate.effect] = size
+    tree = {
+        "campaign": planned.campaign.name,
+        "power": plan.wanted,
+        "false_names": plan.false,
+        "friction": dict(planned.friction),
+        "noise": dict(planned.campaign.noise),
+        "runs": [
+            {
+                "mass": run.setting.mass, "stiffness": run.setting.stiffness,
+                "surface_speed": run.setting.surface_speed, "duration": run.duration,
+                "rate": run.rate,
+            }
+            for run in planned.runs
+        ],
+        "smallest": {effect: _of(size) for effect, size in smallest.items()},
+        "laws": [{"effect": size.law.candidate.effect, **_of(size)} for size in plan.sizes],
+        "not_tried": dict(plan.silent),
+        "pairs": [
+            {"truth": truth, "other": other, "share": share} for truth, other, share in plan.pairs
+        ],
+        "next_runs": [plan.next_run.as_data()] if plan.next_run else [],
+        "remarks": list(planned.campaign.remarks),
+    }  # fmt: skip
+    plain: dict[str, Any] = _plain(tree)
+    return plain
 
 
-def _of(size: Size, alone: bool = True) -> dict[str, Any]:
+def _of(size: Size) -> dict[str, Any]:
+    starts = {free.key: free.start for free in size.law.candidate.free_parameters[1:]}
     return {
-        "law": size.form,
-        "parameter": size.key,
-        "unit": size.unit or "1",
+        "law": size.law.candidate.form,
+        "parameter": size.law.key,
+        "unit": unit_of(size) or "1",
         "smallest": size.value,
-        **({"smallest_alone": size.alone} if alone else {}),
+        "smallest_alone": size.alone,
         "percent_of_friction": size.percent,
-        "at": size.shapes,
-        "typical": size.typical,
+        "at": {**starts, **size.law.unknown.settings},
+        "answers": {answer: count / DRAWS for answer, count in size.answers.items()},
     }
 
 
@@ -73,63 +78,65 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(entry) for entry in value]
     if isinstance(value, float):
-        return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
+        return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
     return value
 
 
-def size_text(size: Size) -> str:
-    """A smallest size with its unit."""
-    return _with_unit(size.value, size) if math.isfinite(size.value) else "not seen"
+def unit_of(size: Size) -> str:
+    """Of the parameter; "" where it has none."""
+    block, _, name = size.law.key.partition(".")
+    (table,) = (effect.table for effect in EFFECTS if effect.id == block)
+    unit = details(table.model_fields[name])["unit"]
+    return "" if unit == "1" else unit
 
 
-def alone_text(size: Size) -> str:
-    """The size from which it is told from every other effect, with its unit."""
-    return _with_unit(size.alone, size) if math.isfinite(size.alone) else "never"
+def value_text(value: float | None, size: Size, never: str = "not seen") -> str:
+    """A size with its unit."""
+    if value is None:
+        return never
+    return f"{value:.{DIGITS}g} {unit_text(unit_of(size))}".rstrip()
 
 
-def _with_unit(value: float, size: Size) -> str:
-    return f"{value:.3g} {unit_text(size.unit)}".rstrip()
+def percent_text(size: Size) -> str:
+    """Of friction; of the surface's speed, where that is what changes."""
+    of = "the surface's speed" if size.law.argument == "speed_ripple" else "friction"
+    return f"{size.percent:.2g} % of {of}" if size.percent is not None else "–"
 
 
-def percent_text(percent: float) -> str:
-    """So much of friction; a dash where there is no such size."""
-    return f"{percent:.2g} %" if math.isfinite(percent) else "–"
-
-
-def run_text(run: NextRun) -> str:
-    """The setting of a next run and what it is for."""
-    setting = (
-        f"{run.mass:.4g} kg, springs of {run.stiffness:.4g} N/m, surface at "
-        f"{run.surface_speed:.2g} m/s for {run.duration:.4g} s"
+def sentence(plan: Plan) -> str:
+    """The answer in a sentence."""
+    runs = len(plan.planned.runs)
+    seen = [size for size in plan.sizes if size.percent is not None]
+    start = f"{runs} run{'s' * (runs != 1)}"
+    if not seen:
+        return f"{start} would name no effect of the catalogue, whatever its size"
+    best, worst = min(seen, key=_percent), max(seen, key=_percent)
+    return (
+        f"{start} would name effects from {percent_text(best)} ({best.law.argument}) to "
+        f"{percent_text(worst)} ({worst.law.argument}) in {100 * plan.wanted:.0f} of 100 campaigns"
     )
-    if len(run.effects) == 1:
-        was = "not seen" if math.isinf(run.before) else f"{percent_text(run.before)} of friction"
-        if math.isinf(run.after):
-            return f"{setting}: nothing on the grid makes {run.effects[0]} seen"
-        return f"{setting}: {run.effects[0]} from {was} to {percent_text(run.after)}"
-    truth, other = run.effects
-    was = "never" if math.isinf(run.before) else f"at {run.before:.2g} times its smallest size"
-    then = "as soon as it is seen" if run.after <= 1.0 else f"at {run.after:.2g} times"
-    return f"{setting}: {truth} told from {other} {was}, then {then}"
+
+
+def _percent(size: Size) -> float:
+    return size.percent or 0.0
+
+
+def pair_text(truth: str, other: str, share: float) -> str:
+    """One of `Plan.pairs`."""
+    return f"{truth} is named as {other}, or in a class with it, {100 * share:.0f} times in 100"
 
 
 def closing_lines(plan: Plan) -> list[str]:
     """What is said at the end, on a terminal."""
-    runs = len(plan.planned.runs)
-    lines = [
-        f"{plan.planned.campaign.name}: {runs} run{'s' * (runs != 1)}; smallest sizes named with "
-        f"{100 * plan.wanted:.0f} % (and something with {100 * plan.level:.2g} % where nothing is)"
-    ]
-    width = max(map(len, [*(size.key for size in plan.sizes), *plan.silent]))
+    lines = [f"{plan.planned.campaign.name}: {sentence(plan)}"]
+    width = max(map(len, [*(size.law.key for size in plan.sizes), *plan.silent]), default=0)
     for size in plan.sizes:
-        percent = f"{percent_text(size.percent)} of friction"
-        by_itself = ""
-        if math.isfinite(size.value) and size.alone != size.value:
-            by_itself = f", told from every other effect at {alone_text(size)}"
-        said = f"{percent}{by_itself}" if math.isfinite(size.value) else "whatever its size"
-        lines.append(f"  {size.key:{width}}  {size_text(size):>16}  {said}")
+        said = percent_text(size) if size.value is not None else "whatever its size"
+        if size.value is not None and size.alone != size.value:
+            said += f", by itself from {value_text(size.alone, size, 'no size on')}"
+        lines.append(f"  {size.law.key:{width}}  {value_text(size.value, size):>16}  {said}")
     lines += [
         f"  {effect:{width}}  {'not tried':>16}  {why}" for effect, why in plan.silent.items()
     ]
-    lines += [f"  next, for the {run.aim}: {run_text(run)}" for run in plan.next_runs]
-    return lines
+    lines += [f"  pair  {pair_text(*pair)}" for pair in plan.pairs[:3]]
+    return lines + ([f"  next  {plan.next_run.text}"] if plan.next_run else [])

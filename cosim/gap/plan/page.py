@@ -1,31 +1,67 @@
-"""The answer as one self-contained HTML page, and its figures as files."""
+"""The answer as one self-contained HTML page, and its picture as a file."""
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from cosim.files import write_bytes, write_text
+from cosim.gap.plan import data
+from cosim.gap.plan.plan import Plan
 from cosim.report.page import render
-
-from .data import alone_text, percent_text, run_text, size_text
-from .figures import draw_pairs, draw_sizes
-from .plan import Plan
+from cosim.report.style import BLUE, ORANGE, RED, panels, picture
 
 
 def write_page(plan: Plan, folder: Path, file: Path) -> None:
-    """Both figures into the folder, and the page with them inside."""
-    pictures = [draw_sizes(plan), draw_pairs(plan)]
-    for one in pictures:
-        write_bytes(one.png, folder / f"{one.name}.png")
+    """The picture into the folder, and the page with it inside."""
+    drawn = draw_sizes(plan)
+    write_bytes(drawn.png, folder / f"{drawn.name}.png")
     text = render(
-        "plan.html.j2",
-        "cosim.gap.plan",
-        plan=plan,
-        campaign=plan.planned.campaign,
-        pictures={one.name: one for one in pictures},
-        size_text=size_text,
-        alone_text=alone_text,
-        percent_text=percent_text,
-        run_text=run_text,
-    )
+        "plan.html.j2", "cosim.gap.plan", plan=plan, campaign=plan.planned.campaign, data=data,
+        picture=drawn,
+    )  # fmt: skip
     write_text(text, file)
+
+
+@picture("smallest_sizes", (
+    "The smallest size of each effect that would be named, in percent of friction by which it lets "
+    "friction differ within these runs (a ripple: of the surface's speed). Blue: by itself or in a "
+    "class with others; orange: by itself. At the end of each bar, that size in its own unit."
+))  # fmt: skip
+def draw_sizes(plan: Plan) -> Figure:
+    """A row for each effect and direction."""
+    sizes = plan.sizes
+    figure, axes = panels(1, 1, height=1.2 + 0.42 * max(len(sizes), 1), width=9.0)
+    axis = axes[0, 0]
+    ends = [[_percent(size.value, size), _percent(size.alone, size)] for size in sizes]
+    every = [end for pair in ends for end in pair if math.isfinite(end)] or [1.0]
+    left, right = 0.5 * min(every), 4.0 * max(every)
+    for place, (size, (named, alone)) in enumerate(zip(sizes, ends, strict=True)):
+        if not math.isfinite(named):
+            axis.text(1.1 * left, place, "not seen, whatever its size", va="center", color=RED)
+            continue
+        label: dict[str, Any] = {"va": "center", "fontsize": 8.5}
+        axis.barh(place, named - left, left=left, height=0.36, color=BLUE)
+        if math.isfinite(alone) and alone > 1.3 * named:
+            axis.barh(place + 0.3, alone - left, left=left, height=0.2, color=ORANGE)
+            text = data.value_text(size.alone, size)
+            axis.text(1.05 * alone, place + 0.32, text, color=ORANGE, **label)
+        never = "" if math.isfinite(alone) else "  (never by itself)"
+        axis.text(1.05 * named, place - 0.02, data.value_text(size.value, size) + never, **label)
+    axis.set_xscale("log")
+    axis.set_xlim(left, right)
+    axis.set_yticks(range(len(sizes)), [size.law.key for size in sizes])
+    axis.set_ylim(len(sizes) - 0.4, -0.6)
+    axis.grid(visible=False, axis="y")
+    axis.set_xlabel("smallest size, percent of friction")
+    for what, colour in (("named", BLUE), ("named by itself", ORANGE)):
+        axis.barh([0], [0], color=colour, label=what)
+    figure.legend(loc="outside upper right", ncols=2)
+    return figure
+
+
+def _percent(value: float | None, size: data.Size) -> float:
+    return math.inf if value is None else size.law.percent(value)

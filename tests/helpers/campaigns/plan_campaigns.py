@@ -1,64 +1,52 @@
-"""A planned campaign made: an effect of some size in it, noise on it, and fitted as `gap` does."""
+"""A planned campaign, made: an effect of some size in it, the rig as far off as stated, noise."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from cosim.gap.data import Track, find_sticks
-from cosim.gap.estimation.fit import fit
-from cosim.gap.estimation.fitted import Point, start
-from cosim.gap.estimation.preparation import prepare, thinned
-from cosim.gap.estimation.problem import Problem
-from cosim.gap.estimation.segmented_run import COLUMN
-from cosim.gap.plan.planned import motion
+from cosim.gap.find import name
+from cosim.gap.plan.planned import simulated
+from cosim.gap.weak_form.constants import ALIKE, OWN_STATIC
 
 
-def measured(plan, rehearsal, law, part, seed):
-    """The campaign as a tracker would have it, with a law at a part of its start.
-
-    rehearsal : of the plan, whose contact the rig has
-    """
-    random = np.random.default_rng(seed)
-    friction = {f"friction.{key}": value for key, value in plan.friction.items()}
-    runs = []
-    for number, run in enumerate(plan.runs):
-        phases = {key: random.uniform(0.0, 360.0) for key in law.phase(number)}
-        settings = {**friction, **law.settings(part), **phases}
-        outputs = motion(plan, run, rehearsal.free_parameters, settings)
-        noise = plan.campaign.noise
-        seen = {
-            name: outputs[:, COLUMN[name]] + sigma * random.standard_normal(run.time.size)
-            for name, sigma in noise.items()
-        }
-        setting = run.setting
-        track = Track(run.time, seen["x"], seen.get("y"), seen.get("phi"))
-        sticks = find_sticks(track, setting.surface_speed, setting.natural_frequency, noise["x"])
-        runs.append(thinned(replace(setting, track=track, sticks=sticks)))
-    return replace(plan.campaign, runs=tuple(runs))
+def blocks_of(law, value):
+    """Tables of `Parameters` with a law of the catalogue at a value of its size."""
+    given = {free.key: free.start for free in law.candidate.free_parameters if not free.per_run}
+    given |= {**law.candidate.settings, law.key: value}
+    if "memory" in law.unknown.settings:
+        given["thermal_weakening.relaxation_time"] = law.unknown.settings["memory"]
+    blocks = {}
+    for key, number in given.items():
+        block, _, own = key.partition(".")
+        blocks.setdefault(block, {})[own] = number
+    return blocks
 
 
-def gain(campaign, rehearsal, planar, law):
-    """Sum of squares that a law takes away: the likelihood-ratio statistic, in noise units.
+def made(planned, blocks, seed):
+    """The campaign with tracks. Springs, speeds, zeros and friction are off within their errors."""
+    random, campaign = np.random.default_rng(seed), planned.campaign
+    errors, runs = campaign.errors, []
+    stiffer = {s: 1.0 + errors.stiffness * random.standard_normal() for s in campaign.setups}
+    for run in planned.runs:
+        own, stated = run.setting, (run.setting.mass, run.setting.stiffness)
+        both, static = random.standard_normal(2) * errors.friction
+        friction = dict(planned.friction)
+        friction["mu_k"] *= 1.0 + both
+        friction["mu_s"] *= 1.0 + both + OWN_STATIC * static
+        faster = 1.0 + errors.surface_speed * random.standard_normal()
+        true = replace(
+            own, stiffness=own.stiffness * stiffer[stated],
+            surface_speed=own.surface_speed * faster,
+        )  # fmt: skip
+        seen = simulated(campaign, replace(run, setting=true), friction, random, blocks)
+        zero = campaign.zero_sd(own) * random.standard_normal()
+        runs.append(replace(own, track=replace(seen.track, x=seen.track.x + zero)))
+    return replace(campaign, runs=tuple(runs))
 
-    The law sets out as next to nothing, the plain model from what is expected, and once more from
-    where the model with the law ended.
-    """
-    segmented = prepare(campaign, campaign.runs, planar)
-    plain = rehearsal.free_parameters
-    problem = Problem(segmented, plain)
-    first = fit(problem, start(segmented, plain))
-    faint = replace(law.size, start=law.value(0.02))
-    added = (faint, *law.candidate.free_parameters[1:])
-    more = Problem(segmented, (*plain, *added), dict(law.candidate.settings))
-    begun = start(segmented, more.free_parameters)
-    count = first.point.shared.size
-    shared = np.concatenate([first.point.shared, begun.shared[count:]])
-    second = fit(more, replace(begun, shared=shared, states=first.point.states))
-    own = tuple(each[: len(problem.own)] for each in second.point.own)
-    again = fit(problem, Point(second.point.shared[:count], own, second.point.states))
-    return min(_cost(problem, first), _cost(problem, again)) - _cost(more, second)
 
-
-def _cost(problem, fitted):
-    known = problem.prior(fitted.point.shared)[0]
-    return fitted.cost + float(known @ known)
+def named(campaign):
+    """What is named of a campaign with tracks: a group of effects for every finding."""
+    return [
+        {one.name, *(other for other, less in one.others.items() if less > -ALIKE)}
+        for one in name(campaign).findings
+    ]
