@@ -1,9 +1,9 @@
 """Where a model and its measurements disagree, what is missing, and what is left afterwards.
 
-The rooms in the order in which data flow: data (the campaign, read and checked), doubts (whether it
-is as stated, and enough), estimation (the model fitted to it by multiple shooting), candidates
-(what may be missing), selection (which of it is), diagnostics (where the misfit lives), design (the
-run that would tell more), show. `find` goes through all of them.
+The rooms in the order in which data flow: data (the campaign, read), checks (whether it is as
+stated, and enough), weak_form (what the equation of motion misses in the tracks), windows (models
+fitted and judged over a few cycles), judge (the verdict), show; plan (campaigns that are not made
+yet). `find` goes through all of them.
 """
 
 from cosim.gap.data import Campaign, MeasuredRun, Track, read_campaign
