@@ -118,7 +118,7 @@ class Arguments:
         unit = farthest * float(np.mean([run.track.run.total_stiffness for run in self.runs]))
 
         def respond(run: RunRows) -> Response:
-            place = run.track.place
+            place = run.track.x  # as measured: a stiff spring feels what smoothing leaves
             force = -unit * np.sign(place)[:, None] * curve.at(np.abs(place))
             turned = [abs(event.force) / run.track.run.total_stiffness for event in run.events]
             return Response(force=force, static=-unit * curve.at(np.array(turned)))

@@ -24,6 +24,10 @@ SLIP_SIGMAS = 8.0
 #: still mixes both.
 STICK_MARGIN = 0.3
 
+#: Swings faster than stated by this factor are those of other springs: noise and rubbing do not
+#: make them so, and their noise is weighed as that of the springs that are there.
+FAR_STIFFER = 1.25
+
 # Test functions.
 #: Distance of the splines' knots, in 1 / omega: ten wave lengths of the free oscillation's motion
 #: fit into what is left of the spectrum, and a slip of half a period holds ten functions.
@@ -46,6 +50,9 @@ CONTACT_DELAY = 0.02
 #: Part of the surface's speed at which a loaded contact creeps: under the fourth power of the load,
 #: and at any load (bristles of 100 um in a stroke of 10 mm).
 CREEP = (0.1, 0.01)
+#: Speed at which it creeps under its load whatever the surface does, m/s: friction that is regular
+#: in the speed, and pastes.
+CREEP_SPEED = 1e-3
 #: Scatter of static friction alone, in parts of that of friction as a whole.
 OWN_STATIC = 0.25
 #: To what part of itself a break-away's force is read off in a run, beside its scatter.
@@ -95,6 +102,8 @@ PHASE_SD, PHASE_ROUNDS = 1.8, 6
 #: ln of how much more probable the rows must be with a finding: with some twenty that are tried,
 #: one in twenty campaigns without any would gain 6 by chance.
 LEAST_GAIN = 6.0
+#: ln by which a faulty camera is less probable beforehand than an effect: one campaign in twenty.
+FAULT_PRICE = 3.0
 #: A further finding counts from this part of what is missing at first (root mean square): what is
 #: smaller may be what smoothed arguments and the nodes of the first one's curve leave.
 LEAST_PART = 0.12
@@ -129,8 +138,9 @@ PLANE_STEP = 1e-6
 #: Rounds in which numbers, sliding direction and turn follow one another: 1e-3 of them is left.
 PLANE_ROUNDS = 6
 #: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; the
-#: least, a ratio of 0.2; and the largest step in a round.
-SHARE_SD, LEAST_SHARE, SHARE_STEP = 0.5, -3.2, 0.7
+#: least, a ratio of 0.2; the most, as mu_k, with which it goes, is known to some percent only; and
+#: the largest step in a round.
+SHARE_SD, LEAST_SHARE, MOST_SHARE, SHARE_STEP = 0.5, -3.2, 0.15, 0.7
 #: Largest curvature (1/m), turn (rad), shift (m) and camera angle (rad) that are expected: standard
 #: deviations; and the parts of them that are tried.
 CURVATURE_SD, TURN_SD, SHIFT_SD, ROTATION_SD = 3.0, 0.2, 0.03, 0.2

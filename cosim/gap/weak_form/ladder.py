@@ -11,10 +11,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.constants import LEAST_GAIN, LEAST_PART, MOST_FINDINGS
+from cosim.gap.weak_form.constants import (
+    FAULT_PRICE,
+    LEAST_GAIN,
+    LEAST_PART,
+    MOST_FINDINGS,
+)
 from cosim.gap.weak_form.system import Added, Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
 
+#: Findings that round corners, as what a contact and other findings leave there does: they are
+#: asked of runs in which nothing else is missing.
+ALONE = ("measurement.smoothing", "measurement.latency")
 #: ln evidence with one more finding, and its unknowns.
 Offer = tuple[float, tuple[Added, ...]]
 
@@ -67,9 +75,10 @@ class Search:
         """name -> the best that each argument offers on a rung."""
         found: dict[str, Offer] = {}
         for name, variants in self.unknowns.items():
-            if name not in without:
+            if name not in without and not (name in ALONE and rung.added):
                 evidence, added = rung.offered(variants)
-                found[name] = (evidence, (added,))
+                price = FAULT_PRICE if name.startswith("measurement.") else 0.0
+                found[name] = (evidence - price, (added,))
         for kind in self.waves:
             if kind.name in without:
                 continue
@@ -91,7 +100,7 @@ class Search:
             name = max(offers, key=lambda each: offers[each][0])
             offers[name] = self._finer(rung, offers[name])
             more = self._rung([*found, (name, offers[name][1])])
-            if not self._is_missed(rung, more):
+            if offers[name][0] - rung.evidence < LEAST_GAIN or not self._is_missed(rung, more):
                 break
             found = self._exchanged([*found, (name, offers[name][1])])
         found = self._without_idle(found)

@@ -17,9 +17,11 @@ from cosim.gap.weak_form.constants import (
     CONTACT_FALL,
     CONTACT_SPEED,
     CREEP,
+    CREEP_SPEED,
     OWN_STATIC,
     STATIC_FLOOR,
 )
+from cosim.gap.weak_form.corners import corner_contact
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.unknowns import Unknown, column
 
@@ -81,12 +83,15 @@ def contact(level: Level) -> list[Unknown]:
     def creep(run: RunRows) -> Response:
         load = np.clip(np.abs(run.restoring) / (level.static * run.weight), 0.0, 1.0)
         speed = run.track.run.surface_speed
-        return Response(speed=-speed * np.column_stack([load**4, np.ones_like(load)]))
+        with_surface = speed * np.column_stack([load**4, np.ones_like(load)])
+        by_load = np.sign(speed) * np.column_stack([load, load**3, load**9])
+        return Response(speed=-np.hstack([with_surface, by_load]))
 
     return [
         Unknown(CONTACT, "transition", slow, (CONTACT_FALL * level.kinetic) ** 2 * np.eye(1)),
         Unknown(CONTACT, "loading", loading, CONTACT_DELAY**2 * np.eye(1)),
-        Unknown(CONTACT, "creep", creep, np.diag(np.square(CREEP))),
+        Unknown(CONTACT, "creep", creep, np.diag(np.square([*CREEP, *[CREEP_SPEED] * 3]))),
+        *corner_contact(),
     ]
 
 

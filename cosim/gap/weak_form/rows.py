@@ -171,22 +171,27 @@ def rows_of(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> RunRows
                    -along, np.ones(kinds.size))  # fmt: skip
 
 
-#: Weights of the samples of one spline: of a force, of the places, of the part m x''.
-_Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
+#: Weights of the samples of one spline: of a force, of the places, of the part m x'', of the noise.
+_Weights = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def _slip_weights(track: SmoothTrack, knots: int) -> _Weights:
-    """phi, m phi'' + K phi, m phi'' of a quintic spline at its inner samples."""
+    """phi, m phi'' + K phi, m phi'' of a quintic spline at its inner samples.
+
+    Noise weighs as it does on the springs that are there: what they are stiffer by than stated is
+    on the right-hand side, at places that have the same noise.
+    """
     run = track.run
     value, _, second = _spline(5, knots, track.interval)
     inertia = run.mass * second
-    return value, inertia + run.total_stiffness * value, inertia
+    stated = inertia + run.total_stiffness * value
+    return value, stated, inertia, inertia + track.stiffness * value
 
 
 def _stick_weights(track: SmoothTrack, knots: int) -> _Weights:
     """phi, -phi' of a cubic spline."""
     value, first, _ = _spline(3, knots, track.interval)
-    return value, -first, np.zeros_like(value)
+    return value, -first, np.zeros_like(value), -first
 
 
 def _spline(degree: int, knots: int, interval: float) -> list[np.ndarray]:
@@ -209,8 +214,9 @@ def _block(
     at = (np.repeat(np.arange(begin.size), size), (begin[:, None] + np.arange(size)).ravel())
     shape = (begin.size, track.time.size)
     rows = [sparse.csr_array((np.tile(w, begin.size), at), shape=shape) for w in weights]
-    noisy = rows[1] if track.samples is None else rows[1] @ track.samples
-    return _Block(*rows, _factor(noise**2 * (noisy @ noisy.T)))
+    force, place, inertia, noisy = rows
+    noisy = noisy if track.samples is None else noisy @ track.samples
+    return _Block(force, place, inertia, _factor(noise**2 * (noisy @ noisy.T)))
 
 
 def _factor(covariance: sparse.csr_array) -> np.ndarray:

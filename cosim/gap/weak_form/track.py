@@ -13,6 +13,7 @@ from cosim.gap.data import MeasuredRun
 from cosim.gap.weak_form.constants import (
     CUBIC_REACH,
     EVEN,
+    FAR_STIFFER,
     HOLE,
     LEAST_SLIDING,
     LEAST_SLIDING_SHARE,
@@ -38,6 +39,7 @@ class SmoothTrack:
     sliding : (n,) speed of the surface less that of the block, m/s
     seen : (n,) whether there are samples about it
     slips, sticks : (first, last + 1) of their grid points
+    stiffness : along x, N/m, as stated, or as the swings show it where it is far above that
     """
 
     run: MeasuredRun
@@ -57,6 +59,7 @@ class SmoothTrack:
     seen: np.ndarray
     slips: tuple[tuple[int, int], ...]
     sticks: tuple[tuple[int, int], ...]
+    stiffness: float
 
     @property
     def direction(self) -> np.ndarray:
@@ -111,14 +114,18 @@ def smooth(
 
     x, y, phi = values("x"), values("y"), values("phi")
     assert x is not None  # every track has it
-    omega = max(run.natural_frequency, _stiffer(x, interval, run))
+    omega = _stiffer(x, interval, run)
+    if omega < FAR_STIFFER * run.natural_frequency:
+        omega = run.natural_frequency
     rough = _derivatives(x, interval, _window(CUBIC_REACH / omega, interval), 3)
     threshold = max(_sliding_threshold(run, interval), band * abs(run.surface_speed))
     surface = np.full(time.size, run.surface_speed)
     if varies is not None:
         surface *= 1.0 + varies(time)
     sliding = surface - rough[1]
-    slips = _real_slips(_stretches((np.abs(sliding) > threshold) & seen), sliding, run, interval)
+    # a slip is of one direction: where it changes, a short stick may hide between two samples
+    ways = [_stretches((way * sliding > threshold) & seen) for way in (1.0, -1.0)]
+    slips = _real_slips(tuple(sorted((*ways[0], *ways[1]))), sliding, run, interval)
     sticks = _sticks(slips, seen, round(STICK_MARGIN / omega / interval))
     fine = rough.copy()
     window = _window(QUINTIC_REACH / omega, interval)
@@ -129,7 +136,7 @@ def smooth(
     across = np.zeros((3, x.size)) if y is None else _derivatives(y, interval, window, 5)
     return SmoothTrack(
         run, time, interval, samples, x, y, phi, *fine, across[0], across[1],
-        surface, surface - fine[1], seen, slips, sticks,
+        surface, surface - fine[1], seen, slips, sticks, run.mass * omega**2,
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from cosim.gap.weak_form.rows import Response, RunRows
 
 @dataclass(frozen=True)
 class Curve:
-    """The axis of an unknown curve: natural cubic splines through values at its nodes.
+    """The axis of an unknown curve: cubic splines through values at its nodes.
 
     quantity, unit : in words; nodes : (q,) values of the argument; per : what a value of 1 stands
     for, in the unit of the law ("mu_k", "N"); root : it is smooth over the root of the argument
@@ -40,7 +40,7 @@ class Curve:
 
     def at(self, values: np.ndarray) -> np.ndarray:
         """(n, q) what each node's value adds at arguments (n,); straight on beyond the ends."""
-        splines = CubicSpline(self.nodes, np.eye(self.nodes.size), bc_type="natural")
+        splines = CubicSpline(self.nodes, np.eye(self.nodes.size), bc_type="not-a-knot")
         inside = np.clip(values, self.nodes[0], self.nodes[-1])
         beyond = (values - inside)[:, None] * splines(inside, 1)
         return np.asarray(splines(inside) + beyond, dtype=float)
