@@ -228,6 +228,12 @@ def drawn(
     return rows
 
 
+def scatter_of(rung: Rung) -> float:
+    """Of friction from run to run, the middle of its posterior."""
+    spreads, weights = rung.scatter_posterior()
+    return float(np.interp(0.5, np.cumsum(weights), spreads))
+
+
 def rates_of(
     ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], each: int = EACH, seed: int = 0
 ) -> Rates:
@@ -243,9 +249,7 @@ def rates_of(
         rung = ladder.system.rung(rest)
         truths = _truths(ladder, unknowns, finding, rung)
         decision = Decision(rung, _asked(ladder, unknowns, finding))
-        spreads, weights = ladder.rung.scatter_posterior()
-        scatter = float(np.interp(0.5, np.cumsum(weights), spreads))
-        zeros = rung.settings[0][rung.best][1]
+        scatter, zeros = scatter_of(ladder.rung), rung.settings[0][rung.best][1]
         rows = drawn(rung, each * len(truths), random, scatter, zeros)
         for place, truth in enumerate(truths):
             rows[:, place * each : (place + 1) * each] += truth.rows(rung.system)[:, None]

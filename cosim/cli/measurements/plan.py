@@ -71,6 +71,7 @@ def execute(arguments: Namespace) -> int:
     if arguments.campaign is None:
         raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
     with held_interrupts():
+        json_text = import_module("cosim.report.files").json_text
         plan, data = import_module("cosim.gap.plan"), import_module("cosim.gap.plan.data")
         safe_name = import_module("cosim.gap.show.model_file").safe_name
     planned = plan.read_plan(arguments.campaign)
@@ -89,7 +90,7 @@ def execute(arguments: Namespace) -> int:
         answer = plan.make_plan(
             planned, wanted=arguments.power, seed=arguments.seed, progress=progress
         )
-    text = data.as_json(answer)
+    text = json_text(data.as_data(answer))
     made = made_by(campaign=str(Path(arguments.campaign).resolve()))
     with results_in(folder, made, force=arguments.force) as results:
         with held_interrupts():

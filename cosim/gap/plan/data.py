@@ -2,84 +2,52 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from typing import Any
 
 from stickslip import EFFECTS
 from stickslip.quantity import details
 
+from cosim.gap.plan.next_run import SETTINGS
 from cosim.gap.plan.plan import Plan
 from cosim.gap.plan.sizes import DRAWS, Size
-from cosim.report.files import json_text
+from cosim.gap.show.numbers import tree
 from cosim.report.page import unit_text
-
-#: Significant digits: more than a smallest size has a meaning.
-DIGITS = 3
-
-
-def as_json(plan: Plan) -> str:
-    """JSON text without NaN; what there is not is null."""
-    return json_text(as_data(plan))
 
 
 def as_data(plan: Plan) -> dict[str, Any]:
     """A tree of plain values. Of an effect with two directions the larger size is its smallest."""
     planned = plan.planned
-    smallest: dict[str, Size] = {}
-    for size in plan.sizes:
-        other = smallest.setdefault(size.law.candidate.effect, size)
-        if (size.percent or math.inf) > (other.percent or math.inf):
-            smallest[size.law.candidate.effect] = size
-    tree = {
+    seen = sorted(plan.sizes, key=lambda size: (size.value is None, size.percent))
+    told: dict[str, Any] = tree({
         "campaign": planned.campaign.name,
         "power": plan.wanted,
         "false_names": plan.false,
-        "friction": dict(planned.friction),
-        "noise": dict(planned.campaign.noise),
+        "friction": planned.friction,
+        "noise": planned.campaign.noise,
         "runs": [
-            {
-                "mass": run.setting.mass, "stiffness": run.setting.stiffness,
-                "surface_speed": run.setting.surface_speed, "duration": run.duration,
-                "rate": run.rate,
-            }
+            {name: getattr(run.setting, name) for name in SETTINGS}
+            | {"duration": run.duration, "rate": run.rate}
             for run in planned.runs
         ],
-        "smallest": {effect: _of(size) for effect, size in smallest.items()},
-        "laws": [{"effect": size.law.candidate.effect, **_of(size)} for size in plan.sizes],
-        "not_tried": dict(plan.silent),
-        "pairs": [
-            {"truth": truth, "other": other, "share": share} for truth, other, share in plan.pairs
-        ],
+        "smallest": {size.law.candidate.effect: _of(size) for size in seen},
+        "laws": [_of(size) for size in plan.sizes],
+        "not_tried": plan.silent,
+        "pairs": [dict(zip(("truth", "other", "share"), pair, strict=True)) for pair in plan.pairs],
         "next_runs": [plan.next_run.as_data()] if plan.next_run else [],
-        "remarks": list(planned.campaign.remarks),
-    }  # fmt: skip
-    plain: dict[str, Any] = _plain(tree)
-    return plain
+        "remarks": planned.campaign.remarks,
+    })  # fmt: skip
+    return told
 
 
 def _of(size: Size) -> dict[str, Any]:
     starts = {free.key: free.start for free in size.law.candidate.free_parameters[1:]}
     return {
-        "law": size.law.candidate.form,
-        "parameter": size.law.key,
-        "unit": unit_of(size) or "1",
-        "smallest": size.value,
-        "smallest_alone": size.alone,
-        "percent_of_friction": size.percent,
+        "effect": size.law.candidate.effect, "law": size.law.candidate.form,
+        "parameter": size.law.key, "unit": unit_of(size) or "1", "smallest": size.value,
+        "smallest_alone": size.alone, "percent_of_friction": size.percent,
         "at": {**starts, **size.law.unknown.settings},
         "answers": {answer: count / DRAWS for answer, count in size.answers.items()},
-    }
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _plain(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(entry) for entry in value]
-    if isinstance(value, float):
-        return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
-    return value
+    }  # fmt: skip
 
 
 def unit_of(size: Size) -> str:
@@ -94,7 +62,7 @@ def value_text(value: float | None, size: Size, never: str = "not seen") -> str:
     """A size with its unit."""
     if value is None:
         return never
-    return f"{value:.{DIGITS}g} {unit_text(unit_of(size))}".rstrip()
+    return f"{value:.3g} {unit_text(unit_of(size))}".rstrip()
 
 
 def percent_text(size: Size) -> str:
@@ -110,15 +78,11 @@ def sentence(plan: Plan) -> str:
     start = f"{runs} run{'s' * (runs != 1)}"
     if not seen:
         return f"{start} would name no effect of the catalogue, whatever its size"
-    best, worst = min(seen, key=_percent), max(seen, key=_percent)
+    *_, worst = best, *_ = sorted(seen, key=lambda size: size.percent or 0.0)
     return (
         f"{start} would name effects from {percent_text(best)} ({best.law.argument}) to "
         f"{percent_text(worst)} ({worst.law.argument}) in {100 * plan.wanted:.0f} of 100 campaigns"
     )
-
-
-def _percent(size: Size) -> float:
-    return size.percent or 0.0
 
 
 def pair_text(truth: str, other: str, share: float) -> str:

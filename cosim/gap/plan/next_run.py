@@ -7,9 +7,8 @@ class that was found.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from itertools import permutations
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,9 +16,10 @@ import numpy as np
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.plan.planned import PlannedRun, simulated
-from cosim.gap.rates import Decision, Truth, drawn, options_of
+from cosim.gap.rates import Decision, Truth, drawn, options_of, scatter_of
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.corners import with_corners
+from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import Added, System
 from cosim.gap.weak_form.track import smooth
@@ -41,7 +41,7 @@ class NextRun:
     """A run to add.
 
     separation : ln of the Bayes factor between two of ``effects``, in the middle of the campaigns
-    drawn, of the two that are nearest; before : the same without the run
+    drawn, of the two that are nearest; separation_before : the same without the run
     """
 
     surface_speed: float
@@ -50,7 +50,7 @@ class NextRun:
     duration: float
     effects: tuple[str, ...]
     separation: float
-    before: float
+    separation_before: float
 
     @property
     def text(self) -> str:
@@ -59,21 +59,37 @@ class NextRun:
             f"one more run with {self.mass:.4g} kg, springs of {self.stiffness:.4g} N/m and the "
             f"surface at {self.surface_speed:.3g} m/s for {self.duration:.3g} s tells "
             f"{' from '.join(self.effects)} by a ln Bayes factor of {self.separation:.2g}, "
-            f"which is {self.before:.2g} without it"
+            f"which is {self.separation_before:.2g} without it"
         )
 
     def as_data(self) -> dict[str, Any]:
         """As `Gap.next_experiment` and `plan.json` have it."""
-        return {
-            **{key: getattr(self, key) for key in (*SETTINGS, "duration")},
-            "effects": list(self.effects), "separation": self.separation,
-            "separation_before": self.before, "text": self.text,
-        }  # fmt: skip
+        return {**asdict(self), "text": self.text}
+
+
+def next_experiment(
+    ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], members: Sequence[str]
+) -> dict[str, Any] | None:
+    """The run that would separate a class that was found, each member as large as the rows have it.
+
+    unknowns : of `Arguments`. None where no run within the limits does.
+    """
+    system = ladder.system
+    rung, level = system.rung(), system.level
+    truths = [
+        Truth.of(name, system.rung([rung.offered(unknowns[name])[1]]))
+        for name in members if name in unknowns
+    ]  # fmt: skip
+    if len(truths) < 2:
+        return None
+    friction = {"mu_s": max(level.static, level.kinetic), "mu_k": level.kinetic}
+    found = best_next_run(system, truths, friction, scatter_of(ladder.rung))
+    return None if found is None else found.as_data()
 
 
 def best_next_run(
     system: System, truths: Sequence[Truth], friction: Mapping[str, float], scatter: float,
-    progress=lambda: None,
+    progress: Callable[[], object] = lambda: None,
 ) -> NextRun | None:  # fmt: skip
     """The run that sets the nearest two of several explanations farthest apart; None: none can.
 
@@ -172,11 +188,9 @@ def _separation(system: System, truths: Sequence[Truth], scatter: float, known: 
     for truth in truths:
         rows = noise + _followed(truth, asked[truth.name], system, known)[:, None]
         offers = decision.offers(rows)
-        place = {name: number for number, name in enumerate(offers.names)}
-        for one, other in permutations(names, 2):
-            if one == truth.name:
-                apart = offers.evidence[place[one]] - offers.evidence[place[other]]
-                nearest = min(nearest, float(np.median(apart)))
+        place = offers.names.index(truth.name)
+        apart = offers.evidence[place] - np.delete(offers.evidence, place, axis=0)
+        nearest = min(nearest, float(np.median(apart, axis=1).min()))
     return max(nearest, 0.0)
 
 

@@ -12,7 +12,7 @@ from cosim.files import write_bytes, write_text
 from cosim.gap.plan import data
 from cosim.gap.plan.plan import Plan
 from cosim.report.page import render
-from cosim.report.style import BLUE, ORANGE, RED, panels, picture
+from cosim.report.style import BLUE, INK, ORANGE, RED, logarithmic_x, panels, picture
 
 
 def write_page(plan: Plan, folder: Path, file: Path) -> None:
@@ -48,12 +48,12 @@ def draw_sizes(plan: Plan) -> Figure:
         if math.isfinite(alone) and alone > 1.3 * named:
             axis.barh(place + 0.3, alone - left, left=left, height=0.2, color=ORANGE)
             text = data.value_text(size.alone, size)
-            axis.text(1.05 * alone, place + 0.32, text, color=ORANGE, **label)
+            axis.text(1.05 * alone, place + 0.32, text, color=INK, **label)
         never = "" if math.isfinite(alone) else "  (never by itself)"
         axis.text(1.05 * named, place - 0.02, data.value_text(size.value, size) + never, **label)
-    axis.set_xscale("log")
+    logarithmic_x(axis)
     axis.set_xlim(left, right)
-    axis.set_yticks(range(len(sizes)), [size.law.key for size in sizes])
+    axis.set_yticks(range(len(sizes)), [_name(size) for size in sizes])
     axis.set_ylim(len(sizes) - 0.4, -0.6)
     axis.grid(visible=False, axis="y")
     axis.set_xlabel("smallest size, percent of friction")
@@ -61,6 +61,11 @@ def draw_sizes(plan: Plan) -> Figure:
         axis.barh([0], [0], color=colour, label=what)
     figure.legend(loc="outside upper right", ncols=2)
     return figure
+
+
+def _name(size: data.Size) -> str:
+    """Its parameter, and of a wave its length."""
+    return f"{size.law.key}, {size.law.unknown.variant}" if size.law.wave else size.law.key
 
 
 def _percent(value: float | None, size: data.Size) -> float:

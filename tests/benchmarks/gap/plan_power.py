@@ -1,74 +1,86 @@
-"""Power that `stickslip plan` predicts, and what simulated campaigns achieve, side by side.
+"""Power that `stickslip plan` predicts, and what `gap` names of simulated campaigns, side by side.
 
-    python tests/benchmarks plan_power CAMPAIGN [EFFECT ...] [--campaigns N] [--seed N]
+    python tests/benchmarks plan_power [CAMPAIGN] [--effects NAME ...] [--campaigns N] [--seed N]
 
-Each effect is put into the planned campaign at half its predicted size, at that size and at one and
-a half times it, noise is added, the plain model and the law are fitted, and the law counts as named
-where it takes away more than the threshold. Beside the share stand its 90 % interval (Clopper and
-Pearson) and the power that is predicted for that size. Without effect: the share of campaigns in
-which the law is named although it is not there, and the level of its single test.
+Each effect is put into the planned campaign, which the kernel then makes, at the size that is
+planned to be named in 80 of 100; springs, speeds, zeros and friction are off within their errors,
+and `gap` names what it finds. Beside the share stand its 90 % interval (Clopper and Pearson) and
+the power that is predicted for that size, by itself or in a class, and by itself alone.
 """
 
 import argparse
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from plan_campaigns import gain, measured
+import numpy as np
+import tomli_w
+from plan_campaigns import blocks_of, made, named
 from scipy.stats import binomtest
 
-from cosim.gap.plan.law import kinds, laws_of
-from cosim.gap.plan.planned import read_plan, rehearse_plan
-from cosim.gap.plan.power import LEVEL, WANTED, needed, power, threshold
-from cosim.gap.plan.visibility import friction_length, refitted, smallest
-from cosim.processes import processes
+from cosim.gap.plan.laws import laws_of
+from cosim.gap.plan.plan import WANTED
+from cosim.gap.plan.planned import as_measured, asked_of, read_plan
+from cosim.gap.plan.sizes import Design, is_alone, is_named, sizes_of
 
-PARTS = (0.0, 0.5, 1.0, 1.5)
+EFFECTS = (
+    "film_drag", "velocity_weakening", "run_in", "spring_hardening", "static_strengthening",
+)  # fmt: skip
+#: Two masses and three speeds: a campaign that can tell all of these from nothing.
+PLAN = {
+    "name": "two masses", "rig": {"spring_natural_length": 0.17}, "noise": {"x": 2e-4},
+    "friction": {"mu_s": 0.3, "mu_k": 0.22},
+    "run": [
+        {"mass": mass, "stiffness": 38.5, "surface_speed": speed, "duration": 12.0, "rate": 100.0}
+        for mass in (0.5, 1.2) for speed in (0.03, 0.08, 0.2)
+    ],
+}  # fmt: skip
 
 
-def one_gain(plan, rehearsal, law, part, seed):
-    return gain(measured(plan, rehearsal, law, part, seed), rehearsal, plan.planar, law)
+def planned_of(path):
+    if path:
+        return read_plan(path)
+    with TemporaryDirectory() as folder:
+        (Path(folder) / "campaign.toml").write_text(tomli_w.dumps(PLAN), encoding="utf-8")
+        return read_plan(folder)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("campaign")
-    parser.add_argument("effects", nargs="*")
-    parser.add_argument("--campaigns", type=int, default=40)
+    parser.add_argument("campaign", nargs="?")
+    parser.add_argument("--effects", nargs="*", default=EFFECTS)
+    parser.add_argument("--campaigns", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
-    plan = read_plan(given.campaign)
-    rehearsal = rehearse_plan(plan)
-    laws, _ = laws_of(plan, rehearsal)
-    count, runs = kinds(laws), len(rehearsal.runs)
-    per_cent = friction_length(rehearsal)
+    planned = planned_of(given.campaign)
+    asked = asked_of(as_measured(planned))
     first = {}
-    for law in laws:
-        first.setdefault(law.effect, law)
-    print(f"{'effect':22}{'size':>10}{'predicted':>11}{'achieved':>10}  90 % interval")
-    with processes(given.jobs) as mapped:
-        for effect, law in first.items():
-            if given.effects and effect not in given.effects:
-                continue
-            rule = (LEVEL, count * law.periods, law.freedoms(runs))
-            seen = smallest(rehearsal, law, needed(WANTED, *rule), per_cent)
-            if not seen.is_seen:
-                print(f"{effect:22}{'not seen':>10}")
-                continue
-            limit = threshold(*rule)
-            for times in PARTS:
-                part = times * seen.part
-                noncentrality = refitted(rehearsal, law, part)[0] if times else 0.0
-                seeds = range(given.seed, given.seed + given.campaigns)
-                gains = list(
-                    mapped(one_gain, [(plan, rehearsal, law, part, seed) for seed in seeds])
-                )
-                test = binomtest(sum(each > limit for each in gains), len(gains))
-                low, high = test.proportion_ci(0.9)
-                predicted = power(noncentrality, *rule)
-                print(
-                    f"{effect:22}{law.value(part):10.4g}{predicted:11.3f}"
-                    f"{test.statistic:10.3f}  {low:.2f} to {high:.2f}",
-                    flush=True,
-                )
+    for law in laws_of(*asked):
+        first.setdefault(law.argument, law)
+    laws = [first[effect] for effect in given.effects if effect in first]
+    scatter = planned.campaign.errors.friction
+    sizes = sizes_of(Design(*asked, laws, scatter), WANTED, lambda: None)
+    again = Design(*asked, laws, scatter, draws=400, seed=1)
+    print(f"{'effect':22}{'size':>10}  {'predicted':>9}  achieved (90 %)       alone, and achieved")
+    for number, size in enumerate(sizes):
+        law = size.law
+        if size.value is None:
+            print(f"{law.argument:22}{'not seen':>10}")
+            continue
+        offers = again.offers([number], [abs(size.value - law.neutral)])[0]
+        begun, seeds = time.process_time(), range(given.seed, given.seed + given.campaigns)
+        found = [named(made(planned, blocks_of(law, size.value), seed)) for seed in seeds]
+        seconds = (time.process_time() - begun) / given.campaigns
+        seen = binomtest(sum(any(law.argument in group for group in one) for one in found),
+                         given.campaigns)  # fmt: skip
+        low, high = seen.proportion_ci(0.9)
+        alone = np.mean([{law.argument} in one for one in found])
+        print(
+            f"{law.argument:22}{size.value:10.4g}  {np.mean(is_named(law, offers)):9.2f}  "
+            f"{seen.statistic:8.2f} ({low:.2f} to {high:.2f})"
+            f"  {np.mean(is_alone(law, offers)):5.2f} {alone:5.2f}  {seconds:.1f} s each",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

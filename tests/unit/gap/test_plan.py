@@ -12,11 +12,12 @@ from cosim.cli import main
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.plan import read_plan
 from cosim.gap.plan.laws import laws_of, silent
-from cosim.gap.plan.next_run import best_next_run, options
+from cosim.gap.plan.next_run import best_next_run, next_experiment, options
 from cosim.gap.plan.plan import Plan
 from cosim.gap.plan.planned import EXPECTED, NOISE, as_measured, asked_of
 from cosim.gap.plan.sizes import Design, Size, false_names, is_named, sizes_of
 from cosim.gap.rates import Truth
+from cosim.gap.weak_form.ladder import Search
 
 RUN = {"mass": 0.87, "stiffness": 38.5, "duration": 8.0}
 RIG = {"spring_natural_length": 0.17}
@@ -171,10 +172,22 @@ def test_another_mass_tells_force_from_coefficient(asked, laws):
     ]
     found = best_next_run(asked[0], truths, FRICTION, SCATTER)
     assert found.mass != RUN["mass"]
-    assert found.before < 0.5 and found.separation > 3.0
+    assert found.separation_before < 0.5 and found.separation > 3.0
     assert f"{found.mass:.4g} kg" in found.text
     data = found.as_data()
     assert {"surface_speed", "mass", "stiffness", "separation", "text"} <= set(data)
+
+
+def test_a_class_that_was_found_asks_for_the_run_that_parts_it(plan, laws):
+    """Made by the kernel with one mass and a drag: the same search, from what the rows have."""
+    pair = ("film_drag", "velocity_weakening")
+    system, unknowns = asked_of(made(plan, blocks_of(laws["film_drag"], 1.0), 0))
+    ladder = Search(system, {name: unknowns[name] for name in pair}, ()).climb()
+    asked_for = next_experiment(ladder, unknowns, pair)
+    assert asked_for["mass"] != RUN["mass"]
+    assert asked_for["separation"] > 3.0 > asked_for["separation_before"]
+    assert set(asked_for["effects"]) == set(pair)
+    assert next_experiment(ladder, unknowns, pair[:1]) is None
 
 
 def test_next_runs_stay_within_the_limits(plan):
