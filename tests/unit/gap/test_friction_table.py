@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, RIG, noisy, write_campaign
-from stickslip import Parameters, friction_coefficient, simulate
+from stickslip import Parameters, simulate
 
 from cosim.gap import CampaignError, read_campaign
 from cosim.gap.find import find_gap
-from cosim.gap.windows import user_model
 
 #: Friction that falls from 0.22 at rest by a quarter; and that of another day, a tenth larger.
 SPEED, MU = (0.0, 0.05, 0.1, 0.2, 0.4), (0.22, 0.205, 0.193, 0.178, 0.165)
