@@ -16,16 +16,22 @@ from stickslip.effects.candidate import FreeParameter
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
 from cosim.gap.weak_form.constants import HARMONICS
-from cosim.gap.weak_form.ladder import Finding
+from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
+from cosim.gap.windows.run_model import PER_WEIGHT, WITH_WEIGHT
 
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
-FALLS, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
+TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
 
 #: Error of a set-point where a campaign states none, relative.
 SET_POINT = 0.01
+
+
+#: Parameters of laws of the sliding speed that say how strong they are.
+STRENGTHS = ("coefficient", "root_coefficient", "power", "saturating", "linear", "hyperbolic",
+             "stribeck", "logarithmic")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -59,10 +65,12 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         return _wave(rung, finding)
     if finding.name == "load_dependence":
         return _load(rung, finding, scales.force)
-    force = level.kinetic * scales.force
-    if finding.name == "spring_hardening":
-        force = scales.travel * 4.0 * scales.stiffness
-    curve = free_curve(rung, finding, force, level.static / level.kinetic)
+    units = {
+        "film_drag": level.kinetic * scales.force,
+        "structural_damping": level.kinetic * scales.force,
+        "spring_hardening": scales.travel * 4.0 * scales.stiffness,
+    }
+    curve = free_curve(rung, finding, units.get(finding.name, 1.0))
     if curve is None:
         return Part(finding, None, (), (), {})
     context = Context(campaign, scales, {**unknown.settings, "mu_s": level.static}, _own())
@@ -71,6 +79,8 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         return Part(finding, curve, (), (), {})
     best = fits[0]
     numbers, settings = _numbers(best)
+    if finding.name in BY_SPEED:
+        settings |= _of_load(finding, numbers, scales.force)
     settings |= _shares(best.effect, unknown.settings)
     if finding.name == "thermal_weakening":
         memory = unknown.settings["memory"]
@@ -80,6 +90,17 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         if unknown.settings["per_weight"]:
             settings[f"per_weight.{best.effect}.per_joule"] = scales.force
     return Part(finding, curve, tuple(fits), tuple(numbers), settings)
+
+
+def _of_load(finding: Finding, numbers: Sequence[Number], force: float) -> dict[str, float]:
+    """A film is of the contact, a law of mu_k of the load: what the runs say otherwise is scaled."""
+    curve = finding.main.unknown.curve
+    of_weight = curve is not None and curve.per == "mu_k"
+    if of_weight == (finding.name == FALLS):
+        return {}
+    how = WITH_WEIGHT if of_weight else PER_WEIGHT
+    strengths = [n.key for n in numbers if n.key.rpartition(".")[2] in STRENGTHS]
+    return {f"{how}{key}": force for key in strengths}
 
 
 def _shares(effect: str, settings: Mapping[str, float]) -> dict[str, float]:
@@ -186,9 +207,9 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
     fastest : sliding speed of the campaign, m/s
     """
     slowest = min(abs(run.surface_speed) for run in campaign.runs)
-    top = min(FALLS[1], max(FALL_PART * fastest, 2.0 * FALLS[0]))
+    top = min(TRANSITION[1], max(FALL_PART * fastest, 2.0 * TRANSITION[0]))
     return [
-        Number("friction.transition_speed", min(4e-3, 0.5 * top), None, FALLS[0], top, log=True),
+        Number("friction.transition_speed", min(4e-3, 0.5 * top), None, TRANSITION[0], top, log=True),
         Number("friction.transition_exponent", 1.3, 0.5, 0.5, 3.0),
         Number("friction.stick_creep", 0.03 * slowest, None, 0.0, CREEP_PART * slowest),
         Number("offset.loading", 0.02, 0.02, -0.1, 0.1),

@@ -36,10 +36,11 @@ from cosim.gap.weak_form.camera_faults import FAULTS, camera_faults
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
-from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.surface import tracks_of
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
 from cosim.gap.windows.windows import Windows
 
@@ -50,6 +51,7 @@ STEPS = 6
 FELT_PART, FELT_GAP = 0.02, 0.01
 
 Progress = Callable[[int, int], object]
+SMOOTHING = "measurement.smoothing"
 
 
 def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
@@ -121,15 +123,35 @@ def name(campaign: Campaign) -> Named:
     planar = planar_effects(campaign, rows)
     if planar.answer:
         rows = rows_in_plane(tracks, campaign, planar)
-    rows = [with_corners(run) for run in rows]
-    every, fitted = System(campaign, rows, every=True), System(campaign, rows)
+    every = System(campaign, rows, every=True)
     arguments = Arguments(campaign, every.runs, every.level)
     unknowns = {**arguments.unknowns(), **camera_faults(every.rung())}
+    unknowns.pop(SMOOTHING, None)
     waves = periodic.kinds(every.level.kinetic)
     ladder = Search(every, unknowns, waves, arguments.near).climb()
+    if not ladder.findings:
+        rows, ladder, unknowns = _at_corners(campaign, rows, ladder, unknowns)
+    fitted = System(campaign, rows)
     added = [one for finding in ladder.findings for one in finding.added]
     findings = (*_across(planar), *ladder.findings)
     return Named(ladder, findings, fitted, fitted.rung(added), unknowns)
+
+
+def _at_corners(
+    campaign: Campaign, rows: list[RunRows], ladder: Ladder, unknowns: Mapping
+) -> tuple[list[RunRows], Ladder, Mapping[str, Sequence[Unknown]]]:
+    """Whether a tracker smooths, asked of runs in which nothing else is missing.
+
+    A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
+    there would be.
+    """
+    cornered = [with_corners(run) for run in rows]
+    system = System(campaign, cornered, every=True)
+    smoothing = {SMOOTHING: camera_faults(system.rung()).get(SMOOTHING, [])}
+    if not smoothing[SMOOTHING]:
+        return rows, ladder, unknowns
+    found = Search(system, smoothing, ()).climb()
+    return (cornered, found, {**unknowns, **smoothing}) if found.findings else (rows, ladder, unknowns)
 
 
 def _across(planar: Planar) -> Iterator[Finding]:
@@ -196,9 +218,9 @@ class _Models:
             numbers, last = [*numbers, *contact], rung.evidence
         step()
         models.scatter = scatter_of(rows)
-        spread = models.scatter[0]
+        spread = models.scatter[2]  # a run may lie at the far end of what is probable
         rung = system.rung(added)
-        text = f"friction scatters from run to run by {100.0 * spread:.2g} %"
+        text = f"friction scatters from run to run by {100.0 * models.scatter[0]:.2g} %"
         models._try("scatter", text, [*numbers, *scatter_numbers(spread)], settings, rung,
                     rung.evidence - last, spread)  # fmt: skip
         return models

@@ -8,7 +8,7 @@
  4. An argument is a finding where the rows are e^6 times as probable with it, and it takes more
     than a small part of what was missing at first; the best joins, all others are asked again.
  5. Findings within e^3 of one another in the same place cannot be told apart: a class.
- 6. A finding that no effect of the catalogue stands for makes the answer `unknown`.
+ 6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
  8. `none`: no finding, and held-out runs at 1.1 at most with the contact and the scatter.
@@ -24,7 +24,7 @@ from dataclasses import dataclass
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
-from cosim.gap.weak_form.constants import ALIKE, NEARLY_ALIKE
+from cosim.gap.weak_form.constants import ALIKE, MOST_FINDINGS, NEARLY_ALIKE
 from cosim.gap.weak_form.ladder import Finding
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
@@ -60,7 +60,7 @@ def judge(
         group for finding, name in zip(findings, names, strict=True)
         if len(group := _alike(finding, name, rates)) > 1
     )  # fmt: skip
-    if not set(names) <= physics:
+    if not set(names) <= physics or len(findings) >= MOST_FINDINGS:
         return Verdict("unknown", (), classes)
     improves = after < before
     if improves and after <= EXPLAINED:
@@ -68,7 +68,7 @@ def judge(
         if classes and len(findings) == 1:
             return Verdict("class", classes[0], classes)
         return Verdict("named", tuple(names), classes)
-    if improves and ladder[-1].share >= MOST and len(findings) < 3:
+    if improves and ladder[-1].share >= MOST:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
 

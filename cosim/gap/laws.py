@@ -73,17 +73,16 @@ def scales_of(campaign: Campaign, runs: list[RunRows], mu_k: float) -> Scales:
     )  # fmt: skip
 
 
-def free_curve(rung: Rung, finding: Finding, force: float, level: float) -> FreeCurve | None:
+def free_curve(rung: Rung, finding: Finding, unit: float) -> FreeCurve | None:
     """The curve of a finding; None where it is none.
 
-    force : N that a value of 1 stands for in laws of a force; level : mu_s over mu_k
+    unit : what a value of 1 is in the law's own unit, N for a force, 1 for a part of a coefficient
     """
     unknown = finding.main.unknown
     if unknown.curve is None:
         return None
     part = rung.part_of(finding.main)
     mean, covariance = rung.posterior[0][part], rung.posterior[1][part, part]
-    unit = {"N": force}.get(unknown.curve.per, 1.0)
     return FreeCurve(unknown.curve.nodes, unit * mean, unit**2 * covariance)
 
 

@@ -88,7 +88,7 @@ def _size(part: Part, gap: Gap) -> str:
     unknown = part.finding.main.unknown
     assert unknown.curve is not None
     mean, sd = part.curve.mean[-1], float(np.sqrt(part.curve.covariance[-1, -1]))
-    at, per = part.curve.at[-1], unknown.curve.per
+    at, per = part.curve.at[-1], unit_of(part)
     where = f"at {at:.2g} {unknown.curve.unit}"
     if unknown.curve.unit == "ln s":
         where = f"after {np.exp(at):.2g} s"
@@ -96,6 +96,16 @@ def _size(part: Part, gap: Gap) -> str:
     value += "N " if per == "N" else f"of {per} "
     power = next((one for one in gap.exponents if one.effect == part.effect), None)
     return value + where + (f", as the power {power.value:.2g} of it" if power else "")
+
+
+def unit_of(part: Part) -> str:
+    """Of a curve's values: N, or parts of a coefficient."""
+    forces = ("film_drag", "structural_damping", "spring_hardening")
+    curve = part.finding.main.unknown.curve
+    assert curve is not None
+    if part.finding.name in forces:
+        return "N"
+    return "mu_k" if part.finding.name == "velocity_weakening" else curve.per
 
 
 def law_of(system: System, rung: Rung, part: Part) -> Law | None:
@@ -112,7 +122,7 @@ def law_of(system: System, rung: Rung, part: Part) -> Law | None:
         level = np.sum(weight * (part.curve.mean - best.at)) / weight.sum()
         law = best.at + level
     return Law(
-        part.effect, unknown.curve.quantity, unknown.curve.unit, unknown.curve.per,
+        part.effect, unknown.curve.quantity, unknown.curve.unit, unit_of(part),
         part.curve.at, part.curve.mean, np.sqrt(np.diag(part.curve.covariance)), points, names,
         best.candidate.form if best is not None and best.follows else "", law,
     )  # fmt: skip

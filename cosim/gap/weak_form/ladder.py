@@ -22,7 +22,10 @@ from cosim.gap.weak_form.unknowns import Unknown
 
 #: Findings that round corners, as what a contact and other findings leave there does: they are
 #: asked of runs in which nothing else is missing.
-ALONE = ("measurement.smoothing", "measurement.latency")
+ALONE = ("measurement.latency",)
+#: What friction over the sliding speed is called, growing and falling.
+GROWS, FALLS = "film_drag", "velocity_weakening"
+BY_SPEED = (GROWS, FALLS)
 #: ln evidence with one more finding, and its unknowns.
 Offer = tuple[float, tuple[Added, ...]]
 
@@ -85,7 +88,19 @@ class Search:
             offer = periodic.offered(rung, kind)
             if offer and (kind.name not in found or offer[0] > found[kind.name][0]):
                 found[kind.name] = offer
-        return found
+        return self._by_direction(rung, found)
+
+    def _by_direction(self, rung: Rung, offers: dict[str, Offer]) -> dict[str, Offer]:
+        """Friction over the sliding speed is named by its direction: it grows, or falls.
+
+        Coefficient and force are two arguments, of which both may grow, and both may fall.
+        """
+        over_speed = [(name, offers.pop(name)) for name in BY_SPEED if name in offers]
+        for _, offer in sorted(over_speed, key=lambda pair: pair[1][0]):  # the better one stays
+            here = rung.system.rung([*rung.added, *offer[1]], *rung.kinds)
+            curve = here.posterior[0][here.part_of(offer[1][0])]
+            offers[GROWS if curve[-1] > 0.0 else FALLS] = offer
+        return offers
 
     def climb(self) -> Ladder:
         """Add, drop and exchange until nothing more is asked for."""

@@ -37,12 +37,14 @@ FRICTION = ("friction.mu_s", "friction.mu_k")
 #: Points of a table of friction, in parts of mu_k, which then scales the whole table.
 TABLE_PART = "friction.table_part["
 #: Of the tracker and the drive, not of the block.
-OUTSIDE = ("offset.", "measurement.", "per_weight.")
+OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.")
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
 LOADING = "offset.loading"
 #: ``per_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
 #: runs it is less in proportion to theirs.
 PER_WEIGHT = "per_weight."
+#: The same of what grows in proportion to the weight.
+WITH_WEIGHT = "with_weight."
 
 
 def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, float]:
@@ -60,6 +62,8 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
     for key, typical in values.items():
         if key.startswith(PER_WEIGHT):
             flat[key.removeprefix(PER_WEIGHT)] *= typical / weight
+        elif key.startswith(WITH_WEIGHT):
+            flat[key.removeprefix(WITH_WEIGHT)] *= weight / typical
     for key in [key for key in flat if key.startswith(TABLE_PART)]:
         part = flat.pop(key)
         flat[key.replace("table_part", "table_mu")] = part * flat["friction.mu_k"]
