@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import block_diag
-from scipy.special import logsumexp
 
 from cosim.gap.result import Rates
 from cosim.gap.weak_form.constants import (
@@ -38,6 +37,13 @@ RUNNERS_UP = 3
 CONFUSED = 0.1
 #: Truth and answer where nothing is missing.
 NONE = "none"
+
+
+def log_sum(values: np.ndarray | Sequence[np.ndarray]) -> np.ndarray:
+    """ln of the sum of exp over the first axis, for many small arrays."""
+    stacked = np.asarray(values)
+    most = stacked.max(axis=0)
+    return np.asarray(most + np.log(np.exp(stacked - most).sum(axis=0)))
 
 
 @dataclass(frozen=True)
@@ -136,13 +142,13 @@ class Decision:
         first, *others = projected
         w = self.whitens @ first
         base = 0.5 * np.sum(w**2, axis=1) + self.weights[:, None]
-        without, rights = logsumexp(base, axis=0), iter(others)
+        without, rights = log_sum(base), iter(others)
         evidence, gain = [], []
         for options in self.options.values():
             offered = [option.offered(next(rights), w, base) for option in options]
             sums = np.array([total for total, _ in offered])
             best = np.argmax(sums, axis=0)
-            evidence.append(logsumexp(sums, axis=0) - without)
+            evidence.append(log_sum(sums) - without)
             gain.append(np.choose(best, [most for _, most in offered]) - without)
         return Offers(tuple(self.options), np.array(evidence), np.array(gain))
 
@@ -184,8 +190,8 @@ class _Turned:
                 added = scale**2 * g
                 part = (scale**2 / (1.0 + added))[:, None]
                 more = (part @ squares)[:, 0] - np.log1p(added).sum(axis=1)[:, None]
-                values.append(logsumexp(base + 0.5 * more, axis=0))
-        return logsumexp(values, axis=0) - self.price, np.max(values, axis=0)
+                values.append(log_sum(base + 0.5 * more))
+        return log_sum(values) - self.price, np.max(values, axis=0)
 
 
 @dataclass(frozen=True)
