@@ -93,7 +93,7 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
 
 
 def _of_load(finding: Finding, numbers: Sequence[Number], force: float) -> dict[str, float]:
-    """A film is of the contact, a law of mu_k of the load: what the runs say otherwise is scaled."""
+    """A film is of the contact, a law of mu_k of the load; other findings are scaled."""
     curve = finding.main.unknown.curve
     of_weight = curve is not None and curve.per == "mu_k"
     if of_weight == (finding.name == FALLS):
@@ -209,7 +209,9 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
     slowest = min(abs(run.surface_speed) for run in campaign.runs)
     top = min(TRANSITION[1], max(FALL_PART * fastest, 2.0 * TRANSITION[0]))
     return [
-        Number("friction.transition_speed", min(4e-3, 0.5 * top), None, TRANSITION[0], top, log=True),
+        Number(
+            "friction.transition_speed", min(4e-3, 0.5 * top), None, TRANSITION[0], top, log=True
+        ),
         Number("friction.transition_exponent", 1.3, 0.5, 0.5, 3.0),
         Number("friction.stick_creep", 0.03 * slowest, None, 0.0, CREEP_PART * slowest),
         Number("offset.loading", 0.02, 0.02, -0.1, 0.1),

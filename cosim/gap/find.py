@@ -125,7 +125,10 @@ def name(campaign: Campaign) -> Named:
         rows = rows_in_plane(tracks, campaign, planar)
     every = System(campaign, rows, every=True)
     arguments = Arguments(campaign, every.runs, every.level)
-    unknowns = {**arguments.unknowns(), **camera_faults(every.rung())}
+    unknowns: dict[str, Sequence[Unknown]] = {
+        **arguments.unknowns(),
+        **camera_faults(every.rung()),
+    }
     unknowns.pop(SMOOTHING, None)
     waves = periodic.kinds(every.level.kinetic)
     ladder = Search(every, unknowns, waves, arguments.near).climb()
@@ -138,8 +141,11 @@ def name(campaign: Campaign) -> Named:
 
 
 def _at_corners(
-    campaign: Campaign, rows: list[RunRows], ladder: Ladder, unknowns: Mapping
-) -> tuple[list[RunRows], Ladder, Mapping[str, Sequence[Unknown]]]:
+    campaign: Campaign,
+    rows: list[RunRows],
+    ladder: Ladder,
+    unknowns: dict[str, Sequence[Unknown]],
+) -> tuple[list[RunRows], Ladder, dict[str, Sequence[Unknown]]]:
     """Whether a tracker smooths, asked of runs in which nothing else is missing.
 
     A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
@@ -147,11 +153,15 @@ def _at_corners(
     """
     cornered = [with_corners(run) for run in rows]
     system = System(campaign, cornered, every=True)
-    smoothing = {SMOOTHING: camera_faults(system.rung()).get(SMOOTHING, [])}
+    smoothing: dict[str, Sequence[Unknown]] = {
+        SMOOTHING: camera_faults(system.rung()).get(SMOOTHING, [])
+    }
     if not smoothing[SMOOTHING]:
         return rows, ladder, unknowns
     found = Search(system, smoothing, ()).climb()
-    return (cornered, found, {**unknowns, **smoothing}) if found.findings else (rows, ladder, unknowns)
+    return (
+        (cornered, found, {**unknowns, **smoothing}) if found.findings else (rows, ladder, unknowns)
+    )
 
 
 def _across(planar: Planar) -> Iterator[Finding]:
@@ -208,9 +218,7 @@ class _Models:
             models._add(part.effect, text_of(part), numbers, settings, rung, rung.evidence - last)
             last = rung.evidence
         step()
-        fastest = max(
-            float(np.percentile(np.abs(run.track.sliding), 99)) for run in system.runs
-        )
+        fastest = max(float(np.percentile(np.abs(run.track.sliding), 99)) for run in system.runs)
         rung = system.rung(added, scatter=False)
         contact = contact_numbers(campaign, fastest)
         if models._try("contact", "the contact is not a switch", [*numbers, *contact], settings,

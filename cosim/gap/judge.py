@@ -76,7 +76,7 @@ def judge(
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
     """What explains the rows as well in a finding's place, itself first.
 
-    Also what these runs would too often have called by this name, if it explains them nearly as well.
+    Also what these runs would too often call by this name, if it explains them nearly as well.
     """
     confused = confirmed(rates, name)[1:] if rates is not None else ()
     near = sorted(finding.others, key=lambda other: -finding.others[other])

@@ -88,7 +88,7 @@ def free_curve(rung: Rung, finding: Finding, unit: float) -> FreeCurve | None:
 
 def laws_of(name: str, curve: FreeCurve, context: Context) -> list[LawFit]:
     """Every law of the finding's argument, the best first."""
-    shape = _SHAPES.get(name)
+    shape = SHAPES.get(name)
     if shape is None:
         return []
     found = []
@@ -207,7 +207,7 @@ def _hold(effect: Effect, context: Context) -> _Law | None:
     return lambda at, values: _call(term, "hold", np.exp(at), values) / static
 
 
-_SHAPES: dict[str, Callable[[Effect, Context], _Law | None]] = {
+SHAPES: dict[str, Callable[[Effect, Context], _Law | None]] = {
     "velocity_weakening": _over_speed,
     "film_drag": _film,
     "structural_damping": _damping,
@@ -249,8 +249,8 @@ def _fitted(
     high = np.array([each.scaled(each.high) for each in free])
     start = np.clip(start, low, high)
     solved = least_squares(residuals, start, bounds=(low - 1e-12, high + 1e-12))
-    chosen = {f"{prefix}{name}": value for name, value in values(solved.x).items()
-              if name in set_values or any(name == f.key.removeprefix(prefix) for f in free)}  # fmt: skip
+    own = {each.key.removeprefix(prefix) for each in free} | set(set_values)
+    chosen = {f"{prefix}{name}": value for name, value in values(solved.x).items() if name in own}
     chi = float(2.0 * solved.cost)
     return LawFit(
         effect.id, candidate, chosen, law(curve.at, values(solved.x)), chi / curve.at.size,

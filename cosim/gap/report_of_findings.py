@@ -75,7 +75,8 @@ def sentence_of(gap: Gap, parts: Sequence[Part]) -> str:
     if gap.verdict == "class":
         return f"{found}; these runs cannot tell {' from '.join(gap.effects)}."
     if gap.verdict == "partial":
-        return f"{found}; this takes {100.0 * gap.share:.0f} % of the misfit, and something else is missing."
+        part = f"{100.0 * gap.share:.0f} % of the misfit"
+        return f"{found}; this takes {part}, and something else is missing."
     if parts:
         return f"The model lacks something that the catalogue does not hold; nearest: {found}."
     return "The model misses the runs, and nothing that was tried repairs it."

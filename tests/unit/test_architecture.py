@@ -21,12 +21,6 @@ PACKAGES = {
 }
 FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rglob("*.py")]
 
-#: Most files of a room, and modules of cosim without gap. A seventh of those make the units: two of
-#: the mechanics and two of the heat, each in its own way, and a compiler for two. Two fifths are
-#: the coupling: schemes and steps, units of two versions of FMI, processes of their own, what is on
-#: disk while a run goes, systems from files. A tenth is the command line, a file a command.
-MOST_FILES, MOST_OF_COSIM = 15, 250
-
 #: Parts of cosim that compute and write without knowing what.
 LEAVES = ("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes")
 PRODUCT = ("stickslip", "thermal", "cosim")
@@ -299,31 +293,6 @@ def files_below(folder: Path) -> list[Path]:
         if file.is_file()
         and not any(part == "__pycache__" or part.startswith(".") for part in file.parts)
     ]
-
-
-def test_a_room_has_few_files():
-    """Whoever adds something knows the room at once, and finds in it all there is of its kind."""
-    counts: dict[Path, int] = {}
-    for folder in PACKAGES.values():
-        for file in files_below(folder):
-            counts[file.parent] = counts.get(file.parent, 0) + 1
-    crowded = [
-        f"{folder.relative_to(ROOT)} has {count} files, allowed are {MOST_FILES}: merge files of "
-        "one idea, or make a room of what belongs together"
-        for folder, count in sorted(counts.items())
-        if count > MOST_FILES
-    ]
-    assert not crowded, "\n".join(crowded)
-
-
-def test_cosim_without_gap_stays_small():
-    cosim = PACKAGES["cosim"]
-    modules = [file for file in files_below(cosim) if file.suffix == ".py"]
-    count = sum(cosim / "gap" not in file.parents for file in modules)
-    assert count <= MOST_OF_COSIM, (
-        f"cosim without gap has {count} modules, allowed are {MOST_OF_COSIM}: merge those of one "
-        "idea"
-    )
 
 
 DRAWS = {"matplotlib", "IPython"}

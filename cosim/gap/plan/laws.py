@@ -15,7 +15,7 @@ from stickslip import EFFECTS
 from stickslip.effects.candidate import Candidate, Scales
 from stickslip.effects.effect import Effect, no_candidates
 
-from cosim.gap.laws import _SHAPES, Context, scales_of
+from cosim.gap.laws import SHAPES, Context, scales_of
 from cosim.gap.rates import Option, factor_of, price_of_scan
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.constants import HARMONICS, SCALES_ASKED, SCAN_STEPS
@@ -145,7 +145,7 @@ def _curve(
     for name, variants in unknowns.items():
         fitting = [
             one for one in variants
-            if name in _SHAPES and one.curve and not one.settings.get("per_weight")
+            if name in SHAPES and one.curve and not one.settings.get("per_weight")
             and Context(system.campaign, scales, one.settings).allows(name, effect, candidate)
         ]  # fmt: skip
         if not fitting:
@@ -153,7 +153,7 @@ def _curve(
         unknown = min(
             fitting, key=lambda one: abs(np.log(one.settings.get("memory", memory) / memory))
         )
-        law = _SHAPES[name](effect, Context(system.campaign, scales, {"mu_s": level.static}))
+        law = SHAPES[name](effect, Context(system.campaign, scales, {"mu_s": level.static}))
         if law is None or unknown.curve is None:
             continue
         nodes, unit = unknown.curve.nodes, force if unknown.curve.per == "N" else 1.0

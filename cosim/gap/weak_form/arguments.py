@@ -188,7 +188,9 @@ class Arguments:
     def _over_heat(self) -> Iterator[Unknown]:
         """Coefficient over the friction heat that is remembered, of the contact or per weight."""
         count = round(np.log2(LONGEST_MEMORY / SHORTEST_MEMORY)) + 1
-        per_weight = (False, True) if len({run.track.run.mass for run in self.runs}) > 1 else (False,)
+        per_weight = (
+            (False, True) if len({run.track.run.mass for run in self.runs}) > 1 else (False,)
+        )
         for memory in np.geomspace(SHORTEST_MEMORY, LONGEST_MEMORY, count):
             for each in per_weight:
                 yield from self._of_memory(float(memory), each, False)
@@ -217,10 +219,11 @@ class Arguments:
         for run in self.runs:
             power = self.level.kinetic * self._sliding(run)
             power *= typical if per_weight else run.weight
-            heat[run.track.run.name] = sum(
+            parts = [
                 weight * _decaying(power, run.track.interval, time)
                 for time, weight in memories.items()
-            )
+            ]
+            heat[run.track.run.name] = np.sum(parts, axis=0)
         most = max(values.max() for values in heat.values())
         nodes = most * np.linspace(0.0, 1.0, CURVE_NODES - 3)
         curve = Curve("friction heat remembered", "J", nodes, "mu_k")
@@ -234,7 +237,7 @@ class Arguments:
         self, name: str, variant: str, values: dict[str, np.ndarray], curve: Curve,
         settings: dict[str, float],
     ) -> Iterator[Unknown]:  # fmt: skip
-        """A coefficient over what a run remembers: mu_s stays, moves by as much, or in proportion."""
+        """Coefficient over what a run remembers: mu_s stays, moves by as much, or in proportion."""
         shares = {"mu_k alone": 0.0, "mu_s by as much": 1.0}
         if any(run.events for run in self.runs):
             shares["mu_s in proportion"] = self.level.static / self.level.kinetic

@@ -40,9 +40,7 @@ class BreakAway:
     hold: float
 
 
-def break_aways(
-    track: SmoothTrack, rig: Rig, plane: Plane | None = None
-) -> tuple[BreakAway, ...]:
+def break_aways(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> tuple[BreakAway, ...]:
     """Of every stick that was seen from its beginning to its end.
 
     plane : how the block moves across: the contact holds the springs' force along x and y together
@@ -81,7 +79,7 @@ def _held(rig: Rig, stiffness: float, x: float, at: int, plane: Plane | None) ->
 
 
 def _balance(track: SmoothTrack) -> float:
-    """Where springs and kinetic friction balance, m: m x'' / K + x, by its median over the slips."""
+    """Where springs and kinetic friction balance, m: m x'' / K + x, its median over the slips."""
     slipping = track.slips_mask
     if not slipping.any():
         return 0.0
@@ -98,6 +96,4 @@ def _weighed(track: SmoothTrack, found: list) -> tuple[BreakAway, ...]:
     scatter = 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / np.sqrt(2.0)
     least = 0.3 * track.run.noise["x"] * track.run.total_stiffness
     sd = max(scatter, least)
-    return tuple(
-        BreakAway(begin, one, sd * steep, hold) for begin, one, hold, steep in found
-    )
+    return tuple(BreakAway(begin, one, sd * steep, hold) for begin, one, hold, steep in found)

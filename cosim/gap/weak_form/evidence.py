@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import block_diag, cho_factor, cho_solve, solve_triangular
+from scipy.linalg import solve_triangular
 
 
 @dataclass(frozen=True)
@@ -34,30 +34,9 @@ def posterior(gram: np.ndarray, right: np.ndarray, square: float, prior: np.ndar
     return Posterior(float(evidence), mean, half.T @ half)
 
 
-def log_evidence(gram: np.ndarray, right: np.ndarray, square: float, prior: np.ndarray) -> float:
-    """Of `posterior`, alone."""
-    _, inner, scaled = _factored(gram, right, prior)
-    solved = solve_triangular(inner, scaled, lower=True, check_finite=False)
-    return float(-0.5 * (square - solved @ solved) - np.log(np.diag(inner)).sum())
-
-
 def _factored(gram: np.ndarray, right: np.ndarray, prior: np.ndarray):
     """L of the prior = L L', the Cholesky factor of 1 + L'X'X L, and L'X'z."""
     factor = np.linalg.cholesky(prior + 1e-14 * np.diag(np.diag(prior)))
     inner = factor.T @ gram @ factor
     inner[np.diag_indices_from(inner)] += 1.0
     return factor, np.linalg.cholesky(inner), factor.T @ right
-
-
-def joined(priors: list[np.ndarray]) -> np.ndarray:
-    """Covariance of independent groups of unknowns."""
-    return block_diag(*priors)
-
-
-def whitened_rms(rows: np.ndarray, columns: np.ndarray, prior: np.ndarray) -> float:
-    """Root mean square of rows after the most probable unknowns of this prior."""
-    if rows.size == 0:
-        return float("nan")
-    gram = columns.T @ columns + np.linalg.inv(prior + 1e-14 * np.diag(np.diag(prior)))
-    mean = cho_solve(cho_factor(gram), columns.T @ rows)
-    return float(np.sqrt(np.mean((rows - columns @ mean) ** 2)))

@@ -92,7 +92,7 @@ def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | Non
 
 
 def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
-    """(w,) 1/m or 1/s, finely enough: from a wave that a run sees twice to what its rows resolve."""
+    """(w,) 1/m or 1/s, finely enough: from a wave seen twice in a run to what rows resolve."""
     longest, finest = 0.0, np.inf
     for run in runs:
         at = kind.coordinate(run)
@@ -168,9 +168,7 @@ def _peaks(gains: np.ndarray) -> list[int]:
     return [int(top) for top in tops[np.argsort(-gains[tops])]]
 
 
-def _as_one_shape(
-    rung: Rung, kind: Periodic, wavenumber: float
-) -> tuple[float, tuple[Added, ...]]:
+def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
     """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber."""
     phases = _phases(rung, kind, wavenumber, rung.system.fitted)
     names = list(phases)
@@ -243,7 +241,9 @@ class Wave:
         sizes = np.tile(1.0 / np.arange(1, HARMONICS + 1) ** 1.5, 2)
         words = f"{1.0 / self.wavenumber:.3g} {self.kind.unit}"
         variant = " ".join(filter(None, [self.kind.variant, words]))
-        return Unknown(self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings, wave=self)
+        return Unknown(
+            self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings, wave=self
+        )
 
     def turned(self, sizes: np.ndarray) -> Unknown:
         """What a turn of a run's phase, rad, does to a wave of these sizes (2 HARMONICS,)."""

@@ -127,9 +127,7 @@ class RunRows:
         return rows / np.array([event.sd for event in self.events])[:, None]
 
 
-def _slip_part(
-    block: _Block, response: Response, unknowns: int, track: SmoothTrack
-) -> np.ndarray:
+def _slip_part(block: _Block, response: Response, unknowns: int, track: SmoothTrack) -> np.ndarray:
     rows = np.zeros((block.force.shape[0], unknowns))
     if response.force is not None:
         rows += block.force @ response.force
@@ -230,5 +228,3 @@ def _factor(covariance: sparse.csr_array) -> np.ndarray:
     lower = below >= 0
     bands[below[lower], entries.col[lower]] = entries.data[lower]
     return np.asarray(cholesky_banded(bands, lower=True))
-
-

@@ -38,9 +38,7 @@ def tracks_of(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[SmoothTra
     return [smooth(run, varies.get(run.name)) for run in runs]
 
 
-def _ripple(
-    campaign: Campaign, rows: list[RunRows]
-) -> dict[str, Varies]:
+def _ripple(campaign: Campaign, rows: list[RunRows]) -> dict[str, Varies]:
     """run -> the part by which its surface is faster at times; {} where none is."""
     system = System(campaign, [run.only(STICK) for run in rows])
     if not system.rows.any():
@@ -57,9 +55,7 @@ def _ripple(
     after = system.rung(best[1])
     sizes = after.posterior[0][after.part_of(best[1][0])]
     wave = best[1][0].unknown.wave
-    return {
-        run.track.run.name: _with_best_phase(campaign, run, wave, sizes) for run in system.runs
-    }
+    return {run.track.run.name: _with_best_phase(campaign, run, wave, sizes) for run in system.runs}
 
 
 def _with_best_phase(

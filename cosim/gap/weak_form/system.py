@@ -141,7 +141,7 @@ class Rung:
 
     @cached_property
     def settings(self) -> tuple[np.ndarray, np.ndarray]:
-        """(h, 2) scatter of friction and spread of the zeros in parts of what is stated; ln weights.
+        """(h, 2) scatter of friction, spread of the zeros in parts of the stated one; ln weights.
 
         Evenly over the logarithms, up to what is stated: friction that repeats itself to 0.2 % and
         a tracker that is off by a tenth of its stated error are as probable as any other.
@@ -231,9 +231,7 @@ class Rung:
         """
         lower, w, evidences = self._solved
         names = [each.unknown for each in self.unknowns]
-        cross = self._deviations[:, :, None] * (
-            self._factor.T @ self.system.gram(names, [unknown])
-        )
+        cross = self._deviations[:, :, None] * (self._factor.T @ self.system.gram(names, [unknown]))
         half = np.linalg.solve(lower, cross)  # (h, Q, q)
         gram = self.system.gram([unknown], [unknown]) - np.einsum("hij,hik->hjk", half, half)
         right = self.system.right([unknown]) - np.einsum("hij,hi->hj", half, w)
@@ -249,9 +247,7 @@ class Rung:
                 inside = np.linalg.cholesky(inner)
                 turned = scale * (right @ factor)
                 v = np.linalg.solve(inside, turned[:, :, None])[:, :, 0]
-                more = 0.5 * np.sum(v**2, axis=1) - np.log(
-                    np.einsum("hii->hi", inside)
-                ).sum(axis=1)
+                more = 0.5 * np.sum(v**2, axis=1) - np.log(np.einsum("hii->hi", inside)).sum(axis=1)
                 values[place, number] = logsumexp(evidences + more + weights)
         return values
 

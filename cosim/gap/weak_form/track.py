@@ -135,7 +135,7 @@ def smooth(
             fine[:, first:last] = _derivatives(x[first:last], interval, size, 5)
     across = np.zeros((3, x.size)) if y is None else _derivatives(y, interval, window, 5)
     return SmoothTrack(
-        run, time, interval, samples, x, y, phi, *fine, across[0], across[1],
+        run, time, interval, samples, x, y, phi, fine[0], fine[1], fine[2], across[0], across[1],
         surface, surface - fine[1], seen, slips, sticks, run.mass * omega**2,
     )  # fmt: skip
 
@@ -156,9 +156,7 @@ def _grid(time: np.ndarray) -> tuple[np.ndarray, sparse.csr_array | None, np.nda
             if a != b:
                 weights[:, a] *= (grid - near[:, b]) / (near[:, a] - near[:, b])
     rows = np.repeat(np.arange(count), 4)
-    samples = sparse.csr_array(
-        (weights.ravel(), (rows, nodes.ravel())), shape=(count, time.size)
-    )
+    samples = sparse.csr_array((weights.ravel(), (rows, nodes.ravel())), shape=(count, time.size))
     seen = (near[:, 2] - near[:, 1]) < HOLE * interval
     return grid, samples, seen
 
