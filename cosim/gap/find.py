@@ -40,6 +40,7 @@ from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.surface import tracks_of
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.track import thinned
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
 from cosim.gap.windows.windows import Windows
@@ -62,6 +63,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     """
     step = _Steps(progress)
     doubts = doubts_of(campaign)
+    campaign = replace(campaign, runs=tuple(thinned(run) for run in campaign.runs))
     step()
     named = name(campaign)
     system, ladder, rung = named.system, named.ladder, named.rung
@@ -117,7 +119,7 @@ def name(campaign: Campaign) -> Named:
 
     Which argument it is, every run may say; how large it is, only those that are fitted.
     """
-    runs = [run for run in campaign.runs if run.track is not None]
+    runs = [thinned(run) for run in campaign.runs if run.track is not None]
     tracks = tracks_of(campaign, runs)
     rows = [rows_of(track, campaign.rig) for track in tracks]
     planar = planar_effects(campaign, rows)

@@ -8,6 +8,8 @@ from __future__ import annotations
 CUBIC_REACH = 0.65
 #: Half width of the quintic inside slips, in 1 / omega: off by 1e-3.
 QUINTIC_REACH = 1.0
+#: Samples nearer to one another than this, in 1 / omega, are averaged: sixty a swing are left.
+FINE_ENOUGH = 0.1
 #: Samples count as even within this part of their interval: cubic interpolation is better below.
 EVEN = 0.01
 #: A hole is longer than so many intervals: interpolation across it is guesswork.
@@ -15,6 +17,8 @@ HOLE = 2.5
 #: Sliding speed below which a contact may still be letting go, m/s, and part of the surface's:
 #: published Stribeck speeds of dry contacts are 1 to 8 mm/s.
 LEAST_SLIDING, LEAST_SLIDING_SHARE = 6e-3, 0.06
+#: The same in parts of the fastest sliding, where a rig is so slow that this is less.
+SLOW_PART = 0.1
 #: Standard deviations of the smoothed velocity that noise alone does not reach in a record.
 VELOCITY_SIGMAS = 3.0
 #: In a slip the surface gets ahead of the block by more than so many standard deviations of a
@@ -32,6 +36,10 @@ FAR_STIFFER = 1.25
 #: Distance of the splines' knots, in 1 / omega: ten wave lengths of the free oscillation's motion
 #: fit into what is left of the spectrum, and a slip of half a period holds ten functions.
 KNOTS = 0.3
+
+#: Part by which a variance is enlarged, so that rounding leaves a covariance positive: slow swings
+#: of finely sampled tracks make neighbouring rows all but one.
+ROUNDING = 1e-9
 
 # Break-aways.
 #: Of the largest deflection, the part that the surface's own speed may make: beyond it nearly all
@@ -92,6 +100,8 @@ SCAN_STEPS = 2
 #: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one,
 #: and what differs within a slip alone is the contact's.
 SHORTEST_WAVE = 2.0
+#: Most wavenumbers of a scan: long records of fast swings are scanned for long waves alone.
+MOST_WAVES = 3000
 #: Peaks of the scan that are fitted as one shape.
 WAVES_FITTED = 3
 #: Standard deviation of a phase of which nothing is known, rad (even over a turn), and rounds in
@@ -129,6 +139,9 @@ STILL_NUMBER = 4.0
 #: Part of the misfit of y that an effect may leave: a swing that no form follows has small numbers
 #: of high evidence.
 PLANE_PART = 0.5
+#: Part of what friction across explains that a number beside it must add: a model that follows the
+#: motion to 4 % leaves so much of its squares to others.
+PLANE_FOLLOWED = 2e-3
 #: Sliding speed that stands for none, m/s: a block held so drifts by 1e-6 m in a minute's stick.
 SLOWEST_SLIDING = 1e-6
 #: Largest turn of a block whose turn is not measured, rad: springs let it go no farther.

@@ -15,6 +15,7 @@ import numpy as np
 
 from cosim.gap.weak_form.constants import (
     HARMONICS,
+    MOST_WAVES,
     PHASE_ROUNDS,
     PHASE_SD,
     SCAN_STEPS,
@@ -101,7 +102,8 @@ def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
         finest = min(finest, float(np.ptp(at)) * resolved / np.ptp(run.track.time))
     if longest / 2.0 <= finest:
         return np.empty(0)
-    return np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
+    every = np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
+    return every[:MOST_WAVES]
 
 
 @dataclass(frozen=True)

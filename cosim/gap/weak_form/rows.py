@@ -23,7 +23,7 @@ from stickslip.packing import GRAVITY
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import Plane
 from cosim.gap.weak_form.breakaway import BreakAway, break_aways
-from cosim.gap.weak_form.constants import KNOTS
+from cosim.gap.weak_form.constants import KNOTS, ROUNDING
 from cosim.gap.weak_form.rig_geometry import spring_force
 from cosim.gap.weak_form.track import SmoothTrack
 
@@ -227,4 +227,5 @@ def _factor(covariance: sparse.csr_array) -> np.ndarray:
     bands = np.zeros((width, covariance.shape[0]))
     lower = below >= 0
     bands[below[lower], entries.col[lower]] = entries.data[lower]
+    bands[0] *= 1.0 + ROUNDING
     return np.asarray(cholesky_banded(bands, lower=True))

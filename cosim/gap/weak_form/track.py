@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import sparse
@@ -14,11 +14,14 @@ from cosim.gap.weak_form.constants import (
     CUBIC_REACH,
     EVEN,
     FAR_STIFFER,
+    FINE_ENOUGH,
     HOLE,
     LEAST_SLIDING,
     LEAST_SLIDING_SHARE,
     QUINTIC_REACH,
+    SLIP_PERCENTILE,
     SLIP_SIGMAS,
+    SLOW_PART,
     STICK_MARGIN,
     VELOCITY_SIGMAS,
 )
@@ -118,7 +121,9 @@ def smooth(
     if omega < FAR_STIFFER * run.natural_frequency:
         omega = run.natural_frequency
     rough = _derivatives(x, interval, _window(CUBIC_REACH / omega, interval), 3)
-    threshold = max(_sliding_threshold(run, interval), band * abs(run.surface_speed))
+    fastest = float(np.percentile(np.abs(run.surface_speed - rough[1]), SLIP_PERCENTILE))
+    threshold = _sliding_threshold(run, interval, fastest)
+    threshold = max(threshold, band * abs(run.surface_speed))
     surface = np.full(time.size, run.surface_speed)
     if varies is not None:
         surface *= 1.0 + varies(time)
@@ -178,13 +183,20 @@ def _derivatives(values: np.ndarray, interval: float, window: int, degree: int) 
     )
 
 
-def _sliding_threshold(run: MeasuredRun, interval: float) -> float:
-    """Sliding speed above which a block slips, m/s: beyond the contact's own and the noise's."""
+def _sliding_threshold(run: MeasuredRun, interval: float, fastest: float) -> float:
+    """Sliding speed above which a block slips, m/s: beyond the contact's own and the noise's.
+
+    fastest : of the run, m/s: slow rigs have slow contacts
+    """
     window = _window(CUBIC_REACH / run.natural_frequency, interval)
     weights = savgol_coeffs(window, 3, 1, interval)
     noise = run.noise["x"] * float(np.sqrt(np.sum(weights**2)))
     speed = abs(run.surface_speed)
-    return max(LEAST_SLIDING, LEAST_SLIDING_SHARE * speed, VELOCITY_SIGMAS * noise)
+    return max(
+        min(LEAST_SLIDING, SLOW_PART * fastest),
+        LEAST_SLIDING_SHARE * speed,
+        VELOCITY_SIGMAS * noise,
+    )
 
 
 def _stiffer(x: np.ndarray, interval: float, run: MeasuredRun) -> float:
@@ -225,3 +237,25 @@ def _stretches(inside: np.ndarray) -> tuple[tuple[int, int], ...]:
     """(first, last + 1) of every run of true values."""
     steps = np.diff(np.concatenate([[0], inside.astype(int), [0]]))
     return tuple(zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True))
+
+
+def thinned(run: MeasuredRun) -> MeasuredRun:
+    """The run with means of neighbouring samples, where there are far more than its swings need."""
+    if run.track is None:
+        return run
+    track = run.motion
+    each = int(FINE_ENOUGH / run.natural_frequency / track.interval)
+    if each < 2:
+        return run
+    bins = ((track.time - track.time[0]) / (each * track.interval)).astype(int)
+    kept, place, count = np.unique(bins, return_inverse=True, return_counts=True)
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        seen = np.isfinite(values)
+        total = np.bincount(place[seen], values[seen], kept.size)
+        with np.errstate(invalid="ignore"):
+            return total / np.bincount(place[seen], minlength=kept.size)
+
+    channels = {name: mean(track[name]) for name in track.channels}
+    noise = {name: value / np.sqrt(np.median(count)) for name, value in run.noise.items()}
+    return replace(run, noise=noise, track=replace(track, time=mean(track.time), **channels))
