@@ -132,9 +132,11 @@ def name(campaign: Campaign) -> Named:
         **camera_faults(every.rung()),
     }
     unknowns.pop(SMOOTHING, None)
+    if planar.answer:
+        unknowns.pop("measurement.zero", None)
     waves = periodic.kinds(every.level.kinetic)
     ladder = Search(every, unknowns, waves, arguments.near).climb()
-    if not ladder.findings:
+    if not (ladder.findings or planar.answer):
         rows, ladder, unknowns = _at_corners(campaign, rows, ladder, unknowns)
     fitted = System(campaign, rows)
     added = [one for finding in ladder.findings for one in finding.added]

@@ -100,8 +100,9 @@ SCAN_STEPS = 2
 #: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one,
 #: and what differs within a slip alone is the contact's.
 SHORTEST_WAVE = 2.0
-#: Most wavenumbers of a scan: long records of fast swings are scanned for long waves alone.
-MOST_WAVES = 3000
+#: Most wavenumbers of a scan times samples of a run, for the sake of memory: long records of fast
+#: swings are scanned for long waves alone.
+MOST_WAVES = 1e7
 #: Peaks of the scan that are fitted as one shape.
 WAVES_FITTED = 3
 #: Standard deviation of a phase of which nothing is known, rad (even over a turn), and rounds in

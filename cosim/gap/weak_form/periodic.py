@@ -103,7 +103,7 @@ def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
     if longest / 2.0 <= finest:
         return np.empty(0)
     every = np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
-    return every[:MOST_WAVES]
+    return every[: int(MOST_WAVES / max(run.track.time.size for run in runs))]
 
 
 @dataclass(frozen=True)
