@@ -34,8 +34,9 @@ from cosim.gap.weak_form.constants import (
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
-#: Unknowns of a form: 1/R (1/m), turn of the springs (rad), shift of their anchors (m), ln g.
-CURVATURE, TURN, SHIFT, SHARE = "curvature", "turn", "shift", "share"
+#: Unknowns of a form: 1/R (1/m), angle by which the surface runs askew under the resting block (a
+#: slab's centre ahead of it, rad), turn of the springs (rad), shift of their anchors (m), ln g.
+CURVATURE, ASKEW, TURN, SHIFT, SHARE = "curvature", "askew", "turn", "shift", "share"
 #: Unknowns of every run: part by which the springs are stiffer; y (m), y' (m/s), phi (rad) and its
 #: rate (rad/s) where the record begins.
 OWN = ("springs", "y", "vy", "phi", "omega")
@@ -48,7 +49,7 @@ class Plane:
     Attributes
     ----------
     y, phi : (n,) m, rad; velocity_y, turning : (n,) m/s, rad/s, in the steps of the grid
-    curvature, turn, shift : of surface and springs, 1/m, rad, m
+    curvature, askew, turn, shift : of surface and springs, 1/m, rad, rad, m
     share : g, how much friction acts across, as part of that along x
     """
 
@@ -57,6 +58,7 @@ class Plane:
     velocity_y: np.ndarray
     turning: np.ndarray
     curvature: float = 0.0
+    askew: float = 0.0
     turn: float = 0.0
     shift: float = 0.0
     share: float = 0.0
@@ -71,12 +73,16 @@ class Plane:
         """(n,) speed along x of the surface under the block, of its speed on the axis, m/s."""
         return np.asarray(speed * (1.0 - self.curvature * self.y))
 
+    def drift(self, speed: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """(n,) speed along y of the surface under the block, m/s."""
+        return speed * (self.curvature * x + self.askew)
+
     def sliding(self, track: SmoothTrack, radius: float) -> tuple[np.ndarray, ...]:
         """(n,) each: U_x of the surface over the block; U; and s: m/s."""
         speed = track.surface_speed
         along = self.drive(speed) - track.velocity
         ratio = np.sqrt(self.share)
-        across = ratio * (speed * self.curvature * track.place - self.velocity_y)
+        across = ratio * (self.drift(speed, track.place) - self.velocity_y)
         spin = ratio * radius * np.abs(speed * self.curvature - self.turning)
         return along, np.hypot(along, across), spin
 
@@ -146,9 +152,9 @@ class Course:
         q = self.offset + np.tensordot(np.array(list(values.values())), self.columns, 1)
         q = np.array([_within(q[0], track.y, 0.0), _within(q[1], track.phi, MOST_TURN)])
         rates = np.gradient(q, track.interval, axis=1)
-        curvature, turn, shift = (values.get(name, 0.0) for name in (CURVATURE, TURN, SHIFT))
+        known = {name: values[name] for name in (CURVATURE, ASKEW, TURN, SHIFT) if name in values}
         share = float(np.exp(values[SHARE])) if SHARE in values else 0.0
-        return Plane(q[0], q[1], rates[0], rates[1], curvature, turn, shift, share)
+        return Plane(q[0], q[1], rates[0], rates[1], share=share, **known)
 
 
 def _within(values: np.ndarray, seen: np.ndarray | None, most: float) -> np.ndarray:
@@ -172,11 +178,12 @@ def course(
     surface = np.array([v * x, v])
     columns = {
         CURVATURE: drag * surface,
+        ASKEW: drag * [v, np.zeros_like(v)],
         TURN: _slope(held, track, rig, "turn", load),
         SHIFT: -slope[0],
-        SHARE: drag * (about.curvature * surface - [about.velocity_y, about.turning]),
+        SHARE: drag * [about.drift(v, x) - about.velocity_y, about.curvature * v - about.turning],
     }
-    known = {CURVATURE: 0.0, TURN: about.turn, SHIFT: about.shift,
+    known = {CURVATURE: 0.0, ASKEW: 0.0, TURN: about.turn, SHIFT: about.shift,
              SHARE: np.log(max(about.share, 1e-12))}  # fmt: skip
     right = np.zeros((1 + len(unknowns) + len(OWN), 2, x.size))
     right[0] = load - np.einsum("qcn,qn->cn", slope, [held.y, held.phi])

@@ -17,6 +17,7 @@ from scipy.special import logsumexp
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import (
+    ASKEW,
     CURVATURE,
     OWN,
     SHARE,
@@ -32,6 +33,8 @@ from cosim.gap.weak_form.constants import (
     CURVATURE_SD,
     LEAST_GAIN,
     LEAST_SHARE,
+    MOST_SHARE,
+    PLANE_FOLLOWED,
     PLANE_PART,
     PLANE_PARTS,
     PLANE_ROUNDS,
@@ -60,7 +63,7 @@ FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
     "": ((),),
     ROTATION: ((ROTATION,),),
     LATERAL: ((SHARE,),),
-    TURNING: ((CURVATURE, SHARE),),
+    TURNING: ((CURVATURE, SHARE), (CURVATURE, ASKEW, SHARE)),
     MISALIGNED: (
         (TURN, SHARE),
         (SHIFT, SHARE),
@@ -70,7 +73,13 @@ FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
         (TURN, SHIFT),
     ),  # fmt: skip
 }
-SD = {CURVATURE: CURVATURE_SD, TURN: TURN_SD, SHIFT: SHIFT_SD, ROTATION: ROTATION_SD}
+SD = {
+    CURVATURE: CURVATURE_SD,
+    ASKEW: TURN_SD,
+    TURN: TURN_SD,
+    SHIFT: SHIFT_SD,
+    ROTATION: ROTATION_SD,
+}
 
 
 @dataclass(frozen=True)
@@ -135,7 +144,10 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     noise = max(fits[most].gap, 1.0)  # what no form explains counts as noise
     evidence = {name: (value - nothing) / noise**2 for name, value in evidence.items()}
     ranked = sorted(evidence, key=lambda name: -evidence[name])
-    if evidence[ranked[0]] - evidence.get(LATERAL, -np.inf) < LEAST_GAIN:
+    if not np.isfinite(nothing):
+        return NOTHING
+    lateral = evidence.get(LATERAL, -np.inf)
+    if evidence[ranked[0]] - lateral < max(LEAST_GAIN, PLANE_FOLLOWED * lateral):
         ranked.insert(0, ranked.pop(ranked.index(LATERAL)))  # it is in the others, with a zero
     explains = fits[ranked[0]].misfit < PLANE_PART * fits[""].misfit
     answer = ranked[0] if evidence[ranked[0]] > LEAST_GAIN and explains else ""
@@ -149,7 +161,7 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
 
 def _is_lateral(fitted: Fitted) -> bool:
     """Whether a form is friction across alone, as its other numbers may be zero."""
-    others = [number for name, number in fitted.numbers.items() if name != "ratio"]
+    others = [number for name, number in fitted.numbers.items() if name not in ("ratio", ASKEW)]
     return "ratio" in fitted.numbers and all(abs(value) < STILL_NUMBER * sd for value, sd in others)
 
 
@@ -338,11 +350,11 @@ def _solved(
 
 
 def _bounded(form: tuple[str, ...], shared: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """With friction across no more than isotropic, and no far step from the last round's."""
+    """With friction across as good as isotropic at most, and no far step from the last round's."""
     for place, name in enumerate(form):
         if name == SHARE:
             low = max(before[place] - SHARE_STEP, LEAST_SHARE)
-            shared[place] = np.clip(shared[place], low, min(before[place] + SHARE_STEP, 0.0))
+            shared[place] = np.clip(shared[place], low, min(before[place] + SHARE_STEP, MOST_SHARE))
     return shared
 
 
@@ -368,7 +380,7 @@ def _numbers(
     numbers = {}
     for name, value, deviation in zip(form, shared, sd, strict=True):
         if name == SHARE:
-            ratio = float(np.exp(0.5 * value))
+            ratio = min(float(np.exp(0.5 * value)), 1.0)  # above: mu_k is larger than assumed
             numbers["ratio"] = (ratio, 0.5 * ratio * float(deviation))
         else:
             numbers[name] = (float(value), float(deviation))

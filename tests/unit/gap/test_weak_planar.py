@@ -1,0 +1,118 @@
+"""What moves the block across: each effect is named from y, its size recovered, x left clean."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from gap_campaigns import KNOWN, RIG, noisy, write_campaign
+from stickslip import Parameters, simulate
+
+from cosim.gap.data import read_campaign
+from cosim.gap.weak_form.across import disc
+from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.planar import planar_effects, rows_in_plane
+from cosim.gap.weak_form.rig_unknowns import Level
+from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.track import smooth
+
+NOISE, DURATION, INTERVAL = 1e-4, 12.0, 0.01
+SPEEDS, HELD_OUT = (0.04, 0.09, 0.06), 0.06
+ISOTROPIC = {"lateral_friction": {"ratio": 1.0}}
+#: Effect -> blocks of the simulation, unknown, truth.
+EFFECTS = {
+    "lateral_friction": ({"initial": {"y": 8e-3}}, "ratio", 1.0),
+    "turning_surface": ({"turning_surface": {"curvature": 1.2}}, "curvature", 1.2),
+    "spring_misalignment": ({"spring_misalignment": {"angle_deg": 3.0}}, "turn", np.deg2rad(3.0)),
+}
+SHARED = Path(__file__).resolve().parents[4] / "shared" / "data"
+FOREIGN = {
+    "blind_campaigns_2/c18": "spring_misalignment",
+    "blind_campaigns_2/c19": "turning_surface",
+    "blind_campaigns_2/c20": "lateral_friction",
+    "blind_campaigns_2/c06": "",
+}
+
+
+def measured(folder, rotation=0.0, **blocks):
+    """A campaign of three runs in the plane. rotation : of the camera, rad"""
+    runs = []
+    for number, speed in enumerate(SPEEDS):
+        parameters = Parameters(
+            rig={**RIG, "mass": KNOWN["mass"], "degrees_of_freedom": ("x", "y", "phi")},
+            springs={"stiffness": KNOWN["stiffness"]},
+            friction={"mu_s": 0.3, "mu_k": 0.2},
+            surface={"speed": speed},
+            **blocks,
+        )
+        moved = simulate(parameters, DURATION, INTERVAL)
+        x, y = np.asarray(moved["x"]), np.asarray(moved["y"])
+        columns = {
+            "t": moved.time,
+            "x": noisy(x * np.cos(rotation), number, NOISE),
+            "y": noisy(y - x * np.sin(rotation), number + 50, NOISE),
+        }
+        runs.append({"surface_speed": speed, "columns": columns, "hold_out": speed == HELD_OUT})
+    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE, "y": NOISE}))
+
+
+def tracks_and_rows(campaign):
+    tracks = [smooth(run) for run in campaign.runs]
+    return tracks, [rows_of(track, campaign.rig) for track in tracks]
+
+
+def most_spurious(campaign, rows):
+    """ln evidence that the best of all arguments adds to rows along x."""
+    rung = System(campaign, rows).rung()
+    unknowns = Arguments(campaign, rows, Level.of(rows)).unknowns()
+    return max(rung.offered(variants)[0] for variants in unknowns.values()) - rung.evidence
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_an_effect_is_named_and_its_size_recovered(effect, tmp_path):
+    blocks, number, truth = EFFECTS[effect]
+    campaign = measured(tmp_path, **ISOTROPIC, **blocks)
+    tracks, rows = tracks_and_rows(campaign)
+    planar = planar_effects(campaign, rows)
+    assert planar.answer == effect
+    assert planar.fits[effect].gap < 1.1  # of the run held out, too
+    value, deviation = planar.numbers[number]
+    assert value == pytest.approx(truth, abs=4.0 * deviation + 0.02 * truth)
+    assert most_spurious(campaign, rows_in_plane(tracks, campaign, planar)) < 4.0
+
+
+def test_a_turned_camera_is_named(tmp_path):
+    campaign = measured(tmp_path, rotation=0.03)
+    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    assert planar.answer == "measurement.rotation"
+    value, deviation = planar.numbers["measurement.rotation"]
+    assert value == pytest.approx(0.03, abs=4.0 * deviation + 3e-4)
+
+
+def test_a_block_that_stays_on_the_axis_shows_nothing(tmp_path):
+    campaign = measured(tmp_path, **ISOTROPIC)
+    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    assert planar.answer == "" and not planar.evidence
+
+
+def test_a_block_that_swings_freely_shows_no_effect(tmp_path):
+    campaign = measured(tmp_path, initial={"y": 5e-3})
+    assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == ""
+
+
+def test_friction_of_a_disc_at_its_limits():
+    """f = 1, m = s / (4 U) at little spin; f = U / s, m = 2/3 at little sliding."""
+    force, moment = disc(np.array([1.0, 0.01]), np.array([0.01, 1.0]))
+    np.testing.assert_allclose(force, [1.0, 0.01], rtol=1e-3)
+    np.testing.assert_allclose(moment, [0.0025, 2.0 / 3.0], rtol=1e-3)
+
+
+@pytest.mark.skipif(not SHARED.is_dir(), reason="campaigns of other laboratories are not here")
+@pytest.mark.parametrize("name", FOREIGN)
+def test_campaigns_of_another_laboratory(name):
+    campaign = read_campaign(SHARED / name)
+    tracks, rows = tracks_and_rows(campaign)
+    planar = planar_effects(campaign, rows)
+    assert planar.answer == FOREIGN[name]
+    if planar.answer:
+        assert most_spurious(campaign, rows_in_plane(tracks, campaign, planar)) < 4.0
