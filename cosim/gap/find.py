@@ -37,7 +37,7 @@ from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
 from cosim.gap.weak_form.rows import RunRows, rows_of
-from cosim.gap.weak_form.surface import tracks_of
+from cosim.gap.weak_form.surface import best_phase, tracks_of
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import thinned
@@ -138,10 +138,22 @@ def name(campaign: Campaign) -> Named:
     ladder = Search(every, unknowns, waves, arguments.near).climb()
     if not (ladder.findings or planar.answer):
         rows, ladder, unknowns = _at_corners(campaign, rows, ladder, unknowns)
+    _follow_surface(campaign, every, ladder)
     fitted = System(campaign, rows)
     added = [one for finding in ladder.findings for one in finding.added]
     findings = (*_across(planar), *ladder.findings)
     return Named(ladder, findings, fitted, fitted.rung(added), unknowns)
+
+
+def _follow_surface(campaign: Campaign, system: System, ladder: Ladder) -> None:
+    """Give a ripple the phases that slips show, in runs whose sticks show none."""
+    for finding in ladder.findings:
+        if finding.name == "speed_ripple":
+            sizes = ladder.rung.posterior[0][ladder.rung.part_of(finding.main)]
+            wave = finding.main.unknown.wave
+            for run in system.runs:
+                here = best_phase(campaign, run, wave, sizes)
+                wave.phases[run.track.run.name] = here.phases[run.track.run.name]
 
 
 def _at_corners(

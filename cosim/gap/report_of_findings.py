@@ -58,7 +58,7 @@ def says(name: str) -> str:
 
 def text_of(part: Part) -> str:
     """A finding with its size."""
-    variant = part.finding.main.unknown.variant
+    variant = part.finding.variant
     words = f"{says(part.finding.name)}: {part.effect}"
     return f"{words} ({variant})" if variant else words
 
@@ -210,7 +210,7 @@ def _ranked(
     keys = {number.key for number in part.numbers if number.scope == "campaign"}
     parameters = {key: value for key, value in extended.values.items() if key in keys}
     intervals, undetermined = intervals_of(extended, parameters)
-    form = part.fits[0].candidate.form if part.fits else part.finding.main.unknown.variant
+    form = part.fits[0].candidate.form if part.fits else part.finding.variant
     return Ranked(part.effect, form, evidence, probability, after, parameters, intervals,
                   undetermined)  # fmt: skip
 

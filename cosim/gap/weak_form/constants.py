@@ -55,9 +55,9 @@ CONTACT_SPEED, CONTACT_FALL = 4e-3, 1.0
 #: Time by which a contact lets go sooner, or later, than an ideal one, s: bristles of 20 to 100 um
 #: on surfaces of 5 mm/s and more.
 CONTACT_DELAY = 0.02
-#: Part of the surface's speed at which a loaded contact creeps: under the fourth power of the load,
-#: and at any load (bristles of 100 um in a stroke of 10 mm).
-CREEP = (0.1, 0.01)
+#: Part of the surface's speed at which a contact creeps under the fourth power of its load, and
+#: length by which its bristles have given way when it lets go, m.
+CREEP = (0.1, 1e-4)
 #: Speed at which it creeps under its load whatever the surface does, m/s: friction that is regular
 #: in the speed, and pastes.
 CREEP_SPEED = 1e-3
@@ -150,7 +150,8 @@ MOST_TURN = 0.5
 #: Step of a derivative by place or angle, m or rad: errors of 1e-6 and of rounding 1e-10.
 PLANE_STEP = 1e-6
 #: Rounds in which numbers, sliding direction and turn follow one another: 1e-3 of them is left.
-PLANE_ROUNDS = 6
+#: Fewer, where the last one has changed ln evidence by less.
+PLANE_ROUNDS, SETTLED = 6, 0.3
 #: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; the
 #: least, a ratio of 0.2; the most, as mu_k, with which it goes, is known to some percent only; and
 #: the largest step in a round.

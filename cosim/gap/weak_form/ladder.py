@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.constants import (
+    ALIKE,
     FAULT_PRICE,
     LEAST_GAIN,
     LEAST_PART,
@@ -45,6 +46,11 @@ class Finding:
     gain: float
     others: Mapping[str, float] = field(default_factory=dict)
     numbers: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    @property
+    def variant(self) -> str:
+        """Its setting in words."""
+        return self.added[0].unknown.variant if self.added else ""
 
     @property
     def main(self) -> Added:
@@ -86,7 +92,8 @@ class Search:
             if kind.name in without:
                 continue
             offer = periodic.offered(rung, kind)
-            if offer and (kind.name not in found or offer[0] > found[kind.name][0]):
+            # of two that tell no difference the first: time is simpler than travel
+            if offer and (kind.name not in found or offer[0] > found[kind.name][0] + ALIKE):
                 found[kind.name] = offer
         return self._by_direction(rung, found)
 

@@ -83,7 +83,8 @@ def contact(level: Level) -> list[Unknown]:
     def creep(run: RunRows) -> Response:
         load = np.clip(np.abs(run.restoring) / (level.static * run.weight), 0.0, 1.0)
         speed = run.track.run.surface_speed
-        with_surface = speed * np.column_stack([load**4, np.ones_like(load)])
+        give = run.track.run.total_stiffness / (level.static * run.weight)  # of bristles, per m
+        with_surface = speed * np.column_stack([load**4, np.full_like(load, give)])
         by_load = np.sign(speed) * np.column_stack([load, load**3, load**9])
         return Response(speed=-np.hstack([with_surface, by_load]))
 

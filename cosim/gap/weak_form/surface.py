@@ -13,6 +13,7 @@ import numpy as np
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.constants import (
+    ALIKE,
     CONTACT_SPEED,
     PHASES_TRIED,
     RIPPLE_BANDS,
@@ -48,24 +49,30 @@ def _ripple(campaign: Campaign, rows: list[RunRows]) -> dict[str, Varies]:
     for kind in periodic.kinds(system.level.kinetic):
         if kind.name == "speed_ripple":
             offer = periodic.offered(rung, kind)
-            if offer and (best is None or offer[0] > best[0]):
+            if offer and (best is None or offer[0] > best[0] + ALIKE):
                 best = offer
     if best is None or best[0] - rung.evidence < RIPPLE_GAIN:
         return {}
     after = system.rung(best[1])
     sizes = after.posterior[0][after.part_of(best[1][0])]
     wave = best[1][0].unknown.wave
-    return {run.track.run.name: _with_best_phase(campaign, run, wave, sizes) for run in system.runs}
+    return {
+        run.track.run.name: best_phase(campaign, run, wave, sizes).at_times(run, sizes)
+        for run in system.runs
+    }
 
 
-def _with_best_phase(
+def best_phase(
     campaign: Campaign, run: RunRows, wave: periodic.Wave, sizes: np.ndarray
-) -> Varies:
-    """The wave of one run, of the phase that leaves least: where it seldom sticks, slips tell."""
+) -> periodic.Wave:
+    """The wave with the phase of one run that leaves least: where it seldom sticks, slips tell."""
     name, measured = run.track.run.name, run.track.run
-    turns = 2.0 * np.pi * np.arange(PHASES_TRIED) / PHASES_TRIED
-    tried = [wave.moved({name: turn}, 0.0).at_times(run, sizes) for turn in turns]
-    return min(tried, key=lambda varies: _left(campaign, measured, varies))
+    step = 2.0 * np.pi / PHASES_TRIED
+    for width in (step, step / 6.0):  # over a turn, then about the best
+        half = PHASES_TRIED // 2
+        tried = [wave.moved({name: width * n}, 0.0) for n in range(-half, half)]
+        wave = min(tried, key=lambda w: _left(campaign, measured, w.at_times(run, sizes)))
+    return wave
 
 
 def _left(campaign: Campaign, measured: MeasuredRun, varies: Varies) -> float:
