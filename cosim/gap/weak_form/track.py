@@ -256,6 +256,11 @@ def thinned(run: MeasuredRun) -> MeasuredRun:
         with np.errstate(invalid="ignore"):
             return total / np.bincount(place[seen], minlength=kept.size)
 
-    channels = {name: mean(track[name]) for name in track.channels}
+    def of(channel: str) -> np.ndarray | None:
+        return mean(track[channel]) if channel in track.channels else None
+
+    x = of("x")
+    assert x is not None  # every track has it
     noise = {name: value / np.sqrt(np.median(count)) for name, value in run.noise.items()}
-    return replace(run, noise=noise, track=replace(track, time=mean(track.time), **channels))
+    coarse = replace(track, time=mean(track.time), x=x, y=of("y"), phi=of("phi"), force=of("force"))
+    return replace(run, noise=noise, track=coarse)

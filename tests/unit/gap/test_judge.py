@@ -197,6 +197,6 @@ def part(each):
     unknown = SimpleNamespace(variant="", curve=None)
     found = SimpleNamespace(
         name=each.name, gain=each.gain, others=each.others, added=(),
-        main=SimpleNamespace(unknown=unknown),
+        main=SimpleNamespace(unknown=unknown), variant="",
     )  # fmt: skip
     return SimpleNamespace(finding=found, effect=each.name, curve=None, fits=(), numbers=())

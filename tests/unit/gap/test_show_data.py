@@ -100,6 +100,7 @@ def test_model_says_what_was_named_and_how_well(gap, verdict):
 def test_a_run_s_own_numbers_are_in_its_model(gap):
     run = shown_run(gap)
     own = {"offset.speed": 0.1, "offset.friction": 0.05, "offset.stiffness": 0.02}
+    own["offset.loading"] = 0.0  # takes of mu_s by the run's own stiffness
     runs = tuple(
         replace(one, values=one.values | own) if one.name == run.name else one
         for one in gap.extended.runs
