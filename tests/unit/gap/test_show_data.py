@@ -107,7 +107,7 @@ def test_a_run_s_own_numbers_are_in_its_model(gap):
     )
     scenario = scenario_of(replace(gap, extended=replace(gap.extended, runs=runs)), run)
     assert scenario.surface.speed == pytest.approx(1.1 * run.surface_speed)
-    mu_s = gap.extended.values["friction.mu_s"]
+    mu_s = gap.extended.run(run.name).values["friction.mu_s"]
     assert scenario.friction.mu_s == pytest.approx(mu_s * np.exp(0.05))
     assert scenario.springs.stiffness == pytest.approx(run.stiffness * np.exp(0.02))
 
