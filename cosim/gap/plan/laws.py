@@ -65,6 +65,18 @@ class Law:
         """The parameter so far from where it is nothing."""
         return self.neutral + float(np.copysign(away, self.most - self.neutral))
 
+    def blocks(self, value: float) -> dict[str, dict[str, float]]:
+        """Tables of `Parameters` with the law at a value of its size."""
+        free = self.candidate.free_parameters
+        given = {one.key: one.start for one in free if not one.per_run}
+        given |= {**self.candidate.settings, self.key: value}
+        if "memory" in self.unknown.settings:
+            given["thermal_weakening.relaxation_time"] = self.unknown.settings["memory"]
+        blocks: dict[str, dict[str, float]] = {}
+        for key, number in given.items():
+            blocks.setdefault(key.partition(".")[0], {})[key.rpartition(".")[2]] = number
+        return blocks
+
     def percent(self, value: float) -> float:
         """By which friction differs within these runs, percent of it; a constant is no change."""
         sizes = self.sizes(value)

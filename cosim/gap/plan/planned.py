@@ -38,6 +38,9 @@ MOST_SAMPLES = 200_000
 #: Part of the springs' length beyond which no block goes: they would be crushed.
 FARTHEST = 0.8
 
+#: Tables of `Parameters`.
+Blocks = Mapping[str, Mapping[str, float]]
+
 
 @dataclass(frozen=True)
 class PlannedRun:
@@ -139,16 +142,16 @@ def _planned(path: Path, campaign: Campaign, table: RunTable, number: int) -> Pl
     return PlannedRun(setting, table.duration, table.rate)
 
 
-def as_measured(planned: PlannedCampaign, seed: int = 0) -> Campaign:
-    """The runs as a tracker would see them, with nothing hidden."""
-    random = np.random.default_rng(seed)
-    runs = [simulated(planned.campaign, run, planned.friction, random) for run in planned.runs]
+def as_measured(planned: PlannedCampaign, seed: int = 0, blocks: Blocks | None = None) -> Campaign:
+    """The runs as a tracker would see them; blocks : effects that are in them."""
+    random, campaign = np.random.default_rng(seed), planned.campaign
+    runs = [simulated(campaign, run, planned.friction, random, blocks) for run in planned.runs]
     return replace(planned.campaign, runs=tuple(runs))
 
 
 def simulated(
     campaign: Campaign, run: PlannedRun, friction: Mapping[str, float],
-    random: np.random.Generator, blocks: Mapping[str, Mapping[str, float]] | None = None,
+    random: np.random.Generator, blocks: Blocks | None = None,
 ) -> MeasuredRun:  # fmt: skip
     """A run with its track: the block laid on the running surface with slack springs.
 

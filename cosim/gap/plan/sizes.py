@@ -33,6 +33,7 @@ class Size:
     ----------
     value : of its parameter, named by itself or in a class; None: no size that it may have is
     alone : the same, named by itself
+    power : part of the campaigns in which it is named at that value
     answers : answer -> how often, of `DRAWS` campaigns at that value
     shares : argument -> part of the campaigns in which it is named beside the law, or in its place
     """
@@ -40,6 +41,7 @@ class Size:
     law: Law
     value: float | None
     alone: float | None
+    power: float
     answers: Mapping[str, int]
     shares: Mapping[str, float]
 
@@ -147,11 +149,19 @@ def sizes_of(design: Design, wanted: float, progress: Callable[[], object]) -> l
 
 def _size(law: Law, seen: float, alone: float, offers: Offers | None) -> Size:
     if offers is None:
-        return Size(law, None, None, {}, {})
-    by_itself = law.value(alone) if np.isfinite(alone) else None
+        return Size(law, None, None, 0.0, {}, {})
+    by_itself = law.value(max(alone, seen)) if np.isfinite(alone) else None
     shares = dict(zip(offers.names, offers.near.mean(axis=1).tolist(), strict=True))
     others = {name: share for name, share in shares.items() if name != law.argument and share}
-    return Size(law, law.value(seen), by_itself, counted(offers.answers()), others)
+    power = float(np.mean(is_named(law, offers)))
+    return Size(law, law.value(seen), by_itself, power, counted(offers.answers()), others)
+
+
+def size_at(design: Design, away: float, alone: float | None) -> Size:
+    """Of a design's only law so far from nothing; alone : from where it is named by itself."""
+    (law,) = design.laws
+    far = np.inf if alone is None else abs(alone - law.neutral)
+    return _size(law, away, far, design.offers([0], [away])[0])
 
 
 def false_names(design: Design) -> float:

@@ -5,7 +5,7 @@
 Each effect is put into the planned campaign, which the kernel then makes, at the size that is
 planned to be named in 80 of 100; springs, speeds, zeros and friction are off within their errors,
 and `gap` names what it finds. Beside the share stand its 90 % interval (Clopper and Pearson) and
-the power that is predicted for that size, by itself or in a class, and by itself alone.
+the power that is predicted for that size, by itself or in a class.
 """
 
 import argparse
@@ -13,15 +13,11 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import numpy as np
 import tomli_w
-from plan_campaigns import blocks_of, made, named
+from plan_campaigns import made, named
 from scipy.stats import binomtest
 
-from cosim.gap.plan.laws import laws_of
-from cosim.gap.plan.plan import WANTED
-from cosim.gap.plan.planned import as_measured, asked_of, read_plan
-from cosim.gap.plan.sizes import Design, is_alone, is_named, sizes_of
+from cosim.gap.plan import make_plan, read_plan
 
 EFFECTS = (
     "film_drag", "velocity_weakening", "run_in", "spring_hardening", "static_strengthening",
@@ -53,32 +49,25 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     planned = planned_of(given.campaign)
-    asked = asked_of(as_measured(planned))
     first = {}
-    for law in laws_of(*asked):
-        first.setdefault(law.argument, law)
-    laws = [first[effect] for effect in given.effects if effect in first]
-    scatter = planned.campaign.errors.friction
-    sizes = sizes_of(Design(*asked, laws, scatter), WANTED, lambda: None)
-    again = Design(*asked, laws, scatter, draws=400, seed=1)
-    print(f"{'effect':22}{'size':>10}  {'predicted':>9}  achieved (90 %)       alone, and achieved")
-    for number, size in enumerate(sizes):
-        law = size.law
-        if size.value is None:
-            print(f"{law.argument:22}{'not seen':>10}")
+    for size in make_plan(planned).sizes:
+        first.setdefault(size.law.argument, size)
+    print(f"{'effect':22}{'size':>10}  {'predicted':>9}  achieved (90 %)")
+    for effect in given.effects:
+        size = first.get(effect)
+        if size is None or size.value is None:
+            print(f"{effect:22}{'not seen':>10}")
             continue
-        offers = again.offers([number], [abs(size.value - law.neutral)])[0]
         begun, seeds = time.process_time(), range(given.seed, given.seed + given.campaigns)
-        found = [named(made(planned, blocks_of(law, size.value), seed)) for seed in seeds]
+        blocks = size.law.blocks(size.value)
+        found = [named(made(planned, blocks, seed)) for seed in seeds]
         seconds = (time.process_time() - begun) / given.campaigns
-        seen = binomtest(sum(any(law.argument in group for group in one) for one in found),
-                         given.campaigns)  # fmt: skip
-        low, high = seen.proportion_ci(0.9)
-        alone = np.mean([{law.argument} in one for one in found])
+        times = sum(any(effect in group for group in one) for one in found)
+        test = binomtest(times, given.campaigns)
+        low, high = test.proportion_ci(0.9)
         print(
-            f"{law.argument:22}{size.value:10.4g}  {np.mean(is_named(law, offers)):9.2f}  "
-            f"{seen.statistic:8.2f} ({low:.2f} to {high:.2f})"
-            f"  {np.mean(is_alone(law, offers)):5.2f} {alone:5.2f}  {seconds:.1f} s each",
+            f"{effect:22}{size.value:10.4g}  {size.power:9.2f}  {test.statistic:8.2f} "
+            f"({low:.2f} to {high:.2f})  {seconds:.1f} s each",
             flush=True,
         )
 

@@ -9,19 +9,6 @@ from cosim.gap.plan.planned import simulated
 from cosim.gap.weak_form.constants import ALIKE, OWN_STATIC
 
 
-def blocks_of(law, value):
-    """Tables of `Parameters` with a law of the catalogue at a value of its size."""
-    given = {free.key: free.start for free in law.candidate.free_parameters if not free.per_run}
-    given |= {**law.candidate.settings, law.key: value}
-    if "memory" in law.unknown.settings:
-        given["thermal_weakening.relaxation_time"] = law.unknown.settings["memory"]
-    blocks = {}
-    for key, number in given.items():
-        block, _, own = key.partition(".")
-        blocks.setdefault(block, {})[own] = number
-    return blocks
-
-
 def made(planned, blocks, seed):
     """The campaign with tracks. Springs, speeds, zeros and friction are off within their errors."""
     random, campaign = np.random.default_rng(seed), planned.campaign

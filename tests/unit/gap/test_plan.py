@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import tomli_w
-from plan_campaigns import blocks_of, made, named
+from plan_campaigns import made, named
 
 from cosim.cli import main
 from cosim.gap.data.errors import CampaignError
@@ -120,7 +120,7 @@ def test_a_law_adds_to_the_rows_what_it_adds_to_the_motion(plan, asked, laws):
         update={"friction": 1e-6, "stiffness": 1e-6, "surface_speed": 1e-6}
     )
     quiet = replace(quiet, campaign=replace(quiet.campaign, errors=errors))
-    system, unknowns = asked_of(made(quiet, blocks_of(law, value), 0))
+    system, unknowns = asked_of(made(quiet, law.blocks(value), 0))
     added = system.rung().offered(unknowns["film_drag"])[1]
     rung = system.rung([added])
     seen = rung.posterior[0][rung.part_of(added)]
@@ -153,7 +153,7 @@ def test_one_mass_cannot_tell_force_from_coefficient(sizes):
 
 def test_pairs_are_those_that_mislead_two_readers_of_twenty(laws):
     for share, pairs in ((0.13, 1), (0.07, 0)):
-        size = Size(laws["film_drag"], 1.0, None, {}, {"run_in": share})
+        size = Size(laws["film_drag"], 1.0, None, 0.8, {}, {"run_in": share})
         assert len(Plan(None, 0.8, (size,), {}, 0.0, None).pairs) == pairs
 
 
@@ -181,7 +181,7 @@ def test_another_mass_tells_force_from_coefficient(asked, laws):
 def test_a_class_that_was_found_asks_for_the_run_that_parts_it(plan, laws):
     """Made by the kernel with one mass and a drag: the same search, from what the rows have."""
     pair = ("film_drag", "velocity_weakening")
-    system, unknowns = asked_of(made(plan, blocks_of(laws["film_drag"], 1.0), 0))
+    system, unknowns = asked_of(made(plan, laws["film_drag"].blocks(1.0), 0))
     ladder = Search(system, {name: unknowns[name] for name in pair}, ()).climb()
     asked_for = next_experiment(ladder, unknowns, pair)
     assert asked_for["mass"] != RUN["mass"]
@@ -244,9 +244,7 @@ def test_gap_names_what_was_planned_to_be_named(plan, asked, laws):
     law = laws["film_drag"]
     (size,) = sizes_of(Design(*asked, [law], SCATTER), 0.8, lambda: None)
     times = [
-        any(
-            "film_drag" in group for group in named(made(plan, blocks_of(law, 2.0 * size.value), n))
-        )
+        any("film_drag" in group for group in named(made(plan, law.blocks(2.0 * size.value), n)))
         for n in range(6)
     ]
     assert sum(times) >= 5
