@@ -39,6 +39,7 @@ from cosim.gap.weak_form.constants import (
     PLANE_PARTS,
     PLANE_ROUNDS,
     ROTATION_SD,
+    SETTLED,
     SHARE_SD,
     SHARE_STEP,
     SHIFT_SD,
@@ -242,8 +243,11 @@ def _fit(
         if solved is None:
             break
         found, planes, values = solved
+        settled = best is not None and abs(found.evidence - best.evidence) < SETTLED
         if number and (best is None or found.evidence > best.evidence):
             best = found
+        if settled:
+            break
     return best or Fitted(form, -np.inf, {}, {}, np.inf)
 
 
