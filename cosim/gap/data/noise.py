@@ -59,12 +59,14 @@ def huber_scale(values: np.ndarray) -> float:
     scale = float(np.median(np.abs(values))) / stats.norm.ppf(0.75)
     if scale == 0.0:  # half of the samples repeat: a coarse reading of the tracker
         return float(np.sqrt(np.mean(values**2)))
-    size = np.abs(values)
+    if not math.isfinite(scale):
+        return math.nan
+    size = np.abs(values / scale)  # squares of large numbers overflow
 
-    def better(scale: float) -> float:
-        return math.sqrt(float(np.mean(np.minimum(size, HUBER * scale) ** 2)) / CLIPPED)
+    def better(part: float) -> float:
+        return math.sqrt(float(np.mean(np.minimum(size, HUBER * part) ** 2)) / CLIPPED)
 
-    return float(fixed_point(better, scale, xtol=1e-9, maxiter=500))
+    return scale * float(fixed_point(better, 1.0, xtol=1e-9, maxiter=500))
 
 
 def with_noise(
