@@ -15,14 +15,11 @@ import numpy as np
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.errors import CampaignError
-from cosim.gap.plan.planned import PlannedRun, simulated
+from cosim.gap.plan.planned import PlannedRun, rows_of_run, simulated
 from cosim.gap.rates import Decision, Truth, drawn, options_of, scatter_of
 from cosim.gap.weak_form.arguments import Arguments
-from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Ladder
-from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import Added, System
-from cosim.gap.weak_form.track import smooth
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: Beyond the campaign's own settings, where no limits are stated, by this factor.
@@ -162,7 +159,7 @@ def _with(system: System, option: PlannedRun, friction: Mapping[str, float]) -> 
     campaign = system.campaign
     try:
         run = simulated(campaign, option, friction, np.random.default_rng(0))
-        rows: RunRows = with_corners(rows_of(smooth(run), campaign.rig))
+        rows = rows_of_run(campaign, run)
     except (CampaignError, ValueError, ArithmeticError, np.linalg.LinAlgError):
         return None
     if not len(rows):

@@ -19,10 +19,9 @@ from cosim.gap.data.friction_table import read_friction_table
 from cosim.gap.data.units import COARSEST
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.camera_faults import camera_faults
-from cosim.gap.weak_form.corners import with_corners
-from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import System
-from cosim.gap.weak_form.track import smooth
+from cosim.gap.weak_form.track import smooth, thinned
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.scenario.faults import describe_faults
 
@@ -189,7 +188,14 @@ def asked_of(campaign: Campaign) -> tuple[System, dict[str, list[Unknown]]]:
 
     Nothing moves the block across, and the surface's speed does not vary: that is not looked for.
     """
-    rows = [with_corners(rows_of(smooth(run), campaign.rig)) for run in campaign.runs]
+    rows = [rows_of_run(campaign, run) for run in campaign.runs]
     system = System(campaign, rows, every=True)
     arguments = Arguments(campaign, system.runs, system.level).unknowns()
-    return system, {**arguments, **camera_faults(system.rung())}
+    faults = camera_faults(system.rung())
+    faults.pop("measurement.smoothing", None)  # asked of runs in which nothing else is missing
+    return system, {**arguments, **faults}
+
+
+def rows_of_run(campaign: Campaign, run: MeasuredRun) -> RunRows:
+    """Rows along x."""
+    return rows_of(smooth(thinned(run)), campaign.rig)
