@@ -180,7 +180,8 @@ def _wave(rung: Rung, finding: Finding) -> Part:
     second = complex(sizes[1], -sizes[HARMONICS + 1])
     name, length = finding.name, 1.0 / wave.wavenumber
     amplitude = abs(first)
-    sine = 90.0 if name == "speed_ripple" else 0.0  # the ripple is a sine, the pattern a cosine
+    # the model's pattern is a cosine of x less the surface's travel, its ripple a sine of the time
+    pattern = name == "surface_pattern"
     if name == "other.shaking":
         return Part(finding, None, (), (), {})
     numbers = [Number(f"{name}.amplitude", amplitude, None, 0.0, 1.0)]
@@ -189,15 +190,17 @@ def _wave(rung: Rung, finding: Finding) -> Part:
         numbers.append(Number(f"{name}.wavelength", length, None, 0.9 * length, 1.1 * length))
     turn = math.degrees(np.angle(first))
     for run in rung.system.runs:
-        phase = -math.degrees(wave.phases.get(run.track.run.name, 0.0)) + turn + sine
+        angle = turn - math.degrees(wave.phases.get(run.track.run.name, 0.0))
+        phase = -angle if pattern else angle + 90.0
         settings[f"{name}.phase_deg@{run.track.run.name}"] = (phase + 180.0) % 360.0 - 180.0
         if name == "speed_ripple":
             pace = abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
             settings[f"{name}.frequency@{run.track.run.name}"] = wave.wavenumber * pace
     if abs(second) > 0.1 * amplitude:
-        # cos(2 a + b) with a the first's angle: its phase where the first's is nothing
+        # b of cos(2 a + b), or sin(2 a + b), a the angle of the first
+        ahead = math.degrees(np.angle(second)) - 2.0 * turn
         settings[f"{name}.second_amplitude"] = min(abs(second) / amplitude, 1.0)
-        settings[f"{name}.second_phase_deg"] = math.degrees(np.angle(second)) - 2.0 * turn
+        settings[f"{name}.second_phase_deg"] = -ahead if pattern else ahead - 90.0
     return Part(finding, None, (), tuple(numbers), settings)
 
 
