@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from stickslip.effects.candidate import FreeParameter
@@ -236,8 +236,6 @@ def scatter_numbers(scatter: float, speed: float = SET_POINT) -> list[Number]:
 
 def started_at(numbers: Sequence[Number], values: dict[str, float]) -> list[Number]:
     """The same numbers, those of the campaign starting where a model before ended."""
-    from dataclasses import replace
-
     started = []
     for number in numbers:
         known = number.prior is None and number.scope == "campaign" and number.key in values

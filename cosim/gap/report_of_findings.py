@@ -10,14 +10,11 @@ from scipy.special import logsumexp
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
-from cosim.gap.result import Exponent, Gap, Law, Ranked, RigNumber, Score, Where
+from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows import Fitted
-
-#: Standard deviations to either side of a 90 % interval.
-NINETY = 1.645
 
 _SAYS = {
     "velocity_weakening": "Friction changes with the sliding speed, in proportion to the load",
@@ -130,18 +127,15 @@ def law_of(system: System, rung: Rung, part: Part) -> Law | None:
 
 
 def _points(system: System, rung: Rung, part: Part) -> tuple[np.ndarray, tuple[str, ...]]:
-    """What each run by itself says at three places of its own range of the argument.
+    """What each run by itself says at those nodes of the argument that it tells of.
 
     The curve plus what is left of the run's rows, projected on the curve there.
     """
     unknown = part.finding.main.unknown
     assert unknown.curve is not None and part.curve is not None
-    unit = part.curve.mean[-1] / max(rung.posterior[0][rung.part_of(part.finding.main)][-1], 1e-300)
-    del unit
-    mean = rung.posterior[0][rung.part_of(part.finding.main)]
-    scale = np.sqrt(part.curve.covariance[-1, -1] / max(
-        rung.posterior[1][rung.part_of(part.finding.main), rung.part_of(part.finding.main)][-1, -1],
-        1e-300))  # fmt: skip
+    place = rung.part_of(part.finding.main)
+    mean, covariance = rung.posterior[0][place], rung.posterior[1][place, place]
+    scale = np.sqrt(part.curve.covariance[-1, -1] / max(covariance[-1, -1], 1e-300))
     points, names = [], []
     for run in system.fitted:
         columns = unknown.columns([run])

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: What draws; loaded when asked for.
 NOTEBOOK = "cosim.gap.notebook"
+#: Standard deviations to either side in which a number lies with 90 %.
+NINETY = 1.645
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "partial", "unknown")
 

@@ -8,11 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.result import Gap
+from cosim.gap.result import NINETY, Gap
 from cosim.scenario import Scenario
 
-#: Standard deviations to either side in which a number lies with 90 %.
-NINETY = 1.645
 #: Numbers of tracker and drive: factor from SI, unit shown, meaning.
 BESIDE_THE_MODEL = {
     "offset.x": (1e3, "mm", "tracker's zero along x"),

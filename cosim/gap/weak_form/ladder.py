@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.constants import (
@@ -140,11 +141,15 @@ class Search:
     def _rung(self, found: Sequence[tuple[str, tuple[Added, ...]]]) -> Rung:
         return self.system.rung([added for _, group in found for added in group])
 
+    @cached_property
+    def _misfit_at_first(self) -> float:
+        return self.system.rung().misfit
+
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
         """Whether rows miss a finding; beside others, by more than a small part of all misfit."""
         if rung.evidence - without.evidence <= LEAST_GAIN:
             return False
-        part = without.misfit - rung.misfit > LEAST_PART**2 * self.system.rung().misfit
+        part = without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
         return part or not without.added
 
     def _exchanged(
