@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from stickslip.effects.candidate import FreeParameter
@@ -17,6 +17,16 @@ from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
 from cosim.gap.weak_form.constants import HARMONICS
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
+from cosim.gap.weak_form.rig_unknowns import (
+    CONTACT,
+    MU_K,
+    MU_S,
+    SCATTER,
+    SPEED,
+    SPRINGS,
+    ZERO_NAME,
+    setup_of,
+)
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
 from cosim.gap.windows.run_model import PER_WEIGHT, WITH_WEIGHT
@@ -234,11 +244,29 @@ def scatter_numbers(scatter: float, speed: float = SET_POINT) -> list[Number]:
     ]
 
 
-def started_at(numbers: Sequence[Number], values: dict[str, float]) -> list[Number]:
-    """The same numbers, those of the campaign starting where a model before ended."""
-    started = []
-    for number in numbers:
-        known = number.prior is None and number.scope == "campaign" and number.key in values
-        value = min(max(values[number.key], number.low), number.high) if known else number.start
-        started.append(replace(number, start=value) if known and value > 0.0 else number)
-    return started
+def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:
+    """label -> value of the rig's numbers, as the rows have them: where a fit sets out."""
+    runs, mean = rows.system.fitted, rows.posterior[0]
+    starts = {}
+    for each in rows.base:
+        name, values = each.unknown.name, mean[rows.part_of(each)]
+        own = [run.track.run for run in runs]
+        if name in (MU_K, MU_S):
+            starts[f"friction.{name}"] = float(values[0])
+        elif name == SPRINGS:
+            factor = math.log1p(max(float(values[0]), -0.5))
+            of_setup = [run for run in own if each.unknown.variant == setup_of(run)]
+            starts |= {f"offset.stiffness@setup {campaign.setup_of(run)}": factor
+                       for run in of_setup}  # fmt: skip
+        elif name == ZERO_NAME:
+            starts |= {f"offset.x@{run.name}": campaign.zero_sd(run) * float(value)
+                       for run, value in zip(own, values, strict=True)}  # fmt: skip
+        elif name == SPEED:
+            starts |= {f"offset.speed@{run.name}": float(value)
+                       for run, value in zip(own, values, strict=True)}  # fmt: skip
+        elif name == SCATTER and each.unknown.variant == "both":
+            starts |= {f"offset.friction@{run.name}": float(value)
+                       for run, value in zip(own, values, strict=True)}  # fmt: skip
+        elif name == CONTACT and each.unknown.variant == "loading":
+            starts["offset.loading"] = -float(values[0])
+    return starts

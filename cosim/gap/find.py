@@ -16,7 +16,7 @@ from cosim.gap.extended import (
     contact_numbers,
     part_of,
     scatter_numbers,
-    started_at,
+    started_from,
 )
 from cosim.gap.judge import judge
 from cosim.gap.rates import rates_of
@@ -42,7 +42,9 @@ from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import thinned
 from cosim.gap.weak_form.unknowns import Unknown
+from cosim.gap.weak_form.constants import SCATTER_PRIOR
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
+from cosim.gap.windows.run_model import BREAK_AWAY
 from cosim.gap.windows.windows import Windows
 
 #: Steps of the bar: checks, search, and the models that are fitted.
@@ -245,19 +247,24 @@ class _Models:
         spread = models.scatter[2]  # a run may lie at the far end of what is probable
         rung = system.rung(added)
         text = f"friction scatters from run to run by {100.0 * models.scatter[0]:.2g} %"
+        settings = {**settings, BREAK_AWAY: SCATTER_PRIOR}
         models._try("scatter", text, [*numbers, *scatter_numbers(spread)], settings, rung,
                     rung.evidence - last, spread)  # fmt: skip
         return models
 
-    def _fit(self, numbers: list[Number], settings: dict, scatter: float) -> Fitted:
-        start = self.fits[-1].values if self.fits else {}
-        return fit(self.campaign, self.windows, started_at(numbers, start), settings, scatter)
+    def _fit(
+        self, numbers: list[Number], settings: dict, scatter: float, rows: Rows
+    ) -> Fitted:
+        starts = [started_from(self.campaign, rows)]
+        if self.fits:
+            starts = [self.fits[-1].values, {**self.fits[-1].values, **starts[0]}]
+        return fit(self.campaign, self.windows, numbers, settings, scatter, starts)
 
     def _add(
         self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
         evidence: float | None, fitted: Fitted | None = None,
     ) -> None:  # fmt: skip
-        fitted = fitted or self._fit(numbers, settings, 0.0)
+        fitted = fitted or self._fit(numbers, settings, 0.0, rows)
         self.fits.append(fitted)
         gap = _score(*fitted.gap)
         first = self.ladder[0].gap if self.ladder else gap
@@ -272,7 +279,7 @@ class _Models:
     ) -> bool:  # fmt: skip
         """Add what is felt."""
         before = self.ladder[-1].gap
-        fitted = self._fit(numbers, settings, scatter)
+        fitted = self._fit(numbers, settings, scatter, rows)
         after = _score(*fitted.gap)
         gained = before.fit**2 - after.fit**2
         felt = gained > FELT_PART * max(before.fit**2 - 1.0, 0.0) and (

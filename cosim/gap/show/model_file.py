@@ -58,7 +58,7 @@ def scenario_of(gap: Gap, run: MeasuredRun) -> Scenario:
         tables["rig"]["degrees_of_freedom"] = ("x",)
     tables["surface"]["speed"] = run.surface_speed * (1.0 + fitted.values.get("offset.speed", 0.0))
     put(tables, parameters_of(run, fitted.values))
-    start = map(float, np.nan_to_num(fitted.states[0]))
+    start = map(float, np.nan_to_num(fitted.states[0, :6]))
     tables["initial"] = dict(zip(STATE, start, strict=True))
     interval = rounded(run.motion.interval, 6)
     tables["run"] = {"duration": float(run.motion.time[-1]), "output_interval": interval}

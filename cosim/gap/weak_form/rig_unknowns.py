@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.gap.data import Campaign
+from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.weak_form.constants import (
     CONTACT_DELAY,
     CONTACT_FALL,
@@ -54,19 +54,24 @@ class Level:
 
 def rung_zero(campaign: Campaign, runs: list[RunRows]) -> list[Unknown]:
     """Coefficients, springs of each set-up, zero of each run."""
-    setups = sorted({(run.track.run.mass, run.track.run.stiffness) for run in runs})
+    setups = {setup_of(run.track.run): run.track.run for run in runs}
     return [
         Unknown(MU_K, "", lambda run: Response(force=_kinetic(campaign, run)), np.eye(1)),
         Unknown(MU_S, "", lambda run: Response(static=_static(run, run.weight)), np.eye(1)),
         *(
-            Unknown(SPRINGS, f"{mass:g} kg, {stiffness:g} N/m", _springs(mass, stiffness),
+            Unknown(SPRINGS, setup_of(run), _springs(run.mass, run.stiffness),
                     campaign.errors.stiffness**2 * np.eye(1))
-            for mass, stiffness in setups
+            for run in setups.values()
         ),
         Unknown(ZERO_NAME, "", lambda run: Response(
             place=np.full((run.track.time.size, 1), campaign.zero_sd(run.track.run))),
             np.eye(1), per_run=True),
     ]  # fmt: skip
+
+
+def setup_of(run: MeasuredRun) -> str:
+    """Mass and springs, in words."""
+    return f"{run.mass:g} kg, {run.stiffness:g} N/m"
 
 
 def contact(level: Level) -> list[Unknown]:

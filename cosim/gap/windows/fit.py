@@ -18,6 +18,7 @@ def fit(
     numbers: Sequence[Number],
     settings: Mapping[str, float] | None = None,
     scatter: float = 0.0,
+    starts: Sequence[Mapping[str, float]] = (),
 ) -> Fitted:
     """Numbers that minimise the squared residuals over the windows of the runs for fitting.
 
@@ -25,12 +26,13 @@ def fit(
     then judged as by `judge`.
 
     windows : run's name -> windows, as of `windows_of_campaign`; settings : key or label -> value
-    of what else of the model is not at its default; scatter : see `judge`
+    of what else of the model is not at its default; scatter : see `judge`; starts : labels -> values
+    to set out from, of which the best is followed; numbers not among them are at their own starts
     """
     settings = dict(settings or {})
     runs = [run for run in campaign.fit_runs if run.name in windows]
     problem = Problem(campaign, runs, windows, numbers, settings)
-    fitted = problem.solved(scan=True)
+    fitted = problem.solved(starts)
     held_out = [run for run in campaign.held_out_runs if run.name in windows]
     if not held_out:
         return fitted

@@ -28,7 +28,8 @@ class FittedRun:
     ----------
     values : key -> value of all that is set or fitted of the run
     track : (n, 3) x, y, phi of the model (m, m, rad) at the data's times, tracker's zero included
-    states : (w, 6) of the block at the windows' starts
+    states : (w, 6 + sticks) of the block at the windows' starts, and what each stick holds more,
+        the logarithm of the factor on mu_s
     residuals : (m,) model less data in units of the noise, one for each sample seen
     window : (m,) number of the window that each belongs to
     """

@@ -14,14 +14,11 @@ from .fitted import Fitted, Leeway
 from .numbers import Number, owners_of, unknowns_of
 from .run_fit import RunFit
 from .run_model import RunModel
-from .scan import valleys
 from .start_states import Started
 from .windows import Windows
 
 #: Most evaluations of a fit, and of one that only shows which start leads on.
 MOST_TRIES, FIRST_TRIES = 40, 8
-#: Gap up to which nothing is missing, and there is no other minimum to look for.
-IN_STEP = 1.05
 #: Fits in a row, each from better states of windows that were off course.
 REPEATS = 3
 
@@ -87,9 +84,9 @@ class Problem:
         off = self.leeway.rows @ (scaled[there] - self.leeway.centre)
         return np.concatenate([rows, off]), np.vstack([np.diag(slopes), more])
 
-    def solved(self, scan: bool = False) -> Fitted:
-        """The best numbers; scan: sets out from the best of several starts."""
-        best = self._settled(self._first() if scan else self._descended(self._start, MOST_TRIES))
+    def solved(self, starts: Sequence[Mapping[str, float]] = ()) -> Fitted:
+        """The best numbers, from the best of several starts: labels -> values, the rest as given"""
+        best = self._settled(self._first(starts or [{}]))
         while self.leeway is not None and self.leeway.is_left(best.scaled, self.labels):
             self.leeway = self.leeway.tightened()
             best = self._descended(best.scaled, MOST_TRIES)
@@ -119,20 +116,26 @@ class Problem:
         for part, started in zip(self.parts, point.started, strict=True):
             part.forget(point.scaled, started)
 
-    def _first(self) -> Point:
-        """The best of a few starts after a few steps; the first guess alone if it is in step."""
-        best = self._descended(self._start, FIRST_TRIES)
-        if best.cost < IN_STEP**2 * sum(part.model.size for part in self.parts):
-            return best
-        for start in valleys(self.unknowns, self._rough_cost):
+    def _first(self, starts: Sequence[Mapping[str, float]]) -> Point:
+        """The best after a few steps from each start."""
+        if len(starts) == 1:
+            return self._descended(self._started_at(starts[0]), MOST_TRIES)
+        points = []
+        for start in starts:
             for part in self.parts:
                 part.forget()
-            best = min(best, self._descended(start, FIRST_TRIES), key=lambda point: point.cost)
+            points.append(self._descended(self._started_at(start), FIRST_TRIES))
+        best = min(points, key=lambda point: point.cost)
         self._go_on_from(best)
         return best
 
-    def _rough_cost(self, at: np.ndarray) -> float:
-        return sum(part.roughly(at) for part in self.parts)
+    def _started_at(self, values: Mapping[str, float]) -> np.ndarray:
+        start = self._start
+        for place, (label, (number, _)) in enumerate(zip(self.labels, self.unknowns, strict=True)):
+            if label in values:
+                inside = min(max(values[label], number.low), number.high)
+                start[place] = number.scaled(inside)
+        return np.nan_to_num(start, neginf=0.0)
 
     def _descended(self, at: np.ndarray, tries: int) -> Point:
         """Down from one point, in so many tries."""

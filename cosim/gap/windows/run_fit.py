@@ -43,12 +43,6 @@ class RunFit:
         own = {self.unknowns[i].label: self.unknowns[i].number.value(scaled[i]) for i in self.felt}
         return self.model.values({**self.settings, **own})
 
-    def roughly(self, scaled: np.ndarray) -> float:
-        """Sum of squares from the states read off the data."""
-        values = self.values(scaled)
-        states = self.starts.read_off(values)
-        return float(np.sum(self.model.residuals(values, states) ** 2))
-
     def forget(self, scaled: np.ndarray | None = None, started: Started | None = None) -> None:
         """All states, but those of one point if given, from which others then follow."""
         self.base, self.tried, self.columns = None, {}, None
@@ -72,7 +66,7 @@ class RunFit:
         if self.columns is None:
             return self.starts.settled(values, self.starts.started(values, base.states, p), p)
         moved = base.states.copy()
-        moved[:, self.starts.axes] += self.response @ (scaled[self.felt] - self.base)
+        moved[:, self.starts.axes(values)] += self.response @ (scaled[self.felt] - self.base)
         at = self.starts.started(values, moved, p)
         limit = LOST * self.starts.squares(base) + LOST_SQUARES
         if (self.starts.squares(at) > limit).any():
@@ -87,15 +81,15 @@ class RunFit:
         at, values = self.followed(scaled), self.values(scaled)
         p = self.model.packed(values)
         self.columns = self.starts.derivatives(values, at, p)
-        slopes = np.zeros((self.model.size, len(self.felt)))
+        slopes = np.zeros((at.residuals.size, len(self.felt)))
         for place, i in enumerate(self.felt):
             slopes[:, place] = self._slope(scaled, i, at)
         move = self.starts.coordinates(self.columns, slopes)
-        steps = self.starts.steps[self.starts.axes]
+        steps = self.starts.steps[self.starts.axes(values)]
         self.response = -move * steps[None, :, None]
         self.base = scaled[self.felt].copy()
         self.tried = {self.base.tobytes(): at}
-        derivatives = np.zeros((self.model.size, len(self.unknowns)))
+        derivatives = np.zeros((at.residuals.size, len(self.unknowns)))
         derivatives[:, self.felt] = self.starts.normal_part(self.columns, slopes)
         return derivatives
 
@@ -104,7 +98,8 @@ class RunFit:
         number = self.unknowns[i].number
         if number.key in ("offset.x", "offset.y"):
             seen = self.model.axes == ("offset.x", "offset.y").index(number.key)
-            return np.where(seen, number.slope(scaled[i]) / self.model.noise, 0.0)
+            slopes = np.where(seen, number.slope(scaled[i]) / self.model.noise, 0.0)
+            return np.concatenate([slopes, np.zeros(at.residuals.size - slopes.size)])
         moved = scaled.copy()
         step = STEP if number.value(scaled[i] + STEP) <= number.high else -STEP
         moved[i] += step
@@ -120,8 +115,8 @@ class RunFit:
 
     def described(self, scaled: np.ndarray) -> FittedRun:
         """The run as the fit left it."""
-        at, values = self.followed(scaled), self.values(scaled)
+        at, values, size = self.followed(scaled), self.values(scaled), self.model.size
         return FittedRun(
             self.model.run.name, values, self.model.track(values, at.states), at.states,
-            at.residuals, self.model.owner, self.model.run.hold_out,
+            at.residuals[:size], self.model.owner[:size], self.model.run.hold_out,
         )  # fmt: skip

@@ -37,7 +37,9 @@ FRICTION = ("friction.mu_s", "friction.mu_k")
 #: Points of a table of friction, in parts of mu_k, which then scales the whole table.
 TABLE_PART = "friction.table_part["
 #: Of the tracker and the drive, not of the block.
-OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.")
+OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.", "scatter.")
+#: Standard deviation of the static friction from one stick to the next, relative.
+BREAK_AWAY = "scatter.break_away"
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
 LOADING = "offset.loading"
 #: ``per_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
@@ -73,11 +75,14 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
 class RunModel:
     """A run, its windows and the model with everything that is known of the run.
 
+    A window's state is (x, y, phi, vx, vy, omega), and, one for each of its sticks, the logarithm
+    of the factor on mu_s.
+
     Attributes
     ----------
     size : number of residuals
-    starts : (w,) the first residual of each window; those of a window stand together
-    owner : (size,) window of each residual
+    starts : the first residual of each window that is compared; those of a window stand together
+    owner : (rows,) window of each residual, then of each stick's prior
     """
 
     def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
@@ -90,14 +95,23 @@ class RunModel:
             self.known |= {"rig.free_y": 0.0, "rig.free_phi": 0.0}
         data = np.column_stack([run.motion[name] for name in windows.channels])
         noise = np.array([run.noise[name] for name in windows.channels])
-        self.rows, channel = np.nonzero(np.isfinite(data))
+        compared = np.isfinite(data)
+        if windows.led_in:
+            compared[: windows.first[1]] = False
+        self.rows, channel = np.nonzero(compared)
         self.axes = np.array([AXES.index(name) for name in windows.channels])[channel]
         self.noise, self.data = noise[channel], data[self.rows, channel]
         # a window that the model loses counts as off by the whole motion, not by more
         self.most = (np.nanmax(data, axis=0) - np.nanmin(data, axis=0))[channel] / self.noise
         self.size = self.data.size
         self.owner = np.searchsorted(windows.first, self.rows, side="right") - 1
-        self.starts = np.searchsorted(self.owner, np.arange(len(windows.first)))
+        self.starts = np.searchsorted(self.owner, np.arange(windows.led_in, len(windows.first)))
+        self.restarts = np.unique(np.concatenate([windows.first, windows.lets_go]))
+        of_window = np.searchsorted(windows.first, self.restarts, side="right") - 1
+        number = np.arange(self.restarts.size) - np.searchsorted(of_window, of_window)
+        self.sticks = (of_window, 6 + number)  # where in the states each one's friction is
+        self.is_start = np.isin(self.restarts, windows.first)
+        self.owner = np.concatenate([self.owner, of_window])
 
     def values(self, values: Mapping[str, float]) -> dict[str, float]:
         """key -> value of this run, of labelled ones."""
@@ -120,23 +134,32 @@ class RunModel:
     def track(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
         """(n, 3) x, y, phi as the tracker reads them, at the data's times.
 
-        states : (w, 6) of the block itself at the windows' starts; p : `packed` of the values
+        states : (w, 6 + sticks) of the block itself; p : `packed` of the values
         """
-        windows, run = self.windows, self.run
+        run = self.run
         p = self.packed(values) if p is None else p
         speed = run.surface_speed * (1.0 + values.get("offset.speed", 0.0))
-        own_friction = np.ones((len(states), 2))
-        restarts = Restarts(windows.first, states, windows.hold_since, own_friction)
+        count = self.restarts.size
+        own, since, friction = np.full((count, 6), np.nan), np.full(count, np.nan), np.ones((count, 2))
+        own[self.is_start], since[self.is_start] = states[:, :6], self.windows.hold_since
+        friction[:, 0] = np.exp(states[self.sticks])
+        restarts = Restarts(self.restarts, own, since, friction)
         temperature = self.known["temperature_dependence.reference_degC"]
         places = track_restarted(p, speed, temperature, run.motion.time, restarts)
         return places + self.zero(values)
 
     def residuals(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
-        """(size,) model less data in units of the noise, no more than the whole motion."""
+        """(rows,) model less data in units of the noise, no more than the whole motion; then how
+        far the sticks' own friction is from 0 in units of its scatter."""
         model = self.track(values, states, p)[self.rows, self.axes]
         off = np.nan_to_num((model - self.data) / self.noise, nan=np.inf)
-        return np.clip(off, -self.most, self.most)
+        scatter = values.get(BREAK_AWAY, 0.0) or 1.0
+        return np.concatenate([np.clip(off, -self.most, self.most), states[self.sticks] / scatter])
 
     def per_window(self, rows: np.ndarray) -> np.ndarray:
-        """(w, ...) sums over each window's rows of (size, ...)."""
-        return np.add.reduceat(rows, self.starts, axis=0)
+        """(w, ...) sums over each window's rows of (rows, ...)."""
+        sums = np.add.reduceat(rows[: self.size], self.starts, axis=0)
+        if self.windows.led_in:
+            sums = np.concatenate([np.zeros_like(sums[:1]), sums])
+        np.add.at(sums, self.sticks[0], rows[self.size :])
+        return sums

@@ -14,10 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .run_model import RunModel
+from .run_model import BREAK_AWAY, RunModel
 
 #: Finite differences of a state, in units of the noise (velocities: noise times omega).
 STEP = 1e-3
+#: The same of a stick's own friction: 1e-5 of some cm are tenths of a micrometre.
+FRICTION_STEP = 1e-5
 #: Part of the normal matrix's diagonal that is added, so that what the motion hardly feels stays.
 LEVEL = 1e-6
 #: A window's step is taken whole, or these parts of it, whichever first lowers the misfit.
@@ -36,7 +38,7 @@ OFF_COURSE, AT_LAST = 4.0, 1.2
 
 @dataclass(frozen=True)
 class Started:
-    """A run's start states and what they lead to: states (w, 6), residuals (size,)."""
+    """A run's start states and what they lead to: states (w, 6 + sticks), residuals (rows,)."""
 
     states: np.ndarray
     residuals: np.ndarray
@@ -49,22 +51,36 @@ class StartStates:
         self.model = model
         windows, run = model.windows, model.run
         guided = 1.0 - np.array([1.0, model.known["rig.free_y"], model.known["rig.free_phi"]])
-        self.free = windows.free & (np.tile(guided, 2) == 0.0)
-        self.axes = np.flatnonzero(self.free.any(axis=0))
+        free = windows.free & (np.tile(guided, 2) == 0.0)
+        sticks = np.zeros((len(free), int(model.sticks[1].max()) - 5), dtype=bool)
+        self.of_block = np.hstack([free, sticks])
+        self.with_sticks = self.of_block.copy()
+        self.with_sticks[model.sticks] = True
+        self.with_sticks[: windows.led_in] = False
         noise = run.noise["x"]
         turn = run.noise.get("phi", noise / model.known["rig.contact_radius"])
         places = np.array([noise, run.noise.get("y", noise), turn])
-        self.steps = STEP * np.concatenate([places, places * run.natural_frequency])
+        own = np.full(sticks.shape[1], FRICTION_STEP)
+        self.steps = np.concatenate([STEP * places, STEP * places * run.natural_frequency, own])
+
+    def axes(self, values: Mapping[str, float]) -> np.ndarray:
+        """(a,) which parts of a state are free in any window."""
+        return np.flatnonzero(self.free(values).any(axis=0))
+
+    def free(self, values: Mapping[str, float]) -> np.ndarray:
+        """(w, 6 + sticks) whether each is."""
+        return self.with_sticks if values.get(BREAK_AWAY, 0.0) > 0.0 else self.of_block
 
     def derivatives(self, values: Mapping[str, float], at: Started, p: np.ndarray) -> np.ndarray:
         """(size, a) of the residuals by the free axes, per step; 0 where a window's is not free."""
-        columns = np.empty((self.model.size, self.axes.size))
-        for place, axis in enumerate(self.axes):
+        axes, free = self.axes(values), self.free(values)
+        columns = np.empty((at.residuals.size, axes.size))
+        for place, axis in enumerate(axes):
             moved = at.states.copy()
-            moved[self.free[:, axis], axis] += self.steps[axis]
+            moved[free[:, axis], axis] += self.steps[axis]
             columns[:, place] = self.model.residuals(values, moved, p) - at.residuals
         # windows without this axis feel nothing but what the model carried over from others
-        return columns * self.free[:, self.axes][self.model.owner]
+        return columns * free[:, axes][self.model.owner]
 
     def coordinates(self, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """(w, a, m) least-squares coordinates of rows (size, m) along each window's columns."""
@@ -81,10 +97,11 @@ class StartStates:
 
     def stepped(self, values, at: Started, columns: np.ndarray, p: np.ndarray) -> Started:
         """One Gauss-Newton step with these derivatives; of no window to a larger misfit."""
+        axes = self.axes(values)
         move = self.coordinates(columns, at.residuals[:, None])[:, :, 0]
         for part in SHORTER:
             states = at.states.copy()
-            states[:, self.axes] -= part * move * self.steps[self.axes]
+            states[:, axes] -= part * move * self.steps[axes]
             tried = Started(states, self.model.residuals(values, states, p))
             worse = self.squares(tried) > self.squares(at)
             at, move = self.better(at, tried), move * worse[:, None]
@@ -110,8 +127,9 @@ class StartStates:
         return Started(states, self.model.residuals(values, states, p))
 
     def read_off(self, values) -> np.ndarray:
-        """(w, 6) of the block, from the data."""
-        states = self.model.windows.states.copy()
+        """(w, 6 + sticks) of the block, from the data."""
+        states = np.zeros(self.of_block.shape)
+        states[:, :6] = self.model.windows.states
         states[:, :3] -= self.model.zero(values)
         return states
 
@@ -122,10 +140,9 @@ class StartStates:
 
     def retried(self, values, at: Started, p: np.ndarray, at_last: bool = True) -> Started:
         """Windows off course set out from a few other velocities; the very same if none gains."""
-        rows = np.diff([*self.model.starts, self.model.size])
-        mean = self.squares(at) / rows
+        mean = self.squares(at) / np.maximum(self.model.per_window(np.ones(self.model.owner.size)), 1.0)
         limit = AT_LAST if at_last else OFF_COURSE * max(float(np.median(mean)), 1.0)
-        lost = (mean > limit) & self.free[:, 3]
+        lost = (mean > limit) & self.of_block[:, 3]
         best = at
         scales = np.array([self.model.run.noise["x"], self.model.run.surface_speed])
         for change in CHANGES if lost.any() else ():

@@ -78,8 +78,8 @@ def _stated(
 
 
 def breaks_away(run: MeasuredRun) -> bool:
-    """Whether a stick is seen to end."""
-    return any(np.isfinite(stick.end_sd) for stick in sticks_of(run))
+    """Whether a stick is seen to begin and to end."""
+    return any(np.isfinite(stick.start_sd + stick.end_sd) for stick in sticks_of(run))
 
 
 def never_slips(run: MeasuredRun) -> bool:

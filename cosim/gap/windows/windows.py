@@ -2,7 +2,9 @@
 
 Over a few cycles an error of the model shows but does not build up to a loss of phase. A window
 starts where the state is well known: at the beginning of a stick, else in fast sliding, never near
-the surface's velocity, where a small error would decide between stick and slip.
+the surface's velocity, where a small error would decide between stick and slip. What comes before the
+first fast sliding is simulated and not compared: how long the block had rested before the record
+begins, and what the contact had built up, nobody has measured.
 """
 
 from __future__ import annotations
@@ -11,10 +13,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal import find_peaks
 
 from cosim.gap.data import Campaign, MeasuredRun, Track
 
-from .sticks import Stick, sticks_of
+from .sticks import Stick, smoothed, sticks_of
 
 #: What the block's position is made of, in the order of the states.
 AXES = ("x", "y", "phi")
@@ -28,6 +31,8 @@ SHORTEST_STICK = 1.0 / 6.0
 REMNANT = 0.5
 #: Part of the free vibration's period below which no cycle lasts: sticks only make it longer.
 FASTEST = 0.8
+#: Least part of a cycle between two swings.
+SWING = 0.6
 #: Motion across the surface is seen where its scatter or its mean exceeds that of the noise so much
 #: (a mean, so many standard deviations: 3 of 1000 channels at rest).
 SCATTER, MEAN = 0.5, 3.0
@@ -45,6 +50,9 @@ class Windows:
         tracker reads them; NaN: the model's own goes on
     free : (w, 6) whether each is fitted
     hold_since : (w,) when the stick began in which a window starts, s; NaN: it starts in slip
+    led_in : whether the first window is simulated and not compared
+    lets_go : (b,) rows in fast sliding, one for every swing: what the contact holds next time may
+        differ from there on
     """
 
     channels: tuple[str, ...]
@@ -52,6 +60,8 @@ class Windows:
     states: np.ndarray
     free: np.ndarray
     hold_since: np.ndarray
+    led_in: bool
+    lets_go: np.ndarray
 
     @property
     def is_planar(self) -> bool:
@@ -71,7 +81,10 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
     track, period = run.motion, cycle(run)
     sticks = [s for s in sticks_of(run) if s.duration >= SHORTEST_STICK * period]
     seen = [name for name in (AXES if planar else AXES[:1]) if name in track.channels]
-    first = _starts(track, sticks, run.surface_speed, period, cycles)
+    begin = _begin(track, sticks, run.surface_speed, period)
+    first = _starts(track, sticks, run.surface_speed, period, cycles, begin)
+    if begin:
+        first = np.concatenate([[0], first])
     states, free = np.full((len(first), 6), np.nan), np.zeros((len(first), 6), dtype=bool)
     if planar:  # what was not seen is free as well: carried over it would tie windows together
         states[:], free[:] = 0.0, True
@@ -89,7 +102,18 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
             states[number, [0, 3]] = np.nanmean(line), np.nan
             free[number, 3] = False
             hold_since[number] = stick.start
-    return Windows(tuple(seen), first, states, free, hold_since)
+    free[0] &= begin == 0
+    lets_go = _swings(run, period) if sticks else np.zeros(0, dtype=int)
+    return Windows(tuple(seen), first, states, free, hold_since, begin > 0, lets_go)
+
+
+def _swings(run: MeasuredRun, period: float) -> np.ndarray:
+    """Rows at which the block slides fastest, once in a cycle."""
+    track = smoothed(run)
+    least = max(round(SWING * period / track.interval), 1)
+    speed = np.abs(np.where(track.slips_mask, track.sliding, 0.0))
+    peaks, _ = find_peaks(speed, height=abs(run.surface_speed), distance=least)
+    return np.unique(np.searchsorted(run.motion.time, track.time[peaks]))
 
 
 def cycle(run: MeasuredRun) -> float:
@@ -100,17 +124,25 @@ def cycle(run: MeasuredRun) -> float:
     clear = np.abs(level) > max(0.2 * float(np.std(level)), 3.0 * run.noise["x"])
     time, above = time[clear], level[clear] > 0.0
     up = time[1:][above[1:] & ~above[:-1]]
-    return max(float(np.median(np.diff(up))), FASTEST * free) if up.size > 3 else free
+    return max(float(np.median(np.diff(up))), FASTEST * free) if up.size > 1 else free
+
+
+def _begin(track: Track, sticks: list[Stick], speed: float, period: float) -> int:
+    """Row of the first fast sliding, from which a run is compared; 0 where there is none."""
+    begins_in_stick = bool(sticks) and math.isinf(sticks[0].start_sd) and sticks[0].first <= REACH
+    rest = sticks[0].end if begins_in_stick else float(track.time[0])
+    row = _fastest(track, rest + 0.5 * period, speed, period)
+    return row if np.isfinite(track.x[row:]).sum() > 2 * REACH else 0
 
 
 def _starts(
-    track: Track, sticks: list[Stick], speed: float, period: float, cycles: float
+    track: Track, sticks: list[Stick], speed: float, period: float, cycles: float, begin: int
 ) -> np.ndarray:
-    """(w,) rows; each window has samples enough for its state."""
+    """(w,) rows, the first is ``begin``; each window has samples enough for its state."""
     length, time = cycles * period, track.time
     onsets = np.array([s.first for s in sticks if math.isfinite(s.start_sd)], dtype=int)
     seen = np.cumsum(np.isfinite(track.x))
-    starts, due = [0], time[0] + length
+    starts, due = [begin], time[begin] + length
     while due < time[-1] - REMNANT * length:
         near = onsets[np.abs(time[onsets] - due) < max(0.5 * length, 0.5 * period)]
         near = near[time[near] < time[-1] - REMNANT * length]
