@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from stickslip.effects.candidate import FreeParameter
@@ -49,7 +49,7 @@ class Part:
     """What a finding puts into the model.
 
     curve : its free curve, or None; fits : the catalogue's laws on it, the best first
-    numbers, settings : of the kernel
+    numbers, settings : of the kernel; starts : labels -> values from which runs' own numbers start
     """
 
     finding: Finding
@@ -57,6 +57,7 @@ class Part:
     fits: tuple[LawFit, ...]
     numbers: tuple[Number, ...]
     settings: dict[str, float]
+    starts: dict[str, float] = field(default_factory=dict)
 
     @property
     def effect(self) -> str:
@@ -187,31 +188,37 @@ def _wave(rung: Rung, finding: Finding) -> Part:
     wave = finding.main.unknown.wave
     sizes = rung.posterior[0][rung.part_of(finding.main)]
     first = complex(sizes[0], -sizes[HARMONICS])
-    second = complex(sizes[1], -sizes[HARMONICS + 1])
     name, length = finding.name, 1.0 / wave.wavenumber
     amplitude = abs(first)
     # the model's pattern is a cosine of x less the surface's travel, its ripple a sine of the time
     pattern = name == "surface_pattern"
     if name == "other.shaking":
         return Part(finding, None, (), (), {})
-    numbers = [Number(f"{name}.amplitude", amplitude, None, 0.0, 1.0)]
+    numbers = [
+        Number(f"{name}.amplitude", amplitude, None, 0.0, 1.0),
+        Number(f"{name}.phase_deg", 0.0, None, -360.0, 360.0, "run"),
+    ]
     settings: dict[str, float] = {}
+    starts: dict[str, float] = {}
     if name == "surface_pattern":
         numbers.append(Number(f"{name}.wavelength", length, None, 0.9 * length, 1.1 * length))
     turn = math.degrees(np.angle(first))
     for run in rung.system.runs:
         angle = turn - math.degrees(wave.phases.get(run.track.run.name, 0.0))
         phase = -angle if pattern else angle + 90.0
-        settings[f"{name}.phase_deg@{run.track.run.name}"] = (phase + 180.0) % 360.0 - 180.0
+        starts[f"{name}.phase_deg@{run.track.run.name}"] = (phase + 180.0) % 360.0 - 180.0
         if name == "speed_ripple":
             pace = abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
             settings[f"{name}.frequency@{run.track.run.name}"] = wave.wavenumber * pace
-    if abs(second) > 0.1 * amplitude:
-        # b of cos(2 a + b), or sin(2 a + b), a the angle of the first
-        ahead = math.degrees(np.angle(second)) - 2.0 * turn
-        settings[f"{name}.second_amplitude"] = min(abs(second) / amplitude, 1.0)
-        settings[f"{name}.second_phase_deg"] = -ahead if pattern else ahead - 90.0
-    return Part(finding, None, (), tuple(numbers), settings)
+    harmonics = ("second", "third", "fourth") if pattern else ("second",)
+    for order, which in enumerate(harmonics, 2):
+        size = complex(sizes[order - 1], -sizes[HARMONICS + order - 1])
+        # b of cos(n a + b), or sin(n a + b), a the angle of the first
+        ahead = math.degrees(np.angle(size)) - order * turn
+        phase = -ahead if pattern else ahead - 90.0 * (order - 1)
+        settings[f"{name}.{which}_amplitude"] = min(abs(size) / amplitude, 10.0)
+        settings[f"{name}.{which}_phase_deg"] = (phase + 180.0) % 360.0 - 180.0
+    return Part(finding, None, (), tuple(numbers), settings, starts)
 
 
 def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
@@ -251,7 +258,7 @@ def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:
     for each in rows.base:
         name, values = each.unknown.name, mean[rows.part_of(each)]
         own = [run.track.run for run in runs]
-        if name in (MU_K, MU_S):
+        if name == MU_K or (name == MU_S and any(run.events for run in runs)):
             starts[f"friction.{name}"] = float(values[0])
         elif name == SPRINGS:
             factor = math.log1p(max(float(values[0]), -0.5))

@@ -18,7 +18,7 @@ from cosim.gap.extended import (
     scatter_numbers,
     started_from,
 )
-from cosim.gap.judge import judge
+from cosim.gap.judge import is_needed, judge
 from cosim.gap.rates import rates_of
 from cosim.gap.report_of_findings import (
     exponents_of,
@@ -53,6 +53,10 @@ STEPS = 6
 #: their gap down by a hundredth of noise.
 FELT_PART, FELT_GAP = 0.02, 0.01
 
+#: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
+#: foreign contacts (bristles, Iwan) have pretended up to 206.
+SURE = 500.0
+
 Progress = Callable[[int, int], object]
 SMOOTHING = "measurement.smoothing"
 
@@ -72,6 +76,10 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     step()
     parts = [part_of(campaign, system, rung, finding) for finding in named.findings]
     models = _Models.fitted(campaign, system, rung, parts, step)
+    if parts and named.findings[0].gain < SURE:
+        without = _Models.fitted(campaign, system, system.rung(), [], step, models)
+        if not is_needed(models.ladder, without.ladder):
+            parts, models, named = [], without, replace(named, findings=())
     found = [part.effect for part in parts]
     rates = rates_of(ladder, named.unknowns)
     verdict = judge(named.findings, found, models.ladder, _physics(), rates)
@@ -214,19 +222,26 @@ class _Models:
 
     campaign: Campaign
     windows: Mapping[str, Windows]
+    starts: dict[str, float]
     fits: list[Fitted] = field(default_factory=list)
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
 
     @classmethod
     def fitted(
-        cls, campaign: Campaign, system: System, rows: Rows, parts: list[Part], step: _Steps
-    ) -> _Models:
-        """The user's model, then the findings, then contact and scatter where they are felt."""
-        models = cls(campaign, windows_of_campaign(campaign))
+        cls, campaign: Campaign, system: System, rows: Rows, parts: list[Part], step: _Steps,
+        others: _Models | None = None,
+    ) -> _Models:  # fmt: skip
+        """The user's model, then the findings, then contact and scatter where they are felt.
+
+        others : whose user's model it is as well
+        """
+        starts = {label: value for part in parts for label, value in part.starts.items()}
+        models = cls(campaign, windows_of_campaign(campaign), starts)
         numbers, settings = user_model(campaign)
         weak = system.rung(contact=False, scatter=False)
-        models._add("user's model", "the model as stated", numbers, settings, weak, None)
+        first = others.fits[0] if others else None
+        models._add("user's model", "the model as stated", numbers, settings, weak, None, first)
         step()
         added, last = [], weak.evidence
         for part in parts:
@@ -252,12 +267,9 @@ class _Models:
                     rung.evidence - last, spread)  # fmt: skip
         return models
 
-    def _fit(
-        self, numbers: list[Number], settings: dict, scatter: float, rows: Rows
-    ) -> Fitted:
-        starts = [started_from(self.campaign, rows)]
-        if self.fits:
-            starts = [self.fits[-1].values, {**self.fits[-1].values, **starts[0]}]
+    def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:
+        before = {**self.starts, **(self.fits[-1].values if self.fits else {})}
+        starts = [before, {**before, **started_from(self.campaign, rows)}]
         return fit(self.campaign, self.windows, numbers, settings, scatter, starts)
 
     def _add(

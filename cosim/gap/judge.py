@@ -11,7 +11,8 @@
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
- 8. `none`: no finding, and held-out runs at 1.1 at most with the contact and the scatter.
+ 8. `none`: no finding, or one that the simulated runs can do without (contact and scatter reach 1.1
+    and it takes less than half of what the contact alone leaves), and held-out runs at 1.1 at most.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.
@@ -32,6 +33,8 @@ from cosim.gap.weak_form.ladder import Finding
 NOTHING_MISSING = 1.1
 #: Gap up to which what is named explains the runs.
 EXPLAINED = 1.3
+#: Part of the misfit of an unscattered contact that may be left where a finding is needed.
+TAKEN = 0.5
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
 MOST = 0.8
 
@@ -71,6 +74,22 @@ def judge(
     if improves and ladder[-1].share >= MOST:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
+
+
+def is_needed(ladder: Sequence[Rung], without: Sequence[Rung]) -> bool:
+    """Whether the simulated runs miss what the rows ask for, or contact and scatter do as well.
+
+    ladder, without : with the findings and without them
+    """
+    if _judged(without[-1].gap) > NOTHING_MISSING or without[-1].gap.fit > NOTHING_MISSING:
+        return True
+    left, before = _unscattered(ladder), _unscattered(without)
+    return left**2 - 1.0 <= TAKEN * max(before**2 - 1.0, 0.0)
+
+
+def _unscattered(ladder: Sequence[Rung]) -> float:
+    """The gap before friction may scatter."""
+    return _judged([rung for rung in ladder if rung.name != "scatter"][-1].gap)
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

@@ -61,8 +61,8 @@ class Arguments:
         made = {}
         if self.slipping:
             made = {
-                "velocity_weakening": [self._over_speed(True)],
-                "film_drag": [self._over_speed(False)],
+                "velocity_weakening": [self._over_speed(True, steep) for steep in (False, True)],
+                "film_drag": [self._over_speed(False, steep) for steep in (False, True)],
                 "structural_damping": [self._over_velocity()],
                 "spring_hardening": [self._over_place()],
                 "run_in": list(self._over_distance()),
@@ -84,10 +84,10 @@ class Arguments:
         made["static_strengthening"] = list(self._over_hold())
         return {name: variants for name, variants in made.items() if variants}
 
-    def _over_speed(self, of_weight: bool) -> Unknown:
-        """Coefficient, or force, over the sliding speed."""
+    def _over_speed(self, of_weight: bool, steep: bool) -> Unknown:
+        """Coefficient, or force, over the sliding speed; steep : at low speeds."""
         fastest = self._largest(lambda run: np.abs(run.track.sliding))
-        nodes = fastest * np.linspace(0.0, 1.0, CURVE_NODES) ** 1.3
+        nodes = fastest * np.linspace(0.0, 1.0, CURVE_NODES) ** (2.5 if steep else 1.3)
 
         def respond(run: RunRows) -> Response:
             unit = self.level.kinetic * run.weight if of_weight else self.force
@@ -95,8 +95,8 @@ class Arguments:
             return Response(force=unit * run.track.direction[:, None] * at)
 
         name, per = ("velocity_weakening", "mu_k") if of_weight else ("film_drag", "N")
-        curve = Curve("sliding speed", "m/s", nodes, per)
-        return Unknown.over(name, curve, respond)
+        curve = Curve("sliding speed", "m/s", nodes, per, root=steep)
+        return Unknown.over(name, curve, respond, "steep at first" * steep)
 
     def _over_velocity(self) -> Unknown:
         """Force against the block's own velocity, odd in it."""

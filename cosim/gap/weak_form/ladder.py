@@ -186,7 +186,9 @@ class Search:
             rest = [other for other in found if other[0] != name]
             without = self._rung(rest)
             offers = first if not rest else self.offers(without, [n for n, _ in rest])
-            reference = offers[name][0] if name in offers else rung.evidence
+            reference = rung.evidence  # others' places and phases are as finely searched
+            if name in offers and not any(one.unknown.wave for one in added):
+                reference = offers[name][0]
             others = {
                 other: offer[0] - reference for other, offer in offers.items() if other != name
             }

@@ -18,6 +18,7 @@ from cosim.gap.weak_form.constants import (
     MOST_WAVES,
     PHASE_ROUNDS,
     PHASE_SD,
+    PHASES_TRIED,
     SCAN_STEPS,
     SHORTEST_WAVE,
     WAVES_FITTED,
@@ -176,7 +177,7 @@ def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float,
     names = list(phases)
     wave = Wave(kind, wavenumber, phases)
     best: tuple[float, tuple[Added, ...]] | None = None
-    for _ in range(PHASE_ROUNDS):
+    for number in range(PHASE_ROUNDS):
         _, shape = rung.offered([wave.shape()])
         here = rung.system.rung([*rung.added, shape], *rung.kinds)
         mean = here.posterior[0][here.part_of(shape)]
@@ -188,8 +189,25 @@ def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float,
         turns = moving.posterior[0][moving.part_of(turn)]
         more = float(moving.posterior[0][moving.part_of(stretch)][0])
         wave = wave.moved(dict(zip(names, turns, strict=True)), more)
+        if number < PHASE_ROUNDS // 2:
+            wave = _rephased(rung, wave, mean)
     assert best is not None
     return best[0], _with_held_out(rung, best[1])
+
+
+def _rephased(rung: Rung, wave: Wave, sizes: np.ndarray) -> Wave:
+    """The wave with the phases, of all over a turn, that leave least of each run's rows."""
+    turns = 2.0 * np.pi * np.arange(PHASES_TRIED) / PHASES_TRIED
+    best = {}
+    for run in rung.system.fitted:
+        columns = [each.unknown.columns([run]) @ each.factor for each in rung.unknowns]
+        free = np.hstack(columns)
+        waves = np.column_stack([wave.rows(run, sizes, turn) for turn in turns])
+        left = run.values[:, None] - waves
+        inner = np.eye(free.shape[1]) + free.T @ free
+        left = left - free @ np.linalg.solve(inner, free.T @ left)
+        best[run.track.run.name] = turns[int(np.argmin(np.einsum("rt,rt->t", left, left)))]
+    return wave.moved(best, 0.0)
 
 
 def _with_held_out(rung: Rung, added: tuple[Added, ...]) -> tuple[Added, ...]:
@@ -246,6 +264,12 @@ class Wave:
         return Unknown(
             self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings, wave=self
         )
+
+    def rows(self, run: RunRows, sizes: np.ndarray, turn: float) -> np.ndarray:
+        """(rows,) of unit noise of the wave in one run, its phase turned by so much, rad."""
+        name = run.track.run.name
+        shape = self.moved({name: turn}, 0.0).shape()
+        return shape.columns([run]) @ sizes
 
     def turned(self, sizes: np.ndarray) -> Unknown:
         """What a turn of a run's phase, rad, does to a wave of these sizes (2 HARMONICS,)."""

@@ -37,7 +37,9 @@ def fit(
     if not held_out:
         return fitted
     values = {**settings, **fitted.values}
-    judged = judge(campaign, windows, numbers, values, scatter, held_out, fitted.leeway)
+    own = {label: value for start in starts for label, value in start.items()
+           if label.partition("@")[2] in {run.name for run in held_out}}  # fmt: skip
+    judged = judge(campaign, windows, numbers, values, scatter, held_out, fitted.leeway, own)
     return joined(fitted, judged, [run.name for run in campaign.runs])
 
 
@@ -49,6 +51,7 @@ def judge(
     scatter: float = 0.0,
     runs: Sequence[MeasuredRun] | None = None,
     leeway: Leeway | None = None,
+    start: Mapping[str, float] | None = None,
 ) -> Fitted:
     """How well given values describe some runs, those held out if not said.
 
@@ -64,4 +67,4 @@ def judge(
         own.append(Number("offset.friction", 0.0, scatter, -1.0, 1.0, "run"))
     runs = campaign.held_out_runs if runs is None else runs
     runs = [run for run in runs if run.name in windows]
-    return Problem(campaign, runs, windows, own, values, leeway).solved()
+    return Problem(campaign, runs, windows, own, values, leeway).solved([start or {}])

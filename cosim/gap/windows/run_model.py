@@ -140,7 +140,11 @@ class RunModel:
         p = self.packed(values) if p is None else p
         speed = run.surface_speed * (1.0 + values.get("offset.speed", 0.0))
         count = self.restarts.size
-        own, since, friction = np.full((count, 6), np.nan), np.full(count, np.nan), np.ones((count, 2))
+        own, since, friction = (
+            np.full((count, 6), np.nan),
+            np.full(count, np.nan),
+            np.ones((count, 2)),
+        )
         own[self.is_start], since[self.is_start] = states[:, :6], self.windows.hold_since
         friction[:, 0] = np.exp(states[self.sticks])
         restarts = Restarts(self.restarts, own, since, friction)

@@ -140,7 +140,9 @@ class StartStates:
 
     def retried(self, values, at: Started, p: np.ndarray, at_last: bool = True) -> Started:
         """Windows off course set out from a few other velocities; the very same if none gains."""
-        mean = self.squares(at) / np.maximum(self.model.per_window(np.ones(self.model.owner.size)), 1.0)
+        mean = self.squares(at) / np.maximum(
+            self.model.per_window(np.ones(self.model.owner.size)), 1.0
+        )
         limit = AT_LAST if at_last else OFF_COURSE * max(float(np.median(mean)), 1.0)
         lost = (mean > limit) & self.of_block[:, 3]
         best = at

@@ -1,4 +1,4 @@
-"""What the two periodic effects share: a sine, and its second harmonic."""
+"""What the two periodic effects share: a sine, and its harmonics."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from ..quantity import quantity
 from .candidate import SECOND, Candidate, FreeParameter
 
 
-def second_amplitude() -> Any:
-    """The parameter that a wave which is no sine has besides."""
+def harmonic_amplitude(which: str) -> Any:
+    """A parameter that a wave which is no sine has besides."""
     return quantity(
         0.0,
         "1",
-        "amplitude of the second harmonic as part of the first's",
+        f"amplitude of the {which} harmonic as part of the first's",
         ge=0,
-        le=1,
+        le=10,
         typical=(0.1, 0.6),
     )
 
 
-def second_phase() -> Any:
-    """The phase of that second harmonic."""
+def harmonic_phase(which: str) -> Any:
+    """The phase of that harmonic."""
     return quantity(
         0.0,
         "deg",
-        "phase of the second harmonic where that of the first is nothing",
+        f"phase of the {which} harmonic where that of the first is nothing",
         tried=(-180.0, 180.0),
     )
 

@@ -1,15 +1,17 @@
 """Kinetic friction drifts with the distance slid: wear, polishing, wetting.
 
-    mu_k (1 + r (1 - exp(-(s / D)^n)))
+    mu_k (1 + r (1 - exp(-(s / D)^n)) + r2 (1 - exp(-s / D2)))
 
 n = 1 is a first-order change; below 1 it is fast at first and then long drawn out, as where quick
-smoothing goes before slow wear, above 1 it sets in after a while (stretched exponential). mu_s
-stays, or takes its share (static_relative, static_absolute).
+smoothing goes before slow wear, above 1 it sets in after a while (stretched exponential). A later
+change may undo the first, as where a surface polishes and then wears. mu_s stays, or takes its
+share (static_relative, static_absolute).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import exp
 
 from ...quantity import Table, quantity
@@ -39,15 +41,33 @@ class RunIn(Table):
         le=4,
         tried=(0.5, 2.0),
     )
+    later_change: float = quantity(
+        0.0, "1", "change that comes beside it, part of mu_k", ge=-5, le=5, typical=(-0.5, 0.5)
+    )
+    later_distance: float = quantity(
+        3.0, "m", "distance over which that one is approached", gt=0, tried=(0.3, 9.0)
+    )
     static_relative: float = static_relative()
     static_absolute: float = static_absolute()
 
 
-def kinetic_factor(slid: float, change: float, distance: float, stretching: float) -> float:
+def kinetic_factor(
+    slid: float,
+    change: float,
+    distance: float,
+    stretching: float,
+    later_change: float,
+    later_distance: float,
+) -> float:
     """mu_k over its value at the start."""
+    factor = 1.0
+    if later_change != 0.0:
+        factor += later_change * (1.0 - exp(-slid / later_distance))
     if stretching == 1.0 or slid <= 0.0:
-        return 1.0 + change * (1.0 - exp(-slid / distance))
-    return 1.0 + change * (1.0 - exp(-((slid / distance) ** stretching)))
+        factor += change * (1.0 - exp(-slid / distance))
+    else:
+        factor += change * (1.0 - exp(-((slid / distance) ** stretching)))
+    return max(0.0, factor)
 
 
 def static_factor(
@@ -55,6 +75,8 @@ def static_factor(
     change: float,
     distance: float,
     stretching: float,
+    later_change: float,
+    later_distance: float,
     static_relative: float,
     static_absolute: float,
     mu_s: float,
@@ -64,7 +86,8 @@ def static_factor(
     share = static_relative
     if mu_s > 0.0:
         share += static_absolute * mu_k / mu_s
-    return max(0.0, 1.0 + share * (kinetic_factor(slid, change, distance, stretching) - 1.0))
+    kinetic = kinetic_factor(slid, change, distance, stretching, later_change, later_distance)
+    return max(0.0, 1.0 + share * (kinetic - 1.0))
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
@@ -82,6 +105,11 @@ def candidates(s: Scales) -> Iterator[Candidate]:
             )
     bend = FreeParameter("run_in.stretching", 0.7, 0.2, 0.3, 3.0)
     yield Candidate("run_in", "stretched", (*_drift(s, 0.3, -0.1), bend))
+    for change in (0.3, -0.3):
+        first = _drift(s, 0.1, change)
+        after = FreeParameter("run_in.later_change", -change, 0.1, -5.0, 5.0)
+        over = replace(first[1], key="run_in.later_distance", start=3.0 * first[1].start)
+        yield Candidate("run_in", "there and back", (*first, after, over))
 
 
 def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:

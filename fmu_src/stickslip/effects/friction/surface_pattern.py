@@ -1,6 +1,7 @@
 """Friction is periodic in the place s on the surface.
 
-mu_s and mu_k times 1 + A (cos a + B cos(2 a + b)), a = 2 pi s / wavelength + phase.
+mu_s and mu_k times 1 + A (cos a + B cos(2 a + b) + C cos(3 a + c) + D cos(4 a + d)),
+a = 2 pi s / wavelength + phase: a joint of the belt, a scratch or a patch is no sine.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from math import cos, pi, radians
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
-from ..periodic import periodic, second_amplitude, second_phase
+from ..periodic import harmonic_amplitude, harmonic_phase, periodic
 
 
 class SurfacePattern(Table):
@@ -26,8 +27,12 @@ class SurfacePattern(Table):
     phase_deg: float = quantity(
         0.0, "deg", "phase where the block stands at the start", tried=(-180.0, 180.0)
     )
-    second_amplitude: float = second_amplitude()
-    second_phase_deg: float = second_phase()
+    second_amplitude: float = harmonic_amplitude("second")
+    second_phase_deg: float = harmonic_phase("second")
+    third_amplitude: float = harmonic_amplitude("third")
+    third_phase_deg: float = harmonic_phase("third")
+    fourth_amplitude: float = harmonic_amplitude("fourth")
+    fourth_phase_deg: float = harmonic_phase("fourth")
 
 
 def wavenumber(wavelength: float) -> float:
@@ -45,6 +50,16 @@ def second_harmonic_phase(second_phase_deg: float) -> float:
     return radians(second_phase_deg)
 
 
+def third_harmonic_phase(third_phase_deg: float) -> float:
+    """rad"""
+    return radians(third_phase_deg)
+
+
+def fourth_harmonic_phase(fourth_phase_deg: float) -> float:
+    """rad"""
+    return radians(fourth_phase_deg)
+
+
 def place_variation(
     place: float,
     amplitude: float,
@@ -52,12 +67,20 @@ def place_variation(
     phase: float,
     second_amplitude: float,
     second_harmonic_phase: float,
+    third_amplitude: float,
+    third_harmonic_phase: float,
+    fourth_amplitude: float,
+    fourth_harmonic_phase: float,
 ) -> float:
     """Friction of the place less the mean, as part of that."""
     angle = wavenumber * place + phase
     wave = cos(angle)
     if second_amplitude != 0.0:
         wave += second_amplitude * cos(2.0 * angle + second_harmonic_phase)
+    if third_amplitude != 0.0:
+        wave += third_amplitude * cos(3.0 * angle + third_harmonic_phase)
+    if fourth_amplitude != 0.0:
+        wave += fourth_amplitude * cos(4.0 * angle + fourth_harmonic_phase)
     return amplitude * wave
 
 
@@ -80,7 +103,13 @@ EFFECT = Effect(
     axis="place",
     source="waves along the track, as in paper-on-paper records (Colas et al., 2019)",
     terms=(place_variation,),
-    derived=(wavenumber, phase, second_harmonic_phase),
+    derived=(
+        wavenumber,
+        phase,
+        second_harmonic_phase,
+        third_harmonic_phase,
+        fourth_harmonic_phase,
+    ),
     candidates=candidates,
     case=Case({"amplitude": 0.15, "wavelength": 0.3}),
 )

@@ -11,7 +11,7 @@ from math import cos, pi, radians, sin
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
-from ..periodic import periodic, second_amplitude, second_phase
+from ..periodic import harmonic_amplitude, harmonic_phase, periodic
 
 
 class SpeedRipple(Table):
@@ -22,8 +22,8 @@ class SpeedRipple(Table):
     )
     frequency: float = quantity(1.0, "Hz", "frequency", gt=0, le=1000, typical=(0.1, 10.0))
     phase_deg: float = quantity(0.0, "deg", "phase at the start", tried=(-180.0, 180.0))
-    second_amplitude: float = second_amplitude()
-    second_phase_deg: float = second_phase()
+    second_amplitude: float = harmonic_amplitude("second")
+    second_phase_deg: float = harmonic_phase("second")
 
 
 def angular_rate(frequency: float) -> float:
