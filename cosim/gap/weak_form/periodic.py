@@ -7,17 +7,16 @@ unknowns about where they were found, so that the evidence has their price in it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.signal import find_peaks
 
 from cosim.gap.weak_form.constants import (
     HARMONICS,
     MOST_WAVES,
-    PHASE_ROUNDS,
-    PHASE_SD,
+    ROUNDS,
     SCAN_STEPS,
     SHORTEST_WAVE,
     WAVES_FITTED,
@@ -29,6 +28,8 @@ from cosim.gap.weak_form.unknowns import Unknown
 #: run -> (n,) coordinate of the wave; and (run, (n, q) waves) -> what a wave of unit size does.
 Coordinate = Callable[[RunRows], np.ndarray]
 Effect = Callable[[RunRows, np.ndarray], Response]
+
+ORDERS = np.arange(1, HARMONICS + 1)
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Periodic:
     unit: str
 
 
-def kinds(level_of_friction: float, has_events: bool = True) -> tuple[Periodic, ...]:
+def kinds(level_of_friction: float) -> tuple[Periodic, ...]:
     """Friction over the place, the surface's speed over time or travel, friction over time."""
 
     def friction(run: RunRows, waves: np.ndarray) -> Response:
@@ -76,30 +77,27 @@ def kinds(level_of_friction: float, has_events: bool = True) -> tuple[Periodic, 
 def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | None:
     """ln evidence with the best wave of a kind, and what is added; None where none fits in."""
     wavenumbers, gains = _scan(rung, kind)
-    if wavenumbers.size == 0:
+    peaks = find_peaks(np.pad(gains, 1, constant_values=-np.inf))[0] - 1
+    tops = wavenumbers[peaks[np.argsort(-gains[peaks])]][:WAVES_FITTED]
+    if tops.size == 0:
         return None
-    best: tuple[float, tuple[Added, ...]] | None = None
-    tops = wavenumbers[_peaks(gains)[:WAVES_FITTED]]
     # bumps are strongest in a harmonic: twice and three times the strongest wave's length too
     longer = [tops[0] / part for part in (2.0, 3.0) if tops[0] / part >= wavenumbers[0]]
-    for wavenumber in (*tops, *longer):
-        found = _as_one_shape(rung, kind, float(wavenumber))
-        if best is None or found[0] > best[0]:
-            best = found
-    if best is None:
-        return None
-    shapes = WAVES_FITTED + len(longer)
-    return best[0] - float(np.log(wavenumbers.size / SCAN_STEPS * shapes)), best[1]
+    found = [_as_one_shape(rung, kind, float(wavenumber)) for wavenumber in (*tops, *longer)]
+    evidence, added = max(found, key=lambda each: each[0])
+    return evidence - price_of_scan(wavenumbers.size, len(longer)), added
 
 
-def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
+def price_of_scan(wavenumbers: int, longer: int = 2) -> float:
+    """ln of how many waves a scan chooses among. longer : of those that are fitted."""
+    return float(np.log(wavenumbers / SCAN_STEPS * (WAVES_FITTED + longer)))
+
+
+def wavenumbers_of(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
     """(w,) 1/m or 1/s, finely enough: from a wave seen twice in a run to what rows resolve."""
-    longest, finest = 0.0, np.inf
-    for run in runs:
-        at = kind.coordinate(run)
-        longest = max(longest, float(np.ptp(at)))
-        resolved = SHORTEST_WAVE / run.track.run.natural_frequency
-        finest = min(finest, float(np.ptp(at)) * resolved / np.ptp(run.track.time))
+    spans = np.array([np.ptp(kind.coordinate(run)) for run in runs])
+    swings = [np.ptp(run.track.time) * run.track.run.natural_frequency for run in runs]
+    longest, finest = spans.max(initial=0.0), np.min(spans * SHORTEST_WAVE / swings, initial=np.inf)
     if longest / 2.0 <= finest:
         return np.empty(0)
     every = np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
@@ -108,102 +106,62 @@ def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
 
 @dataclass(frozen=True)
 class _Waves:
-    """Rows of unit noise of cosines and sines of one run, (rows, w), and their products (w,)."""
+    """Rows of unit noise of cosines and sines of one run, (2, rows, w), and their products (w,)."""
 
-    cosines: np.ndarray
-    sines: np.ndarray
+    rows: np.ndarray
+    products: tuple[np.ndarray, np.ndarray, np.ndarray]
 
     @classmethod
     def of(cls, run: RunRows, kind: Periodic, wavenumbers: np.ndarray) -> _Waves:
         turn = np.exp(2j * np.pi * np.outer(kind.coordinate(run), wavenumbers))
-        return cls(
-            run.respond(kind.effect(run, turn.real), wavenumbers.size).astype(np.float32),
-            run.respond(kind.effect(run, turn.imag), wavenumbers.size).astype(np.float32),
-        )
+        rows = np.array([run.respond(kind.effect(run, each), wavenumbers.size)
+                         for each in (turn.real, turn.imag)], dtype=np.float32)  # fmt: skip
+        pairs = ((rows[0], rows[0]), (rows[1], rows[1]), (rows[0], rows[1]))
+        cc, ss, cs = (np.einsum("rw,rw->w", a, b).astype(float) for a, b in pairs)
+        return cls(rows, (cc, ss, cs))
 
     def fitted(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(w,) what a wave of free phase and size takes of the rows' squares, and its phase."""
-        c, s = rows @ self.cosines, rows @ self.sines
-        cc, ss, cs = self.products
+        (c, s), (cc, ss, cs) = rows.astype(np.float32) @ self.rows, self.products
         determinant = cc * ss - cs**2
         seen = determinant > 1e-6 * (cc + ss + 1e-30) ** 2
-        safe = np.where(seen, determinant, 1.0)
+        safe = np.where(seen, determinant, np.inf)
         a, b = (ss * c - cs * s) / safe, (cc * s - cs * c) / safe
-        return np.where(seen, a * c + b * s, 0.0), np.where(seen, np.arctan2(b, a), 0.0)
-
-    @cached_property
-    def products(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        pairs = ((self.cosines, self.cosines), (self.sines, self.sines), (self.cosines, self.sines))
-        cc, ss, cs = (np.einsum("rw,rw->w", a, b).astype(float) for a, b in pairs)
-        return cc, ss, cs
+        return a * c + b * s, np.arctan2(b, a)
 
 
 def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
     """(w,) wavenumbers, and what waves of free phases and sizes take of all runs' squares."""
     system = rung.system
     if kind not in system.waves:
-        wavenumbers = _wavenumbers(system.fitted, kind)
+        wavenumbers = wavenumbers_of(system.fitted, kind)
         runs = [_Waves.of(run, kind, wavenumbers) for run in system.fitted]
         system.waves[kind] = (wavenumbers, runs)
     wavenumbers, runs = system.waves[kind]
     gains = np.zeros(wavenumbers.size)
     for run, waves in zip(system.fitted, runs, strict=True):
-        gains += waves.fitted(rung.left(run).astype(np.float32))[0]
+        gains += waves.fitted(rung.left(run))[0]
     return wavenumbers, gains
-
-
-def _phases(
-    rung: Rung, kind: Periodic, wavenumber: float, runs: Sequence[RunRows]
-) -> dict[str, float]:
-    """run -> phase of the wave that fits best what is left of it, rad."""
-    one = np.array([wavenumber])
-    return {
-        run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
-        for run in runs
-    }
-
-
-def _peaks(gains: np.ndarray) -> list[int]:
-    """Numbers of local maxima, the largest first."""
-    padded = np.concatenate([[-np.inf], gains, [-np.inf]])
-    tops = np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
-    return [int(top) for top in tops[np.argsort(-gains[tops])]]
 
 
 def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
     """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber."""
-    phases = _phases(rung, kind, wavenumber, rung.system.fitted)
-    names = list(phases)
-    wave = Wave(kind, wavenumber, phases)
-    best: tuple[float, tuple[Added, ...]] | None = None
-    for _ in range(PHASE_ROUNDS):
+    runs, one = rung.system.fitted, np.array([wavenumber])
+    wave = Wave(kind, wavenumber, {
+        run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
+        for run in runs
+    })  # fmt: skip
+    rounds: list[tuple[float, tuple[Added, ...]]] = []
+    for _ in range(ROUNDS):
         _, shape = rung.offered([wave.shape()])
         here = rung.system.rung([*rung.added, shape], *rung.kinds)
         mean = here.posterior[0][here.part_of(shape)]
-        sd = 0.5 / SCAN_STEPS / max(np.ptp(kind.coordinate(run)) for run in rung.system.fitted)
-        turn, stretch = Added(wave.turned(mean)), Added(wave.stretched(mean, sd))
+        turn, stretch = (Added(each) for each in wave.moves(mean, runs))
         moving = rung.system.rung([*rung.added, shape, turn, stretch], *rung.kinds)
-        if best is None or moving.evidence > best[0]:
-            best = (moving.evidence, (shape, turn, stretch))
-        turns = moving.posterior[0][moving.part_of(turn)]
-        more = float(moving.posterior[0][moving.part_of(stretch)][0])
-        wave = wave.moved(dict(zip(names, turns, strict=True)), more)
-    assert best is not None
-    return best[0], _with_held_out(rung, best[1])
-
-
-def _with_held_out(rung: Rung, added: tuple[Added, ...]) -> tuple[Added, ...]:
-    """The same wave, with the phases of runs that were held out read off these."""
-    shape, *others = added
-    if not rung.system.held_out:
-        return added
-    wave: Wave = shape.unknown.wave
-    here = rung.system.rung([*rung.added, *added], *rung.kinds)
-    sizes = here.posterior[0][here.part_of(shape)]
-    lag = float(np.arctan2(sizes[HARMONICS], sizes[0]))
-    found = _phases(rung, wave.kind, wave.wavenumber, rung.system.held_out)
-    wave.phases.update({name: phase - lag for name, phase in found.items()})
-    return (shape, *others)
+        rounds.append((moving.evidence, (shape, turn, stretch)))
+        turns, more = (moving.posterior[0][moving.part_of(each)] for each in (turn, stretch))
+        wave = wave.moved(dict(zip(wave.phases, turns, strict=True)), float(more[0]))
+    return max(rounds, key=lambda each: each[0])
 
 
 @dataclass(frozen=True)
@@ -214,67 +172,61 @@ class Wave:
     wavenumber: float
     phases: dict[str, float]
 
-    @property
-    def settings(self) -> dict[str, float]:
-        return {"wavenumber": self.wavenumber, **{f"phase@{n}": p for n, p in self.phases.items()}}
-
-    def angle(self, run: RunRows) -> np.ndarray:
-        """(n,) rad"""
+    def waves(self, run: RunRows) -> np.ndarray:
+        """(n, 2 HARMONICS) cosines, then sines."""
         phase = self.phases.get(run.track.run.name, 0.0)
-        return 2.0 * np.pi * self.wavenumber * self.kind.coordinate(run) - phase
+        angle = 2.0 * np.pi * self.wavenumber * self.kind.coordinate(run) - phase
+        angles = np.outer(angle, ORDERS)
+        return np.hstack([np.cos(angles), np.sin(angles)])
 
     def at_times(self, run: RunRows, sizes: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
         """The wave of one run as a function of the time, s."""
-        angle = self.angle(run)
-
-        def at(time: np.ndarray) -> np.ndarray:
-            angles = np.outer(np.interp(time, run.track.time, angle), np.arange(1, HARMONICS + 1))
-            return np.asarray(np.hstack([np.cos(angles), np.sin(angles)]) @ sizes)
-
-        return at
+        values = self.waves(run) @ sizes
+        return lambda time: np.interp(time, run.track.time, values)
 
     def shape(self) -> Unknown:
         """Sizes of the harmonics, smaller the higher."""
-
-        def respond(run: RunRows) -> Response:
-            angle = np.outer(self.angle(run), np.arange(1, HARMONICS + 1))
-            return self.kind.effect(run, np.hstack([np.cos(angle), np.sin(angle)]))
-
-        sizes = np.tile(1.0 / np.arange(1, HARMONICS + 1) ** 1.5, 2)
+        sizes = np.tile(1.0 / ORDERS**1.5, 2)
         words = f"{1.0 / self.wavenumber:.3g} {self.kind.unit}"
-        variant = " ".join(filter(None, [self.kind.variant, words]))
+        phases = {f"phase@{name}": phase for name, phase in self.phases.items()}
         return Unknown(
-            self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings, wave=self
+            self.kind.name, " ".join(filter(None, [self.kind.variant, words])),
+            lambda run: self.kind.effect(run, self.waves(run)), np.diag(sizes**2),
+            settings={"wavenumber": self.wavenumber, **phases}, wave=self,
+        )  # fmt: skip
+
+    def moves(self, sizes: np.ndarray, runs: Sequence[RunRows]) -> tuple[Unknown, Unknown]:
+        """What a turn of each run's phase, rad, and another wavenumber do to a wave of these sizes.
+
+        Half a step of the scan is how far off a wavenumber may be.
+        """
+
+        def slope(run: RunRows) -> np.ndarray:
+            """(n,) derivative of the wave by its angle."""
+            cosines, sines = np.hsplit(self.waves(run), 2)
+            return np.hstack([-ORDERS * sines, ORDERS * cosines]) @ sizes
+
+        def turned(run: RunRows) -> Response:
+            return self.kind.effect(run, -slope(run)[:, None])
+
+        def stretched(run: RunRows) -> Response:
+            longer = 2.0 * np.pi * self.kind.coordinate(run)
+            return self.kind.effect(run, (longer * slope(run))[:, None])
+
+        name = self.kind.name
+        sd = 0.5 / SCAN_STEPS / max(np.ptp(self.kind.coordinate(run)) for run in runs)
+        even = np.pi**2 / 3.0 * np.eye(1)  # of a phase of which nothing is known
+        return (
+            Unknown(f"{name}: phase", "", turned, even, per_run=True),
+            Unknown(f"{name}: wavenumber", "", stretched, sd**2 * np.eye(1)),
         )
 
-    def turned(self, sizes: np.ndarray) -> Unknown:
-        """What a turn of a run's phase, rad, does to a wave of these sizes (2 HARMONICS,)."""
-
-        def respond(run: RunRows) -> Response:
-            return self.kind.effect(run, -self._slope(run, sizes)[:, None])
-
-        name = f"{self.kind.name}: phase"
-        return Unknown(name, "", respond, PHASE_SD**2 * np.eye(1), per_run=True)
-
-    def stretched(self, sizes: np.ndarray, sd: float) -> Unknown:
-        """What another wavenumber does to it; sd : by how much it may be off."""
-
-        def respond(run: RunRows) -> Response:
-            longer = 2.0 * np.pi * self.kind.coordinate(run)
-            return self.kind.effect(run, (longer * self._slope(run, sizes))[:, None])
-
-        return Unknown(f"{self.kind.name}: wavenumber", "", respond, sd**2 * np.eye(1))
-
-    def _slope(self, run: RunRows, sizes: np.ndarray) -> np.ndarray:
-        """(n,) derivative of the wave by its angle."""
-        orders = np.arange(1, HARMONICS + 1)
-        angle = np.outer(self.angle(run), orders)
-        return np.hstack([-orders * np.sin(angle), orders * np.cos(angle)]) @ sizes
-
-    def moved(self, turns: dict[str, float], more: float) -> Wave:
+    def moved(self, turns: Mapping[str, float], more: float = 0.0) -> Wave:
         """With phases turned by so much, rad, and another wavenumber."""
         phases = {
-            name: phase + (turns.get(name, 0.0) + np.pi) % (2.0 * np.pi) - np.pi
-            for name, phase in self.phases.items()
+            name: self.phases.get(name, 0.0)
+            + (turns.get(name, 0.0) + np.pi) % (2.0 * np.pi)
+            - np.pi
+            for name in {**self.phases, **turns}
         }
-        return Wave(self.kind, self.wavenumber + more, phases)
+        return replace(self, wavenumber=self.wavenumber + more, phases=phases)
