@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -34,7 +35,8 @@ def draw_sizes(plan: Plan) -> Figure:
     """A row for each effect and direction."""
     sizes = plan.sizes
     figure, axes = panels(1, 1, height=1.2 + 0.42 * max(len(sizes), 1), width=9.0)
-    axis, label = axes[0, 0], {"va": "center", "fontsize": 8.5}
+    axis = axes[0, 0]
+    label: dict[str, Any] = {"va": "center", "fontsize": 8.5}
     ends = [(size, end) for size in sizes for end in (size.value, size.alone)]
     every = [size.law.percent(end) for size, end in ends if end is not None]
     left, right = 0.5 * min(every, default=1.0), 4.0 * max(every, default=1.0)

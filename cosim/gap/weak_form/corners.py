@@ -50,13 +50,15 @@ class Corner:
     ----------
     time : t_c, s
     breaks : lets go; otherwise it sticks again
-    acceleration : of the slip's curve at t_c, m/s^2
+    swing : size (m) and turn (rad) of the slip's curve x_k + size cos(omega (t - t_c) + turn)
+    acceleration : of that curve at t_c, m/s^2
     weights : (3, n) on the grid: of a force, s m; of the part m x''; of the line at t_c; None:
         slip or stick are too short for a row
     """
 
     time: float
     breaks: bool
+    swing: tuple[float, float]
     acceleration: float
     weights: np.ndarray | None = field(repr=False)
 
@@ -87,6 +89,8 @@ class CornerRows(RunRows):
 
     def whitened(self, rows: np.ndarray, before: np.ndarray) -> np.ndarray:
         """(c, q) of unit noise, of what the rows before have not said."""
+        if not self.corners:  # LAPACK may not be asked for nothing
+            return rows
         left = rows - self.shared @ before
         return np.asarray(solve_triangular(self.lower, left, lower=True))
 
@@ -121,10 +125,11 @@ def with_corners(rows: RunRows) -> RunRows:
     """The rows of a run, and those of its corners if it has any."""
     track, run = rows.track, rows.track.run
     touched = tuple(corner for slip in track.slips for corner in _corners_of(track, slip))
-    rowed = tuple(corner for corner in touched if corner.weights is not None)
-    if not rowed:
+    if not touched:
         return rows
-    force, bend, line = np.swapaxes([corner.weights for corner in rowed], 0, 1)
+    rowed = tuple(corner for corner in touched if corner.weights is not None)
+    shape = (len(rowed), 3, track.time.size)
+    force, bend, line = np.reshape([each.weights for each in rowed], shape).swapaxes(0, 1)
     places = bend - bend.sum(axis=1, keepdims=True) * line + run.total_stiffness * force
     samples = places if track.samples is None else (track.samples.T @ places.T).T
     shared = run.noise["x"] * _along(rows, samples)
@@ -135,16 +140,34 @@ def with_corners(rows: RunRows) -> RunRows:
     except np.linalg.LinAlgError:  # the others say all that these do
         return rows
     kinds = np.concatenate([rows.kinds, np.full(len(rowed), CORNER)])
-    common = {each.name: getattr(rows, each.name) for each in fields(RunRows)}
+    before = replace(rows, track=_swinging(track, touched))
+    common = {each.name: getattr(before, each.name) for each in fields(RunRows)}
     common |= {"kinds": kinds, "counted": np.ones(kinds.size)}
-    made = CornerRows(**common, before=rows, touched=touched, corners=rowed, force=force,
+    made = CornerRows(**common, before=before, touched=touched, corners=rowed, force=force,
                       bend=bend, line=line, shared=shared, lower=lower)  # fmt: skip
     # what the sums make of a path V (t - t_c), of which the integral makes nothing
-    lever = track.time - np.array([[corner.time] for corner in rowed])
+    lever = track.time - np.array([corner.time for corner in rowed]).reshape(-1, 1)
     sums = run.surface_speed * np.sum(bend * lever, axis=1, keepdims=True)
     values = made.of_places(track.x[:, None]) + (force @ rows.restoring)[:, None] - sums
     values = made.whitened(values, rows.values[:, None])
     return replace(made, values=np.concatenate([rows.values, values[:, 0]]))
+
+
+def _swinging(track: SmoothTrack, corners: tuple[Corner, ...]) -> SmoothTrack:
+    """With the swing's own sliding speed and acceleration next to corners, inside their slips.
+
+    There a smoothed velocity is mostly noise, and as often as not of the wrong sign.
+    """
+    sliding, acceleration = track.sliding.copy(), track.acceleration.copy()
+    omega = track.run.natural_frequency
+    for corner in corners:
+        since = omega * (track.time - corner.time)
+        near = since if corner.breaks else -since
+        here = (near > 0.0) & (near < 2.0 * KNOTS)
+        (size, turn), angle = corner.swing, since[here]
+        sliding[here] = track.run.surface_speed + omega * size * np.sin(angle + turn)
+        acceleration[here] = -(omega**2) * size * np.cos(angle + turn)
+    return replace(track, sliding=sliding, acceleration=acceleration)
 
 
 def _along(rows: RunRows, samples: np.ndarray) -> np.ndarray:
@@ -152,7 +175,7 @@ def _along(rows: RunRows, samples: np.ndarray) -> np.ndarray:
     matrix = rows.track.samples
     gridded = samples.T if matrix is None else matrix @ samples.T
     products = np.zeros((rows.values.size, samples.shape[0]))
-    for kind, block in ((SLIP, rows.slip), (STICK, rows.stick)):
+    for kind, block in ((SLIP, rows.slip), (STICK, rows.stick)) if samples.size else ():
         products[rows.kinds == kind] = rows.track.run.noise["x"] * block.whitened(
             block.place @ gridded
         )
@@ -184,7 +207,8 @@ def _corners_of(track: SmoothTrack, slip: tuple[int, int]) -> Iterator[Corner]:
         if abs(np.cos(turn)) >= 0.2 and abs(at - near) <= 0.5:
             touches = float(time[0] + at / omega)
             weights = _weights(track, slip, touches, breaks)
-            yield Corner(touches, breaks, float(-(omega**2) * size * np.cos(turn)), weights)
+            acceleration = float(-(omega**2) * size * np.cos(turn))
+            yield Corner(touches, breaks, (float(size), float(turn)), acceleration, weights)
 
 
 def _stick_beside(track: SmoothTrack, end: int, breaks: bool) -> slice | None:
