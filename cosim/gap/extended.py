@@ -35,10 +35,6 @@ from cosim.gap.windows.run_model import PER_WEIGHT, WITH_WEIGHT
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
 TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
 
-#: Error of a set-point where a campaign states none, relative.
-SET_POINT = 0.01
-
-
 #: Parameters of laws of the sliding speed that say how strong they are.
 STRENGTHS = ("coefficient", "root_coefficient", "power", "saturating", "linear", "hyperbolic",
              "stribeck", "logarithmic")  # fmt: skip
@@ -73,7 +69,7 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     scales = scales_of(campaign, system.runs, level.kinetic)
     unknown = finding.main.unknown
     if unknown.wave is not None:
-        return _wave(rung, finding)
+        return _wave(campaign, rung, finding)
     if finding.name == "load_dependence":
         return _load(rung, finding, scales.force)
     units = {
@@ -183,7 +179,7 @@ def _load(rung: Rung, finding: Finding, weight: float) -> Part:
     return Part(finding, None, (), (number,), {"load_dependence.reference_force": weight})
 
 
-def _wave(rung: Rung, finding: Finding) -> Part:
+def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     """Amplitude, period and phases of a wave, with its second harmonic."""
     wave = finding.main.unknown.wave
     sizes = rung.posterior[0][rung.part_of(finding.main)]
@@ -202,6 +198,9 @@ def _wave(rung: Rung, finding: Finding) -> Part:
     starts: dict[str, float] = {}
     if name == "surface_pattern":
         numbers.append(Number(f"{name}.wavelength", length, None, 0.9 * length, 1.1 * length))
+        # a set-point that is off by a percent gets ahead by whole waves in a run
+        numbers.append(set_point(campaign))
+        starts |= {f"offset.speed@{run}": part for run, part in wave.faster.items()}
     turn = math.degrees(np.angle(first))
     for run in rung.system.runs:
         angle = turn - math.degrees(wave.phases.get(run.track.run.name, 0.0))
@@ -238,17 +237,21 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
     ]
 
 
-def scatter_numbers(scatter: float, speed: float = SET_POINT) -> list[Number]:
+def scatter_numbers(campaign: Campaign, scatter: float) -> list[Number]:
     """What differs from run to run: friction, and the surface's speed from its set-point.
 
-    scatter : standard deviation of friction, relative; speed : stated error of a set-point. Over
-    three cycles 1 % of the speed adds up to a tenth of a cycle's stick, far more than the noise;
-    held-out runs have errors of their own, which no fitted run can tell.
+    scatter : standard deviation of friction, relative. Over three cycles 1 % of the speed adds up
+    to a tenth of a cycle's stick, far more than the noise; held-out runs have errors of their own,
+    which no fitted run can tell.
     """
-    return [
-        Number("offset.friction", 0.0, scatter, -4.0 * scatter, 4.0 * scatter, "run"),
-        Number("offset.speed", 0.0, speed, -3.0 * speed, 3.0 * speed, "run"),
-    ]
+    friction = Number("offset.friction", 0.0, scatter, -4.0 * scatter, 4.0 * scatter, "run")
+    return [friction, set_point(campaign)]
+
+
+def set_point(campaign: Campaign) -> Number:
+    """By which part each run's surface is faster than stated."""
+    sd = campaign.errors.surface_speed
+    return Number("offset.speed", 0.0, sd, -3.0 * sd, 3.0 * sd, "run")
 
 
 def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:

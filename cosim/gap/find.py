@@ -19,7 +19,7 @@ from cosim.gap.extended import (
     started_from,
 )
 from cosim.gap.judge import is_needed, judge
-from cosim.gap.rates import rates_of
+from cosim.gap.rates import rates_of, scatter_of
 from cosim.gap.report_of_findings import (
     exponents_of,
     law_of,
@@ -31,8 +31,8 @@ from cosim.gap.report_of_findings import (
 )
 from cosim.gap.result import Gap, Rung, Score
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.arguments import Arguments
-from cosim.gap.weak_form.camera_faults import FAULTS, camera_faults
+from cosim.gap.weak_form.asked import Unknowns, asked_of
+from cosim.gap.weak_form.camera_faults import FAULTS, SMOOTHING, filters
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -58,7 +58,6 @@ FELT_PART, FELT_GAP = 0.02, 0.01
 SURE = 500.0
 
 Progress = Callable[[int, int], object]
-SMOOTHING = "measurement.smoothing"
 
 
 def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
@@ -135,13 +134,7 @@ def name(campaign: Campaign) -> Named:
     planar = planar_effects(campaign, rows)
     if planar.answer:
         rows = rows_in_plane(tracks, campaign, planar)
-    every = System(campaign, rows, every=True)
-    arguments = Arguments(campaign, every.runs, every.level)
-    unknowns: dict[str, Sequence[Unknown]] = {
-        **arguments.unknowns(),
-        **camera_faults(every.rung()),
-    }
-    unknowns.pop(SMOOTHING, None)
+    every, arguments, unknowns = asked_of(campaign, rows)
     if planar.answer:
         unknowns.pop("measurement.zero", None)
     waves = periodic.kinds(every.level.kinetic)
@@ -170,8 +163,8 @@ def _at_corners(
     campaign: Campaign,
     rows: list[RunRows],
     ladder: Ladder,
-    unknowns: dict[str, Sequence[Unknown]],
-) -> tuple[list[RunRows], Ladder, dict[str, Sequence[Unknown]]]:
+    unknowns: Unknowns,
+) -> tuple[list[RunRows], Ladder, Unknowns]:
     """Whether a tracker smooths, asked of runs in which nothing else is missing.
 
     A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
@@ -179,9 +172,7 @@ def _at_corners(
     """
     cornered = [with_corners(run) for run in rows]
     system = System(campaign, cornered, every=True)
-    smoothing: dict[str, Sequence[Unknown]] = {
-        SMOOTHING: camera_faults(system.rung()).get(SMOOTHING, [])
-    }
+    smoothing = {SMOOTHING: filters(system.rung())}
     if not smoothing[SMOOTHING]:
         return rows, ladder, unknowns
     found = Search(system, smoothing, ()).climb()
@@ -263,7 +254,7 @@ class _Models:
         rung = system.rung(added)
         text = f"friction scatters from run to run by {100.0 * models.scatter[0]:.2g} %"
         settings = {**settings, BREAK_AWAY: SCATTER_PRIOR}
-        models._try("scatter", text, [*numbers, *scatter_numbers(spread)], settings, rung,
+        models._try("scatter", text, [*numbers, *scatter_numbers(campaign, spread)], settings, rung,
                     rung.evidence - last, spread)  # fmt: skip
         return models
 
@@ -306,11 +297,3 @@ class _Models:
 
 def _score(fit: float, held_out: float) -> Score:
     return Score(fit, None if math.isnan(held_out) else held_out)
-
-
-def scatter_of(rows: Rows) -> tuple[float, float, float]:
-    """Scatter of friction from run to run, and its 90 % interval."""
-    spreads, weights = rows.scatter_posterior()
-    cumulated = np.cumsum(weights)
-    low, middle, high = np.interp([0.05, 0.5, 0.95], cumulated, spreads)
-    return float(middle), float(low), float(high)

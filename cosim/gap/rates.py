@@ -8,21 +8,17 @@ of campaigns are decided in a second.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import block_diag
+from scipy.special import logsumexp
 
 from cosim.gap.result import Rates
-from cosim.gap.weak_form.constants import (
-    ALIKE,
-    BENDS_ASKED,
-    LEAST_GAIN,
-    SCALES_ASKED,
-    SCAN_STEPS,
-    WAVES_FITTED,
-)
+from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.constants import ALIKE, BENDS_ASKED, LEAST_GAIN, SCALES_ASKED
 from cosim.gap.weak_form.ladder import Finding, Ladder
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
 from cosim.gap.weak_form.system import Added, Rung, System
@@ -39,13 +35,6 @@ CONFUSED = 0.1
 NONE = "none"
 
 
-def log_sum(values: np.ndarray | Sequence[np.ndarray]) -> np.ndarray:
-    """ln of the sum of exp over the first axis, for many small arrays."""
-    stacked = np.asarray(values)
-    most = stacked.max(axis=0)
-    return np.asarray(most + np.log(np.exp(stacked - most).sum(axis=0)))
-
-
 @dataclass(frozen=True)
 class Option:
     """A way in which an argument can join the rows.
@@ -56,7 +45,7 @@ class Option:
 
     unknowns: tuple[Unknown, ...]
     factors: tuple[np.ndarray, ...]
-    scales: np.ndarray
+    scales: tuple[float, ...]
     price: float
 
 
@@ -67,24 +56,22 @@ def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
         bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
         factors = tuple(factor_of(Added(unknown, 1.0, bend), runs) for bend in bends)
         price = float(np.log(len(variants) * len(bends) * len(SCALES_ASKED)))
-        found.append(Option((unknown,), factors, np.array(SCALES_ASKED), price))
+        found.append(Option((unknown,), factors, SCALES_ASKED, price))
     return found
 
 
-def option_of_wave(added: Sequence[Added], system: System) -> Option:
-    """A wave that a scan has found, at its wave length alone; the scan has its price."""
-    count = system.waves[added[0].unknown.wave.kind][0].size
+def option_of_wave(
+    added: Sequence[Added], system: System, scales: tuple[float, ...] = (1.0,)
+) -> Option:
+    """A wave at its wave length alone, with the price of the scan that finds it."""
     factor = block_diag(*(factor_of(each, len(system.fitted)) for each in added))
-    unknowns = tuple(each.unknown for each in added)
-    return Option(unknowns, (factor,), np.ones(1), price_of_scan(count))
-
-
-def price_of_scan(wavenumbers: int) -> float:
-    """ln of how many waves a scan chooses among, see `periodic.offered`."""
-    return float(np.log(wavenumbers / SCAN_STEPS * (WAVES_FITTED + 2)))
+    count = periodic.wavenumbers_of(system.fitted, added[0].unknown.wave.kind).size
+    price = periodic.price_of_scan(count)
+    return Option(tuple(each.unknown for each in added), (factor,), scales, price)
 
 
 def factor_of(added: Added, runs: int) -> np.ndarray:
+    """(Q, Q) from unit unknowns to all columns of so many runs."""
     return np.kron(np.eye(runs), added.factor) if added.unknown.per_run else added.factor
 
 
@@ -142,25 +129,27 @@ class Decision:
         first, *others = projected
         w = self.whitens @ first
         base = 0.5 * np.sum(w**2, axis=1) + self.weights[:, None]
-        without, rights = log_sum(base), iter(others)
+        without, rights = logsumexp(base, axis=0), iter(others)
         evidence, gain = [], []
         for options in self.options.values():
-            offered = [option.offered(next(rights), w, base) for option in options]
-            sums = np.array([total for total, _ in offered])
-            best = np.argmax(sums, axis=0)
-            evidence.append(log_sum(sums) - without)
-            gain.append(np.choose(best, [most for _, most in offered]) - without)
+            values = [option.offered(next(rights), w, base) for option in options]
+            sums = np.array([logsumexp(each, axis=0) for each in values])
+            most = np.array([each.max(axis=0) for each in values])
+            prices = np.array([option.price for option in options])[:, None]
+            best = np.argmax(sums - prices, axis=0)
+            evidence.append(logsumexp(sums - prices, axis=0) - without)
+            gain.append(np.take_along_axis(most, best[None], axis=0)[0] - without)
         return Offers(tuple(self.options), np.array(evidence), np.array(gain))
 
     def _turned(self, option: Option) -> _Turned:
-        unknowns = option.unknowns
-        half = self.whitens @ self.system.gram(self.base, unknowns)
-        gram = self.system.gram(unknowns, unknowns) - np.swapaxes(half, 1, 2) @ half
+        half = self.whitens @ self.system.gram(self.base, option.unknowns)
+        across = np.swapaxes(half, 1, 2)
+        gram = self.system.gram(option.unknowns, option.unknowns) - across @ half
         axes = []
         for factor in option.factors:
             g, v = np.linalg.eigh(factor.T @ gram @ factor)
             axes.append((np.maximum(g, 0.0), np.swapaxes(factor @ v, 1, 2)))
-        return _Turned(unknowns, np.swapaxes(half, 1, 2), axes, option.scales, option.price)
+        return _Turned(option.unknowns, across, axes, np.array(option.scales), option.price)
 
 
 @dataclass(frozen=True)
@@ -179,19 +168,16 @@ class _Turned:
     scales: np.ndarray
     price: float
 
-    def offered(
-        self, right: np.ndarray, w: np.ndarray, base: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """(c,) ln evidence over scales and bends, with their price, and at the best of them."""
-        right, values = right - self.half @ w, []
+    def offered(self, right: np.ndarray, w: np.ndarray, base: np.ndarray) -> np.ndarray:
+        """(scales and bends, c) ln evidence, without the price."""
+        left, squares = right - self.half @ w, self.scales[:, None, None] ** 2
+        values = []
         for g, turn in self.axes:
-            squares = np.square(turn @ right)  # (h, q, c)
-            for scale in self.scales:
-                added = scale**2 * g
-                part = (scale**2 / (1.0 + added))[:, None]
-                more = (part @ squares)[:, 0] - np.log1p(added).sum(axis=1)[:, None]
-                values.append(log_sum(base + 0.5 * more))
-        return log_sum(values) - self.price, np.max(values, axis=0)
+            added = squares * g  # (s, h, q)
+            more = np.einsum("shq,hqc->shc", squares / (1.0 + added), np.square(turn @ left))
+            more -= np.log1p(added).sum(axis=2)[:, :, None]
+            values.append(logsumexp(base + 0.5 * more, axis=1))
+        return np.concatenate(values)
 
 
 @dataclass(frozen=True)
@@ -234,10 +220,11 @@ def drawn(
     return rows
 
 
-def scatter_of(rung: Rung) -> float:
-    """Of friction from run to run, the middle of its posterior."""
+def scatter_of(rung: Rung) -> tuple[float, float, float]:
+    """Scatter of friction from run to run, and its 90 % interval."""
     spreads, weights = rung.scatter_posterior()
-    return float(np.interp(0.5, np.cumsum(weights), spreads))
+    low, middle, high = np.interp([0.05, 0.5, 0.95], np.cumsum(weights), spreads)
+    return float(middle), float(low), float(high)
 
 
 def rates_of(
@@ -255,7 +242,7 @@ def rates_of(
         rung = ladder.system.rung(rest)
         truths = _truths(ladder, unknowns, finding, rung)
         decision = Decision(rung, _asked(ladder, unknowns, finding))
-        scatter, zeros = scatter_of(ladder.rung), rung.settings[0][rung.best][1]
+        scatter, zeros = scatter_of(ladder.rung)[0], rung.settings[0][rung.best][1]
         rows = drawn(rung, each * len(truths), random, scatter, zeros)
         for place, truth in enumerate(truths):
             rows[:, place * each : (place + 1) * each] += truth.rows(rung.system)[:, None]
@@ -276,10 +263,8 @@ def _truths(
     found = [Truth.of(finding.name, rung.system.rung([*finding.added, *rung.added]))]
     near = sorted(finding.others, key=lambda name: -finding.others[name])
     for name in near[:RUNNERS_UP]:
-        if name in unknowns:
-            added: Sequence[Added] = [rung.offered(unknowns[name])[1]]
-        else:
-            added = ladder.first_offers[name][1]
+        offer = unknowns.get(name)
+        added = [rung.offered(offer)[1]] if offer else ladder.first_offers[name][1]
         found.append(Truth.of(name, rung.system.rung([*added, *rung.added])))
     return [*found, nothing]
 
@@ -303,11 +288,9 @@ def _asked(
 
 def counted(answers: Sequence[tuple[str, ...]]) -> dict[str, int]:
     """answer -> how often; "class: a, b" where several are alike, in the order of their names."""
-    table: dict[str, int] = {}
-    for near in answers:
-        said = f"class: {', '.join(sorted(near))}" if len(near) > 1 else (near or (NONE,))[0]
-        table[said] = table.get(said, 0) + 1
-    return dict(sorted(table.items(), key=lambda pair: -pair[1]))
+    said = (f"class: {', '.join(sorted(near))}" if len(near) > 1 else (near or (NONE,))[0]
+            for near in answers)  # fmt: skip
+    return dict(Counter(said).most_common())
 
 
 def confirmed(rates: Rates, name: str, level: float = CONFUSED) -> tuple[str, ...]:

@@ -85,11 +85,6 @@ def sentence(plan: Plan) -> str:
     )
 
 
-def pair_text(truth: str, other: str, share: float) -> str:
-    """One of `Plan.pairs`."""
-    return f"{truth} is named as {other}, or in a class with it, {100 * share:.0f} times in 100"
-
-
 def closing_lines(plan: Plan) -> list[str]:
     """What is said at the end, on a terminal."""
     lines = [f"{plan.planned.campaign.name}: {sentence(plan)}"]
@@ -102,5 +97,7 @@ def closing_lines(plan: Plan) -> list[str]:
     lines += [
         f"  {effect:{width}}  {'not tried':>16}  {why}" for effect, why in plan.silent.items()
     ]
-    lines += [f"  pair  {pair_text(*pair)}" for pair in plan.pairs[:3]]
+    for truth, other, share in plan.pairs[:3]:
+        times = f"{100 * share:.0f} times in 100"
+        lines.append(f"  pair  {truth} is named as {other}, or in a class with it, {times}")
     return lines + ([f"  next  {plan.next_run.text}"] if plan.next_run else [])

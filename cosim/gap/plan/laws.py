@@ -10,28 +10,30 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import block_diag
 from stickslip import EFFECTS
-from stickslip.effects.candidate import Candidate, Scales
+from stickslip.effects.candidate import Candidate
 from stickslip.effects.effect import Effect, no_candidates
 
 from cosim.gap.laws import SHAPES, Context, scales_of
-from cosim.gap.rates import Option, factor_of, price_of_scan
+from cosim.gap.rates import Option, option_of_wave
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.constants import HARMONICS, SCALES_ASKED, SCAN_STEPS
+from cosim.gap.weak_form.constants import HARMONICS, SCALES_ASKED
 from cosim.gap.weak_form.system import Added, System
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: Turn of a wave's phase from one run to the next, rad: by the golden angle no two are alike.
 GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 #: Why an effect cannot be seen, where it is not the runs.
-ACROSS = "told by y and phi, which are not planned"
 WHY = {
     "load_dependence": "all runs have the same load",
     "static_strengthening": "hold times hardly differ, or nothing sticks",
     "stick_stiffness": "along x the same as another mu_s",
-    **dict.fromkeys(("lateral_friction", "turning_surface", "spring_misalignment"), ACROSS),
+    **dict.fromkeys(
+        ("lateral_friction", "turning_surface", "spring_misalignment"),
+        "told by y and phi, which are not planned",
+    ),
 }
+HEAT = "thermal_weakening.relaxation_time"
 
 
 @dataclass(frozen=True)
@@ -61,20 +63,29 @@ class Law:
         """`block.parameter` of its size."""
         return self.candidate.free_parameters[0].key
 
+    @property
+    def range(self) -> float:
+        """How far from nothing its parameter may be."""
+        return abs(self.most - self.neutral)
+
     def value(self, away: float) -> float:
         """The parameter so far from where it is nothing."""
         return self.neutral + float(np.copysign(away, self.most - self.neutral))
 
+    def among(self, laws: Sequence[Law]) -> Law | None:
+        """The same law in the rows of other runs; None where they cannot show it."""
+        same = (law for law in laws if law.key == self.key and law.value(1.0) == self.value(1.0))
+        return next(same, None)
+
     def blocks(self, value: float) -> dict[str, dict[str, float]]:
         """Tables of `Parameters` with the law at a value of its size."""
-        free = self.candidate.free_parameters
-        given = {one.key: one.start for one in free if not one.per_run}
-        given |= {**self.candidate.settings, self.key: value}
+        given = _starts(self.candidate) | {self.key: value}
         if "memory" in self.unknown.settings:
-            given["thermal_weakening.relaxation_time"] = self.unknown.settings["memory"]
+            given[HEAT] = self.unknown.settings["memory"]
         blocks: dict[str, dict[str, float]] = {}
         for key, number in given.items():
-            blocks.setdefault(key.partition(".")[0], {})[key.rpartition(".")[2]] = number
+            block, _, name = key.partition(".")
+            blocks.setdefault(block, {})[name] = number
         return blocks
 
     def percent(self, value: float) -> float:
@@ -83,26 +94,26 @@ class Law:
         return 100.0 * self.part * float(np.ptp(sizes) if sizes.size > 1 else abs(sizes[0]))
 
 
-Unknowns = Mapping[str, Sequence[Unknown]]
-
-
-def _scales(system: System) -> Scales:
-    return scales_of(system.campaign, system.runs, system.level.kinetic)
-
-
-def laws_of(system: System, unknowns: Unknowns) -> list[Law]:
+def laws_of(system: System, unknowns: Mapping[str, Sequence[Unknown]]) -> list[Law]:
     """The simplest law of each effect in each direction, of those that the runs can show."""
-    scales = _scales(system)
+    context = Context(
+        system.campaign, scales_of(system.campaign, system.runs, system.level.kinetic),
+        {"mu_s": system.level.static},
+    )  # fmt: skip
     found: dict[tuple[str, float], Law] = {}
     for effect in EFFECTS:
-        if not effect.offered:
-            continue
-        for candidate in effect.candidates(scales):
+        for candidate in effect.candidates(context.scales) if effect.offered else ():
             if not candidate.free_parameters or candidate.lateral:
                 continue
-            for law in _of(system, unknowns, effect, candidate):
+            if candidate.periodic:
+                laws = _waves(system, effect, candidate)
+            elif candidate.form == "power law":
+                laws = _of_load(unknowns, effect, candidate)
+            else:
+                laws = _along_curves(system, unknowns, context, effect, candidate)
+            for law in laws:
                 way = float(np.sign(law.most - law.neutral))
-                found.setdefault((law.candidate.periodic or effect.id, way), law)
+                found.setdefault((candidate.periodic or effect.id, way), law)
     return list(found.values())
 
 
@@ -114,96 +125,78 @@ def silent(laws: Sequence[Law]) -> dict[str, str]:
             for one in offered if one.id not in there}  # fmt: skip
 
 
-def _of(system: System, unknowns: Unknowns, effect: Effect, candidate: Candidate) -> Iterator[Law]:
-    if candidate.periodic:
-        yield from _wave(system, effect, candidate)
-    elif candidate.form == "power law":
-        for unknown in unknowns.get("load_dependence", ()):
-            span = unknown.settings["span"]
-            yield _law("load_dependence", effect, candidate, unknown, _scaled(np.array([-span])))
-    else:
-        yield from _curve(system, unknowns, effect, candidate)
+def _starts(candidate: Candidate) -> dict[str, float]:
+    """`block.parameter` -> what it is set to, or starts from; no phases of runs."""
+    free = {one.key: one.start for one in candidate.free_parameters if not one.per_run}
+    return {**free, **candidate.settings}
 
 
-def _scaled(sizes: np.ndarray) -> Callable[[float], np.ndarray]:
-    return lambda value: value * sizes
-
-
-def _law(
-    argument: str, effect: Effect, candidate: Candidate, unknown: Unknown,
-    sizes: Callable[[float], np.ndarray], part: float = 1.0, wave: Option | None = None,
-) -> Law:  # fmt: skip
-    """Between where it is nothing and what the catalogue has as its most."""
+def _range(effect: Effect, candidate: Candidate) -> tuple[float, float]:
+    """Of the size: where it is nothing, and what the catalogue has as its most."""
     free = candidate.free_parameters[0]
-    neutral = _defaults(effect)[free.key.rpartition(".")[2]]
-    most = free.high if free.start > neutral else free.low
-    return Law(argument, candidate, neutral, most, unknown, sizes, part, wave)
+    neutral = effect.table.model_fields[free.key.rpartition(".")[2]].default
+    return neutral, free.high if free.start > neutral else free.low
 
 
-def _defaults(effect: Effect) -> dict[str, float]:
-    return {name: field.default for name, field in effect.table.model_fields.items()}
-
-
-def _curve(
-    system: System, unknowns: Unknowns, effect: Effect, candidate: Candidate
+def _of_load(
+    unknowns: Mapping[str, Sequence[Unknown]], effect: Effect, candidate: Candidate
 ) -> Iterator[Law]:
-    """A law along the nodes of the argument's curve, of the variant that is nearest to it."""
-    level, scales = system.level, _scales(system)
-    force = level.kinetic * scales.force
-    own = candidate.free_parameters[0].key.rpartition(".")[2]
-    starts = {free.key: free.start for free in candidate.free_parameters}
-    given = {**candidate.settings, **starts}
-    memory = starts.get("thermal_weakening.relaxation_time", 1.0)
-    for name, variants in unknowns.items():
-        fitting = [
-            one for one in variants
-            if name in SHAPES and one.curve and not one.settings.get("per_weight")
-            and Context(system.campaign, scales, one.settings).allows(name, effect, candidate)
-        ]  # fmt: skip
-        if not fitting:
+    """A power of the normal force is a trend with its logarithm."""
+    for unknown in unknowns.get("load_dependence", ()):
+        span = np.array([-unknown.settings["span"]])
+        yield Law("load_dependence", candidate, *_range(effect, candidate), unknown,
+                  lambda value, span=span: value * span)  # fmt: skip
+
+
+def _along_curves(
+    system: System, unknowns: Mapping[str, Sequence[Unknown]], context: Context,
+    effect: Effect, candidate: Candidate,
+) -> Iterator[Law]:  # fmt: skip
+    """A law along the nodes of an argument's curve, of the variant that is nearest to it."""
+    force = system.level.kinetic * context.scales.force
+    starts = _starts(candidate)
+    memory = starts.get(HEAT, 1.0)
+    for name in unknowns:
+        law = SHAPES[name](effect, context) if name in SHAPES else None
+        fitting = [one for one in unknowns[name] if not one.settings.get("per_weight")]
+        if law is None or not fitting or not context.allows(name, effect, candidate):
             continue
-        unknown = min(
-            fitting, key=lambda one: abs(np.log(one.settings.get("memory", memory) / memory))
-        )
-        law = SHAPES[name](effect, Context(system.campaign, scales, {"mu_s": level.static}))
-        if law is None or unknown.curve is None:
+        unknown = min(fitting, key=lambda u: abs(np.log(u.settings.get("memory", memory) / memory)))
+        if unknown.curve is None:
             continue
         nodes, unit = unknown.curve.nodes, force if unknown.curve.per == "N" else 1.0
         if name == "spring_hardening":
             stiffness = [run.track.run.total_stiffness for run in system.runs]
             unit = float(nodes[-1] * np.mean(stiffness))
-        known = _defaults(effect) | {key.rpartition(".")[2]: one for key, one in given.items()}
+        known = {key: field.default for key, field in effect.table.model_fields.items()}
+        known |= {key.rpartition(".")[2]: value for key, value in starts.items()}
         known["relaxation_time"] = unknown.settings.get("memory", memory)
-        neutral = _defaults(effect)[own]
+        own, ends = candidate.free_parameters[0].key.rpartition(".")[2], _range(effect, candidate)
 
         def sizes(
-            value: float, law=law, nodes=nodes, known=known, unit=unit, neutral=neutral
+            value: float, law=law, nodes=nodes, known=known, own=own, neutral=ends[0], unit=unit
         ) -> np.ndarray:
-            nothing = law(nodes, {**known, own: neutral})
-            return np.asarray((law(nodes, {**known, own: value}) - nothing) / unit)
+            there, nothing = (law(nodes, {**known, own: each}) for each in (value, neutral))
+            return np.asarray((there - nothing) / unit)
 
         part = unit / force if unknown.curve.per == "N" else 1.0
-        yield _law(name, effect, candidate, unknown, sizes, part)
+        yield Law(name, candidate, *ends, unknown, sizes, part)
 
 
-def _wave(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law]:
+def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law]:
     """A cosine of the catalogue's first period, within what the scan looks at."""
-    if candidate.has_second:
-        return
-    start = {free.key: free.start for free in candidate.free_parameters}[candidate.periodic]
+    start = _starts(candidate)[candidate.periodic]
     in_time = candidate.periodic.endswith("frequency")
+    phases = {run.track.run.name: GOLDEN * n for n, run in enumerate(system.runs)}
     for kind in periodic.kinds(system.level.kinetic):
-        wavenumbers = periodic._wavenumbers(system.fitted, kind)
-        if kind.name != effect.id or (kind.unit == "s") != in_time or not wavenumbers.size:
+        wavenumbers = periodic.wavenumbers_of(system.fitted, kind)
+        if candidate.has_second or kind.name != effect.id or (kind.unit == "s") != in_time:
             continue
-        wavenumber = float(np.clip(start if in_time else 1.0 / start, *wavenumbers[[0, -1]]))
-        names = [run.track.run.name for run in system.runs]
-        phases = {name: GOLDEN * number for number, name in enumerate(names)}
-        wave = periodic.Wave(kind, wavenumber, phases)
-        first = np.eye(2 * HARMONICS)[0]
-        sd = 0.5 / SCAN_STEPS / max(np.ptp(kind.coordinate(run)) for run in system.fitted)
-        parts = wave.shape(), wave.turned(first), wave.stretched(first, sd)
-        runs = len(system.fitted)
-        factor = block_diag(*(factor_of(Added(one), runs) for one in parts))
-        option = Option(parts, (factor,), np.array(SCALES_ASKED), price_of_scan(wavenumbers.size))
-        yield _law(effect.id, effect, candidate, parts[0], _scaled(first), wave=option)
+        if wavenumbers.size:
+            wavenumber = float(np.clip(start if in_time else 1.0 / start, *wavenumbers[[0, -1]]))
+            wave = periodic.Wave(kind, wavenumber, phases)
+            first = np.eye(2 * HARMONICS)[0]
+            parts = [Added(one) for one in (wave.shape(), *wave.moves(first, system.fitted))]
+            option = option_of_wave(parts, system, SCALES_ASKED)
+            yield Law(effect.id, candidate, *_range(effect, candidate), parts[0].unknown,
+                      lambda value, first=first: value * first, wave=option)  # fmt: skip

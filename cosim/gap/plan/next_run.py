@@ -1,8 +1,7 @@
-"""The next best run: which one more run tells two explanations apart.
+"""The next best run: which one more run tells two laws apart.
 
 What is true is put into the rows of the runs that there are and of one more, simulated without it,
-and both explanations are asked for, as in `cosim.gap.rates`. The same search serves a plan and a
-class that was found.
+and both laws are asked for, as in `cosim.gap.plan.sizes`.
 """
 
 from __future__ import annotations
@@ -13,23 +12,20 @@ from typing import Any
 
 import numpy as np
 
-from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data import Campaign
 from cosim.gap.data.errors import CampaignError
+from cosim.gap.plan.laws import Law, laws_of
 from cosim.gap.plan.planned import PlannedRun, rows_of_run, simulated
-from cosim.gap.rates import Decision, Truth, drawn, options_of, scatter_of
+from cosim.gap.plan.sizes import Design
 from cosim.gap.weak_form.arguments import Arguments
-from cosim.gap.weak_form.ladder import Ladder
-from cosim.gap.weak_form.system import Added, System
-from cosim.gap.weak_form.unknowns import Unknown
+from cosim.gap.weak_form.system import System
 
 #: Beyond the campaign's own settings, where no limits are stated, by this factor.
 BEYOND = 3.0
-#: Campaigns that are drawn of every truth and run.
+#: Campaigns that are drawn of every law and run.
 DRAWS = 40
 #: Runs this near to the best, in separation, are as good: then the one that changes the rig least.
 NEARLY = 0.9
-#: How well a law is followed by the unknown of a longer campaign, parts of the noise.
-FOLLOWED = 0.03
 SETTINGS = ("surface_speed", "mass", "stiffness")
 
 
@@ -60,57 +56,38 @@ class NextRun:
         )
 
     def as_data(self) -> dict[str, Any]:
-        """As `Gap.next_experiment` and `plan.json` have it."""
+        """As `plan.json` has it."""
         return {**asdict(self), "text": self.text}
 
 
-def next_experiment(
-    ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], members: Sequence[str]
-) -> dict[str, Any] | None:
-    """The run that would separate a class that was found, each member as large as the rows have it.
-
-    unknowns : of `Arguments`. None where no run within the limits does.
-    """
-    system = ladder.system
-    rung, level = system.rung(), system.level
-    truths = [
-        Truth.of(name, system.rung([rung.offered(unknowns[name])[1]]))
-        for name in members if name in unknowns
-    ]  # fmt: skip
-    if len(truths) < 2:
-        return None
-    friction = {"mu_s": max(level.static, level.kinetic), "mu_k": level.kinetic}
-    found = best_next_run(system, truths, friction, scatter_of(ladder.rung))
-    return None if found is None else found.as_data()
-
-
 def best_next_run(
-    system: System, truths: Sequence[Truth], friction: Mapping[str, float], scatter: float,
-    progress: Callable[[], object] = lambda: None,
+    system: System, laws: Sequence[tuple[Law, float]], friction: Mapping[str, float],
+    scatter: float, progress: Callable[[], object] = lambda: None,
 ) -> NextRun | None:  # fmt: skip
-    """The run that sets the nearest two of several explanations farthest apart; None: none can.
+    """The run that sets the nearest two of several laws farthest apart; None: none can.
 
-    truths : of one unknown each, as large as they are; friction : mu_s, mu_k
+    laws : each with the value of its size; friction : mu_s, mu_k
     """
-    campaign = system.campaign
-    before = _separation(system, truths, scatter, len(system.runs))
+    campaign, before = system.campaign, _separation(system, laws, scatter)
     found = []
     for option in options(campaign):
         progress()
-        more = _with(system, option, friction)
-        if more is not None:
-            separation = _separation(more, truths, scatter, len(system.runs))
-            found.append((separation, option))
+        try:
+            run = simulated(campaign, option, friction, np.random.default_rng(0))
+            rows = [*system.runs, rows_of_run(campaign, run)]
+            more = System(replace(campaign, runs=(*campaign.runs, run)), rows, every=True)
+            found.append((_separation(more, laws, scatter), option))
+        except (CampaignError, ValueError, ArithmeticError, np.linalg.LinAlgError):
+            continue  # the rig cannot make it
     best = max((separation for separation, _ in found), default=before)
     if best <= before:
         return None
     near = [pair for pair in found if pair[0] >= NEARLY * best]
-    separation, option = min(near, key=lambda pair: _changed(campaign, pair[1].setting))
-    run = option.setting
-    return NextRun(
-        run.surface_speed, run.mass, run.stiffness, option.duration,
-        tuple(truth.name for truth in truths), separation, before,
-    )  # fmt: skip
+    separation, option = min(near, key=lambda pair: _changed(campaign, pair[1]))
+    setting = {key: getattr(option.setting, key) for key in SETTINGS}
+    names = tuple(law.argument for law, _ in laws)
+    return NextRun(**setting, duration=option.duration, effects=names,
+                   separation=separation, separation_before=before)  # fmt: skip
 
 
 def options(campaign: Campaign) -> list[PlannedRun]:
@@ -120,12 +97,13 @@ def options(campaign: Campaign) -> list[PlannedRun]:
     """
     runs = [run for run in campaign.runs if run.track is not None]
     used = {key: sorted(abs(getattr(run, key)) for run in runs) for key in SETTINGS}
-    middle = {key: values[len(values) // 2] for key, values in used.items()}
     ends = {
         key: campaign.limits.get(key, (values[0] / BEYOND, values[-1] * BEYOND))
         for key, values in used.items()
     }
-    middle = {key: float(np.clip(value, *ends[key])) for key, value in middle.items()}
+    middle = {
+        key: float(np.clip(values[len(values) // 2], *ends[key])) for key, values in used.items()
+    }
     slow, fast = ends["surface_speed"]
     settings = [middle | {"surface_speed": v} for v in (slow, float(np.sqrt(slow * fast)), fast)]
     settings += [
@@ -134,72 +112,38 @@ def options(campaign: Campaign) -> list[PlannedRun]:
     ]  # fmt: skip
     longest = sorted(runs, key=lambda run: run.motion.duration)[len(runs) // 2]
     sign = float(np.sign(sum(run.surface_speed for run in runs))) or 1.0
-    found = []
-    for one in dict.fromkeys(tuple(float(f"{s[key]:.3g}") for key in SETTINGS) for s in settings):
-        speed, mass, stiffness = one
-        setting = replace(
-            longest, name="next", mass=mass, stiffness=stiffness, surface_speed=sign * speed,
-            track=None, hold_out=False,
-        )  # fmt: skip
-        interval = longest.motion.interval
-        found.append(PlannedRun(setting, longest.motion.duration, 1.0 / interval))
-    return found
+    rounded = [tuple(float(f"{one[key]:.3g}") for key in SETTINGS) for one in settings]
+    return [
+        PlannedRun(
+            replace(longest, name="next", surface_speed=sign * speed, mass=mass,
+                    stiffness=stiffness, track=None, hold_out=False),
+            longest.motion.duration, 1.0 / longest.motion.interval,
+        )
+        for speed, mass, stiffness in dict.fromkeys(rounded)
+    ]  # fmt: skip
 
 
-def _changed(campaign: Campaign, run: MeasuredRun) -> int:
+def _changed(campaign: Campaign, option: PlannedRun) -> int:
     """How many of mass and springs the campaign has not."""
     return sum(
-        all(abs(getattr(run, key) / getattr(other, key) - 1.0) > 0.01 for other in campaign.runs)
+        all(abs(getattr(option.setting, key) / getattr(run, key) - 1.0) > 0.01
+            for run in campaign.runs)
         for key in ("mass", "stiffness")
-    )
+    )  # fmt: skip
 
 
-def _with(system: System, option: PlannedRun, friction: Mapping[str, float]) -> System | None:
-    """The rows with those of one more run, which is the last; None where the rig cannot make it."""
-    campaign = system.campaign
-    try:
-        run = simulated(campaign, option, friction, np.random.default_rng(0))
-        rows = rows_of_run(campaign, run)
-    except (CampaignError, ValueError, ArithmeticError, np.linalg.LinAlgError):
-        return None
-    if not len(rows):
-        return None
-    more = replace(campaign, runs=(*campaign.runs, run))
-    return System(more, [*system.runs, rows], every=True)
-
-
-def _separation(system: System, truths: Sequence[Truth], scatter: float, known: int) -> float:
-    """Least, over pairs, of the middle ln evidence of what is true beyond that of the other.
-
-    known : runs of the system in whose rows the truths are given
-    """
+def _separation(system: System, laws: Sequence[tuple[Law, float]], scatter: float) -> float:
+    """Least, over pairs, of the middle ln evidence of what is true beyond that of the other."""
     unknowns = Arguments(system.campaign, system.runs, system.level).unknowns()
-    names = {truth.name for truth in truths}
-    asked = {name: unknowns[name] for name in names if name in unknowns}
-    if set(asked) != names:
+    asked = {law.argument: unknowns[law.argument] for law, _ in laws if law.argument in unknowns}
+    every = laws_of(system, asked)
+    here = [same for law, _ in laws if (same := law.among(every)) is not None]
+    if len(here) < len(laws):
         return 0.0
-    runs = len(system.fitted)
-    decision = Decision(system.rung(), {n: options_of(v, runs) for n, v in asked.items()})
-    noise = drawn(system.rung(), DRAWS, np.random.default_rng(0), scatter, 1.0)
-    nearest = np.inf
-    for truth in truths:
-        rows = noise + _followed(truth, asked[truth.name], system, known)[:, None]
-        offers = decision.offers(rows)
-        place = offers.names.index(truth.name)
+    design, nearest = Design(system, asked, here, scatter, draws=DRAWS), np.inf
+    for number, (law, value) in enumerate(laws):
+        offers = design.offers(number, abs(value - law.neutral))
+        place = offers.names.index(law.argument)
         apart = offers.evidence[place] - np.delete(offers.evidence, place, axis=0)
         nearest = min(nearest, float(np.median(apart, axis=1).min()))
     return max(nearest, 0.0)
-
-
-def _followed(truth: Truth, variants: Sequence[Unknown], system: System, known: int) -> np.ndarray:
-    """(rows,) of a truth, its curve drawn anew over what all runs span, straight on beyond."""
-    (old,), (sizes,) = truth.unknowns, truth.sizes
-    first = system.fitted[:known]
-    wanted = old.columns(first) @ sizes
-    unknown = next((one for one in variants if one.variant == old.variant), variants[0])
-    columns = system.columns(unknown)
-    bend = 1.0 if unknown.bends is not None else 0.0
-    factor = Added(unknown, max(float(np.max(np.abs(sizes))), 1e-6), bend).factor
-    seen = columns[: wanted.size] @ factor / FOLLOWED
-    unit = np.linalg.solve(seen.T @ seen + np.eye(factor.shape[0]), seen.T @ (wanted / FOLLOWED))
-    return np.asarray(columns @ (factor @ unit))

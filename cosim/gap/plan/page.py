@@ -36,21 +36,23 @@ def draw_sizes(plan: Plan) -> Figure:
     sizes = plan.sizes
     figure, axes = panels(1, 1, height=1.2 + 0.42 * max(len(sizes), 1), width=9.0)
     axis = axes[0, 0]
-    ends = [[_percent(size.value, size), _percent(size.alone, size)] for size in sizes]
-    every = [end for pair in ends for end in pair if math.isfinite(end)] or [1.0]
-    left, right = 0.5 * min(every), 4.0 * max(every)
-    for place, (size, (named, alone)) in enumerate(zip(sizes, ends, strict=True)):
-        if not math.isfinite(named):
+    label: dict[str, Any] = {"va": "center", "fontsize": 8.5}
+    ends = [(size, end) for size in sizes for end in (size.value, size.alone)]
+    every = [size.law.percent(end) for size, end in ends if end is not None]
+    left, right = 0.5 * min(every, default=1.0), 4.0 * max(every, default=1.0)
+    for place, size in enumerate(sizes):
+        if size.percent is None:
             axis.text(1.1 * left, place, "not seen, whatever its size", va="center", color=RED)
             continue
-        label: dict[str, Any] = {"va": "center", "fontsize": 8.5}
-        axis.barh(place, named - left, left=left, height=0.36, color=BLUE)
-        if math.isfinite(alone) and alone > 1.3 * named:
+        alone = math.inf if size.alone is None else size.law.percent(size.alone)
+        axis.barh(place, size.percent - left, left=left, height=0.36, color=BLUE)
+        if 1.3 * size.percent < alone < math.inf:
             axis.barh(place + 0.3, alone - left, left=left, height=0.2, color=ORANGE)
             text = data.value_text(size.alone, size)
             axis.text(1.05 * alone, place + 0.32, text, color=INK, **label)
         never = "" if math.isfinite(alone) else "  (never by itself)"
-        axis.text(1.05 * named, place - 0.02, data.value_text(size.value, size) + never, **label)
+        text = data.value_text(size.value, size) + never
+        axis.text(1.05 * size.percent, place - 0.02, text, **label)
     logarithmic_x(axis)
     axis.set_xlim(left, right)
     axis.set_yticks(range(len(sizes)), [_name(size) for size in sizes])
@@ -66,7 +68,3 @@ def draw_sizes(plan: Plan) -> Figure:
 def _name(size: data.Size) -> str:
     """Its parameter, and of a wave its length."""
     return f"{size.law.key}, {size.law.unknown.variant}" if size.law.wave else size.law.key
-
-
-def _percent(value: float | None, size: data.Size) -> float:
-    return math.inf if value is None else size.law.percent(value)

@@ -10,9 +10,8 @@ import numpy as np
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.plan.laws import Law, laws_of, silent
 from cosim.gap.plan.next_run import NextRun, best_next_run
-from cosim.gap.plan.planned import PlannedCampaign, as_measured, asked_of
-from cosim.gap.plan.sizes import HALVINGS, Design, Size, false_names, size_at, sizes_of
-from cosim.gap.rates import Truth
+from cosim.gap.plan.planned import PlannedCampaign, as_measured, asked_as_planned
+from cosim.gap.plan.sizes import Design, Size, false_names, sizes_of
 
 #: Chance that what is there is named: the usual one of a test (Cohen 1988).
 WANTED = 0.8
@@ -24,8 +23,6 @@ TRIED = 11
 #: Simulations with an effect until it is named as often as wanted, within so much; and by what
 #: factor its size is changed while only one side is known.
 ROUNDS, NEAR, LEAP = 4, 0.07, 1.25
-#: Rows, sizes of both kinds, runs.
-STEPS = 1 + 2 * (HALVINGS + 1) + TRIED
 
 
 @dataclass(frozen=True)
@@ -69,7 +66,7 @@ def make_plan(
 
     progress : called with the steps done and all
     """
-    done, total = 0, STEPS
+    done, total = 0, 1 + TRIED
 
     def step() -> None:
         nonlocal done
@@ -77,9 +74,9 @@ def make_plan(
         progress(done, total)
 
     campaign = as_measured(planned, seed)
-    system, unknowns = asked_of(campaign)
+    system, unknowns = asked_as_planned(campaign)
     laws = laws_of(system, unknowns)
-    scatter, total = campaign.errors.friction, STEPS + len(laws)
+    scatter, total = campaign.errors.friction, total + 2 * len(laws)
     step()
     sizes = sizes_of(design := Design(system, unknowns, laws, scatter, seed=seed), wanted, step)
     pair = _worst_pair(sizes)
@@ -97,47 +94,39 @@ def _settled(
     The campaign is simulated with it until the chance is the wanted one; a wave changes little.
     """
     step()
-    if size.value is None or size.law.wave is not None:
+    law = size.law
+    if size.value is None or law.wave is not None:
         return size
-    away, low, high = abs(size.value - size.law.neutral), 0.0, np.inf
+    away, low, high = abs(size.value - law.neutral), 0.0, np.inf
+    alone = np.inf if size.alone is None else abs(size.alone - law.neutral)
     for _ in range(ROUNDS):
         try:
-            measured = as_measured(planned, seed, size.law.blocks(size.law.value(away)))
-            system, unknowns = asked_of(measured)
+            measured = as_measured(planned, seed, law.blocks(law.value(away)))
+            system, unknowns = asked_as_planned(measured)
+            same = law.among(laws_of(system, unknowns))
         except (CampaignError, ValueError, ArithmeticError):
             return size
-        same = [law for law in laws_of(system, unknowns)
-                if law.key == size.law.key and law.value(1.0) == size.law.value(1.0)]  # fmt: skip
-        if not same:
+        if same is None:
             return size
-        design = Design(system, unknowns, same[:1], planned.campaign.errors.friction, seed=seed)
-        size = size_at(design, away, size.alone)
-        power = size.power
-        if abs(power - wanted) < NEAR:
+        design = Design(system, unknowns, [same], planned.campaign.errors.friction, seed=seed)
+        size = design.size(0, away, alone)
+        if abs(size.power - wanted) < NEAR:
             break
-        low, high = (away, high) if power < wanted else (low, away)
+        low, high = (away, high) if size.power < wanted else (low, away)
         if low and np.isfinite(high):
             away = float(np.sqrt(low * high))
         else:
-            away *= LEAP if power < wanted else 1.0 / LEAP
+            away *= LEAP if size.power < wanted else 1.0 / LEAP
     return size
 
 
-def _worst_pair(sizes: list[Size]) -> list[Truth]:
+def _worst_pair(sizes: list[Size]) -> list[tuple[Law, float]]:
     """The two effects that are most often taken for one another, each at its smallest size."""
     curves = {size.law.argument: size for size in sizes
               if size.value is not None and size.law.wave is None}  # fmt: skip
-    shares = {
-        (one, other): size.shares.get(other, 0.0)
-        for one, size in curves.items() for other in curves if other != one
-    }  # fmt: skip
-    if not shares or max(shares.values()) == 0.0:
-        return []
-    return [
-        _truth(curves[one].law, curves[one].value) for one in max(shares, key=shares.__getitem__)
-    ]
-
-
-def _truth(law: Law, value: float | None) -> Truth:
-    assert value is not None
-    return Truth(law.argument, (law.unknown,), (np.asarray(law.sizes(value)),))
+    pairs = [
+        (share, [size, curves[other]])
+        for size in curves.values() for other, share in size.shares.items() if other in curves
+    ]  # fmt: skip
+    _, worst = max(pairs, key=lambda pair: pair[0], default=(0.0, []))
+    return [(size.law, size.value or 0.0) for size in worst]

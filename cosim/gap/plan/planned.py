@@ -17,12 +17,10 @@ from cosim.gap.data.campaign_file import FILE_NAME, RunTable, read_tables
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.friction_table import read_friction_table
 from cosim.gap.data.units import COARSEST
-from cosim.gap.weak_form.arguments import Arguments
-from cosim.gap.weak_form.camera_faults import camera_faults
+from cosim.gap.weak_form.asked import Unknowns, asked_of
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth, thinned
-from cosim.gap.weak_form.unknowns import Unknown
 from cosim.scenario.faults import describe_faults
 
 #: Ice on steel or ice at the temperatures and speeds of a cold room slides at about 0.1 (Marmo et
@@ -183,17 +181,11 @@ def simulated(
     return replace(setting, track=track)
 
 
-def asked_of(campaign: Campaign) -> tuple[System, dict[str, list[Unknown]]]:
-    """Rows of all runs, and what they are asked for, as `find.name` does it.
-
-    Nothing moves the block across, and the surface's speed does not vary: that is not looked for.
-    """
+def asked_as_planned(campaign: Campaign) -> tuple[System, Unknowns]:
+    """Rows along x of all runs, and what `gap` asks of them: nothing moves the block across."""
     rows = [rows_of_run(campaign, run) for run in campaign.runs]
-    system = System(campaign, rows, every=True)
-    arguments = Arguments(campaign, system.runs, system.level).unknowns()
-    faults = camera_faults(system.rung())
-    faults.pop("measurement.smoothing", None)  # asked of runs in which nothing else is missing
-    return system, {**arguments, **faults}
+    system, _, unknowns = asked_of(campaign, rows)
+    return system, unknowns
 
 
 def rows_of_run(campaign: Campaign, run: MeasuredRun) -> RunRows:

@@ -22,17 +22,11 @@ from functools import cache
 
 import numpy as np
 from scipy.linalg.lapack import dtbtrs
-from scipy.signal import savgol_filter
 
 from cosim.gap.data.campaign_file import Rig
-from cosim.gap.weak_form.constants import (
-    MOST_TURN,
-    PLANE_STEP,
-    QUINTIC_REACH,
-    SLOWEST_SLIDING,
-)
+from cosim.gap.weak_form.constants import MOST_TURN, QUINTIC_REACH, SLOWEST_SLIDING
 from cosim.gap.weak_form.rig_geometry import spring_loads
-from cosim.gap.weak_form.track import SmoothTrack
+from cosim.gap.weak_form.track import SmoothTrack, derivatives
 
 #: Unknowns of a form: 1/R (1/m), angle by which the surface runs askew under the resting block (a
 #: slab's centre ahead of it, rad), turn of the springs (rad), shift of their anchors (m), ln g.
@@ -86,10 +80,8 @@ class Plane:
         spin = ratio * radius * np.abs(speed * self.curvature - self.turning)
         return along, np.hypot(along, across), spin
 
-    def loads(
-        self, rig: Rig, stiffness: float, x: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(n,) forces of the springs along x and y, N, and their moment, N m, at places x (n,)."""
+    def loads(self, rig: Rig, stiffness: float, x: np.ndarray) -> np.ndarray:
+        """(3, n) forces of the springs along x and y, N, and moment, N m, at places x (n,)."""
         return spring_loads(rig, stiffness, x, self.y - self.shift, self.phi, self.turn)
 
 
@@ -97,12 +89,8 @@ def measured(track: SmoothTrack) -> Plane:
     """As the tracker saw it, smoothed; a turn that it did not see is none."""
     phi = np.zeros((2, track.time.size))
     if track.phi is not None:
-        reach = max(2, round(QUINTIC_REACH / track.run.natural_frequency / track.interval))
-        window = min(2 * reach + 1, (track.time.size - 1) // 2 * 2 + 1)
-        for rate in range(2):
-            phi[rate] = savgol_filter(
-                track.phi, window, min(5, window - 2), deriv=rate, delta=track.interval
-            )
+        reach = QUINTIC_REACH / track.run.natural_frequency
+        phi = derivatives(track.phi, track.interval, reach, 5)[:2]
     return Plane(track.place_y, phi[0], track.velocity_y, phi[1])
 
 
@@ -173,13 +161,13 @@ def course(
     drag = _drag(track, rig, friction, about) if SHARE in unknowns else np.zeros((2, x.size))
     held = measured(track)
     held = replace(about, y=held.y, phi=about.phi if track.phi is None else held.phi)
-    load = np.array(held.loads(rig, track.run.stiffness, x)[1:])
-    slope = np.array([_slope(held, track, rig, name, load) for name in ("y", "phi")])
+    load = held.loads(rig, track.run.stiffness, x)[1:]
+    slope = np.array([_slope(held, track, rig, name) for name in ("y", "phi")])
     surface = np.array([v * x, v])
     columns = {
         CURVATURE: drag * surface,
         ASKEW: drag * [v, np.zeros_like(v)],
-        TURN: _slope(held, track, rig, "turn", load),
+        TURN: _slope(held, track, rig, "turn"),
         SHIFT: -slope[0],
         SHARE: drag * [about.drift(v, x) - about.velocity_y, about.curvature * v - about.turning],
     }
@@ -208,11 +196,10 @@ def _drag(track: SmoothTrack, rig: Rig, friction: float, about: Plane) -> np.nda
     return np.array([share * force / sliding, share * radius**2 * per_spin])
 
 
-def _slope(about: Plane, track: SmoothTrack, rig: Rig, name: str, load: np.ndarray) -> np.ndarray:
-    """(2, n) derivative of the springs' force along y and moment."""
-    more = replace(about, **{name: getattr(about, name) + PLANE_STEP})
-    there = more.loads(rig, track.run.stiffness, track.place)
-    return (np.array(there[1:]) - load) / PLANE_STEP
+def _slope(about: Plane, track: SmoothTrack, rig: Rig, name: str) -> np.ndarray:
+    """(2, n) derivative of the springs' force along y and moment, by a complex step."""
+    more = replace(about, **{name: getattr(about, name) + 1e-20j})
+    return np.imag(more.loads(rig, track.run.stiffness, track.place)[1:]) / 1e-20
 
 
 def _solve(

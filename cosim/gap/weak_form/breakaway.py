@@ -18,7 +18,7 @@ import numpy as np
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import Plane
 from cosim.gap.weak_form.constants import MOST_OVERSHOOT, SHORTEST_STICK
-from cosim.gap.weak_form.rig_geometry import spring_force
+from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
 
@@ -73,7 +73,7 @@ def _held(rig: Rig, stiffness: float, x: float, at: int, plane: Plane | None) ->
     """Force of the springs at x, N, its sign that of what they pull back along x."""
     place = np.array([x])
     if plane is None:
-        return -float(spring_force(rig, stiffness, place)[0][0])
+        return -float(spring_loads(rig, stiffness, place)[0][0])
     along, across, _ = plane.at(at).loads(rig, stiffness, place)
     return -float(np.copysign(np.hypot(along[0], across[0]), along[0]))
 

@@ -30,25 +30,18 @@ itself: the runs are ordered by it, and the first of the order are asked togethe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
-from scipy.signal import savgol_filter
 from scipy.special import ndtr
 
-from cosim.gap.weak_form.constants import (
-    FAULT_DRIFT,
-    FAULT_LATENCY,
-    FAULT_ORDERED_AT,
-    FAULT_PART,
-    FAULT_ZERO,
-    FILTER_WIDTHS,
-)
+from cosim.gap.weak_form.constants import FAULT_SIZES, FILTER_WIDTHS
 from cosim.gap.weak_form.corners import CornerResponse, CornerRows
 from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.system import Added, Rung
+from cosim.gap.weak_form.track import derivatives
 from cosim.gap.weak_form.unknowns import Unknown, column
 
 #: Place along x over which a rolling shutter's delay is stated, m.
@@ -60,82 +53,36 @@ COURSES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "root": np.sqrt,
     "logarithmic": lambda u: np.log1p(20.0 * u) / np.log(21.0),
 }
-#: Fault -> what no data of this kind can tell it from.
-ALIKE = {
-    "measurement.scale": (
-        "a surface that is faster by as much in every run",
-        "where nothing sticks: friction that is larger by as much",
-    ),
-    "measurement.clock": (
-        "springs softer by twice as much on a surface that is slower by as much",
-        "where nothing sticks: springs softer by twice as much, or a block heavier by that",
-    ),
-    "measurement.drift": ("in runs of one mass and stiffness: friction that drifts in time",),
-    "measurement.latency": ("in runs of one speed, nearly: a scale",),
-    "measurement.smoothing": (
-        "up to 10 ms: a contact that lets go and grips over some 50 um, as bristles do",
-    ),
-    "measurement.zero": (
-        "friction that scatters from run to run, nearly",
-        "in runs of one stiffness: a force that is the same in all, and springs off the middle",
-    ),
-}
-
+SMOOTHING = "measurement.smoothing"
 #: Every fault that has a name; a turned camera is found in the plane.
-FAULTS = (*ALIKE, "measurement.rotation", "measurement.quantisation")
+FAULTS = tuple(f"measurement.{name}" for name in (*FAULT_SIZES, "rotation", "quantisation"))
 
 Respond = Callable[[RunRows], Response]
 
 
-@dataclass(frozen=True)
-class InRuns(Unknown):
-    """An unknown of one size in some runs, and none in the others.
-
-    among : the names of these runs; None: all. each : one size for each run instead.
-    made : run -> its rows, which variants share
-    """
-
-    among: frozenset[str] | None = None
-    made: dict[str, np.ndarray] = field(default_factory=dict, repr=False, compare=False)
-
-    def columns(self, runs: Sequence[RunRows]) -> np.ndarray:
-        """(rows of all runs, unknowns)"""
-        parts = [self._rows(run) for run in runs]
-        if not self.per_run:
-            return np.concatenate(parts)
-        columns = np.zeros((sum(map(len, runs)), len(runs)))
-        ends = np.cumsum([0, *map(len, runs)])
-        for number, part in enumerate(parts):
-            columns[ends[number] : ends[number + 1], number] = part[:, 0]
-        return columns
-
-    def _rows(self, run: RunRows) -> np.ndarray:
-        """(rows, 1)"""
-        name = run.track.run.name
-        if self.among is not None and name not in self.among:
-            return np.zeros((len(run), 1))
-        if name not in self.made:
-            self.made[name] = run.respond(self.respond(run), 1)
-        return self.made[name]
-
-
-def alike(name: str) -> tuple[str, ...]:
-    """What a fault is confounded with, in words."""
-    return ALIKE.get(name, ())
-
-
 def camera_faults(rung: Rung) -> dict[str, list[Unknown]]:
     """fault -> its variants: in all runs, and in those which a rung's rows ask for."""
-    level = rung.system.level
+    level, runs = rung.system.level, rung.system.fitted
     made = {
-        "measurement.scale": _of_one_form(rung, "measurement.scale", scale(level), FAULT_PART),
-        "measurement.clock": _of_one_form(rung, "measurement.clock", clock(level), FAULT_PART),
-        "measurement.drift": _drifts(rung),
-        "measurement.latency": _of_one_form(rung, "measurement.latency", latency, FAULT_LATENCY),
-        "measurement.smoothing": _filters(rung),
-        "measurement.zero": _zeros(rung),
-    }
-    return {name: found for name, variants in made.items() if (found := list(variants))}
+        "measurement.scale": _among(rung, _fault("scale", scale(level))),
+        "measurement.clock": _among(rung, _fault("clock", clock(level))),
+        "measurement.drift": [
+            one for course in COURSES  # the root lies between the others
+            for one in _among(rung, _fault("drift", drift(course), course), course == "root")
+        ],
+        "measurement.latency": _among(rung, _fault("latency", latency)),
+        SMOOTHING: filters(rung),
+        "measurement.zero": [replace(_fault("zero", zero, "each run"), per_run=True)],
+    }  # fmt: skip
+    if len({run.track.run.stiffness for run in runs}) > 1:  # else it is a force
+        made["measurement.zero"].append(_fault("zero", zero, "all runs"))
+    return {name: variants for name, variants in made.items() if variants}
+
+
+def _fault(name: str, respond: Respond, variant: str = "", **settings: float) -> Unknown:
+    """Of one size in all runs."""
+    prior = FAULT_SIZES[name] ** 2 * np.eye(1)
+    return Unknown(f"measurement.{name}", variant, respond, prior, settings=settings)
 
 
 def scale(level: Level) -> Respond:
@@ -147,7 +94,7 @@ def scale(level: Level) -> Respond:
         return Response(
             force=column(level.kinetic * run.weight * track.direction),
             speed=np.full((track.time.size, 1), track.run.surface_speed),
-            static=held + run.track.run.total_stiffness * _overshoot(run),
+            static=held + run.track.run.total_stiffness * _ahead(run)[1],
         )
 
     return respond
@@ -205,7 +152,7 @@ def smoothing(width: float, past: bool) -> Respond:
             size = corner.acceleration * width**2 * (1.0 if corner.breaks or not past else -1.0)
             rounded += size * (_past(forward) if past else _gaussian(forward))
         rounded += width * _at_the_ends(run, width, past)
-        lower = -0.5 * (own.natural_frequency * width) ** 2 * _turning(run)
+        lower = -0.5 * (own.natural_frequency * width) ** 2 * sum(_ahead(run))
         return CornerResponse(
             place=column(rounded),
             static=own.total_stiffness * (lower - _at_events(run, rounded)),
@@ -234,9 +181,8 @@ def _undone(run: RunRows, width: float) -> np.ndarray:
 
     So in fast runs: where a stick is shorter than the filter no slip reaches the surface's speed.
     """
-    track = run.track
-    window = 2 * max(2, round(0.5 * width / track.interval)) + 1
-    return -width * column(savgol_filter(track.x, window, 3, 1, track.interval))
+    rate = derivatives(run.track.x, run.track.interval, 0.5 * width, 3)[1]
+    return -width * column(rate)
 
 
 def _gaussian(u: np.ndarray) -> np.ndarray:
@@ -261,95 +207,64 @@ def _at_events(run: RunRows, place: np.ndarray) -> np.ndarray:
     return column(np.sign(run.track.run.surface_speed) * place[[e.at for e in run.events]])
 
 
-def _turning(run: RunRows) -> np.ndarray:
-    """(events, 1) m: what x_b = x_k + sqrt(A^2 - (V / omega)^2) is off by for A off by a part."""
-    ahead, over = _ahead(run)
-    return column((ahead**2 + over**2) / ahead) if run.events else np.zeros((0, 1))
+def _ahead(run: RunRows) -> tuple[np.ndarray, np.ndarray]:
+    """(events, 1) m: x_b - x_k, and (V / omega)^2 over it.
 
-
-def _overshoot(run: RunRows) -> np.ndarray:
-    """(events, 1) m: the same for all scaled by a part, but V / omega."""
-    ahead, over = _ahead(run)
-    return column(over**2 / ahead) if run.events else np.zeros((0, 1))
-
-
-def _ahead(run: RunRows) -> tuple[np.ndarray, float]:
-    """(events,) x_b - x_k, m, and the overshoot V / omega, m."""
+    All that is scaled by a part, but V / omega, shifts x_b = x_k + sqrt(A^2 - (V / omega)^2) by the
+    second; A alone by their sum.
+    """
     own, track = run.track.run, run.track
     slips = track.slips_mask
     balance = track.place[slips] + track.acceleration[slips] / own.natural_frequency**2
     middle = float(np.sign(own.surface_speed) * np.median(balance)) if slips.any() else 0.0
     over = abs(own.surface_speed) / own.natural_frequency
-    ahead = np.array([event.force / own.total_stiffness - middle for event in run.events])
-    return np.maximum(ahead, 0.3 * over + 1e-9), over
+    ahead = column([event.force / own.total_stiffness - middle for event in run.events])
+    ahead = np.maximum(ahead, 0.3 * over + 1e-9)
+    return ahead, over**2 / ahead
 
 
-def _of_one_form(rung: Rung, name: str, respond: Respond, sd: float) -> Iterator[Unknown]:
-    yield from _among(rung, InRuns(name, "", respond, sd**2 * np.eye(1)))
-
-
-def _drifts(rung: Rung) -> Iterator[Unknown]:
-    """Every course in all runs; the root, which is between the others, in some."""
-    for course in COURSES:
-        whole = InRuns("measurement.drift", course, drift(course), FAULT_DRIFT**2 * np.eye(1))
-        yield from _among(rung, whole, in_some=course == "root")
-
-
-def _filters(rung: Rung) -> Iterator[Unknown]:
+def filters(rung: Rung) -> list[Unknown]:
     """Every width in all runs; that which the rows prefer in some; none that would sharpen."""
     if not any(isinstance(run, CornerRows) for run in rung.system.fitted):
-        return
+        return []
+    variants: list[Unknown] = []
     for past, words in ((False, "Gaussian"), (True, "of the past")):
         forms = [
-            InRuns(
-                "measurement.smoothing", f"{words}, {1e3 * width:.0f} ms", smoothing(width, past),
-                np.eye(1), settings={"width": width, "past": float(past)},
-            )
+            _fault("smoothing", smoothing(width, past), f"{words}, {1e3 * width:.0f} ms",
+                   width=width, past=float(past))
             for width in FILTER_WIDTHS
         ]  # fmt: skip
-        best = max(forms, key=lambda form: rung.offered([_each(form)])[0])
-        variants = [*(whole for form in forms for whole in _among(rung, form, in_some=False)),
-                    *_among(rung, best, in_all=False)]  # fmt: skip
-        yield from (variant for variant in variants if _sizes(rung, variant)[0][0] > 0.0)
+        best = max(forms, key=lambda form: rung.offered([replace(form, per_run=True)])[0])
+        for form in forms:
+            variants += _among(rung, form, in_some=form is best)
+    return [variant for variant in variants if _sizes(rung, variant)[0][0] > 0.0]
 
 
-def _zeros(rung: Rung) -> Iterator[Unknown]:
-    """Each run its own; and of all runs alike, where another stiffness tells it from a force."""
-    prior = FAULT_ZERO**2 * np.eye(1)
-    yield Unknown("measurement.zero", "each run", zero, prior, per_run=True)
-    if len({run.track.run.stiffness for run in rung.system.fitted}) > 1:
-        yield Unknown("measurement.zero", "all runs", zero, prior)
-
-
-def _each(unknown: InRuns) -> InRuns:
-    """Of another size in every run."""
-    return replace(unknown, per_run=True, among=None)
-
-
-def _among(
-    rung: Rung, unknown: InRuns, in_all: bool = True, in_some: bool = True
-) -> Iterator[Unknown]:
-    """In all runs, and in the first of these as the sizes of each by itself order them."""
-    words = [unknown.variant] if unknown.variant else []
-    if in_all:
-        yield replace(unknown, variant=", ".join([*words, "all runs"]))
-    for names in _subsets(rung, unknown) if in_some else ():
-        among = "in " + ", ".join(sorted(names))
-        yield replace(unknown, variant=", ".join([*words, among]), among=names)
-
-
-def _subsets(rung: Rung, unknown: InRuns) -> list[frozenset[str]]:
-    """Runs where the fault is largest, and where it is the most negative: one, two, ... of them."""
+def _among(rung: Rung, unknown: Unknown, in_some: bool = True) -> list[Unknown]:
+    """In all runs; and in those where it is largest, or most negative by itself: one, two, ..."""
     names = [run.track.run.name for run in rung.system.fitted]
-    mean, sd = _sizes(rung, _each(unknown))
-    order = [names[number] for number in np.argsort(-mean / sd)]
-    firsts = [frozenset(each[:n]) for each in (order, order[::-1]) for n in range(1, len(order))]
-    return list(dict.fromkeys(firsts))
+    found = {"all runs": frozenset(names)}
+    if in_some:
+        mean, sd = _sizes(rung, replace(unknown, per_run=True))
+        order = [names[number] for number in np.argsort(-mean / sd)]
+        for each in (order, order[::-1]):
+            for n in range(1, len(order)):
+                found["in " + ", ".join(sorted(each[:n]))] = frozenset(each[:n])
+    return [
+        replace(unknown, variant=", ".join(filter(None, [unknown.variant, words])),
+                respond=_within(unknown.respond, among) if among < frozenset(names)
+                else unknown.respond)
+        for words, among in found.items()
+    ]  # fmt: skip
+
+
+def _within(respond: Respond, names: frozenset[str]) -> Respond:
+    return lambda run: respond(run) if run.track.run.name in names else Response()
 
 
 def _sizes(rung: Rung, unknown: Unknown) -> tuple[np.ndarray, np.ndarray]:
     """Mean and standard deviation of an unknown's numbers on a rung."""
-    added = Added(unknown, FAULT_ORDERED_AT)
+    added = Added(unknown)
     with_it = rung.system.rung([*rung.added, added], *rung.kinds)
     mean, covariance = with_it.posterior
     part = with_it.part_of(added)

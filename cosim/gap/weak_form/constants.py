@@ -24,17 +24,19 @@ VELOCITY_SIGMAS = 3.0
 #: In a slip the surface gets ahead of the block by more than so many standard deviations of a
 #: sample: some 2000 samples of noise alone do not.
 SLIP_SIGMAS = 8.0
-#: Next to a slip a stick is not counted as one for so long, in 1 / omega: the smoothed velocity
-#: still mixes both.
-STICK_MARGIN = 0.3
 
 #: Swings faster than stated by this factor are those of other springs: noise and rubbing do not
 #: make them so, and their noise is weighed as that of the springs that are there.
 FAR_STIFFER = 1.25
 
+#: Rounds in which a linear fit and what it is linear about follow one another - phases and shape of
+#: a wave; numbers, sliding direction and turn in the plane -: 1e-3 of the change is left.
+ROUNDS = 6
+
 # Test functions.
 #: Distance of the splines' knots, in 1 / omega: ten wave lengths of the free oscillation's motion
-#: fit into what is left of the spectrum, and a slip of half a period holds ten functions.
+#: fit into what is left of the spectrum, and a slip of half a period holds ten functions. For so
+#: long next to a slip a stick is not counted as one: the smoothed velocity still mixes both.
 KNOTS = 0.3
 
 #: Part by which a variance is enlarged, so that rounding leaves a covariance positive: slow swings
@@ -105,9 +107,10 @@ SHORTEST_WAVE = 2.0
 MOST_WAVES = 1e7
 #: Peaks of the scan that are fitted as one shape.
 WAVES_FITTED = 3
-#: Standard deviation of a phase of which nothing is known, rad (even over a turn), and rounds in
-#: which phases and shape follow one another.
-PHASE_SD, PHASE_ROUNDS = 1.8, 6
+
+#: Angle by which a wave may be off at the end of a run while its phase is looked for, rad, and the
+#: most speeds of the surface to either side that are tried for it.
+ALIGNED, SPEEDS_TRIED = 1.5, 12
 
 # The ladder.
 #: ln of how much more probable the rows must be with a finding: with some twenty that are tried,
@@ -128,8 +131,8 @@ STOP_LENGTHS = (0.02, 0.1, 0.3, 1.0)
 #: rings for three periods, so that its frequency counts to 5 %.
 RESONATORS, RESONATOR_STEP, RESONATOR_DAMPING = (0.5, 4.0), 0.05, 0.05
 #: Parts of the surface's speed within which a block may move with it while its ripple is looked
-#: for, and ln evidence from which it is one: no threshold of an answer, only of what is a stick.
-RIPPLE_BANDS, RIPPLE_GAIN = (0.35, 0.15), 10.0
+#: for: no threshold of an answer, only of what is a stick.
+RIPPLE_BANDS = (0.35, 0.15)
 
 # The plane.
 #: Samples of a piece of which y is averaged; by how many standard deviations chi-squared of the
@@ -147,19 +150,9 @@ PLANE_FOLLOWED = 2e-3
 SLOWEST_SLIDING = 1e-6
 #: Largest turn of a block whose turn is not measured, rad: springs let it go no farther.
 MOST_TURN = 0.5
-#: Step of a derivative by place or angle, m or rad: errors of 1e-6 and of rounding 1e-10.
-PLANE_STEP = 1e-6
-#: Rounds in which numbers, sliding direction and turn follow one another: 1e-3 of them is left.
-#: Fewer, where the last one has changed ln evidence by less.
-PLANE_ROUNDS, SETTLED = 6, 0.3
-#: Standard deviation of ln g, g the square of lateral_friction.ratio, about isotropic friction; the
-#: least, a ratio of 0.2; the most, as mu_k, with which it goes, is known to some percent only; and
-#: the largest step in a round.
-SHARE_SD, LEAST_SHARE, MOST_SHARE, SHARE_STEP = 0.5, -3.2, 0.15, 0.7
-#: Largest curvature (1/m), turn (rad), shift (m) and camera angle (rad) that are expected: standard
-#: deviations; and the parts of them that are tried.
-CURVATURE_SD, TURN_SD, SHIFT_SD, ROTATION_SD = 3.0, 0.2, 0.03, 0.2
-PLANE_PARTS = (0.01, 0.03, 0.1, 0.3, 1.0)
+#: ln g, g the square of lateral_friction.ratio: the least, a ratio of 0.2; the most, as mu_k, with
+#: which it goes, is known to some percent only; and the largest step in a round.
+LEAST_SHARE, MOST_SHARE, SHARE_STEP = -3.2, 0.15, 0.7
 #: How far off the springs' axis a block may be put down, m: the values asked, from nowhere to be
 #: seen on.
 STARTS_ASKED = (1e-5, 3e-4, 3e-3, 2e-2)
@@ -172,27 +165,29 @@ SCATTER_RANGE, SCATTER_STEPS = (5e-4, 0.2), 33
 PHASES_TRIED = 12
 
 # Corners, and faults of the camera.
-#: Reach of a test function from a corner into its slip, and of the line in its stick, and the least
-#: of either, in 1 / omega: the longer, the less noise; the shorter, the less is asked of springs.
-CORNER_REACH, CORNER_LINE, CORNER_SHORTEST = 2.4, 3.0, 0.8
+#: Least reach of a test function from a corner into its slip, and of the line in its stick, in
+#: 1 / omega; three times as much at most: the longer, the less noise; the shorter, the less is
+#: asked of springs.
+CORNER_SHORTEST = 0.8
 #: Square of the time for which a contact rounds a corner as a filter would, s^2: bristles of 50 um
 #: under mu = 0.2 do as one of sqrt(2 z / (mu g)) = 7 ms.
 CORNER_CONTACT = 7e-3**2
-#: What faults are at the largest, as standard deviations: smaller ones are asked for too.
-#: Parts of scale and clock: who calibrates by hand is off by 1 to 4 %, who does not by 10 %.
-FAULT_PART = 0.1
-#: Course of the zero in a run, m: a stand that settles by 1 to 10 mm.
-FAULT_DRIFT = 1e-2
-#: Delay over 0.1 m, s: read-out of the frame of a slow chip (10 to 30 ms, Meingast et al. 2005)
-#: with a block that crosses it in a third.
-FAULT_LATENCY = 0.1
+#: What faults are at the largest, as standard deviations; smaller ones are asked for too. Parts of
+#: scale and clock: who calibrates by hand is off by 1 to 4 %, who does not by 10 %. Course of the
+#: zero in a run, m: a stand that settles by 1 to 10 mm. Delay over 0.1 m, s: read-out of the frame
+#: of a slow chip (10 to 30 ms, Meingast et al. 2005) with a block that crosses it in a third. Zero
+#: of a run, m: a target moved by hand. Smoothing: parts of the square of a filter's width.
+FAULT_SIZES = {
+    "scale": 0.1,
+    "clock": 0.1,
+    "drift": 1e-2,
+    "latency": 0.1,
+    "zero": 3e-3,
+    "smoothing": 1.0,
+}
 #: Standard deviations of filters that are tried, s: a third of a frame of 60 a second, which none
 #: sees, up to some frames of 30 a second; their squares lie apart by less than a scale asked for.
 FILTER_WIDTHS = (0.007, 0.012, 0.02, 0.035, 0.06)
-#: Scale at which the runs are ordered by their own size of a fault.
-FAULT_ORDERED_AT = 0.3
-#: Zero of a run, m: a target moved by hand.
-FAULT_ZERO = 3e-3
 
 # What cannot be told apart.
 #: ln of a Bayes factor below which two explanations are not told apart: 20 to 1 (Kass & Raftery,

@@ -7,22 +7,24 @@ unknowns about where they were found, so that the evidence has their price in it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.signal import find_peaks
 
 from cosim.gap.weak_form.constants import (
     HARMONICS,
+    ALIGNED,
     MOST_WAVES,
-    PHASE_ROUNDS,
-    PHASE_SD,
     PHASES_TRIED,
+    ROUNDS,
     SCAN_STEPS,
     SHORTEST_WAVE,
+    SPEEDS_TRIED,
     WAVES_FITTED,
 )
+from cosim.gap.weak_form.rig_unknowns import SPEED
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.system import Added, Rung
 from cosim.gap.weak_form.unknowns import Unknown
@@ -30,6 +32,8 @@ from cosim.gap.weak_form.unknowns import Unknown
 #: run -> (n,) coordinate of the wave; and (run, (n, q) waves) -> what a wave of unit size does.
 Coordinate = Callable[[RunRows], np.ndarray]
 Effect = Callable[[RunRows, np.ndarray], Response]
+
+ORDERS = np.arange(1, HARMONICS + 1)
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,7 @@ class Periodic:
     unit: str
 
 
-def kinds(level_of_friction: float, has_events: bool = True) -> tuple[Periodic, ...]:
+def kinds(level_of_friction: float) -> tuple[Periodic, ...]:
     """Friction over the place, the surface's speed over time or travel, friction over time."""
 
     def friction(run: RunRows, waves: np.ndarray) -> Response:
@@ -77,30 +81,27 @@ def kinds(level_of_friction: float, has_events: bool = True) -> tuple[Periodic, 
 def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | None:
     """ln evidence with the best wave of a kind, and what is added; None where none fits in."""
     wavenumbers, gains = _scan(rung, kind)
-    if wavenumbers.size == 0:
+    peaks = find_peaks(np.pad(gains, 1, constant_values=-np.inf))[0] - 1
+    tops = wavenumbers[peaks[np.argsort(-gains[peaks])]][:WAVES_FITTED]
+    if tops.size == 0:
         return None
-    best: tuple[float, tuple[Added, ...]] | None = None
-    tops = wavenumbers[_peaks(gains)[:WAVES_FITTED]]
     # bumps are strongest in a harmonic: twice and three times the strongest wave's length too
     longer = [tops[0] / part for part in (2.0, 3.0) if tops[0] / part >= wavenumbers[0]]
-    for wavenumber in (*tops, *longer):
-        found = _as_one_shape(rung, kind, float(wavenumber))
-        if best is None or found[0] > best[0]:
-            best = found
-    if best is None:
-        return None
-    shapes = WAVES_FITTED + len(longer)
-    return best[0] - float(np.log(wavenumbers.size / SCAN_STEPS * shapes)), best[1]
+    found = [_as_one_shape(rung, kind, float(wavenumber)) for wavenumber in (*tops, *longer)]
+    evidence, added = max(found, key=lambda each: each[0])
+    return evidence - price_of_scan(wavenumbers.size, len(longer)), added
 
 
-def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
+def price_of_scan(wavenumbers: int, longer: int = 2) -> float:
+    """ln of how many waves a scan chooses among. longer : of those that are fitted."""
+    return float(np.log(wavenumbers / SCAN_STEPS * (WAVES_FITTED + longer)))
+
+
+def wavenumbers_of(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
     """(w,) 1/m or 1/s, finely enough: from a wave seen twice in a run to what rows resolve."""
-    longest, finest = 0.0, np.inf
-    for run in runs:
-        at = kind.coordinate(run)
-        longest = max(longest, float(np.ptp(at)))
-        resolved = SHORTEST_WAVE / run.track.run.natural_frequency
-        finest = min(finest, float(np.ptp(at)) * resolved / np.ptp(run.track.time))
+    spans = np.array([np.ptp(kind.coordinate(run)) for run in runs])
+    swings = [np.ptp(run.track.time) * run.track.run.natural_frequency for run in runs]
+    longest, finest = spans.max(initial=0.0), np.min(spans * SHORTEST_WAVE / swings, initial=np.inf)
     if longest / 2.0 <= finest:
         return np.empty(0)
     every = np.arange(2.0 / longest, 1.0 / finest, 1.0 / (SCAN_STEPS * longest))
@@ -109,196 +110,200 @@ def _wavenumbers(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
 
 @dataclass(frozen=True)
 class _Waves:
-    """Rows of unit noise of cosines and sines of one run, (rows, w), and their products (w,)."""
+    """Rows of unit noise of cosines and sines of one run, (2, rows, w), and their products (w,)."""
 
-    cosines: np.ndarray
-    sines: np.ndarray
+    rows: np.ndarray
+    products: tuple[np.ndarray, np.ndarray, np.ndarray]
 
     @classmethod
     def of(cls, run: RunRows, kind: Periodic, wavenumbers: np.ndarray) -> _Waves:
         turn = np.exp(2j * np.pi * np.outer(kind.coordinate(run), wavenumbers))
-        return cls(
-            run.respond(kind.effect(run, turn.real), wavenumbers.size).astype(np.float32),
-            run.respond(kind.effect(run, turn.imag), wavenumbers.size).astype(np.float32),
-        )
+        rows = np.array([run.respond(kind.effect(run, each), wavenumbers.size)
+                         for each in (turn.real, turn.imag)], dtype=np.float32)  # fmt: skip
+        pairs = ((rows[0], rows[0]), (rows[1], rows[1]), (rows[0], rows[1]))
+        cc, ss, cs = (np.einsum("rw,rw->w", a, b).astype(float) for a, b in pairs)
+        return cls(rows, (cc, ss, cs))
 
     def fitted(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(w,) what a wave of free phase and size takes of the rows' squares, and its phase."""
-        c, s = rows @ self.cosines, rows @ self.sines
-        cc, ss, cs = self.products
+        (c, s), (cc, ss, cs) = rows.astype(np.float32) @ self.rows, self.products
         determinant = cc * ss - cs**2
         seen = determinant > 1e-6 * (cc + ss + 1e-30) ** 2
-        safe = np.where(seen, determinant, 1.0)
+        safe = np.where(seen, determinant, np.inf)
         a, b = (ss * c - cs * s) / safe, (cc * s - cs * c) / safe
-        return np.where(seen, a * c + b * s, 0.0), np.where(seen, np.arctan2(b, a), 0.0)
-
-    @cached_property
-    def products(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        pairs = ((self.cosines, self.cosines), (self.sines, self.sines), (self.cosines, self.sines))
-        cc, ss, cs = (np.einsum("rw,rw->w", a, b).astype(float) for a, b in pairs)
-        return cc, ss, cs
+        return a * c + b * s, np.arctan2(b, a)
 
 
 def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
     """(w,) wavenumbers, and what waves of free phases and sizes take of all runs' squares."""
     system = rung.system
     if kind not in system.waves:
-        wavenumbers = _wavenumbers(system.fitted, kind)
+        wavenumbers = wavenumbers_of(system.fitted, kind)
         runs = [_Waves.of(run, kind, wavenumbers) for run in system.fitted]
         system.waves[kind] = (wavenumbers, runs)
     wavenumbers, runs = system.waves[kind]
     gains = np.zeros(wavenumbers.size)
     for run, waves in zip(system.fitted, runs, strict=True):
-        gains += waves.fitted(rung.left(run).astype(np.float32))[0]
+        gains += waves.fitted(rung.left(run))[0]
     return wavenumbers, gains
 
 
-def _phases(
-    rung: Rung, kind: Periodic, wavenumber: float, runs: Sequence[RunRows]
-) -> dict[str, float]:
-    """run -> phase of the wave that fits best what is left of it, rad."""
-    one = np.array([wavenumber])
-    return {
+def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
+    """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber, speeds."""
+    runs, one = rung.system.fitted, np.array([wavenumber])
+    speeds = _speeds(rung) if kind.unit == "m" else {}
+    wave = Wave(kind, wavenumber, {
         run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
         for run in runs
-    }
-
-
-def _peaks(gains: np.ndarray) -> list[int]:
-    """Numbers of local maxima, the largest first."""
-    padded = np.concatenate([[-np.inf], gains, [-np.inf]])
-    tops = np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
-    return [int(top) for top in tops[np.argsort(-gains[tops])]]
-
-
-def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
-    """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber."""
-    phases = _phases(rung, kind, wavenumber, rung.system.fitted)
-    names = list(phases)
-    wave = Wave(kind, wavenumber, phases)
-    best: tuple[float, tuple[Added, ...]] | None = None
-    for number in range(PHASE_ROUNDS):
+    }, {name: mean for name, (mean, _) in speeds.items()})  # fmt: skip
+    rounds: list[tuple[float, tuple[Added, ...]]] = []
+    for number in range(ROUNDS):
         _, shape = rung.offered([wave.shape()])
         here = rung.system.rung([*rung.added, shape], *rung.kinds)
         mean = here.posterior[0][here.part_of(shape)]
-        sd = 0.5 / SCAN_STEPS / max(np.ptp(kind.coordinate(run)) for run in rung.system.fitted)
-        turn, stretch = Added(wave.turned(mean)), Added(wave.stretched(mean, sd))
-        moving = rung.system.rung([*rung.added, shape, turn, stretch], *rung.kinds)
-        if best is None or moving.evidence > best[0]:
-            best = (moving.evidence, (shape, turn, stretch))
-        turns = moving.posterior[0][moving.part_of(turn)]
-        more = float(moving.posterior[0][moving.part_of(stretch)][0])
-        wave = wave.moved(dict(zip(names, turns, strict=True)), more)
-        if number < PHASE_ROUNDS // 2:
-            wave = _rephased(rung, wave, mean)
-    assert best is not None
-    return best[0], _with_held_out(rung, best[1])
+        moves = [Added(each) for each in wave.moves(mean, runs, speeds)]
+        moving = rung.system.rung([*rung.added, shape, *moves], *rung.kinds)
+        rounds.append((moving.evidence, (shape, *moves)))
+        turns, more, *faster = (moving.posterior[0][moving.part_of(each)] for each in moves)
+        wave = wave.moved(
+            dict(zip(wave.phases, turns, strict=True)), float(more[0]),
+            {name: speeds[name][1] * float(sds)
+             for name, sds in zip(wave.phases, faster[0], strict=True)} if faster else {},
+        )  # fmt: skip
+        if number == 0:
+            wave = _realigned(rung, wave, mean, speeds)
+    return max(rounds, key=lambda each: each[0])
 
 
-def _rephased(rung: Rung, wave: Wave, sizes: np.ndarray) -> Wave:
-    """The wave with the phases, of all over a turn, that leave least of each run's rows."""
+def _speeds(rung: Rung) -> dict[str, tuple[float, float]]:
+    """run -> by which part its surface is faster than stated, and standard deviation."""
+    mean, covariance = rung.posterior
+    part = next(part for each, part in rung._parts if each.unknown.name == SPEED)
+    pairs = zip(mean[part], np.sqrt(np.diag(covariance[part, part])), strict=True)
+    names = [run.track.run.name for run in rung.system.fitted]
+    return {name: (float(a), float(b)) for name, (a, b) in zip(names, pairs, strict=True)}
+
+
+def _realigned(
+    rung: Rung, wave: Wave, sizes: np.ndarray, speeds: Mapping[str, tuple[float, float]]
+) -> Wave:
+    """The wave with the phase and the speed, of all that are probable, that leave least of a run.
+
+    The surface gets ahead of what is stated by whole waves where a set-point is off by a percent.
+    """
     turns = 2.0 * np.pi * np.arange(PHASES_TRIED) / PHASES_TRIED
-    best = {}
+    angles = np.outer(ORDERS, turns)
+    c, s = sizes[:HARMONICS, None], sizes[HARMONICS:, None]
+    turned = np.vstack([c * np.cos(angles) - s * np.sin(angles),
+                        c * np.sin(angles) + s * np.cos(angles)])  # fmt: skip
     for run in rung.system.fitted:
-        columns = [each.unknown.columns([run]) @ each.factor for each in rung.unknowns]
-        free = np.hstack(columns)
-        waves = np.column_stack([wave.rows(run, sizes, turn) for turn in turns])
-        left = run.values[:, None] - waves
+        name = run.track.run.name
+        mean, sd = speeds.get(name, (0.0, 0.0))
+        far = 2.0 * sd * 2.0 * np.pi * wave.wavenumber * _travel(run)[-1]
+        count = min(int(far / ALIGNED), SPEEDS_TRIED)
+        tried = mean + 2.0 * sd * np.arange(-count, count + 1) / max(count, 1)
+        free = np.hstack([each.unknown.columns([run]) @ each.factor for each in rung.unknowns])
         inner = np.eye(free.shape[1]) + free.T @ free
-        left = left - free @ np.linalg.solve(inner, free.T @ left)
-        best[run.track.run.name] = turns[int(np.argmin(np.einsum("rt,rt->t", left, left)))]
-    return wave.moved(best, 0.0)
+        best = (np.inf, 0.0, mean)
+        for faster in tried:
+            there = replace(wave, faster={**wave.faster, name: float(faster)})
+            left = run.values[:, None] - there.shape().columns([run]) @ turned
+            left = left - free @ np.linalg.solve(inner, free.T @ left)
+            squares = np.einsum("rt,rt->t", left, left)
+            at = int(np.argmin(squares))
+            best = min(best, (float(squares[at]), float(turns[at]), float(faster)))
+        wave = replace(wave, faster={**wave.faster, name: best[2]}).moved({name: best[1]})
+    return wave
 
 
-def _with_held_out(rung: Rung, added: tuple[Added, ...]) -> tuple[Added, ...]:
-    """The same wave, with the phases of runs that were held out read off these."""
-    shape, *others = added
-    if not rung.system.held_out:
-        return added
-    wave: Wave = shape.unknown.wave
-    here = rung.system.rung([*rung.added, *added], *rung.kinds)
-    sizes = here.posterior[0][here.part_of(shape)]
-    lag = float(np.arctan2(sizes[HARMONICS], sizes[0]))
-    found = _phases(rung, wave.kind, wave.wavenumber, rung.system.held_out)
-    wave.phases.update({name: phase - lag for name, phase in found.items()})
-    return (shape, *others)
+def _travel(run: RunRows) -> np.ndarray:
+    """(n,) of the surface, as stated, m."""
+    return abs(run.track.run.surface_speed) * run.track.time
 
 
 @dataclass(frozen=True)
 class Wave:
-    """A wave with a phase of each run: cos and sin of harmonics of 2 pi wavenumber s - phase."""
+    """A wave with a phase of each run: cos and sin of harmonics of 2 pi wavenumber s - phase.
+
+    faster : run -> by which part the surface travels farther than stated
+    """
 
     kind: Periodic
     wavenumber: float
     phases: dict[str, float]
+    faster: dict[str, float] = field(default_factory=dict)
 
-    @property
-    def settings(self) -> dict[str, float]:
-        return {"wavenumber": self.wavenumber, **{f"phase@{n}": p for n, p in self.phases.items()}}
-
-    def angle(self, run: RunRows) -> np.ndarray:
-        """(n,) rad"""
-        phase = self.phases.get(run.track.run.name, 0.0)
-        return 2.0 * np.pi * self.wavenumber * self.kind.coordinate(run) - phase
+    def waves(self, run: RunRows) -> np.ndarray:
+        """(n, 2 HARMONICS) cosines, then sines."""
+        name = run.track.run.name
+        at = self.kind.coordinate(run) + self.faster.get(name, 0.0) * _travel(run)
+        angle = 2.0 * np.pi * self.wavenumber * at - self.phases.get(name, 0.0)
+        angles = np.outer(angle, ORDERS)
+        return np.hstack([np.cos(angles), np.sin(angles)])
 
     def at_times(self, run: RunRows, sizes: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
         """The wave of one run as a function of the time, s."""
-        angle = self.angle(run)
-
-        def at(time: np.ndarray) -> np.ndarray:
-            angles = np.outer(np.interp(time, run.track.time, angle), np.arange(1, HARMONICS + 1))
-            return np.asarray(np.hstack([np.cos(angles), np.sin(angles)]) @ sizes)
-
-        return at
+        values = self.waves(run) @ sizes
+        return lambda time: np.interp(time, run.track.time, values)
 
     def shape(self) -> Unknown:
         """Sizes of the harmonics, smaller the higher."""
-
-        def respond(run: RunRows) -> Response:
-            angle = np.outer(self.angle(run), np.arange(1, HARMONICS + 1))
-            return self.kind.effect(run, np.hstack([np.cos(angle), np.sin(angle)]))
-
-        sizes = np.tile(1.0 / np.arange(1, HARMONICS + 1) ** 1.5, 2)
+        sizes = np.tile(1.0 / ORDERS**1.5, 2)
         words = f"{1.0 / self.wavenumber:.3g} {self.kind.unit}"
-        variant = " ".join(filter(None, [self.kind.variant, words]))
+        phases = {f"phase@{name}": phase for name, phase in self.phases.items()}
         return Unknown(
-            self.kind.name, variant, respond, np.diag(sizes**2), settings=self.settings, wave=self
-        )
+            self.kind.name, " ".join(filter(None, [self.kind.variant, words])),
+            lambda run: self.kind.effect(run, self.waves(run)), np.diag(sizes**2),
+            settings={"wavenumber": self.wavenumber, **phases}, wave=self,
+        )  # fmt: skip
 
-    def rows(self, run: RunRows, sizes: np.ndarray, turn: float) -> np.ndarray:
-        """(rows,) of unit noise of the wave in one run, its phase turned by so much, rad."""
-        name = run.track.run.name
-        shape = self.moved({name: turn}, 0.0).shape()
-        return shape.columns([run]) @ sizes
+    def moves(
+        self, sizes: np.ndarray, runs: Sequence[RunRows], speeds: Mapping[str, tuple[float, float]]
+    ) -> list[Unknown]:
+        """What phases, rad, another wavenumber, and speeds of the runs do to a wave of these sizes.
 
-    def turned(self, sizes: np.ndarray) -> Unknown:
-        """What a turn of a run's phase, rad, does to a wave of these sizes (2 HARMONICS,)."""
+        Half a step of the scan is how far off a wavenumber may be.
+        """
 
-        def respond(run: RunRows) -> Response:
-            return self.kind.effect(run, -self._slope(run, sizes)[:, None])
+        def slope(run: RunRows) -> np.ndarray:
+            """(n,) derivative of the wave by its angle."""
+            cosines, sines = np.hsplit(self.waves(run), 2)
+            return np.hstack([-ORDERS * sines, ORDERS * cosines]) @ sizes
 
-        name = f"{self.kind.name}: phase"
-        return Unknown(name, "", respond, PHASE_SD**2 * np.eye(1), per_run=True)
+        def turned(run: RunRows) -> Response:
+            return self.kind.effect(run, -slope(run)[:, None])
 
-    def stretched(self, sizes: np.ndarray, sd: float) -> Unknown:
-        """What another wavenumber does to it; sd : by how much it may be off."""
-
-        def respond(run: RunRows) -> Response:
+        def stretched(run: RunRows) -> Response:
             longer = 2.0 * np.pi * self.kind.coordinate(run)
-            return self.kind.effect(run, (longer * self._slope(run, sizes))[:, None])
+            return self.kind.effect(run, (longer * slope(run))[:, None])
 
-        return Unknown(f"{self.kind.name}: wavenumber", "", respond, sd**2 * np.eye(1))
+        name = self.kind.name
+        sd = 0.5 / SCAN_STEPS / max(np.ptp(self.kind.coordinate(run)) for run in runs)
+        even = np.pi**2 / 3.0 * np.eye(1)  # of a phase of which nothing is known
+        moves = [
+            Unknown(f"{name}: phase", "", turned, even, per_run=True),
+            Unknown(f"{name}: wavenumber", "", stretched, sd**2 * np.eye(1)),
+        ]
 
-    def _slope(self, run: RunRows, sizes: np.ndarray) -> np.ndarray:
-        """(n,) derivative of the wave by its angle."""
-        orders = np.arange(1, HARMONICS + 1)
-        angle = np.outer(self.angle(run), orders)
-        return np.hstack([-orders * np.sin(angle), orders * np.cos(angle)]) @ sizes
+        def faster(run: RunRows) -> Response:
+            ahead = speeds[run.track.run.name][1] * 2.0 * np.pi * self.wavenumber * _travel(run)
+            return self.kind.effect(run, (ahead * slope(run))[:, None])
 
-    def moved(self, turns: dict[str, float], more: float) -> Wave:
-        """With phases turned by so much, rad, and another wavenumber."""
+        if speeds:
+            moves.append(Unknown(f"{name}: speed", "", faster, np.eye(1), per_run=True))
+        return moves
+
+    def moved(
+        self, turns: Mapping[str, float], more: float = 0.0, faster: Mapping[str, float] = {}
+    ) -> Wave:
+        """With phases turned by so much, rad, another wavenumber, and surfaces faster by a part."""
+        ahead = {name: self.faster.get(name, 0.0) + more for name, more in faster.items()}
         phases = {
-            name: phase + (turns.get(name, 0.0) + np.pi) % (2.0 * np.pi) - np.pi
-            for name, phase in self.phases.items()
+            name: self.phases.get(name, 0.0)
+            + (turns.get(name, 0.0) + np.pi) % (2.0 * np.pi)
+            - np.pi
+            for name in {**self.phases, **turns}
         }
-        return Wave(self.kind, self.wavenumber + more, phases)
+        return replace(
+            self, wavenumber=self.wavenumber + more, phases=phases, faster={**self.faster, **ahead}
+        )

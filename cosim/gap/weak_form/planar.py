@@ -7,11 +7,12 @@ are the same for all. "Nothing across" is a block that keeps its y, or swings fr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
+from scipy.interpolate import interp1d
 from scipy.special import logsumexp
 
 from cosim.gap.data import Campaign, MeasuredRun
@@ -30,26 +31,21 @@ from cosim.gap.weak_form.across import (
     measured,
 )
 from cosim.gap.weak_form.constants import (
-    CURVATURE_SD,
+    ALIKE,
     LEAST_GAIN,
     LEAST_SHARE,
     MOST_SHARE,
     PLANE_FOLLOWED,
     PLANE_PART,
-    PLANE_PARTS,
-    PLANE_ROUNDS,
-    ROTATION_SD,
-    SETTLED,
-    SHARE_SD,
+    ROUNDS,
+    SCALES_ASKED,
     SHARE_STEP,
-    SHIFT_SD,
     SLOWEST_SLIDING,
     START_TURN,
     STARTS_ASKED,
     STILL_NUMBER,
     STILL_PIECE,
     STILL_SIGMAS,
-    TURN_SD,
 )
 from cosim.gap.weak_form.evidence import posterior
 from cosim.gap.weak_form.rig_unknowns import Level
@@ -65,22 +61,13 @@ FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
     ROTATION: ((ROTATION,),),
     LATERAL: ((SHARE,),),
     TURNING: ((CURVATURE, SHARE), (CURVATURE, ASKEW, SHARE)),
-    MISALIGNED: (
-        (TURN, SHARE),
-        (SHIFT, SHARE),
-        (TURN, SHIFT, SHARE),
-        (TURN,),
-        (SHIFT,),
-        (TURN, SHIFT),
-    ),  # fmt: skip
-}
-SD = {
-    CURVATURE: CURVATURE_SD,
-    ASKEW: TURN_SD,
-    TURN: TURN_SD,
-    SHIFT: SHIFT_SD,
-    ROTATION: ROTATION_SD,
-}
+    MISALIGNED: tuple((*some, *share) for share in ((SHARE,), ())
+                      for some in ((TURN,), (SHIFT,), (TURN, SHIFT))),
+}  # fmt: skip
+#: What is expected at the largest, as standard deviations: curvature (1/m), turns (rad), shift (m)
+#: and camera angle (rad), of which parts are tried; ln g, g the square of lateral_friction.ratio,
+#: about isotropic friction.
+SD = {CURVATURE: 3.0, ASKEW: 0.2, TURN: 0.2, SHIFT: 0.03, ROTATION: 0.2, SHARE: 0.5}
 
 
 @dataclass(frozen=True)
@@ -133,30 +120,27 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     if not any(_moves(run.track.run) for run in runs):
         return NOTHING
     free = set(campaign.rig.degrees_of_freedom) >= {"y", "phi"}
-    names = list(FORMS) if free else ["", ROTATION]
     level = Level.of(list(runs)).kinetic
     fits, evidence = {}, {}
-    for name in names:
+    for name in FORMS if free else ("", ROTATION):
         tried = [_fit(campaign, runs, level, form) for form in FORMS[name]]
         fits[name] = max(tried, key=lambda each: each.evidence)
         evidence[name] = float(logsumexp([each.evidence for each in tried]) - np.log(len(tried)))
     nothing = evidence.pop("")
-    most = max(fits, key=lambda name: fits[name].evidence)
-    noise = max(fits[most].gap, 1.0)  # what no form explains counts as noise
-    evidence = {name: (value - nothing) / noise**2 for name, value in evidence.items()}
-    ranked = sorted(evidence, key=lambda name: -evidence[name])
     if not np.isfinite(nothing):
         return NOTHING
+    noise = max(max(fits.values(), key=lambda each: each.evidence).gap, 1.0)
+    # what no form explains counts as noise
+    evidence = {name: (value - nothing) / noise**2 for name, value in evidence.items()}
+    ranked = sorted(evidence, key=lambda name: -evidence[name])
     lateral = evidence.get(LATERAL, -np.inf)
     if evidence[ranked[0]] - lateral < max(LEAST_GAIN, PLANE_FOLLOWED * lateral):
         ranked.insert(0, ranked.pop(ranked.index(LATERAL)))  # it is in the others, with a zero
-    explains = fits[ranked[0]].misfit < PLANE_PART * fits[""].misfit
-    answer = ranked[0] if evidence[ranked[0]] > LEAST_GAIN and explains else ""
-    rivals = [
-        name
-        for name in ranked
-        if name != answer and not (answer == LATERAL and _is_lateral(fits[name]))
-    ]
+    best = ranked[0]
+    explains = fits[best].misfit < PLANE_PART * fits[""].misfit
+    answer = best if evidence[best] > LEAST_GAIN and explains else ""
+    alike = [name for name, one in fits.items() if answer == LATERAL and _is_lateral(one)]
+    rivals = [name for name in ranked if name not in (answer, *alike)]
     return Planar(evidence, answer, rivals[0] if evidence[rivals[0]] > 0.0 else "", fits)
 
 
@@ -175,37 +159,25 @@ def rows_in_plane(
     part f U_x / U. A turned camera sees x shortened by cos alpha, and the springs along x are so.
     """
     planes = planar.fits[planar.answer].planes if planar.fits else {}
+    if planar.answer == ROTATION:
+        planes = {}
     rows = []
     for track in tracks:
         plane = planes.get(track.run.name)
-        if plane is None or planar.answer == ROTATION:
-            rows.append(rows_of(track, campaign.rig))
-        else:
-            rows.append(rows_of(_in_plane(track, plane, campaign.rig), campaign.rig, plane))
+        inside = track if plane is None else _in_plane(track, plane, campaign.rig)
+        rows.append(rows_of(inside, campaign.rig, plane))
     return rows
 
 
-@dataclass(frozen=True)
-class TrackInPlane(SmoothTrack):
-    """A track whose sliding speed is that in the plane, m/s, its sign that along x.
+def _in_plane(track: SmoothTrack, plane: Plane, rig: Rig) -> SmoothTrack:
+    """The sliding speed in the plane, its sign that along x, and the part of friction along x.
 
-    part : (n,) of friction, the part that acts along x, with its sign
+    Friction goes with the velocity across scaled by the ratio (`stickslip.kernel.friction`).
     """
-
-    part: np.ndarray
-
-    @property
-    def direction(self) -> np.ndarray:
-        return self.part
-
-
-def _in_plane(track: SmoothTrack, plane: Plane, rig: Rig) -> TrackInPlane:
-    """Friction goes with the velocity across scaled by the ratio (`stickslip.kernel.friction`)."""
     along, sliding, spin = plane.sliding(track, rig.contact_radius)
     force, _ = disc(sliding, spin)
     part = force * along / np.maximum(sliding, SLOWEST_SLIDING)
-    values = {each.name: getattr(track, each.name) for each in fields(track)}
-    return TrackInPlane(**values | {"sliding": np.copysign(sliding, along), "part": part})
+    return replace(track, sliding=np.copysign(sliding, along), part=part)
 
 
 def _moves(run: MeasuredRun) -> bool:
@@ -236,26 +208,26 @@ def _fit(
 ) -> Fitted:
     """A form, its courses made anew about what came out until they stay."""
     planes = [replace(measured(run.track), share=float(SHARE in form)) for run in runs]
-    values = np.zeros(len(form))
-    best: Fitted | None = None
-    for number in range(PLANE_ROUNDS):
-        solved = _round(campaign, runs, level, form, planes, values)
-        if solved is None:
+    values, rounds = np.zeros(len(form)), []
+    nothing = Fitted(form, -np.inf, {}, {}, np.inf)
+    for _ in range(ROUNDS):
+        try:
+            found, values = _round(campaign, runs, level, form, planes, values)
+        except np.linalg.LinAlgError:  # the courses run away
             break
-        found, planes, values = solved
-        settled = best is not None and abs(found.evidence - best.evidence) < SETTLED
-        if number and (best is None or found.evidence > best.evidence):
-            best = found
-        if settled:
+        planes = list(found.planes.values())
+        rounds.append(found)
+        before = max((each.evidence for each in rounds[1:-1]), default=-np.inf)
+        if abs(found.evidence - before) < 0.1 * ALIKE:
             break
-    return best or Fitted(form, -np.inf, {}, {}, np.inf)
+    return max(rounds[1:], key=lambda each: each.evidence, default=nothing)
 
 
 def _round(
     campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
-    planes: list[Plane], before: np.ndarray,
-) -> tuple[Fitted, list[Plane], np.ndarray] | None:  # fmt: skip
-    """The numbers from courses about the last round's; None where these run away."""
+    planes: Sequence[Plane], before: np.ndarray,
+) -> tuple[Fitted, np.ndarray]:  # fmt: skip
+    """The numbers from courses about the last round's."""
     moving = tuple(name for name in form if name != ROTATION)
     courses = [
         course(run.track, campaign.rig, level * run.weight, moving, plane)
@@ -263,38 +235,24 @@ def _round(
     ]
     samples = [_samples(campaign, run.track, form, made)
                for run, made in zip(runs, courses, strict=True)]  # fmt: skip
-    measured_turn = any(run.track.phi is not None for run in runs)
-    turn = START_TURN[int(measured_turn or SHARE not in form)]
-    settings = [_setting(form, part, start, turn, campaign.errors.stiffness)
-                for part, start in product(PLANE_PARTS, STARTS_ASKED)]  # fmt: skip
+    turn = START_TURN[any(run.track.phi is not None for run in runs) or SHARE not in form]
     fitted = [part for part, run in zip(samples, runs, strict=True) if not run.track.run.hold_out]
-    try:
-        evidence, values, sd, prior = _solved(fitted, settings)
-        values = _bounded(form, values, before)
-        own = [_own(part, values, prior) for part in samples]
-    except np.linalg.LinAlgError:
-        return None
-    planes = [_plane(run.track, form, made, values, starts)
-              for run, made, starts in zip(runs, courses, own, strict=True)]  # fmt: skip
-    left = [
-        part.rows - part.shared @ values - part.own @ starts
-        for part, starts in zip(samples, own, strict=True)
-    ]
-    by_run = {run.track.run.name: plane for run, plane in zip(runs, planes, strict=True)}
+    evidence, values, sd, prior = _solved(fitted, form, turn, campaign.errors.stiffness)
+    for place, name in enumerate(form):
+        if name == SHARE:  # friction across as good as isotropic at most, and no far step
+            low, high = before[place] - SHARE_STEP, before[place] + SHARE_STEP
+            values[place] = np.clip(values[place], max(low, LEAST_SHARE), min(high, MOST_SHARE))
+    found, left = {}, []
+    for run, made, part in zip(runs, courses, samples, strict=True):
+        rows = part.rows - part.shared @ values
+        gram, right = part.own.T @ part.own, part.own.T @ rows
+        own = posterior(gram, right, float(rows @ rows), np.diag(prior**2)).mean
+        left.append(rows - part.own @ own)
+        known = {name: float(v) for name, v in zip(form, values, strict=True) if name != ROTATION}
+        starts = {f"own {name}": float(v) for name, v in zip(OWN, own, strict=False)}
+        found[run.track.run.name] = made.plane(run.track, known | starts)
     gap = float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
-    return Fitted(form, evidence, _numbers(form, values, sd), by_run, gap), planes, values
-
-
-def _setting(
-    form: tuple[str, ...], part: float, start: float, turn: float, stiffness: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Standard deviations of what the runs share, and of springs, starts and zeros of a run.
-
-    start : m off the axis, and as much in the time of a swing; turn : rad, likewise
-    """
-    shared = [SHARE_SD if name == SHARE else part * SD[name] for name in form]
-    starts = [2.0 * stiffness, start, 10.0 * start, turn, 10.0 * turn]
-    return np.array(shared), np.array([*starts, 1.0, 1.0])
+    return Fitted(form, evidence, _numbers(form, values, sd), found, gap), values
 
 
 def _samples(
@@ -305,33 +263,31 @@ def _samples(
     for axis, channel in enumerate(("y", "phi")):
         if channel not in track.run.motion.channels:
             continue
-        noise = track.run.noise[channel]
-        seen = np.isfinite(track.run.motion[channel])
-        read = _reader(track, track.run.motion.time[seen])
-        columns = read(made.columns[:, axis]) / noise
-        turned = read(-track.place * (axis == 0)) / noise
-        moving = iter(columns)
-        shared.append(np.array([turned if name == ROTATION else next(moving) for name in form])
-                      .reshape(len(form), turned.size).T)  # fmt: skip
-        zeros = np.zeros((2, turned.size))
+        noise, values = track.run.noise[channel], track.run.motion[channel]
+        seen = np.isfinite(values)
+        times = np.clip(track.run.motion.time[seen], *track.time[[0, -1]])
+        turned = -track.place * (axis == 0)  # by a camera
+        # columns of what the form has, of a run's own, and the course without either
+        every = np.vstack([made.columns[:, axis], turned, made.offset[axis]])
+        *columns, turned, offset = interp1d(track.time, every)(times) / noise
+        own_ones, moving = columns[-len(OWN) :], iter(columns)
+        zeros = np.zeros((2, times.size))
         zeros[axis] = campaign.zero_sd(track.run, channel) / noise
-        own.append(np.vstack([*columns[-len(OWN) :], zeros]).T)
-        rows.append((track.run.motion[channel][seen] - read(made.offset[axis])) / noise)
+        shared.append(np.reshape([turned if name == ROTATION else next(moving) for name in form],
+                                 (len(form), times.size)).T)  # fmt: skip
+        own.append(np.vstack([*own_ones, zeros]).T)
+        rows.append(values[seen] / noise - offset)
     return _Samples(np.concatenate(rows), np.concatenate(shared), np.concatenate(own))
 
 
-def _reader(track: SmoothTrack, times: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """Values (..., n) on the grid to those at times (m,), s: (..., m)."""
-    at = np.clip((times - track.time[0]) / track.interval, 0.0, track.time.size - 1.0)
-    low = np.minimum(at.astype(int), track.time.size - 2)
-    part = at - low
-    return lambda values: values[..., low] * (1.0 - part) + values[..., low + 1] * part
-
-
 def _solved(
-    samples: Sequence[_Samples], settings: Sequence[tuple[np.ndarray, np.ndarray]]
+    samples: Sequence[_Samples], form: tuple[str, ...], turn: float, stiffness: float
 ) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-    """ln evidence over settings; mean and sd of what is shared, and own priors, at the best."""
+    """ln evidence over settings; mean and sd of what is shared, and own priors, at the best.
+
+    turn : how far a block may be turned where it is put down, rad, and as much in a tenth of a
+    second; stiffness : stated error of the springs
+    """
     count, own = samples[0].shared.shape[1], samples[0].own.shape[1]
     size = count + own * len(samples)
     gram, right, square = np.zeros((size, size)), np.zeros(size), 0.0
@@ -341,40 +297,15 @@ def _solved(
         gram[np.ix_(at, at)] += columns.T @ columns
         right[at] += columns.T @ part.rows
         square += float(part.rows @ part.rows)
-    found = [
-        posterior(gram, right, square,
-                  np.diag(np.concatenate([shared, *[each] * len(samples)]) ** 2))
-        for shared, each in settings
-    ]  # fmt: skip
-    values = [each.log_evidence for each in found]
-    best = int(np.argmax(values))
-    evidence = float(logsumexp(values) - np.log(len(values)))
-    deviations = np.sqrt(np.diag(found[best].covariance)[:count])
-    return evidence, found[best].mean[:count], deviations, settings[best][1]
-
-
-def _bounded(form: tuple[str, ...], shared: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """With friction across as good as isotropic at most, and no far step from the last round's."""
-    for place, name in enumerate(form):
-        if name == SHARE:
-            low = max(before[place] - SHARE_STEP, LEAST_SHARE)
-            shared[place] = np.clip(shared[place], low, min(before[place] + SHARE_STEP, MOST_SHARE))
-    return shared
-
-
-def _own(part: _Samples, shared: np.ndarray, sd: np.ndarray) -> np.ndarray:
-    """Starts and zeros of a run where the shared numbers are known."""
-    rows = part.rows - part.shared @ shared
-    return posterior(part.own.T @ part.own, part.own.T @ rows, float(rows @ rows),
-                     np.diag(sd**2)).mean  # fmt: skip
-
-
-def _plane(
-    track: SmoothTrack, form: tuple[str, ...], made: Course, shared: np.ndarray, own: np.ndarray
-) -> Plane:
-    values = {name: float(v) for name, v in zip(form, shared, strict=True) if name != ROTATION}
-    starts = dict(zip(OWN, own, strict=False))
-    return made.plane(track, values | {f"own {name}": float(v) for name, v in starts.items()})
+    found = []
+    for scale, start in product(SCALES_ASKED[1:], STARTS_ASKED):
+        shared = [SD[name] * (1.0 if name == SHARE else scale) for name in form]
+        each = [2.0 * stiffness, start, 10.0 * start, turn, 10.0 * turn, 1.0, 1.0]
+        prior = np.diag(np.square([*shared, *each * len(samples)]))
+        found.append((posterior(gram, right, square, prior), np.array(each)))
+    evidence = float(logsumexp([one.log_evidence for one, _ in found]) - np.log(len(found)))
+    best, each = max(found, key=lambda pair: pair[0].log_evidence)
+    return evidence, best.mean[:count], np.sqrt(np.diag(best.covariance)[:count]), each
 
 
 def _numbers(

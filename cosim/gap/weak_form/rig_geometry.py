@@ -7,18 +7,6 @@ import numpy as np
 from cosim.gap.data.campaign_file import Rig
 
 
-def spring_force(
-    rig: Rig,
-    stiffness: float,
-    x: np.ndarray,
-    y: np.ndarray | float = 0.0,
-    phi: np.ndarray | float = 0.0,
-    turned: float = 0.0,
-) -> tuple[np.ndarray, np.ndarray]:
-    """(n,) forces along x and y on the block at places (n,), N: of `spring_loads`."""
-    return spring_loads(rig, stiffness, x, y, phi, turned)[:2]
-
-
 def spring_loads(
     rig: Rig,
     stiffness: float,
@@ -26,27 +14,20 @@ def spring_loads(
     y: np.ndarray | float = 0.0,
     phi: np.ndarray | float = 0.0,
     turned: float = 0.0,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(n,) forces along x and y and moments on the block at places (n,), N, N m; exact geometry.
+) -> np.ndarray:
+    """(3, n) forces along x and y and moments on the block at places (n,), N, N m; exact geometry.
 
     stiffness : of one spring, N/m; x, y : m; phi : rad; turned : of every spring about its
-    attachment, rad (the effect spring_misalignment)
+    attachment, rad (the effect spring_misalignment). Complex steps pass through.
     """
-    x = np.asarray(x, dtype=float)
-    along, across, moment = np.zeros_like(x), np.zeros_like(x), np.zeros_like(x)
-    cos_phi, sin_phi = np.cos(phi), np.sin(phi)
-    for angle in np.deg2rad(rig.attachment_angles_deg):
-        bx, by = rig.attachment_radius * np.cos(angle), rig.attachment_radius * np.sin(angle)
-        outward = rig.spring_length if bx >= 0.0 else -rig.spring_length
-        arm_x, arm_y = cos_phi * bx - sin_phi * by, sin_phi * bx + cos_phi * by
-        dx = bx + outward * np.cos(turned) - x - arm_x
-        dy = by + outward * np.sin(turned) - y - arm_y
-        length = np.sqrt(dx * dx + dy * dy)
-        pull = stiffness * (1.0 - rig.spring_natural_length / length)
-        along += pull * dx
-        across += pull * dy
-        moment += pull * (arm_x * dy - arm_y * dx)
-    return along, across, moment
+    angles = np.deg2rad(rig.attachment_angles_deg)[:, None]
+    bx, by = rig.attachment_radius * np.cos(angles), rig.attachment_radius * np.sin(angles)
+    outward = np.where(bx >= 0.0, 1.0, -1.0) * rig.spring_length
+    arm_x, arm_y = np.cos(phi) * bx - np.sin(phi) * by, np.sin(phi) * bx + np.cos(phi) * by
+    dx = bx + outward * np.cos(turned) - x - arm_x
+    dy = by + outward * np.sin(turned) - y - arm_y
+    pull = stiffness * (1.0 - rig.spring_natural_length / np.sqrt(dx * dx + dy * dy))
+    return np.sum([pull * dx, pull * dy, pull * (arm_x * dy - arm_y * dx)], axis=1)
 
 
 def extensions(rig: Rig, x: np.ndarray) -> np.ndarray:

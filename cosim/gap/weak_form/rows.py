@@ -24,7 +24,7 @@ from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import Plane
 from cosim.gap.weak_form.breakaway import BreakAway, break_aways
 from cosim.gap.weak_form.constants import KNOTS, ROUNDING
-from cosim.gap.weak_form.rig_geometry import spring_force
+from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
 #: Kinds of rows.
@@ -155,7 +155,7 @@ def rows_of(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> RunRows
     stick = _block(track, track.sticks, _stick_weights(track, knots), run.noise["x"])
     drive = np.full(track.time.size, run.surface_speed)
     if plane is None:
-        along = spring_force(rig, run.stiffness, track.x)[0]
+        along = spring_loads(rig, run.stiffness, track.x)[0]
     else:
         along, drive = plane.loads(rig, run.stiffness, track.x)[0], plane.drive(run.surface_speed)
     events = break_aways(track, rig, plane)

@@ -15,12 +15,12 @@ from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.constants import (
     ALIKE,
     CONTACT_SPEED,
+    LEAST_GAIN,
     PHASES_TRIED,
     RIPPLE_BANDS,
-    RIPPLE_GAIN,
 )
 from cosim.gap.weak_form.rows import BREAK_AWAY, STICK, Response, RunRows, rows_of
-from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.system import Added, System
 from cosim.gap.weak_form.track import SmoothTrack, smooth
 
 #: Times (n,), s -> the part by which a surface is faster than its set-point.
@@ -45,17 +45,15 @@ def _ripple(campaign: Campaign, rows: list[RunRows]) -> dict[str, Varies]:
     if not system.rows.any():
         return {}
     rung = system.rung()
-    best: tuple[float, tuple] | None = None
+    best: tuple[float, tuple[Added, ...]] = (rung.evidence + LEAST_GAIN - ALIKE, ())
     for kind in periodic.kinds(system.level.kinetic):
-        if kind.name == "speed_ripple":
-            offer = periodic.offered(rung, kind)
-            if offer and (best is None or offer[0] > best[0] + ALIKE):
-                best = offer
-    if best is None or best[0] - rung.evidence < RIPPLE_GAIN:
+        offer = periodic.offered(rung, kind) if kind.name == "speed_ripple" else None
+        if offer and offer[0] > best[0] + ALIKE:
+            best = offer
+    if not best[1]:
         return {}
-    after = system.rung(best[1])
-    sizes = after.posterior[0][after.part_of(best[1][0])]
-    wave = best[1][0].unknown.wave
+    after, shape = system.rung(best[1]), best[1][0]
+    sizes, wave = after.posterior[0][after.part_of(shape)], shape.unknown.wave
     return {
         run.track.run.name: best_phase(campaign, run, wave, sizes).at_times(run, sizes)
         for run in system.runs
@@ -70,7 +68,7 @@ def best_phase(
     step = 2.0 * np.pi / PHASES_TRIED
     for width in (step, step / 6.0):  # over a turn, then about the best
         half = PHASES_TRIED // 2
-        tried = [wave.moved({name: width * n}, 0.0) for n in range(-half, half)]
+        tried = [wave.moved({name: width * n}) for n in range(-half, half)]
         wave = min(tried, key=lambda w: _left(campaign, measured, w.at_times(run, sizes)))
     return wave
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import permutations
 
 import numpy as np
 from scipy import sparse
@@ -16,13 +17,13 @@ from cosim.gap.weak_form.constants import (
     FAR_STIFFER,
     FINE_ENOUGH,
     HOLE,
+    KNOTS,
     LEAST_SLIDING,
     LEAST_SLIDING_SHARE,
     QUINTIC_REACH,
     SLIP_PERCENTILE,
     SLIP_SIGMAS,
     SLOW_PART,
-    STICK_MARGIN,
     VELOCITY_SIGMAS,
 )
 
@@ -43,6 +44,7 @@ class SmoothTrack:
     seen : (n,) whether there are samples about it
     slips, sticks : (first, last + 1) of their grid points
     stiffness : along x, N/m, as stated, or as the swings show it where it is far above that
+    part : (n,) of friction, the part that acts along x, with its sign; None: all of it
     """
 
     run: MeasuredRun
@@ -63,11 +65,12 @@ class SmoothTrack:
     slips: tuple[tuple[int, int], ...]
     sticks: tuple[tuple[int, int], ...]
     stiffness: float
+    part: np.ndarray | None = None
 
     @property
     def direction(self) -> np.ndarray:
-        """(n,) sign of the sliding speed."""
-        return np.sign(self.sliding)
+        """(n,) of friction on the block along x: the sign of the sliding speed, or less."""
+        return np.sign(self.sliding) if self.part is None else self.part
 
     @property
     def slips_mask(self) -> np.ndarray:
@@ -110,37 +113,41 @@ def smooth(
     def values(channel: str) -> np.ndarray | None:
         if channel not in track.channels:
             return None
-        raw = track[channel][present]
-        raw = np.interp(track.time[present], track.time[present][np.isfinite(raw)],
-                        raw[np.isfinite(raw)])  # fmt: skip
+        raw, at = track[channel][present], track.time[present]
+        raw = np.interp(at, at[np.isfinite(raw)], raw[np.isfinite(raw)])
         return raw if samples is None else samples @ raw
 
     x, y, phi = values("x"), values("y"), values("phi")
     assert x is not None  # every track has it
-    omega = _stiffer(x, interval, run)
-    if omega < FAR_STIFFER * run.natural_frequency:
-        omega = run.natural_frequency
-    rough = _derivatives(x, interval, _window(CUBIC_REACH / omega, interval), 3)
-    fastest = float(np.percentile(np.abs(run.surface_speed - rough[1]), SLIP_PERCENTILE))
-    threshold = _sliding_threshold(run, interval, fastest)
-    threshold = max(threshold, band * abs(run.surface_speed))
+    omega = _frequency(x, interval, run)
+    rough = derivatives(x, interval, CUBIC_REACH / omega, 3)
+    threshold = max(_sliding_threshold(run, interval, rough[1]), band * abs(run.surface_speed))
     surface = np.full(time.size, run.surface_speed)
     if varies is not None:
         surface *= 1.0 + varies(time)
     sliding = surface - rough[1]
     # a slip is of one direction: where it changes, a short stick may hide between two samples
-    ways = [_stretches((way * sliding > threshold) & seen) for way in (1.0, -1.0)]
-    slips = _real_slips(tuple(sorted((*ways[0], *ways[1]))), sliding, run, interval)
-    sticks = _sticks(slips, seen, round(STICK_MARGIN / omega / interval))
+    ways = [each for way in (1.0, -1.0) for each in _stretches((way * sliding > threshold) & seen)]
+    # in a slip the surface gets ahead by more than noise can
+    slips = tuple(
+        (first, last) for first, last in sorted(ways)
+        if abs(np.sum(sliding[first:last])) * interval > SLIP_SIGMAS * run.noise["x"]
+    )  # fmt: skip
+    margin = round(KNOTS / omega / interval)
+    sticks = tuple(
+        (first + margin, last - margin)
+        for first, last in _stretches(seen & ~mask(slips, time.size))
+        if last - first > 2 * margin
+    )
     fine = rough.copy()
-    window = _window(QUINTIC_REACH / omega, interval)
     for first, last in slips:
-        size = min(window, (last - first - 1) // 2 * 2 + 1)
-        if size > 6:
-            fine[:, first:last] = _derivatives(x[first:last], interval, size, 5)
-    across = np.zeros((3, x.size)) if y is None else _derivatives(y, interval, window, 5)
+        if min(last - first, _window(QUINTIC_REACH / omega, interval)) > 6:
+            fine[:, first:last] = derivatives(x[first:last], interval, QUINTIC_REACH / omega, 5)
+    across = np.zeros((3, x.size))
+    if y is not None:
+        across = derivatives(y, interval, QUINTIC_REACH / omega, 5)
     return SmoothTrack(
-        run, time, interval, samples, x, y, phi, fine[0], fine[1], fine[2], across[0], across[1],
+        run, time, interval, samples, x, y, phi, *fine, across[0], across[1],
         surface, surface - fine[1], seen, slips, sticks, run.mass * omega**2,
     )  # fmt: skip
 
@@ -152,18 +159,14 @@ def _grid(time: np.ndarray) -> tuple[np.ndarray, sparse.csr_array | None, np.nda
     grid = time[0] + interval * np.arange(count)
     if count == time.size and np.max(np.abs(grid - time)) < EVEN * interval:
         return grid, None, np.ones(count, dtype=bool)
-    first = np.clip(np.searchsorted(time, grid) - 2, 0, time.size - 4)
-    nodes = first[:, None] + np.arange(4)
+    nodes = np.clip(np.searchsorted(time, grid) - 2, 0, time.size - 4)[:, None] + np.arange(4)
     near = time[nodes]
-    weights = np.ones((count, 4))
-    for a in range(4):
-        for b in range(4):
-            if a != b:
-                weights[:, a] *= (grid - near[:, b]) / (near[:, a] - near[:, b])
+    weights = np.ones((count, 4))  # Lagrange's
+    for a, b in permutations(range(4), 2):
+        weights[:, a] *= (grid - near[:, b]) / (near[:, a] - near[:, b])
     rows = np.repeat(np.arange(count), 4)
     samples = sparse.csr_array((weights.ravel(), (rows, nodes.ravel())), shape=(count, time.size))
-    seen = (near[:, 2] - near[:, 1]) < HOLE * interval
-    return grid, samples, seen
+    return grid, samples, near[:, 2] - near[:, 1] < HOLE * interval
 
 
 def _window(reach: float, interval: float) -> int:
@@ -171,72 +174,46 @@ def _window(reach: float, interval: float) -> int:
     return 2 * max(2, round(reach / interval)) + 1
 
 
-def _derivatives(values: np.ndarray, interval: float, window: int, degree: int) -> np.ndarray:
-    """(3, n) value, first and second derivative by local polynomials (Savitzky and Golay 1964)."""
-    window = min(window, (values.size - 1) // 2 * 2 + 1)
+def derivatives(values: np.ndarray, interval: float, reach: float, degree: int) -> np.ndarray:
+    """(3, n) value, first and second derivative by local polynomials (Savitzky and Golay 1964).
+
+    reach : of the window to either side, s
+    """
+    window = min(_window(reach, interval), (values.size - 1) // 2 * 2 + 1)
     degree = min(degree, window - 2)
-    return np.array(
-        [
-            savgol_filter(values, window, degree, deriv, interval, mode="interp")
-            for deriv in range(3)
-        ]
-    )
+    return np.array([savgol_filter(values, window, degree, n, interval) for n in range(3)])
 
 
-def _sliding_threshold(run: MeasuredRun, interval: float, fastest: float) -> float:
+def _sliding_threshold(run: MeasuredRun, interval: float, velocity: np.ndarray) -> float:
     """Sliding speed above which a block slips, m/s: beyond the contact's own and the noise's.
 
-    fastest : of the run, m/s: slow rigs have slow contacts
+    velocity : (n,) of the block, m/s: slow rigs have slow contacts
     """
     window = _window(CUBIC_REACH / run.natural_frequency, interval)
-    weights = savgol_coeffs(window, 3, 1, interval)
-    noise = run.noise["x"] * float(np.sqrt(np.sum(weights**2)))
-    speed = abs(run.surface_speed)
-    return max(
-        min(LEAST_SLIDING, SLOW_PART * fastest),
-        LEAST_SLIDING_SHARE * speed,
-        VELOCITY_SIGMAS * noise,
-    )
+    noise = run.noise["x"] * float(np.linalg.norm(savgol_coeffs(window, 3, 1, interval)))
+    fastest = float(np.percentile(np.abs(run.surface_speed - velocity), SLIP_PERCENTILE))
+    own = max(min(LEAST_SLIDING, SLOW_PART * fastest), LEAST_SLIDING_SHARE * abs(run.surface_speed))
+    return max(own, VELOCITY_SIGMAS * noise)
 
 
-def _stiffer(x: np.ndarray, interval: float, run: MeasuredRun) -> float:
-    """Frequency of the swings as they are, rad/s: springs may be far stiffer than stated.
+def _frequency(x: np.ndarray, interval: float, run: MeasuredRun) -> float:
+    """Frequency of the swings, rad/s: as stated, or as they are where springs are far stiffer.
 
     From the slope of x'' over x where the block moves against the surface.
     """
-    window = _window(0.5 * CUBIC_REACH / run.natural_frequency, interval)
-    place, velocity, acceleration = _derivatives(x, interval, window, 3)
+    stated = run.natural_frequency
+    place, velocity, acceleration = derivatives(x, interval, 0.5 * CUBIC_REACH / stated, 3)
     moving = np.abs(run.surface_speed - velocity) > 0.5 * abs(run.surface_speed)
     if moving.sum() < 10 or np.ptp(place[moving]) == 0.0:
-        return 0.0
-    return float(np.sqrt(max(-np.polyfit(place[moving], acceleration[moving], 1)[0], 0.0)))
+        return stated
+    omega = float(np.sqrt(max(-np.polyfit(place[moving], acceleration[moving], 1)[0], 0.0)))
+    return omega if omega > FAR_STIFFER * stated else stated
 
 
-def _real_slips(
-    slips: tuple[tuple[int, int], ...], sliding: np.ndarray, run: MeasuredRun, interval: float
-) -> tuple[tuple[int, int], ...]:
-    """Without those that are noise: in a slip the surface gets ahead by more than noise can."""
-    ahead = [abs(float(np.sum(sliding[a:b]))) * interval for a, b in slips]
-    least = SLIP_SIGMAS * run.noise["x"]
-    return tuple(slip for slip, travel in zip(slips, ahead, strict=True) if travel > least)
-
-
-def _sticks(
-    slips: tuple[tuple[int, int], ...], seen: np.ndarray, margin: int
-) -> tuple[tuple[int, int], ...]:
-    """What lies between slips, less a margin at either end; holes of the record part it."""
-    still = seen & ~mask(slips, seen.size)
-    return tuple(
-        (first + margin, last - margin)
-        for first, last in _stretches(still)
-        if last - first > 2 * margin
-    )
-
-
-def _stretches(inside: np.ndarray) -> tuple[tuple[int, int], ...]:
+def _stretches(inside: np.ndarray) -> list[tuple[int, int]]:
     """(first, last + 1) of every run of true values."""
-    steps = np.diff(np.concatenate([[0], inside.astype(int), [0]]))
-    return tuple(zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True))
+    steps = np.diff(np.pad(inside.astype(int), 1))
+    return list(zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True))
 
 
 def thinned(run: MeasuredRun) -> MeasuredRun:
@@ -256,11 +233,6 @@ def thinned(run: MeasuredRun) -> MeasuredRun:
         with np.errstate(invalid="ignore"):
             return total / np.bincount(place[seen], minlength=kept.size)
 
-    def of(channel: str) -> np.ndarray | None:
-        return mean(track[channel]) if channel in track.channels else None
-
-    x = of("x")
-    assert x is not None  # every track has it
+    coarse = {name: mean(track[name]) for name in track.channels}
     noise = {name: value / np.sqrt(np.median(count)) for name, value in run.noise.items()}
-    coarse = replace(track, time=mean(track.time), x=x, y=of("y"), phi=of("phi"), force=of("force"))
-    return replace(run, noise=noise, track=coarse)
+    return replace(run, noise=noise, track=replace(track, time=mean(track.time), **coarse))

@@ -12,12 +12,10 @@ from cosim.cli import main
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.plan import read_plan
 from cosim.gap.plan.laws import laws_of, silent
-from cosim.gap.plan.next_run import best_next_run, next_experiment, options
+from cosim.gap.plan.next_run import best_next_run, options
 from cosim.gap.plan.plan import Plan
-from cosim.gap.plan.planned import EXPECTED, NOISE, as_measured, asked_of
+from cosim.gap.plan.planned import EXPECTED, NOISE, as_measured, asked_as_planned
 from cosim.gap.plan.sizes import Design, Size, false_names, is_named, sizes_of
-from cosim.gap.rates import Truth
-from cosim.gap.weak_form.ladder import Search
 
 RUN = {"mass": 0.87, "stiffness": 38.5, "duration": 8.0}
 RIG = {"spring_natural_length": 0.17}
@@ -40,7 +38,7 @@ def plan(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def asked(plan):
-    return asked_of(as_measured(plan))
+    return asked_as_planned(as_measured(plan))
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +118,7 @@ def test_a_law_adds_to_the_rows_what_it_adds_to_the_motion(plan, asked, laws):
         update={"friction": 1e-6, "stiffness": 1e-6, "surface_speed": 1e-6}
     )
     quiet = replace(quiet, campaign=replace(quiet.campaign, errors=errors))
-    system, unknowns = asked_of(made(quiet, law.blocks(value), 0))
+    system, unknowns = asked_as_planned(made(quiet, law.blocks(value), 0))
     added = system.rung().offered(unknowns["film_drag"])[1]
     rung = system.rung([added])
     seen = rung.posterior[0][rung.part_of(added)]
@@ -134,7 +132,7 @@ def test_smallest_sizes_are_named_as_often_as_wanted(asked, laws, sizes):
     for number, size in enumerate(sizes):
         away = abs(size.value - size.law.neutral)
         power = [
-            float(np.mean(is_named(size.law, again.offers([number], [part * away])[0])))
+            float(np.mean(is_named(size.law, again.offers(number, part * away))))
             for part in (0.67, 1.0, 1.33)
         ]
         assert power[1] == pytest.approx(0.8, abs=0.1)
@@ -166,28 +164,13 @@ def test_effects_without_a_chance_are_said(asked):
 
 def test_another_mass_tells_force_from_coefficient(asked, laws):
     """The next run is one with another mass, at a speed at which sliding speeds differ."""
-    truths = [
-        Truth(name, (laws[name].unknown,), (laws[name].sizes(value),))
-        for name, value in (("film_drag", 0.5), ("velocity_weakening", 0.3))
-    ]
-    found = best_next_run(asked[0], truths, FRICTION, SCATTER)
+    pair = [(laws["film_drag"], 0.5), (laws["velocity_weakening"], 0.3)]
+    found = best_next_run(asked[0], pair, FRICTION, SCATTER)
     assert found.mass != RUN["mass"]
     assert found.separation_before < 0.5 and found.separation > 3.0
     assert f"{found.mass:.4g} kg" in found.text
     data = found.as_data()
     assert {"surface_speed", "mass", "stiffness", "separation", "text"} <= set(data)
-
-
-def test_a_class_that_was_found_asks_for_the_run_that_parts_it(plan, laws):
-    """Made by the kernel with one mass and a drag: the same search, from what the rows have."""
-    pair = ("film_drag", "velocity_weakening")
-    system, unknowns = asked_of(made(plan, laws["film_drag"].blocks(1.0), 0))
-    ladder = Search(system, {name: unknowns[name] for name in pair}, ()).climb()
-    asked_for = next_experiment(ladder, unknowns, pair)
-    assert asked_for["mass"] != RUN["mass"]
-    assert asked_for["separation"] > 3.0 > asked_for["separation_before"]
-    assert set(asked_for["effects"]) == set(pair)
-    assert next_experiment(ladder, unknowns, pair[:1]) is None
 
 
 def test_next_runs_stay_within_the_limits(plan):
