@@ -12,7 +12,6 @@ import numpy as np
 
 from cosim.gap.data.campaign_file import Errors, Rig
 from cosim.gap.data.friction_table import FrictionTable
-from cosim.gap.data.reading.columns import Reading
 
 #: Measured quantities, in the order in which they are looked at.
 CHANNELS = ("x", "y", "phi", "force")
@@ -78,7 +77,6 @@ class MeasuredRun:
     hold_out : never used for fitting
     track, summary : one of the two; summary is figure -> (value, standard deviation)
     noise : channel -> standard deviation of one sample of this run
-    reading : which column of the file is what, where its header does not say so
     """
 
     name: str
@@ -91,7 +89,6 @@ class MeasuredRun:
     track: Track | None = field(default=None, repr=False)
     summary: Mapping[str, tuple[float, float]] | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
-    reading: Reading = field(default_factory=Reading, repr=False)
 
     @property
     def motion(self) -> Track:

@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.gap import CampaignError, read_campaign
-from cosim.gap.data.noise import difference_noise
-from cosim.gap.data.outliers import without_outliers
+from cosim.gap.data.noise import difference_noise, without_outliers
 
 # relative standard deviation of an estimate from n third differences: sqrt(2.3 / (2 n)), 2.3 the
 # sum of the squares of their autocorrelations
