@@ -94,11 +94,9 @@ def doubts_of_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
             far_off = abs(speed / abs(run.surface_speed) - 1.0) > WRONG_SPEED
             doubts.append(Doubt("speed", text, (run.name,), far_off))
     if common:
-        names = tuple(run.name for run, *_ in found)
-        text = (
-            f"all runs: in sticks x moves at {math.exp(common):.3g} times the surface_speed "
-            "stated: the camera's scale, its clock, or the drive?"
-        )
+        names, times = tuple(run.name for run, *_ in found), f"{math.exp(common):.3g} times"
+        hint = "the camera's scale, its clock, or the drive?"
+        text = f"all runs: in sticks x moves at {times} the surface_speed stated: {hint}"
         doubts.append(Doubt("speed", text, names, abs(common) > WRONG_SPEED))
     return doubts
 

@@ -39,11 +39,15 @@ def read_campaign(path: str | Path) -> Campaign:
     path = Path(path)
     path = path / FILE_NAME if path.is_dir() else path
     table, run_tables = read_tables(path)
-    campaign = campaign_of(path, table, run_tables)
-    if campaign.friction_table is not None and not any(run.file for run in run_tables):
+    law = read_friction_table(path, table, [run.surface_speed for run in run_tables])
+    if law is not None and not any(run.file for run in run_tables):
         alone = "of runs of which only figures are known the law is mu_s and mu_k"
         raise CampaignError(f"{path}: friction.table: {alone}; allowed with a file in a [[run]]")
-    runs, remarks = [], list(campaign.remarks)
+    campaign = Campaign(
+        table.name, path.parent, table.rig, table.model.scheme, {}, (), (), (),
+        table.friction.given, table.errors, law, table.limits.given,
+    )  # fmt: skip
+    runs, remarks = [], [] if law is None else [law.text]
     converted: dict[str, list[str]] = {}
     for number, run_table in enumerate(run_tables, 1):
         with within(f"{path}: run {number}"):
@@ -63,16 +67,6 @@ def read_campaign(path: str | Path) -> Campaign:
     return replace(
         campaign, noise=noise, noise_estimated=estimated, runs=kept,
         remarks=(*remarks, *copies, *held, *differs, *regimes),
-    )  # fmt: skip
-
-
-def campaign_of(path: Path, table: CampaignTable, runs: list[RunTable]) -> Campaign:
-    """What the file states of all runs; they are still to be read, or to be made."""
-    law = read_friction_table(path, table, [one.surface_speed for one in runs])
-    return Campaign(
-        table.name, path.parent, table.rig, table.model.scheme, table.noise.given, (), (),
-        () if law is None else (law.text,), table.friction.given, table.errors, law,
-        table.limits.given,
     )  # fmt: skip
 
 

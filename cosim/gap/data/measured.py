@@ -30,7 +30,6 @@ class Track:
         where the channel was not measured. force is what the springs pull the block back with along
         x, positive where x is; it is compared with their stiffness, the model is fitted to places
     time_offset : time of the first row in the file, s
-    outliers : channel -> number of samples that were taken out
     """
 
     time: np.ndarray = field(repr=False)
@@ -39,7 +38,6 @@ class Track:
     phi: np.ndarray | None = field(default=None, repr=False)
     force: np.ndarray | None = field(default=None, repr=False)
     time_offset: float = 0.0
-    outliers: Mapping[str, int] = field(default_factory=dict)
 
     def __getitem__(self, channel: str) -> np.ndarray:
         """Samples of a measured channel; KeyError for one that was not measured."""

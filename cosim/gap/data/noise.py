@@ -136,8 +136,8 @@ def _agree(estimates: Sequence[float], counts: Sequence[int]) -> bool:
     return bool(np.all(np.abs(log - np.median(log)) <= spread))
 
 
-def without_outliers(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, int]:
-    """``values`` with outliers as NaN, and their number.
+def without_outliers(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """``values`` with outliers as NaN.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def without_outliers(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, 
         if bad is None:
             break
         kept[bad] = np.nan
-    return kept, int(np.count_nonzero(np.isfinite(values) & np.isnan(kept)))
+    return kept
 
 
 def _outlying(time: np.ndarray, values: np.ndarray, noise: float, width: int) -> np.ndarray:

@@ -54,17 +54,16 @@ def _track_of(file: Path, reading: Reading) -> tuple[Track, list[str], str]:
     unused = [cell for number, cell in enumerate(cells) if cell and number not in used]
     remarks = [f"{file.name}: {_unused(name)}" for name in unused]
     channels: dict[str, np.ndarray] = {}
-    outliers: dict[str, int] = {}
     for channel, values in columns.items():
         count = int(np.count_nonzero(np.isfinite(values)))
         if count >= FEWEST:
-            channels[channel], outliers[channel] = without_outliers(time, values)
+            channels[channel] = without_outliers(time, values)
         elif channel == "x":
             few = f"{count or 'no'} sample{'s' * (count != 1)}"
             raise CampaignError(f"column x: {few}, allowed are at least {FEWEST}")
         else:
             remarks.append(f"{file.name}: column {channel} has {count} samples and is not used")
-    track = Track(time=time - time[0], time_offset=float(time[0]), outliers=outliers, **channels)
+    track = Track(time=time - time[0], time_offset=float(time[0]), **channels)
     return track, remarks, "; ".join(filter(None, (one.converted for one in found.values())))
 
 

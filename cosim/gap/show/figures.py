@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -42,15 +43,14 @@ def draw_ladder(gap: Gap) -> Figure:
     """Treads of fitted and of held-out runs."""
     figure, axes = panels(1, 1, **SIZE)
     axis, count = axes[0, 0], len(gap.ladder)
-    series: dict[str, tuple[str, Any, list[float]]] = {
-        "fitted runs": (BLUE, "-", [rung.gap.fit for rung in gap.ladder])
-    }
+    fitted = [rung.gap.fit for rung in gap.ladder]
+    series: list[tuple[str, str, Any, list[float]]] = [("fitted runs", BLUE, "-", fitted)]
     if gap.after.held_out is not None:
         held = [rung.gap.held_out or np.nan for rung in gap.ladder]
-        series["held-out runs"] = (RED, (0, (4, 2)), held)
-    highest = np.nanmax([values for _, _, values in series.values()], axis=0)
+        series.append(("held-out runs", RED, (0, (4, 2)), held))
+    highest = np.nanmax([values for *_, values in series], axis=0)
     axis.axhline(1.0, color=INK, linewidth=1.0, label="noise")
-    for label, (colour, dash, values) in series.items():
+    for label, colour, dash, values in series:
         line: dict[str, Any] = {"color": colour, "linestyle": dash, "label": label}
         axis.stairs(values, np.arange(count + 1) - 0.5, baseline=None, linewidth=2.2, **line)
         for place, value in enumerate(values):
@@ -60,9 +60,8 @@ def draw_ladder(gap: Gap) -> Figure:
                 ha="center", va="bottom" if up > 0.0 else "top", fontsize=9.0, color=colour,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5},
             )  # fmt: skip
-    lowest = min(1.0, *(float(np.nanmin(values)) for _, _, values in series.values()))
-    axis.set_ylim(lowest / 1.35, 1.5 * max(1.0, float(highest.max())))
-    _logarithmic_y(axis)
+    lowest = min(1.0, *(float(np.nanmin(values)) for *_, values in series))
+    _logarithmic_y(axis, lowest / 1.35, 1.5 * max(1.0, float(highest.max())))
     names = [rung.name.replace("_", "_\n").replace(" ", "\n") for rung in gap.ladder]
     names = [name.replace("measurement.", "measurement.\n") for name in names]
     lean = {"rotation": 35, "ha": "right"} if count > UPRIGHT else {}
@@ -74,8 +73,8 @@ def draw_ladder(gap: Gap) -> Figure:
     return figure
 
 
-def _logarithmic_y(axis: Axes) -> None:
-    low, high = axis.get_ylim()
+def _logarithmic_y(axis: Axes, low: float, high: float) -> None:
+    axis.set_ylim(low, high)
     axis.set_yscale("log")
     subs = (1, 1.5, 2, 3, 5, 7) if high < 5.0 * low else (1, 2, 5)
     axis.yaxis.set_major_locator(LogLocator(subs=subs))
@@ -118,9 +117,7 @@ def _draw_law(axis: Axes, law: Law) -> None:
     axis.set_ylim(low - room, high + room)
     if at.min() > 0.0 and at.max() > WIDE * at.min():
         logarithmic_x(axis)
-    axis.set_xlabel(
-        f"{law.quantity} ({scaled.unit})" if law.unit not in ("", "1") else law.quantity
-    )
+    axis.set_xlabel(law.quantity + (f" ({scaled.unit})" if law.unit not in ("", "1") else ""))
     axis.set_ylabel("force along x (N)" if is_force else f"change of {symbol} (%)")
     axis.set_title(law.effect)
     axis.legend(loc="best")
@@ -162,11 +159,7 @@ def draw_run(gap: Gap) -> Figure:
 ), live=live_of)  # fmt: skip
 def draw_overlay(gap: Gap, channel: str) -> Figure:
     """A row for each run."""
-    runs = _runs(gap, channel)
-    figure, axes = panels(len(runs), 1, height=1.7, width=WIDTH)
-    for axis, run in zip(axes[:, 0], runs, strict=True):
-        _motion(axis, gap, run, channel, 1.5)
-    return _labelled(figure, axes)
+    return _rows(gap, channel, partial(_motion, size=1.5))
 
 
 @picture("residuals", (
@@ -175,29 +168,35 @@ def draw_overlay(gap: Gap, channel: str) -> Figure:
 ), live=live_of)  # fmt: skip
 def draw_residuals(gap: Gap, channel: str) -> Figure:
     """A row for each run."""
-    runs = _runs(gap, channel)
+    return _rows(gap, channel, _residuals)
+
+
+def _rows(gap: Gap, channel: str, draw: Callable[[Axes, Gap, MeasuredRun, str], None]) -> Figure:
+    runs = [run for run in shown_runs(gap) if channel in channels_of(run, gap.plain.run(run.name))]
     figure, axes = panels(len(runs), 1, height=1.7, width=WIDTH)
     for axis, run in zip(axes[:, 0], runs, strict=True):
-        largest = LINEAR
-        for label, model, colour in models(gap):
-            left = residuals(run, model.run(run.name), channel)
-            axis.plot(run.motion.time, left, ".", color=colour, markersize=1.5, label=label)
-            largest = max(largest, float(np.nanmax(np.abs(left))))
-        for level in (-2.0, 2.0):
-            axis.axhline(level, color=GREY, linewidth=0.8, linestyle="--")
-        axis.set_yscale("symlog", linthresh=LINEAR)
-        ticks = [t for t in TICKS if abs(t) < 1.4 * largest and (abs(t) != 2 or largest < 100.0)]
-        axis.set_yticks(ticks, [f"{tick:g}".replace("-", "−") for tick in ticks])
-        axis.minorticks_off()
-        axis.set_ylim(-1.4 * largest, 1.4 * largest)
-        gaps = " → ".join(digits(model.run(run.name).gap) for _, model, _ in models(gap))
-        axis.set_title(f"{run.name}: gap {gaps}")
-        axis.set_ylabel(f"{channel.replace('phi', 'φ')} (noise)")
+        draw(axis, gap, run, channel)
     return _labelled(figure, axes)
 
 
-def _runs(gap: Gap, channel: str) -> list[MeasuredRun]:
-    return [run for run in shown_runs(gap) if channel in channels_of(run, gap.plain.run(run.name))]
+def _residuals(axis: Axes, gap: Gap, run: MeasuredRun, channel: str) -> None:
+    """What both models leave of a run."""
+    largest, gaps = LINEAR, []
+    for label, model, colour in models(gap):
+        fitted = model.run(run.name)
+        left = residuals(run, fitted, channel)
+        axis.plot(run.motion.time, left, ".", color=colour, markersize=1.5, label=label)
+        largest = max(largest, float(np.nanmax(np.abs(left))))
+        gaps.append(digits(fitted.gap))
+    for level in (-2.0, 2.0):
+        axis.axhline(level, color=GREY, linewidth=0.8, linestyle="--")
+    axis.set_yscale("symlog", linthresh=LINEAR)
+    ticks = [t for t in TICKS if abs(t) < 1.4 * largest and (abs(t) != 2 or largest < 100.0)]
+    axis.set_yticks(ticks, [f"{tick:g}".replace("-", "−") for tick in ticks])
+    axis.minorticks_off()
+    axis.set_ylim(-1.4 * largest, 1.4 * largest)
+    axis.set_title(f"{run.name}: gap {' → '.join(gaps)}")
+    axis.set_ylabel(f"{channel.replace('phi', 'φ')} (noise)")
 
 
 def _motion(axis: Axes, gap: Gap, run: MeasuredRun, channel: str, size: float) -> None:

@@ -79,7 +79,5 @@ def worst(gap: Gap) -> tuple[MeasuredRun, str, float, float]:
 
 def title(run: MeasuredRun) -> str:
     """Name, operating point, and whether it was held out."""
-    return (
-        f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s"
-        f"{', held out' if run.hold_out else ''}"
-    )
+    at = f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s"
+    return f"{at}{', held out' if run.hold_out else ''}"
