@@ -77,7 +77,7 @@ def sentence_of(gap: Gap, parts: Sequence[Part]) -> str:
 
 def _size(part: Part, gap: Gap) -> str:
     """The largest value of a curve, with its interval and its power."""
-    axis = part.finding.main.unknown.curve
+    axis = _axis_of(part)
     if part.curve is None or axis is None:
         return ""
     mean, sd = part.curve.mean[-1], float(np.sqrt(part.curve.covariance[-1, -1]))
@@ -89,6 +89,11 @@ def _size(part: Part, gap: Gap) -> str:
     return value + where + (f", as the power {power.value:.2g} of it" if power else "")
 
 
+def _axis_of(part: Part) -> Curve | None:
+    """Of its curve; what moves the block across has numbers alone, and no rows along x."""
+    return part.finding.main.unknown.curve if part.curve is not None else None
+
+
 def _unit_of(name: str, axis: Curve) -> str:
     """Of a curve's values: N, or parts of a coefficient."""
     if name in ("film_drag", "structural_damping", "spring_hardening"):
@@ -98,7 +103,7 @@ def _unit_of(name: str, axis: Curve) -> str:
 
 def law_of(system: System, rung: Rung, part: Part) -> Law | None:
     """A curve with the points that each run says by itself."""
-    curve, axis = part.curve, part.finding.main.unknown.curve
+    curve, axis = part.curve, _axis_of(part)
     if curve is None or axis is None:
         return None
     variance = np.diag(curve.covariance)
@@ -142,7 +147,7 @@ _POWERS = {"film_drag": 1.0, "structural_damping": 1.0}
 
 def exponents_of(part: Part) -> Iterator[Exponent]:
     """The power a u^n that follows a curve, where it starts at nothing."""
-    axis = part.finding.main.unknown.curve
+    axis = _axis_of(part)
     if part.finding.name not in _POWERS or part.curve is None or axis is None:
         return
     at, mean = part.curve.at[1:], part.curve.mean[1:]
