@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import tomli_w
@@ -13,11 +14,14 @@ from cosim.files import writable, write_unless_owned
 
 #: Of the tracker, m.
 NOISE = 2e-4
-STIFFNESS, NATURAL_LENGTH = 38.5, 0.17
+RIG, FRICTION = {"spring_natural_length": 0.17}, {"mu_s": 0.30, "mu_k": 0.22}
 SPEEDS = (0.06, 0.10, 0.15, 0.25)
 #: Two of them: with one load a coefficient cannot be told from a force.
 MASSES = (0.87, 1.4, 1.4, 0.87)
-MU_S, MU_K = 0.30, 0.22
+RUNS = [
+    {"mass": mass, "stiffness": 38.5, "surface_speed": speed}
+    for mass, speed in zip(MASSES, SPEEDS, strict=True)
+]
 #: s
 DURATION, INTERVAL = 10.0, 0.01
 HIDDEN = {"velocity_weakening": {"linear": 0.8}}
@@ -30,16 +34,26 @@ def write_example(folder: Path, seed: int = 0, force: bool = False) -> Path:
     Raises OutputRefused where the folder cannot be written to, or a file of such a name is there
     with other content, unless ``force``.
     """
-    names = [f"run{number:02d}.csv" for number in range(1, len(SPEEDS) + 1)]
+    names = [f"run{number:02d}.csv" for number in range(1, len(RUNS) + 1)]
     writable(folder, (CAMPAIGN, *names))
     random = np.random.default_rng(seed)
-    texts = {CAMPAIGN: _campaign(names)}
-    for name, mass, speed in zip(names, MASSES, SPEEDS, strict=True):
-        run = simulate(_parameters(mass, speed), DURATION, INTERVAL)
-        x = run["x"] + NOISE * random.standard_normal(run.time.size)
-        rows = [f"{t:.6g},{value:.7f}" for t, value in zip(run.time, x, strict=True)]
-        texts[name] = "\n".join(["t,x", *rows]) + "\n"
-    write_unless_owned(texts, folder, force)
+    tracks = {}
+    for name, run in zip(names, RUNS, strict=True):
+        tables = {
+            "rig": {"mass": run["mass"], **RIG},
+            "springs": {"stiffness": run["stiffness"]},
+            "friction": FRICTION,
+            "surface": {"speed": run["surface_speed"]},
+        }
+        moved = simulate(Parameters.model_validate({**tables, **HIDDEN}), DURATION, INTERVAL)
+        x = moved["x"] + NOISE * random.standard_normal(moved.time.size)
+        rows = [f"{t:.6g},{value:.7f}" for t, value in zip(moved.time, x, strict=True)]
+        tracks[name] = "\n".join(["t,x", *rows]) + "\n"
+    made = [
+        {"file": name, **run, "hold_out": name == names[-1]}
+        for name, run in zip(names, RUNS, strict=True)
+    ]
+    write_unless_owned({CAMPAIGN: _campaign("example", made), **tracks}, folder, force)
     return folder / CAMPAIGN
 
 
@@ -48,44 +62,11 @@ def write_planned_example(folder: Path, force: bool = False) -> Path:
 
     Raises OutputRefused as `write_example` does.
     """
-    known = {
-        "name": "planned",
-        "rig": {"spring_natural_length": NATURAL_LENGTH},
-        "noise": {"x": NOISE},
-        "friction": {"mu_s": MU_S, "mu_k": MU_K},
-    }
-    record = {"duration": DURATION, "rate": 1.0 / INTERVAL}
-    runs = [
-        {"mass": mass, "stiffness": STIFFNESS, "surface_speed": speed} | record
-        for mass, speed in zip(MASSES, SPEEDS, strict=True)
-    ]
-    tables = [tomli_w.dumps(known), *[f"[[run]]\n{tomli_w.dumps(run)}" for run in runs]]
-    write_unless_owned({CAMPAIGN: "\n".join(tables)}, folder, force)
+    runs = [{**run, "duration": DURATION, "rate": 1.0 / INTERVAL} for run in RUNS]
+    write_unless_owned({CAMPAIGN: _campaign("planned", runs, friction=FRICTION)}, folder, force)
     return folder / CAMPAIGN
 
 
-def _campaign(names: Sequence[str]) -> str:
-    """The last run is held out."""
-    known = {
-        "name": "example",
-        "rig": {"spring_natural_length": NATURAL_LENGTH},
-        "noise": {"x": NOISE},
-    }
-    lines = [tomli_w.dumps(known)]
-    for name, mass, speed in zip(names, MASSES, SPEEDS, strict=True):
-        run = {"file": name, "mass": mass, "stiffness": STIFFNESS, "surface_speed": speed,
-               "hold_out": name == names[-1]}  # fmt: skip
-        lines.append(f"[[run]]\n{tomli_w.dumps(run)}")
-    return "\n".join(lines)
-
-
-def _parameters(mass: float, speed: float) -> Parameters:
-    return Parameters.model_validate(
-        {
-            "rig": {"mass": mass, "spring_natural_length": NATURAL_LENGTH},
-            "springs": {"stiffness": STIFFNESS},
-            "friction": {"mu_s": MU_S, "mu_k": MU_K},
-            "surface": {"speed": speed},
-            **HIDDEN,
-        }
-    )
+def _campaign(name: str, runs: Sequence[Mapping[str, Any]], **known: Any) -> str:
+    tables = {"name": name, "rig": RIG, "noise": {"x": NOISE}, **known}
+    return "\n".join([tomli_w.dumps(tables), *(f"[[run]]\n{tomli_w.dumps(run)}" for run in runs)])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,9 +9,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from cosim.gap.result import Gap
-from cosim.gap.show.answer_figures import draw_ladder, draw_laws
+from cosim.gap.show.figures import figures_of
 from cosim.gap.show.numbers import as_data
-from cosim.gap.show.run_figures import draw_overlay, draw_residuals, draw_run
 from cosim.gap.show.tracks import channels, modelled, residuals, shown_runs
 from cosim.names import unknown_name
 from cosim.report.files import json_text, provenance
@@ -44,10 +42,11 @@ def gap_dataset(gap: Gap) -> xr.Dataset:
 
     for channel in channels(gap):
         unit, meaning = CHANNELS[channel]
+        seen = [getattr(run.motion, channel) for run in runs]
         none = [np.full(run.motion.time.size, np.nan) for run in runs]
-        measured = [getattr(run.motion, channel) for run in runs]
-        measured = [n if m is None else m for m, n in zip(measured, none, strict=True)]
-        add(channel, measured, unit, meaning)
+        add(
+            channel, [n if s is None else s for s, n in zip(seen, none, strict=True)], unit, meaning
+        )
         for label, model in (("plain", gap.plain), ("extended", gap.extended)):
             pairs = [(run, model.run(run.name)) for run in runs]
             moved = [modelled(*pair, channel) for pair in pairs]
@@ -67,12 +66,7 @@ def gap_dataset(gap: Gap) -> xr.Dataset:
 
 def figure_of(gap: Gap, name: str) -> Figure:
     """A figure of the page by its name; ValueError for one that this answer has not."""
-    found = {"ladder": partial(shown, draw_ladder, gap), "run": partial(shown, draw_run, gap)}
-    if gap.laws:
-        found["curve"] = partial(shown, draw_laws, gap)
-    for channel in channels(gap):
-        found[f"overlay_{channel}"] = partial(shown, draw_overlay, gap, channel)
-        found[f"residuals_{channel}"] = partial(shown, draw_residuals, gap, channel)
+    found = figures_of(gap)
     if name not in found:
         raise ValueError(unknown_name("figure of this answer", name, found))
-    return found[name]()
+    return shown(found[name].func, *found[name].args)

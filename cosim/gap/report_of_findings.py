@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -13,7 +13,8 @@ from cosim.gap.extended import Part
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
-from cosim.gap.weak_form.system import Rung, System
+from cosim.gap.weak_form.system import Added, Rung, System
+from cosim.gap.weak_form.unknowns import Curve
 from cosim.gap.windows import Fitted
 
 _SAYS = {
@@ -48,15 +49,10 @@ _SAYS = {
 }
 
 
-def says(name: str) -> str:
-    """A finding in words; one of the user's own effects by its id."""
-    return _SAYS.get(name, f"{name} is missing")
-
-
 def text_of(part: Part) -> str:
-    """A finding with its size."""
-    variant = part.finding.variant
-    words = f"{says(part.finding.name)}: {part.effect}"
+    """A finding in words; one of the user's own effects by its id."""
+    name, variant = part.finding.name, part.finding.variant
+    words = f"{_SAYS.get(name, f'{name} is missing')}: {part.effect}"
     return f"{words} ({variant})" if variant else words
 
 
@@ -81,72 +77,66 @@ def sentence_of(gap: Gap, parts: Sequence[Part]) -> str:
 
 def _size(part: Part, gap: Gap) -> str:
     """The largest value of a curve, with its interval and its power."""
-    if part.curve is None:
+    axis = _axis_of(part)
+    if part.curve is None or axis is None:
         return ""
-    unknown = part.finding.main.unknown
-    assert unknown.curve is not None
     mean, sd = part.curve.mean[-1], float(np.sqrt(part.curve.covariance[-1, -1]))
-    at, per = part.curve.at[-1], unit_of(part)
-    where = f"at {at:.2g} {unknown.curve.unit}"
-    if unknown.curve.unit == "ln s":
-        where = f"after {np.exp(at):.2g} s"
+    at, per = part.curve.at[-1], _unit_of(part.finding.name, axis)
+    where = f"after {np.exp(at):.2g} s" if axis.unit == "ln s" else f"at {at:.2g} {axis.unit}"
     value = f", {mean:.2g} ({mean - NINETY * sd:.2g} to {mean + NINETY * sd:.2g}) "
     value += "N " if per == "N" else f"of {per} "
     power = next((one for one in gap.exponents if one.effect == part.effect), None)
     return value + where + (f", as the power {power.value:.2g} of it" if power else "")
 
 
-def unit_of(part: Part) -> str:
+def _axis_of(part: Part) -> Curve | None:
+    """Of its curve; what moves the block across has numbers alone, and no rows along x."""
+    return part.finding.main.unknown.curve if part.curve is not None else None
+
+
+def _unit_of(name: str, axis: Curve) -> str:
     """Of a curve's values: N, or parts of a coefficient."""
-    forces = ("film_drag", "structural_damping", "spring_hardening")
-    curve = part.finding.main.unknown.curve
-    assert curve is not None
-    if part.finding.name in forces:
+    if name in ("film_drag", "structural_damping", "spring_hardening"):
         return "N"
-    return "mu_k" if part.finding.name == "velocity_weakening" else curve.per
+    return "mu_k" if name == "velocity_weakening" else axis.per
 
 
 def law_of(system: System, rung: Rung, part: Part) -> Law | None:
     """A curve with the points that each run says by itself."""
-    if part.curve is None:
+    curve, axis = part.curve, _axis_of(part)
+    if curve is None or axis is None:
         return None
-    unknown = part.finding.main.unknown
-    assert unknown.curve is not None
-    best = part.fits[0] if part.fits else None
-    points, names = _points(system, rung, part)
-    law = None
-    if best is not None:
-        weight = 1.0 / np.maximum(np.diag(part.curve.covariance), 1e-18)
-        level = np.sum(weight * (part.curve.mean - best.at)) / weight.sum()
-        law = best.at + level
+    variance = np.diag(curve.covariance)
+    form, law = "", None
+    if part.fits:
+        best, weight = part.fits[0], 1.0 / np.maximum(variance, 1e-18)
+        form = best.candidate.form if best.follows else ""
+        law = best.at + np.sum(weight * (curve.mean - best.at)) / weight.sum()
+    points, names = _points(system, rung, part.finding.main, axis, variance[-1])
     return Law(
-        part.effect, unknown.curve.quantity, unknown.curve.unit, unit_of(part),
-        part.curve.at, part.curve.mean, np.sqrt(np.diag(part.curve.covariance)), points, names,
-        best.candidate.form if best is not None and best.follows else "", law,
+        part.effect, axis.quantity, axis.unit, _unit_of(part.finding.name, axis), curve.at,
+        curve.mean, np.sqrt(variance), points, names, form, law,
     )  # fmt: skip
 
 
-def _points(system: System, rung: Rung, part: Part) -> tuple[np.ndarray, tuple[str, ...]]:
+def _points(
+    system: System, rung: Rung, main: Added, axis: Curve, variance: float
+) -> tuple[np.ndarray, tuple[str, ...]]:
     """What each run by itself says at those nodes of the argument that it tells of.
 
-    The curve plus what is left of the run's rows, projected on the curve there.
+    The curve plus what is left of the run's rows, projected on the curve there. variance : of the
+    law at its last node
     """
-    unknown = part.finding.main.unknown
-    assert unknown.curve is not None and part.curve is not None
-    place = rung.part_of(part.finding.main)
+    place = rung.part_of(main)
     mean, covariance = rung.posterior[0][place], rung.posterior[1][place, place]
-    scale = np.sqrt(part.curve.covariance[-1, -1] / max(covariance[-1, -1], 1e-300))
+    scale = np.sqrt(variance / max(covariance[-1, -1], 1e-300))
     points, names = [], []
     for run in system.fitted:
-        columns = unknown.columns([run])
-        left = rung.left(run)
+        columns, left = main.unknown.columns([run]), rung.left(run)
         square = np.sum(columns**2, axis=0)
         for node in np.flatnonzero(square > 0.02 * square.max(initial=0.0)):
-            if square[node] <= 0.0:
-                continue
             value = mean[node] + columns[:, node] @ left / square[node]
-            sd = 1.0 / np.sqrt(square[node])
-            points.append((unknown.curve.nodes[node], scale * value, scale * sd))
+            points.append((axis.nodes[node], scale * value, scale / np.sqrt(square[node])))
             names.append(run.track.run.name)
     return np.array(points).reshape(-1, 3), tuple(names)
 
@@ -157,7 +147,8 @@ _POWERS = {"film_drag": 1.0, "structural_damping": 1.0}
 
 def exponents_of(part: Part) -> Iterator[Exponent]:
     """The power a u^n that follows a curve, where it starts at nothing."""
-    if part.finding.name not in _POWERS or part.curve is None:
+    axis = _axis_of(part)
+    if part.finding.name not in _POWERS or part.curve is None or axis is None:
         return
     at, mean = part.curve.at[1:], part.curve.mean[1:]
     covariance = part.curve.covariance[1:, 1:]
@@ -169,10 +160,8 @@ def exponents_of(part: Part) -> Iterator[Exponent]:
     found = least_squares(rows, [mean[-1], 1.0], x_scale=[abs(mean[-1]) + 1e-12, 1.0])
     inverse = np.linalg.pinv(found.jac.T @ found.jac)
     value, sd = float(found.x[1]), float(np.sqrt(inverse[1, 1]))
-    unknown = part.finding.main.unknown
-    assert unknown.curve is not None
-    yield Exponent(part.effect, unknown.curve.quantity, value, value - NINETY * sd,
-                   value + NINETY * sd, _POWERS[part.finding.name])  # fmt: skip
+    low, high = value - NINETY * sd, value + NINETY * sd
+    yield Exponent(part.effect, axis.quantity, value, low, high, _POWERS[part.finding.name])
 
 
 def ranking_of(
@@ -189,55 +178,45 @@ def ranking_of(
         evidence = {name: offer[0] - rung for name, offer in ladder.first_offers.items()}
     total = logsumexp(list(evidence.values()) or [0.0])
     named = {part.finding.name: part for part in parts}
-    return tuple(
-        _ranked(name, value, float(np.exp(value - total)), named.get(name), extended, after)
-        for name, value in sorted(evidence.items(), key=lambda pair: -pair[1])
-    )
-
-
-def _ranked(
-    name: str, evidence: float, probability: float, part: Part | None, extended: Fitted,
-    after: Score,
-) -> Ranked:  # fmt: skip
-    if part is None:
-        return Ranked(name, "", evidence, probability)
-    keys = {number.key for number in part.numbers if number.scope == "campaign"}
-    parameters = {key: value for key, value in extended.values.items() if key in keys}
-    intervals, undetermined = intervals_of(extended, parameters)
-    form = part.fits[0].candidate.form if part.fits else part.finding.variant
-    return Ranked(part.effect, form, evidence, probability, after, parameters, intervals,
-                  undetermined)  # fmt: skip
-
-
-def intervals_of(
-    fitted: Fitted, parameters: Mapping[str, float]
-) -> tuple[dict[str, tuple[float, float]], tuple[str, ...]]:
-    """90 % intervals, and what the data do not determine: at a bound, or known to no better than
-    its own size."""
-    intervals, undetermined = {}, []
-    for key, value in parameters.items():
-        sd = fitted.sd.get(key, float("inf"))
-        if key in fitted.at_bound or not np.isfinite(sd) or NINETY * sd > abs(value):
-            undetermined.append(key)
+    ranking = []
+    for name, value in sorted(evidence.items(), key=lambda pair: -pair[1]):
+        part, probability = named.get(name), float(np.exp(value - total))
+        if part is None:
+            ranking.append(Ranked(name, "", value, probability))
         else:
-            intervals[key] = (value - NINETY * sd, value + NINETY * sd)
-    return intervals, tuple(undetermined)
+            form = part.fits[0].candidate.form if part.fits else part.finding.variant
+            numbers = _numbers_of(part, extended)
+            ranking.append(Ranked(part.effect, form, value, probability, after, *numbers))
+    return tuple(ranking)
+
+
+def _numbers_of(
+    part: Part, fitted: Fitted
+) -> tuple[dict[str, float], dict[str, tuple[float, float]], tuple[str, ...]]:
+    """Its numbers, 90 % intervals, and what the data do not determine: at a bound, or known to no
+    better than its own size."""
+    keys = {number.key for number in part.numbers if number.scope == "campaign"}
+    parameters = {key: value for key, value in fitted.values.items() if key in keys}
+    intervals = {}
+    for key, value in parameters.items():
+        half = NINETY * fitted.sd.get(key, float("inf"))
+        if key not in fitted.at_bound and half <= abs(value) and np.isfinite(half):
+            intervals[key] = (value - half, value + half)
+    return parameters, intervals, tuple(key for key in parameters if key not in intervals)
 
 
 def rig_numbers(campaign: Campaign, fitted: Fitted) -> tuple[RigNumber, ...]:
     """Springs and zeros, as stated and as the runs have them."""
-    found = []
+    found, runs = [], {run.name: run for run in campaign.runs}
     for label, value in fitted.values.items():
         key, _, owner = label.partition("@")
         sd = fitted.sd.get(label, float("inf"))
         if key == "offset.stiffness":
             error = campaign.errors.stiffness
             found.append(RigNumber(f"stiffness, {owner}", "1", 0.0, error, value, sd))
-        elif key == "offset.x" and owner:
-            run = next((r for r in campaign.runs if r.name == owner), None)
-            if run is not None:
-                stated = campaign.zero_sd(run, "x")
-                found.append(RigNumber(f"zero of x, {owner}", "m", 0.0, stated, value, sd))
+        elif key == "offset.x" and owner in runs:
+            error = campaign.zero_sd(runs[owner])
+            found.append(RigNumber(f"zero of x, {owner}", "m", 0.0, error, value, sd))
     return tuple(found)
 
 
@@ -250,17 +229,10 @@ def where_of(campaign: Campaign, ladder: Ladder, plain: Fitted) -> Where:
     kinds = np.concatenate([run.kinds for run in ladder.system.fitted])
     squares = {kind: float(np.mean(rung.residuals[kinds == kind] ** 2)) for kind in _REGIMES
                if np.any(kinds == kind)}  # fmt: skip
-    worst = max(squares, key=lambda kind: squares[kind])
-    runs = sorted(plain.runs, key=lambda run: -run.gap)
-    names = tuple(run.name for run in runs[:3])
+    regime = _REGIMES[max(squares, key=lambda kind: squares[kind])]
+    runs = sorted(plain.runs, key=lambda run: -run.gap)[:3]
     text = (
         f"the user's model misses x by {runs[0].gap:.2g} noise units in {runs[0].name}; of the "
-        f"balance of forces most in {_REGIMES[worst]}"
+        f"balance of forces most in {regime}"
     )
-    return Where("x", _REGIMES[worst], names, text)
-
-
-__all__ = [
-    "exponents_of", "intervals_of", "law_of", "ranking_of", "rig_numbers", "says",
-    "sentence_of", "text_of", "where_of",
-]  # fmt: skip
+    return Where("x", regime, tuple(run.name for run in runs), text)

@@ -259,8 +259,9 @@ def test_the_check_sees_the_imports_that_there_are():
     assert "thermal.BeltIceModel" in IMPORTS["cosim.coupling.case"]
     assert home_of("thermal.BeltIceModel") == "thermal"
     assert room_of("cosim.scenario.faults") == room_of("cosim.scenario") == "cosim.scenario"
-    assert room_of("cosim.gap.data.reading.columns") == "cosim.gap.data.reading"
-    assert room_of("cosim.gap.data.errors") == "cosim.gap.data.errors"
+    assert room_of("cosim.gap.data.errors") == "cosim.gap.data"
+    assert room_of("cosim.systems.ssp.reader") == "cosim.systems.ssp"
+    assert room_of("cosim.systems.run") == "cosim.systems.run"
     assert room_of("thermal.model") is None and room_of("stickslip.kernel.motion") is None
 
 

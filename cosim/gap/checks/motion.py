@@ -11,29 +11,45 @@ from scipy import stats
 from scipy.signal import savgol_filter
 
 from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.units import swing
 from cosim.gap.result import Doubt
 from cosim.gap.weak_form.constants import CUBIC_REACH
 from cosim.gap.weak_form.rows import Response, rows_of
 from cosim.gap.windows.sticks import smoothed, sticks_of
 
-from .constants import (
-    BINS,
-    CREEPS,
-    CREST,
-    FEWEST_ROWS,
-    FEWEST_STICKS,
-    FRICTION,
-    LEVEL,
-    PEAK,
-    SHAPE,
-    SHEARED,
-    SOFTEST,
-    THROUGHOUT,
-    TRAVEL,
-    WRONG_SPEED,
-    far,
-)
-from .units import cycle_of, swing_of
+from .level import LEVEL, far
+from .units import cycle_of
+
+# Speed in stick.
+#: Part of the speed by which a contact that is sheared has the block swing past the surface.
+SHEARED = 0.02
+#: Part of the speed by which a loaded contact creeps: bristles of 100 um in a stroke of 1 mm.
+CREEPS = 0.1
+#: Beyond this part a set-point is another one: what runs at it says nothing of the one stated.
+WRONG_SPEED = 0.15
+#: Velocities are counted in so many bins; the median within this part about the fullest is what x
+#: has most often: noise of a velocity is as wide on slow surfaces.
+BINS, PEAK = 40, 0.3
+#: Fewest sticks whose scatter tells the error of their mean slope.
+FEWEST_STICKS = 3
+#: Least travel in a stick, as part of the range of x, and fewest sticks, as part of all cycles: the
+#: end of a vibration that dies out is straight, too.
+TRAVEL, THROUGHOUT = 0.2, 0.5
+#: Third derivative of x in sticks, as part of that in the crests of a vibration: 0, or 1; on
+#: springs that are half as stiff half of it.
+CREST = 0.5
+
+# Springs.
+#: Standard deviation of what friction that goes with the place, or with what was slid, makes of the
+#: stiffness: friction a F (1 + sin q x) is a spring of a F q, a few percent of those of the rig.
+FRICTION = 0.02
+#: Fewest rows of the weak form, ten of a slip, and fewest velocities, that tell anything.
+FEWEST_ROWS = 30
+#: Nothing that is known makes springs softer than this part of themselves: a second mass on the
+#: block, or a belt that gives, takes a fifth.
+SOFTEST = 0.7
+#: Standard deviation of what springs that are not linear, or not along x, make of a measured force.
+SHAPE = 0.02
 
 
 def doubts_of_direction(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
@@ -44,7 +60,7 @@ def doubts_of_direction(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list
     """
     doubts = []
     for run in runs:
-        momentum = swing_of(run) / (run.natural_frequency * run.motion.duration)
+        momentum = swing(run.motion.x) / (run.natural_frequency * run.motion.duration)
         least = far(len(runs)) * campaign.zero_sd(run) + momentum
         mean = float(np.nanmean(run.motion.x))
         if math.copysign(mean, mean * run.surface_speed) < -least:
@@ -71,28 +87,22 @@ def doubts_of_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
     doubts = []
     for (run, speed, error), log in zip(found, logs, strict=True):
         if _is_off(log - common, limit * math.hypot(known, error / speed)):
-            doubts.append(_of_speed(run, speed))
+            text = (
+                f"{run.name}: surface_speed = {run.surface_speed:g} m/s, but x moves at "
+                f"{speed:.3g} m/s in sticks: wrong set-point?"
+            )
+            far_off = abs(speed / abs(run.surface_speed) - 1.0) > WRONG_SPEED
+            doubts.append(Doubt("speed", text, (run.name,), far_off))
     if common:
-        names = tuple(run.name for run, *_ in found)
-        text = (
-            f"all runs: in sticks x moves at {math.exp(common):.3g} times the surface_speed "
-            "stated: the camera's scale, its clock, or the drive?"
-        )
+        names, times = tuple(run.name for run, *_ in found), f"{math.exp(common):.3g} times"
+        hint = "the camera's scale, its clock, or the drive?"
+        text = f"all runs: in sticks x moves at {times} the surface_speed stated: {hint}"
         doubts.append(Doubt("speed", text, names, abs(common) > WRONG_SPEED))
     return doubts
 
 
 def _is_off(log: float, limit: float) -> bool:
     return not math.log1p(-CREEPS) - limit < log < limit
-
-
-def _of_speed(run: MeasuredRun, speed: float) -> Doubt:
-    ratio = speed / abs(run.surface_speed)
-    text = (
-        f"{run.name}: surface_speed = {run.surface_speed:g} m/s, but x moves at {speed:.3g} m/s in "
-        "sticks: wrong set-point?"
-    )
-    return Doubt("speed", text, (run.name,), abs(ratio - 1.0) > WRONG_SPEED)
 
 
 def stick_speed(run: MeasuredRun) -> tuple[float, float] | None:
@@ -120,7 +130,7 @@ def _sticks_at(run: MeasuredRun, speed: float) -> tuple[np.ndarray, np.ndarray]:
     for stick in sticks_of(replace(run, surface_speed=along * speed)):
         rows = np.arange(stick.first, stick.last + 1)
         rows = rows[np.isfinite(run.motion.x[rows])]
-        if rows.size < 5 or speed * stick.duration < TRAVEL * swing_of(run):
+        if rows.size < 5 or speed * stick.duration < TRAVEL * swing(run.motion.x):
             continue
         time, x = run.motion.time[rows] - run.motion.time[rows].mean(), along * run.motion.x[rows]
         slopes.append(np.polyfit(time, x, 1)[0])
@@ -201,27 +211,24 @@ def doubts_of_force(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
     measured = [run for run in runs if "force" in run.motion.channels]
     known, doubts = math.hypot(campaign.errors.stiffness, SHAPE), []
     for run in measured:
-        told = _force_slope(run)
-        wanted = run.total_stiffness
-        if told and abs(told[0] - wanted) > far(len(measured)) * math.hypot(
-            told[1], known * wanted
-        ):
-            hint = "its sign?" if told[0] < 0.0 else "stiffness, scale of x or unit of force?"
+        wanted, (slope, error) = run.total_stiffness, _force_slope(run)
+        if abs(slope - wanted) > far(len(measured)) * math.hypot(error, known * wanted):
+            hint = "its sign?" if slope < 0.0 else "stiffness, scale of x or unit of force?"
             text = (
-                f"{run.name}: force grows by {told[0]:.3g} N/m, expected is {wanted:.3g} N/m, that "
+                f"{run.name}: force grows by {slope:.3g} N/m, expected is {wanted:.3g} N/m, that "
                 f"of four springs of {run.stiffness:g} N/m: {hint}"
             )
             doubts.append(Doubt("force", text, (run.name,)))
     return doubts
 
 
-def _force_slope(run: MeasuredRun) -> tuple[float, float] | None:
-    """Force for each metre of x, N/m, and its standard error; None where x hardly moves."""
+def _force_slope(run: MeasuredRun) -> tuple[float, float]:
+    """Force for each metre of x, N/m, and its standard error, infinite where x hardly moves."""
     seen = np.isfinite(run.motion["force"]) & np.isfinite(run.motion.x)
     force, x = run.motion["force"][seen], run.motion.x[seen]
     noise = x.size * run.noise["x"] ** 2
     if x.size < 3 or (spread := float(np.sum((x - x.mean()) ** 2)) - noise) <= noise:
-        return None  # noise of x, which flattens the slope, is taken out
+        return 0.0, math.inf  # noise of x, which flattens the slope, is taken out
     slope = float((x - x.mean()) @ force) / spread
     left = force - force.mean() - slope * (x - x.mean())
     return slope, math.sqrt(float(left @ left) / (x.size - 2) / spread)

@@ -9,23 +9,27 @@ import numpy as np
 from scipy import stats
 
 from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.units import swing
 from cosim.gap.result import Doubt
 from cosim.gap.windows.sticks import sticks_of
 
-from .constants import (
-    BARTLETT,
-    COARSEST,
-    HIDES,
-    LEAK,
-    LEVEL,
-    NEAR,
-    ON_LATTICE,
-    QUIET,
-    SMOOTHED,
-    TRIED,
-    WHITE,
-)
-from .units import swing_of
+from .level import LEVEL
+
+#: Most of omega times the interval: a quintic over one radian to either side, which smooths the
+#: motion in slip to 1e-3, needs seven samples.
+COARSEST = 1.0 / 3.0
+#: Noise that is so many times too large, or too small, hides as much misfit as any effect makes.
+HIDES = 1.35
+#: Most of a vibration's third difference, in parts of the noise, where noise is told from motion.
+LEAK = 0.5
+#: Samples that tell noise; and autocorrelation of third differences at a lag of one for
+#: white noise, with n times its variance (Bartlett 1946, from -3/4, 3/10, -1/20 at lags 1 to 3).
+QUIET, WHITE, BARTLETT = 200, -0.75, 0.20625
+#: By how much it is higher where smoothing is felt: a Gaussian of half an interval makes it so.
+SMOOTHED = 0.1
+#: A number lies on a lattice within this part of a step, since a file's decimals are rounded too;
+#: part of the numbers on a lattice that no finer one would leave; steps that are tried.
+NEAR, ON_LATTICE, TRIED = 0.02, 0.75, 30
 
 #: Sum of the squares of the third difference's weights 1, 3, 3, 1.
 _THIRD = 20.0
@@ -51,13 +55,12 @@ def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
 
     Noise is looked at where the motion hardly shows in third differences.
     """
-    steps = _of_steps(runs)
-    if steps:
+    if steps := _of_steps(runs):
         return steps
     size, variance, together = quiet(runs)
     if size < QUIET or variance == 0.0:
         return []
-    names, doubts = tuple(run.name for run in runs), []
+    names = tuple(run.name for run in runs)
     higher = together / variance - WHITE
     if higher > max(SMOOTHED, stats.norm.isf(LEVEL) * math.sqrt(BARTLETT / size)):
         text = (
@@ -68,13 +71,11 @@ def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
         return [Doubt("smoothed", text, names, True)]
     stated = math.sqrt(float(np.mean([run.noise["x"] ** 2 for run in runs])))
     seen = math.sqrt(variance / _THIRD)
-    if not 1.0 / HIDES < seen / stated < HIDES:
-        text = (
-            f"all runs: noise of x is {1e3 * seen:.3g} mm, {1e3 * stated:.3g} mm "
-            f"{'is estimated from all samples' if 'x' in campaign.noise_estimated else 'is stated'}"
-        )
-        doubts.append(Doubt("noise", text, names))
-    return doubts
+    if 1.0 / HIDES < seen / stated < HIDES:
+        return []
+    how = "estimated from all samples" if "x" in campaign.noise_estimated else "stated"
+    text = f"all runs: noise of x is {1e3 * seen:.3g} mm, {1e3 * stated:.3g} mm is {how}"
+    return [Doubt("noise", text, names)]
 
 
 def quiet(runs: Sequence[MeasuredRun]) -> tuple[int, float, float]:
@@ -96,7 +97,7 @@ def quiet(runs: Sequence[MeasuredRun]) -> tuple[int, float, float]:
 def _stretches(run: MeasuredRun) -> list[slice]:
     """Rows in which third differences see noise alone: sticks; all, where nothing sticks."""
     sticks = [slice(stick.first, stick.last + 1) for stick in sticks_of(run)]
-    leak = 0.5 * swing_of(run) * (run.natural_frequency * run.motion.interval) ** 3
+    leak = 0.5 * swing(run.motion.x) * (run.natural_frequency * run.motion.interval) ** 3
     return sticks or [slice(None)] * (leak < LEAK * run.noise["x"])
 
 

@@ -1,8 +1,6 @@
 """Measured runs: a folder of tracker files and what the experimenter knows, checked."""
 
-from cosim.gap.data.campaign import campaign_of, read_campaign
-from cosim.gap.data.hold_out import choose_hold_outs
+from cosim.gap.data.campaign import read_campaign
 from cosim.gap.data.measured import CHANNELS, Campaign, MeasuredRun, Track
 
-__all__ = ["CHANNELS", "Campaign", "MeasuredRun", "Track", "campaign_of", "choose_hold_outs"]
-__all__ += ["read_campaign"]
+__all__ = ["CHANNELS", "Campaign", "MeasuredRun", "Track", "read_campaign"]

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pydantic import ValidationError
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from stickslip import Parameters
 
 from cosim.gap.data.campaign_file import FILE_NAME, CampaignTable, RunTable, read_tables
-from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.columns import Reading
+from cosim.gap.data.errors import CampaignError, within
 from cosim.gap.data.friction_table import read_friction_table
-from cosim.gap.data.hold_out import with_hold_outs, without_duplicates
 from cosim.gap.data.measured import Campaign, MeasuredRun
 from cosim.gap.data.noise import with_noise
-from cosim.gap.data.reading.columns import Reading
 from cosim.gap.data.track_file import read_track, regime_remarks
 from cosim.gap.data.units import check_units
-from cosim.scenario.faults import describe_faults
+from cosim.scenario.faults import checked
+
+#: So many equal samples in a row are no coincidence of two measurements.
+PATTERN = 16
 
 
 def read_campaign(path: str | Path) -> Campaign:
@@ -35,20 +39,26 @@ def read_campaign(path: str | Path) -> Campaign:
     path = Path(path)
     path = path / FILE_NAME if path.is_dir() else path
     table, run_tables = read_tables(path)
-    campaign = campaign_of(path, table, run_tables)
-    remarks = list(campaign.remarks)
-    if campaign.friction_table is not None and not any(run.file for run in run_tables):
+    law = read_friction_table(path, table, [run.surface_speed for run in run_tables])
+    if law is not None and not any(run.file for run in run_tables):
         alone = "of runs of which only figures are known the law is mu_s and mu_k"
         raise CampaignError(f"{path}: friction.table: {alone}; allowed with a file in a [[run]]")
-    runs: list[MeasuredRun] = []
+    campaign = Campaign(
+        table.name, path.parent, table.rig, table.model.scheme, {}, (), (), (),
+        table.friction.given, table.errors, law, table.limits.given,
+    )  # fmt: skip
+    runs, remarks = [], [] if law is None else [law.text]
     converted: dict[str, list[str]] = {}
     for number, run_table in enumerate(run_tables, 1):
-        reading = _reading(f"{path}: run {number}", table, run_table)
-        run, notes, units = _read_run(path, campaign, run_table, number, reading)
+        with within(f"{path}: run {number}"):
+            run, reading = _run_of(campaign, run_table, number), _reading(table, run_table)
+        if run.file is not None:
+            track, notes, units = read_track(run.file, reading)
+            run = replace(run, track=track)
+            remarks += [*notes, *check_units(run, campaign.rig)]
+            if units:
+                converted.setdefault(units, []).append(run_table.file)
         runs.append(run)
-        remarks += notes
-        if units:
-            converted.setdefault(units, []).append(run_table.file)
     remarks += [f"{', '.join(who)}: converted: {what}" for what, who in converted.items()]
     kept, copies = without_duplicates(_unique_names(runs), str(path))
     kept, held = with_hold_outs(kept, str(path))
@@ -60,49 +70,28 @@ def read_campaign(path: str | Path) -> Campaign:
     )  # fmt: skip
 
 
-def campaign_of(path: Path, table: CampaignTable, runs: list[RunTable]) -> Campaign:
-    """What the file states of all runs; they are still to be read, or to be made."""
-    law = read_friction_table(path, table, [one.surface_speed for one in runs])
-    return Campaign(
-        table.name, path.parent, table.rig, table.model.scheme, table.noise.given, (), (),
-        () if law is None else (law.text,), table.friction.given, table.errors, law,
-        table.limits.given,
-    )  # fmt: skip
-
-
-def _reading(where: str, table: CampaignTable, run: RunTable) -> Reading:
+def _reading(table: CampaignTable, run: RunTable) -> Reading:
     """Columns and units of a run's file: its own, else those of the campaign."""
     columns = {**table.columns.given, **run.columns.given}
     first: dict[str, str] = {}
     for channel, name in columns.items():
-        if first.setdefault(name, channel) != channel:
-            fault = f"columns.{channel}: {name} is columns.{first[name]} too"
-            raise CampaignError(f"{where}: {fault}, allowed is a column for each")
+        if (other := first.setdefault(name, channel)) != channel:
+            fault = f"columns.{channel}: {name} is columns.{other} too"
+            raise CampaignError(f"{fault}, allowed is a column for each")
     return Reading(columns, {**table.units.given, **run.units.given})
 
 
-def _read_run(
-    path: Path, campaign: Campaign, table: RunTable, number: int, reading: Reading
-) -> tuple[MeasuredRun, list[str], str]:
-    """A run, remarks on it, and which of its columns were in other units."""
+def _run_of(campaign: Campaign, table: RunTable, number: int) -> MeasuredRun:
+    """A run as it is stated; what only rig and block together can show is checked."""
     run = MeasuredRun(
-        name=Path(table.file).stem if table.file else f"run {number}",
-        file=path.parent / table.file if table.file else None,
-        mass=table.mass, stiffness=table.stiffness, surface_speed=table.surface_speed,
-        ambient_degC=table.ambient_degC, hold_out=table.hold_out,
-        summary=table.summary.given or None, reading=reading,
+        Path(table.file).stem if table.file else f"run {number}",
+        campaign.path / table.file if table.file else None,
+        table.mass, table.stiffness, table.surface_speed, table.ambient_degC, table.hold_out,
+        summary=table.summary.given or None,
     )  # fmt: skip
-    try:  # what only rig and block together can show
-        with warnings.catch_warnings(action="ignore"):  # the fit decides on the friction
-            Parameters.model_validate(campaign.parameters(run), strict=True)
-    except ValidationError as report:
-        fault = describe_faults(report, Parameters)
-        raise CampaignError(f"{path}: run {number}: {fault}") from None
-    if run.file is None:
-        return run, [], ""
-    track, remarks, converted = read_track(run.file, reading)
-    remarks += check_units(run.file, run, track, campaign.rig)
-    return replace(run, track=track), remarks, converted
+    with warnings.catch_warnings(action="ignore"):  # the fit decides on the friction
+        checked(Parameters, campaign.parameters(run))
+    return run
 
 
 def _unique_names(runs: list[MeasuredRun]) -> list[MeasuredRun]:
@@ -112,3 +101,67 @@ def _unique_names(runs: list[MeasuredRun]) -> list[MeasuredRun]:
         replace(run, name=f"{run.name} (run {number})") if names.count(run.name) > 1 else run
         for number, run in enumerate(runs, 1)
     ]
+
+
+def without_duplicates(
+    runs: Sequence[MeasuredRun], source: str
+) -> tuple[tuple[MeasuredRun, ...], list[str]]:
+    """Runs whose data are in no earlier run, and a remark on each that was left out.
+
+    Of two runs with the same data the fitted one stays: a copy tells nothing new, and a held-out
+    copy of a fitted run would judge the fit by its own data. CampaignError where the same data are
+    said to come from two operating points: one of them is wrong.
+    """
+    kept: list[MeasuredRun] = []
+    remarks = []
+    for run in sorted(runs, key=lambda run: run.hold_out):
+        twin = next((other for other in kept if _same_data(run, other)), None)
+        if twin is None:
+            kept.append(run)
+            continue
+        same = f"{run.name} holds the same data as {twin.name}"
+        if run.operating_point != twin.operating_point:
+            raise CampaignError(
+                f"{source}: {same}, but its mass, stiffness, surface_speed or ambient_degC differ; "
+                "allowed is each measurement once"
+            )
+        copy = " and is not held out from it" if run.hold_out and not twin.hold_out else ""
+        remarks.append(f"{same}{copy}: left out")
+    return tuple(run for run in runs if run in kept), remarks
+
+
+def _same_data(run: MeasuredRun, other: MeasuredRun) -> bool:
+    """Whether one track is the other or a part of it."""
+    if run.track is None or other.track is None:
+        return run.summary is not None and run.summary == other.summary
+    present = [one.motion.x[np.isfinite(one.motion.x)] for one in (run, other)]
+    short, long = sorted(present, key=len)
+    if len(short) < PATTERN:
+        return False
+    begins = sliding_window_view(long, PATTERN)[: len(long) - len(short) + 1]
+    starts = np.flatnonzero((begins == short[:PATTERN]).all(axis=1))
+    return any(np.array_equal(long[start : start + len(short)], short) for start in starts)
+
+
+def with_hold_outs(
+    runs: tuple[MeasuredRun, ...], source: str
+) -> tuple[tuple[MeasuredRun, ...], list[str]]:
+    """As marked, else by rule, and a remark on it; CampaignError where nothing is left to fit.
+
+    The rule holds out every third run with a track, the second, fifth, ... in the order of speed,
+    mass and stiffness: a held-out run then mostly lies between two that are fitted, and slow and
+    fast ones are both judged. Of two runs the faster one is held out; a single run is not. Runs of
+    which only figures are known stay for the fit.
+    """
+    if all(run.hold_out for run in runs):
+        nothing = "hold_out: true in every run, there is nothing to fit"
+        raise CampaignError(f"{source}: {nothing}; allowed is false in at least one")
+    if any(run.hold_out for run in runs):
+        return runs, []
+    tracks = [run for run in runs if run.track is not None]
+    tracks.sort(key=lambda run: (abs(run.surface_speed), run.mass, run.stiffness, run.name))
+    if held := [run for run in runs if run in tracks[1::3]]:
+        said = f"no run is marked hold_out; held out by rule: {', '.join(run.name for run in held)}"
+        return tuple(replace(run, hold_out=run in held) for run in runs), [said]
+    judged = "is the only one with a track: the model is judged by what it was fitted to"
+    return runs, [f"no run is held out, {run.name} {judged}" for run in tracks]

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-import tomllib
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import stickslip
-from pydantic import AllowInfNan, BaseModel, BeforeValidator, Field, create_model, model_validator
+from pydantic import AllowInfNan, BeforeValidator, Field, create_model, model_validator
 from stickslip.effects import PluginError, use
 from stickslip.parameters import FASTEST_SURFACE
 from stickslip.quantity import Table, quantity
 
-from cosim.gap.data.errors import CampaignError
-from cosim.gap.data.reading.unit_names import to_si
+from cosim.gap.data.columns import to_si
+from cosim.gap.data.errors import CampaignError, within
 from cosim.names import nearest
 from cosim.scenario.faults import ScenarioError, checked
+from cosim.scenario.toml_file import parsed, text_of
 
 if TYPE_CHECKING:
     Rig = stickslip.Rig  # for those who read its keys: they are the same
@@ -288,7 +287,6 @@ class CampaignTable(Table):
 
 
 FILE_NAME = "campaign.toml"
-Checked = TypeVar("Checked", bound=BaseModel)
 
 
 def read_tables(
@@ -298,38 +296,27 @@ def read_tables(
 
     kind : `RunTable` where the runs are only planned
     """
-    tables = _parse(path)
+    if not path.exists():
+        allowed = "a campaign.toml or a folder with one"
+        raise CampaignError(f"{path}: no such file, allowed is {allowed}")
+    try:
+        tables = parsed(text_of(path), path)
+    except ScenarioError as fault:
+        raise CampaignError(str(fault)) from None
     runs = tables.pop("run", None)
     if not (runs and isinstance(runs, list) and all(isinstance(run, dict) for run in runs)):
         near = nearest("run", [key for key in tables if key not in CampaignTable.model_fields])
         hint = f" (nearest: {near})" if runs is None and near else ""
         raise CampaignError(f"{path}: run: no runs{hint}, allowed is a table [[run]] for each run")
-    if "name" not in tables:
-        tables["name"] = path.resolve().parent.name or "unnamed"
-    campaign = _checked(CampaignTable, tables, str(path))
+    read = []
+    with within(path):
+        named = {"name": path.resolve().parent.name or "unnamed"} | tables
+        campaign = checked(CampaignTable, named)
     try:
         use(*(path.parent / name for name in campaign.model.effects))
     except PluginError as error:
         raise CampaignError(f"{path}: model.effects: {error}") from None
-    return campaign, [_checked(kind, run, f"{path}: run {i}") for i, run in enumerate(runs, 1)]
-
-
-def _parse(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except FileNotFoundError:
-        fault = "no such file, allowed is a campaign.toml or a folder with one"
-    except OSError as error:
-        fault = f"cannot be read: {error.strerror}"
-    except UnicodeDecodeError as error:
-        fault = f"byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"
-    except (ValueError, RecursionError) as error:  # TOMLDecodeError is a ValueError
-        fault = f"not TOML: {' '.join(str(error).split())}"
-    raise CampaignError(f"{path}: {fault}")
-
-
-def _checked(model: type[Checked], tables: Mapping[str, Any], where: str) -> Checked:
-    try:
-        return checked(model, tables)
-    except ScenarioError as fault:
-        raise CampaignError(f"{where}: {fault}") from None
+    for number, run in enumerate(runs, 1):
+        with within(f"{path}: run {number}"):
+            read.append(checked(kind, run))
+    return campaign, read

@@ -2,6 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from cosim.scenario.faults import ScenarioError
+
 
 class CampaignError(ValueError):
     """A campaign that cannot be used; one line: file, key, what is wrong, what is allowed."""
+
+
+@contextmanager
+def within(place: object) -> Iterator[None]:
+    """Put a file, or a place in it, before what is refused in the block."""
+    try:
+        yield
+    except (CampaignError, ScenarioError) as fault:
+        raise CampaignError(f"{place}: {fault}") from None

@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from pydantic import ValidationError
 from scipy.interpolate import PchipInterpolator
 from stickslip.parameters import Friction
 
 from cosim.gap.data.campaign_file import CampaignTable
 from cosim.gap.data.errors import CampaignError
-from cosim.scenario.faults import describe_faults
+from cosim.scenario.faults import ScenarioError, checked
 
 
 @dataclass(frozen=True)
@@ -69,9 +68,9 @@ def read_friction_table(
         return None
     file = path.parent / table.friction.table
     try:
-        read = Friction.model_validate({"table": str(file)}, strict=True)
-    except ValidationError as report:
-        raise CampaignError(f"{path}: friction.{describe_faults(report, Friction)}") from None
+        read = checked(Friction, {"table": str(file)})
+    except ScenarioError as refused:
+        raise CampaignError(f"{path}: friction.{refused}") from None
     typical = float(np.mean(np.abs(speeds)))
     found = FrictionTable(file, read.table_speed, read.table_mu, typical)
     fault = ""

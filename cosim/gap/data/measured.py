@@ -12,7 +12,6 @@ import numpy as np
 
 from cosim.gap.data.campaign_file import Errors, Rig
 from cosim.gap.data.friction_table import FrictionTable
-from cosim.gap.data.reading.columns import Reading
 
 #: Measured quantities, in the order in which they are looked at.
 CHANNELS = ("x", "y", "phi", "force")
@@ -31,7 +30,6 @@ class Track:
         where the channel was not measured. force is what the springs pull the block back with along
         x, positive where x is; it is compared with their stiffness, the model is fitted to places
     time_offset : time of the first row in the file, s
-    outliers : channel -> number of samples that were taken out
     """
 
     time: np.ndarray = field(repr=False)
@@ -40,7 +38,6 @@ class Track:
     phi: np.ndarray | None = field(default=None, repr=False)
     force: np.ndarray | None = field(default=None, repr=False)
     time_offset: float = 0.0
-    outliers: Mapping[str, int] = field(default_factory=dict)
 
     def __getitem__(self, channel: str) -> np.ndarray:
         """Samples of a measured channel; KeyError for one that was not measured."""
@@ -78,7 +75,6 @@ class MeasuredRun:
     hold_out : never used for fitting
     track, summary : one of the two; summary is figure -> (value, standard deviation)
     noise : channel -> standard deviation of one sample of this run
-    reading : which column of the file is what, where its header does not say so
     """
 
     name: str
@@ -91,7 +87,6 @@ class MeasuredRun:
     track: Track | None = field(default=None, repr=False)
     summary: Mapping[str, tuple[float, float]] | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
-    reading: Reading = field(default_factory=Reading, repr=False)
 
     @property
     def motion(self) -> Track:

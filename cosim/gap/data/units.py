@@ -6,12 +6,12 @@ import math
 from pathlib import Path
 
 import numpy as np
+from stickslip.packing import GRAVITY
 
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.measured import MeasuredRun, Track
 
-GRAVITY = 9.81
 #: Swing of the spring force over weight that no contact without glue gives; and below which mass or
 #: stiffness are doubtful.
 MOST_FRICTION, LEAST_FRICTION = 5.0, 1e-4
@@ -24,16 +24,19 @@ COARSEST = 0.5
 #: Free vibrations that a record holds: with less than half of one there is no motion to look at;
 #: more than hours of a usual rig are another unit of time, or would be fitted for days.
 FEWEST_PERIODS, MOST_PERIODS = 0.5, 20_000.0
+#: Part of a free vibration over which x is seen to move.
+LAG = 1.0 / 8.0
 
 
-def check_units(file: Path, run: MeasuredRun, track: Track, rig: Rig) -> list[str]:
+def check_units(run: MeasuredRun, rig: Rig) -> list[str]:
     """Remarks on one run; CampaignError where the numbers are in another unit."""
-    wrong = _of_time(track, 2.0 * math.pi / run.natural_frequency) or _of_places(run, track, rig)
-    if wrong:
-        raise CampaignError(f"{file}: column {wrong}")
-    friction = _friction(run, track)
-    little = f"{file.name}: the spring force swings by only {friction:.1e} of the weight; check "
-    return [f"{little}mass, stiffness and the unit of x"] if friction < LEAST_FRICTION else []
+    track = run.motion
+    if wrong := _of_time(track, 2.0 * math.pi / run.natural_frequency) or _of_places(run, rig):
+        raise CampaignError(f"{run.file}: column {wrong}")
+    if (friction := friction_of(run)) >= LEAST_FRICTION:
+        return []
+    little = f"the spring force swings by only {friction:.1e} of the weight"
+    return [f"{Path(str(run.file)).name}: {little}; check mass, stiffness and the unit of x"]
 
 
 def _of_time(track: Track, period: float) -> str:
@@ -54,16 +57,16 @@ def _of_time(track: Track, period: float) -> str:
     return ""
 
 
-def _of_places(run: MeasuredRun, track: Track, rig: Rig) -> str:
+def _of_places(run: MeasuredRun, rig: Rig) -> str:
     """What is wrong with x, y or phi; "" for nothing."""
-    swing, friction = _swing(track.x), _friction(run, track)
-    if swing == 0.0:
+    track, friction = run.motion, friction_of(run)
+    if friction == 0.0:
         return "x: does not change, allowed is a measured motion"
     if friction > MOST_FRICTION:
         allowed = f"metres ({_hint(friction, USUAL_FRICTION)}check mass and stiffness)"
         force = f"a spring force of {friction:.3g} times the weight"
-        return f"x: swings by {swing:.4g} m, {force}; allowed is {allowed}"
-    if track.y is not None and (part := _swing(track.y) / rig.spring_length) > 1.0:
+        return f"x: swings by {swing(track.x):.4g} m, {force}; allowed is {allowed}"
+    if track.y is not None and (part := swing(track.y) / rig.spring_length) > 1.0:
         springs = f"swings by {part:.3g} times rig.spring_length"
         return f"y: {springs}; allowed is metres ({_hint(part, USUAL_PART)}check the rig)"
     if track.phi is not None and (turn := np.nanmax(np.abs(track.phi))) > 2.0 * math.pi:
@@ -71,17 +74,25 @@ def _of_places(run: MeasuredRun, track: Track, rig: Rig) -> str:
     return ""
 
 
-def _friction(run: MeasuredRun, track: Track) -> float:
-    """Swing of the spring force in parts of the weight."""
-    return run.total_stiffness * _swing(track.x) / (run.mass * GRAVITY)
-
-
-def _swing(values: np.ndarray) -> float:
-    """Range of a channel without its most extreme samples."""
-    return float(np.ptp(np.nanquantile(values, (0.01, 0.99))))
-
-
 def _hint(value: float, usual: tuple[float, float]) -> str:
     """The unit in which a value would be usual."""
     units = [name for name, factor in LENGTHS.items() if usual[0] < value / factor < usual[1]]
     return f"are these {units[0]}?, " if units else ""
+
+
+def friction_of(run: MeasuredRun) -> float:
+    """Swing of the spring force in parts of the weight."""
+    return run.total_stiffness * swing(run.motion.x) / (run.mass * GRAVITY)
+
+
+def swing(values: np.ndarray) -> float:
+    """Range of a channel without its most extreme samples."""
+    return float(np.ptp(np.nanquantile(values, (0.01, 0.99))))
+
+
+def velocity_of(run: MeasuredRun) -> tuple[np.ndarray, float]:
+    """Of x, m/s, over a small part of a free vibration, of the samples that there are; that, s."""
+    seen = np.isfinite(run.motion.x)
+    time, x = run.motion.time[seen], run.motion.x[seen]
+    lag = max(1, round(LAG * 2.0 * math.pi / run.natural_frequency / run.motion.interval))
+    return (x[lag:] - x[:-lag]) / (time[lag:] - time[:-lag]), lag * run.motion.interval

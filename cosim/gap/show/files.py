@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
+import numpy as np
+
+from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
+from cosim.fmu.build import FmuBuildError, own_fmu
 from cosim.gap.result import Gap
 from cosim.interrupts import held_interrupts
-from cosim.report.page import Picture
+from cosim.report.page import Picture, render
 
-from .answer_figures import draw_ladder, draw_laws
+from . import text
 from .corrected import write_corrected as write_corrected
-from .model_file import model_text
+from .figures import figures_of as drawers
+from .model_file import model_text, scenario_of, shown_run
 from .model_file import safe_name as safe_name
-from .numbers import as_json
-from .page import page
-from .reproduction import reproduction_line
-from .run_figures import draw_overlay, draw_residuals, draw_run
+from .numbers import as_json, remarks
+from .quantities import digits, fitted_quantities, with_digits
 from .text import closing_lines as closing_lines
-from .tracks import channels
+from .tracks import shown_runs, starts
+
+#: Pictures that are seen at once.
+FIRST = ("ladder", "curve", "run")
 
 
 def write_data(gap: Gap, result: Path, model: Path) -> str:
@@ -41,33 +46,62 @@ def write_page(
     """
     pictures = write_pictures(drawers(gap), folder, drawn)
     with held_interrupts():
-        html = page(gap, pictures, reproduction_line(gap), corrected)
+        html = _page(gap, pictures, corrected)
     write_text(html, file)
 
 
 def write_pictures(
-    draws: Sequence[Callable[[], Picture]], folder: Path, drawn: Callable[[], object]
+    draws: Mapping[str, Callable[[], Picture]], folder: Path, drawn: Callable[[], object]
 ) -> list[Picture]:
-    """Pictures, each a file as well. Between two of them a KeyboardInterrupt passes."""
+    """Pictures, by their names, each a file as well. Between two a KeyboardInterrupt passes."""
     pictures = []
-    for draw in draws:
+    for name, draw in draws.items():
         with held_interrupts():
-            pictures.append(draw())
-            write_bytes(pictures[-1].png, folder / f"{pictures[-1].name}.png")
+            pictures.append(replace(draw(), name=name))
+            write_bytes(pictures[-1].png, folder / f"{name}.png")
         drawn()
     return pictures
 
 
-def drawers(gap: Gap) -> Sequence[Callable[[], Picture]]:
-    """Functions that draw, in the page's order."""
-    first = [draw_ladder, draw_laws, draw_run] if gap.laws else [draw_ladder, draw_run]
-    return [partial(draw, gap) for draw in first] + [
-        partial(_of_channel, draw, gap, channel)
-        for draw in (draw_residuals, draw_overlay)
-        for channel in channels(gap)
-    ]
+def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> str:
+    quantities = fitted_quantities(gap)
+    rates = gap.rates.table.values() if gap.rates else ()
+    return render(
+        "gap.html.j2", "cosim.gap.show", gap=gap, text=text, digits=digits,
+        with_digits=with_digits, remarks=remarks(gap), reproduction=reproduction_line(gap),
+        corrected=corrected, quantities=quantities, runs=shown_runs(gap),
+        first=[one for one in pictures if one.name in FIRST],
+        folded=[one for one in pictures if one.name not in FIRST],
+        numbers=[text.numbers_of(gap, row, quantities) for row in gap.ranking],
+        answers=list(dict.fromkeys(answer for row in rates for answer in row)),
+    )  # fmt: skip
 
 
-def _of_channel(draw: Callable[..., Picture], gap: Gap, channel: str) -> Picture:
-    drawn = draw(gap, channel)
-    return replace(drawn, name=f"{drawn.name}_{channel}")
+def reproduction_line(gap: Gap) -> str:
+    """What the FMU does with the numbers of model.toml, in a sentence."""
+    try:
+        off = largest_difference(gap, own_fmu())
+    except FmuBuildError as error:
+        return f"The FMU was not asked: {error}."
+    return (
+        "The FMU StickSlip3DOF with the numbers of model.toml moves as the fitted model does: "
+        f"over the first cycles of {shown_run(gap).name} their places differ by "
+        f"{'less than 0.001' if off < 1e-3 else digits(off, 2)} noise units at most."
+    )
+
+
+def largest_difference(gap: Gap, fmu: Path) -> float:
+    """Between FMU and fitted model along x until the fit sets out anew, in units of the noise."""
+    run = shown_run(gap)
+    scenario, fitted = scenario_of(gap, run), gap.extended.run(run.name)
+    time = run.motion.time[: next(iter(starts(run, fitted)), None)]
+    speed = {"surface_speed": scenario.surface.speed}
+    with FmuParticipant(fmu, parameters=scenario.mechanics.flat(), inputs=speed) as block:
+        block.enter_initialisation(float(time[0]), float(time[-1]))
+        block.exit_initialisation()
+        places = [block.read()["x"]]
+        for before, after in zip(time[:-1], time[1:], strict=True):
+            block.step(float(before), float(after - before))
+            places.append(block.read()["x"])
+    off = np.array(places) + fitted.values.get("offset.x", 0.0) - fitted.track[: time.size, 0]
+    return float(np.max(np.abs(off)) / run.noise["x"])

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
+import json
 from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
 from typing import Any
 
-import numpy as np
-
-from cosim.gap.result import Gap, Law, Ranked
+from cosim.gap.result import NINETY, Gap, Law, Ranked
 from cosim.gap.windows import Fitted
 from cosim.report.files import json_text
 
-from .quantities import NINETY, undetermined
+from .quantities import undetermined
 
 #: Significant digits of every number: more than any fit to noisy data knows, fewer than what the
 #: order of a sum may change.
@@ -90,16 +88,16 @@ def _fitted(fitted: Fitted) -> dict[str, Any]:
 
 def tree(value: Any) -> Any:
     """Numbers of so many digits, lists for sequences, tables for mappings and data classes."""
+    text = json.dumps(value, default=_plain)
+    return json.loads(text, parse_float=_rounded, parse_constant=lambda _: None)
+
+
+def _plain(value: Any) -> Any:
+    """What JSON has no word for."""
     if is_dataclass(value) and not isinstance(value, type):
-        return tree(asdict(value))
-    if isinstance(value, Mapping):
-        return {str(key): tree(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [tree(entry) for entry in value]
-    if isinstance(value, (bool, np.bool_)):
-        return bool(value)
-    if isinstance(value, (int, np.integer)):
-        return int(value)
-    if isinstance(value, (float, np.floating)):
-        return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
-    return value
+        return asdict(value)
+    return dict(value) if isinstance(value, Mapping) else value.tolist()
+
+
+def _rounded(text: str) -> float:
+    return float(f"{float(text):.{DIGITS}g}")

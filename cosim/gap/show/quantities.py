@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from cosim.gap.result import NINETY, Gap
 from cosim.scenario import Scenario
+from cosim.scenario.faults import known_keys, unit_of
 
 #: Numbers of tracker and drive: factor from SI, unit shown, meaning.
 BESIDE_THE_MODEL = {
@@ -109,13 +109,11 @@ def quantity(
 
 def unit_and_meaning(key: str) -> tuple[str, str]:
     """Of `block.parameter` in SI; the unit is "" for a pure number."""
-    block, _, name = key.partition(".")
-    table = getattr(Scenario.model_fields.get(block), "annotation", None)
-    field: Any = getattr(table, "model_fields", {}).get(name.partition("[")[0])
+    field = known_keys(Scenario).get(key.partition("[")[0])
     if field is None:
-        return "", name.replace("_", " ")
-    unit = (field.json_schema_extra or {}).get("unit", "1")
-    return ("" if unit == "1" else unit), field.description
+        return "", key.partition(".")[2].replace("_", " ")
+    unit = unit_of(field)
+    return "" if unit == "1" else unit, str(field.description)
 
 
 def with_digits(*values: float) -> list[str]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from cosim.gap.result import Exponent, Gap, Ranked
+from cosim.gap.result import Gap, Ranked
 
-from .quantities import TABLES, Quantity, digits, quantity, with_digits
+from .quantities import TABLES, Quantity, digits, quantity
 
 #: Beginning of a measurement fault's name.
 FAULT = "measurement."
@@ -80,21 +80,6 @@ def runner_up(gap: Gap) -> str:
     others = [row for row in gap.ranking if row.effect not in gap.effects]
     best = max(others, key=lambda row: row.evidence, default=None)
     return f"{best.effect}, probability {probability(best.probability)}" if best else ""
-
-
-def exponent_line(one: Exponent) -> str:
-    """By which power an effect goes."""
-    value, low, high = with_digits(one.value, one.low, one.high)
-    return (
-        f"{one.effect}: its force goes as the {one.quantity} to the power {value} "
-        f"({low} to {high}); the law of the catalogue has {one.catalogue:.3g}."
-    )
-
-
-def scatter_line(scatter: tuple[float, float, float]) -> str:
-    """Of friction from run to run."""
-    value, low, high = with_digits(*(100.0 * part for part in scatter))
-    return f"Friction differs from run to run by {value} % of itself ({low} to {high} %)."
 
 
 def rates_lines(gap: Gap) -> list[str]:

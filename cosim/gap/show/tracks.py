@@ -21,9 +21,16 @@ def shown_runs(gap: Gap) -> list[MeasuredRun]:
 
 def channels_of(run: MeasuredRun, fitted: FittedRun) -> tuple[str, ...]:
     """Those that the model is compared with: x alone where the block only moves along it."""
+    return _compared(run, fitted)[0]
+
+
+def _compared(run: MeasuredRun, fitted: FittedRun) -> tuple[tuple[str, ...], np.ndarray]:
+    """The channels, and (n, c) which of their samples there are."""
     names = tuple(name for name in AXES if name in run.motion.channels)
-    count = sum(np.count_nonzero(np.isfinite(run.motion[name])) for name in names)
-    return names if count == fitted.residuals.size else AXES[:1]
+    there = np.isfinite(np.column_stack([run.motion[name] for name in names]))
+    if np.count_nonzero(there) == fitted.residuals.size:
+        return names, there
+    return AXES[:1], there[:, :1]
 
 
 def channels(gap: Gap) -> list[str]:
@@ -34,16 +41,15 @@ def channels(gap: Gap) -> list[str]:
 
 def residuals(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
     """(n,) model less data in units of the noise; NaN where nothing was compared."""
-    names = channels_of(run, fitted)
-    left = np.full((run.motion.time.size, len(names)), np.nan)
-    left[np.isfinite(np.column_stack([run.motion[name] for name in names]))] = fitted.residuals
+    names, there = _compared(run, fitted)
+    left = np.full(there.shape, np.nan)
+    left[there] = fitted.residuals
     return left[:, names.index(channel)] if channel in names else np.full(len(left), np.nan)
 
 
 def starts(run: MeasuredRun, fitted: FittedRun) -> np.ndarray:
     """(w - 1,) samples at which the model sets out anew from the data, the first left out."""
-    names = channels_of(run, fitted)
-    rows, _ = np.nonzero(np.isfinite(np.column_stack([run.motion[name] for name in names])))
+    rows, _ = np.nonzero(_compared(run, fitted)[1])
     return rows[np.flatnonzero(np.diff(fitted.window)) + 1]
 
 
@@ -73,7 +79,5 @@ def worst(gap: Gap) -> tuple[MeasuredRun, str, float, float]:
 
 def title(run: MeasuredRun) -> str:
     """Name, operating point, and whether it was held out."""
-    return (
-        f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s"
-        f"{', held out' if run.hold_out else ''}"
-    )
+    at = f"{run.name}: {run.mass:.4g} kg, {run.stiffness:.4g} N/m, {run.surface_speed:.4g} m/s"
+    return f"{at}{', held out' if run.hold_out else ''}"

@@ -5,8 +5,8 @@ import numpy as np
 from gap_campaigns import NOISE
 
 from cosim import read_scenario
+from cosim.gap.show.files import largest_difference, reproduction_line
 from cosim.gap.show.model_file import model_text, shown_run
-from cosim.gap.show.reproduction import largest_difference, reproduction_line
 from cosim.gap.show.tracks import starts
 
 

@@ -5,7 +5,6 @@ import pytest
 from gap_campaigns import NOISE, motion, noisy, write_campaign, write_csv
 
 from cosim.gap import CampaignError, read_campaign
-from cosim.gap.data.reading.csv_file import read_columns
 from cosim.gap.data.track_file import read_track
 
 
@@ -56,10 +55,10 @@ def test_files_of_a_spreadsheet_are_read(encoding, commas, tmp_path):
     text = "\n".join(["t/ms;x [µm];phi [°]", *rows])
     file = tmp_path / "run.csv"
     file.write_bytes((text.replace(".", ",") if commas else text).encode(encoding))
-    values = read_columns(file).values
-    np.testing.assert_allclose(values["t"], 0.01 * np.arange(160))
-    np.testing.assert_allclose(values["x"], 1e-6 * np.repeat([0.0, 1.5], 80))
-    assert set(values) == {"t", "x", "phi"}
+    track, _, _ = read_track(file)
+    np.testing.assert_allclose(track.time, 0.01 * np.arange(160))
+    np.testing.assert_allclose(track.x, 1e-6 * np.repeat([0.0, 1.5], 80))
+    assert track.channels == ("x", "phi")
 
 
 def test_time_starts_anywhere_and_missing_samples_stay_missing(tmp_path, columns):

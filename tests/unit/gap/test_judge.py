@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cosim.gap.extended import Part
 from cosim.gap.judge import judge
-from cosim.gap.report_of_findings import ranking_of, sentence_of
+from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Rates, Rung, Score
 from cosim.gap.weak_form.ladder import Finding, Search
 
@@ -200,3 +201,12 @@ def part(each):
         main=SimpleNamespace(unknown=unknown), variant="",
     )  # fmt: skip
     return SimpleNamespace(finding=found, effect=each.name, curve=None, fits=(), numbers=())
+
+
+def test_what_moves_the_block_across_has_a_name_and_no_curve():
+    """It has numbers, and no rows along x."""
+    across = Finding("film_drag", (), 50.0, numbers={"turn": (0.1, 0.01)})
+    part = Part(across, None, (), (), {})
+    gap = SimpleNamespace(verdict="named", effects=("film_drag",), exponents=())
+    assert sentence_of(gap, [part]).endswith("film_drag.")
+    assert law_of(None, None, part) is None and list(exponents_of(part)) == []

@@ -11,7 +11,7 @@ from gap_campaigns import write_campaign
 from cosim.cli import main
 from cosim.cli.measurements import gap as gap_command
 from cosim.gap import read_campaign
-from cosim.gap.show import files
+from cosim.gap.show import figures
 
 DATA = {"gap.json", "model.toml", "made_by.json"}
 
@@ -63,7 +63,7 @@ def test_ctrl_c_while_drawing_keeps_the_answer(found, tmp_path, capsys, monkeypa
     def interrupted(*given):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(files, "draw_run", interrupted)
+    monkeypatch.setattr(figures, "draw_run", interrupted)
     assert main(["gap", found[0], "-o", str(tmp_path)]) == 1
     assert {file.name for file in tmp_path.iterdir()} == DATA | {"ladder.png", "curve.png"}
     assert "interrupted while drawing" in capsys.readouterr().err

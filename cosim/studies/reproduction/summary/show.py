@@ -158,9 +158,9 @@ def write_page(
     write_text(page(gap, write_pictures(drawers(gap), folder, drawn)), file)
 
 
-def drawers(gap: SummaryGap) -> list[Callable[[], Picture]]:
-    """Functions that draw, in the page's order."""
-    return [partial(draw_observations, gap)]
+def drawers(gap: SummaryGap) -> dict[str, Callable[[], Picture]]:
+    """name -> what draws it, in the page's order."""
+    return {"observations": partial(draw_observations, gap)}
 
 
 def page(gap: SummaryGap, pictures: Sequence[Picture]) -> str:
