@@ -33,6 +33,7 @@ from cosim.gap.result import Gap, Rung, Score
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.asked import Unknowns, asked_of
 from cosim.gap.weak_form.camera_faults import FAULTS, SMOOTHING, filters
+from cosim.gap.weak_form.constants import SCATTER_PRIOR
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -42,7 +43,6 @@ from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import thinned
 from cosim.gap.weak_form.unknowns import Unknown
-from cosim.gap.weak_form.constants import SCATTER_PRIOR
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
 from cosim.gap.windows.run_model import BREAK_AWAY
 from cosim.gap.windows.windows import Windows

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from cosim.gap.weak_form.constants import (
-    HARMONICS,
     ALIGNED,
+    HARMONICS,
     MOST_WAVES,
     PHASES_TRIED,
     ROUNDS,
@@ -151,7 +151,7 @@ def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
 def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
     """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber, speeds."""
     runs, one = rung.system.fitted, np.array([wavenumber])
-    speeds = _speeds(rung) if kind.unit == "m" else {}
+    speeds = speeds_of(rung, kind)
     wave = Wave(kind, wavenumber, {
         run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
         for run in runs
@@ -175,8 +175,13 @@ def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float,
     return max(rounds, key=lambda each: each[0])
 
 
-def _speeds(rung: Rung) -> dict[str, tuple[float, float]]:
-    """run -> by which part its surface is faster than stated, and standard deviation."""
+def speeds_of(rung: Rung, kind: Periodic) -> dict[str, tuple[float, float]]:
+    """run -> by which part its surface is faster than stated, and standard deviation.
+
+    Nothing where the wave is one of the time.
+    """
+    if kind.unit == "s":
+        return {}
     mean, covariance = rung.posterior
     part = next(part for each, part in rung._parts if each.unknown.name == SPEED)
     pairs = zip(mean[part], np.sqrt(np.diag(covariance[part, part])), strict=True)

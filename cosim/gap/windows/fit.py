@@ -26,8 +26,8 @@ def fit(
     then judged as by `judge`.
 
     windows : run's name -> windows, as of `windows_of_campaign`; settings : key or label -> value
-    of what else of the model is not at its default; scatter : see `judge`; starts : labels -> values
-    to set out from, of which the best is followed; numbers not among them are at their own starts
+    of what else of the model is not at its default; scatter : see `judge`; starts : labels ->
+    values to set out from, of which the best is followed; other numbers are at their own starts
     """
     settings = dict(settings or {})
     runs = [run for run in campaign.fit_runs if run.name in windows]

@@ -2,9 +2,9 @@
 
 Over a few cycles an error of the model shows but does not build up to a loss of phase. A window
 starts where the state is well known: at the beginning of a stick, else in fast sliding, never near
-the surface's velocity, where a small error would decide between stick and slip. What comes before the
-first fast sliding is simulated and not compared: how long the block had rested before the record
-begins, and what the contact had built up, nobody has measured.
+the surface's velocity, where a small error would decide between stick and slip. What comes before
+the first fast sliding is simulated and not compared: how long the block had rested before the
+record begins, and what the contact had built up, nobody has measured.
 """
 
 from __future__ import annotations
