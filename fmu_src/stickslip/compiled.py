@@ -29,7 +29,7 @@ from .generation.source import kernel_source
 
 # The kernel makes no arrays, so nobody need count who holds one: without the counting a call costs
 # a third. The option has no public name; where a version of numba drops it, only speed is lost.
-OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
 if hasattr(CPUTargetOptions, "_nrt"):
     OPTIONS["_nrt"] = False
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +24,12 @@ from .windows import Windows
 MOST_TRIES, FIRST_TRIES = 40, 8
 #: Fits in a row, each from better states of windows that were off course.
 REPEATS = 3
+
+
+@cache
+def _threads() -> ThreadPoolExecutor:
+    """One for each processor: runs are simulated beside one another, outside the interpreter."""
+    return ThreadPoolExecutor(os.cpu_count())
 
 
 class Point(NamedTuple):
@@ -61,12 +70,12 @@ class Problem:
 
     def residuals(self, scaled: np.ndarray) -> np.ndarray:
         """Of all runs, with priors as rows (value - start) / prior."""
-        rows = [part.followed(scaled).residuals for part in self.parts]
+        rows = _threads().map(lambda part: part.followed(scaled).residuals, self.parts)
         return np.concatenate([*rows, self._priors(scaled)[0]])
 
     def derivatives(self, scaled: np.ndarray) -> np.ndarray:
         """Of `residuals`, start states eliminated."""
-        blocks = [part.derivatives(scaled) for part in self.parts]
+        blocks = _threads().map(lambda part: part.derivatives(scaled), self.parts)
         return np.concatenate([*blocks, self._priors(scaled)[1]])
 
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
