@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from stickslip import EFFECTS
@@ -145,7 +146,7 @@ def _of_load(
     for unknown in unknowns.get("load_dependence", ()):
         span = np.array([-unknown.settings["span"]])
         yield Law("load_dependence", candidate, *_range(effect, candidate), unknown,
-                  lambda value, span=span: value * span)  # fmt: skip
+                  partial(np.multiply, span))  # fmt: skip
 
 
 def _along_curves(
@@ -199,4 +200,4 @@ def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law
             parts = [Added(one) for one in (wave.shape(), *wave.moves(first, system.fitted))]
             option = option_of_wave(parts, system, SCALES_ASKED)
             yield Law(effect.id, candidate, *_range(effect, candidate), parts[0].unknown,
-                      lambda value, first=first: value * first, wave=option)  # fmt: skip
+                      partial(np.multiply, first), wave=option)  # fmt: skip
