@@ -304,8 +304,8 @@ def _solved(
         prior = np.diag(np.square([*shared, *each * len(samples)]))
         found.append((posterior(gram, right, square, prior), np.array(each)))
     evidence = float(logsumexp([one.log_evidence for one, _ in found]) - np.log(len(found)))
-    best, each = max(found, key=lambda pair: pair[0].log_evidence)
-    return evidence, best.mean[:count], np.sqrt(np.diag(best.covariance)[:count]), each
+    best, own_prior = max(found, key=lambda pair: pair[0].log_evidence)
+    return evidence, best.mean[:count], np.sqrt(np.diag(best.covariance)[:count]), own_prior
 
 
 def _numbers(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import permutations
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -147,7 +148,7 @@ def smooth(
     if y is not None:
         across = derivatives(y, interval, QUINTIC_REACH / omega, 5)
     return SmoothTrack(
-        run, time, interval, samples, x, y, phi, *fine, across[0], across[1],
+        run, time, interval, samples, x, y, phi, fine[0], fine[1], fine[2], across[0], across[1],
         surface, surface - fine[1], seen, slips, sticks, run.mass * omega**2,
     )  # fmt: skip
 
@@ -233,6 +234,6 @@ def thinned(run: MeasuredRun) -> MeasuredRun:
         with np.errstate(invalid="ignore"):
             return total / np.bincount(place[seen], minlength=kept.size)
 
-    coarse = {name: mean(track[name]) for name in track.channels}
+    coarse: dict[str, Any] = {name: mean(track[name]) for name in track.channels}
     noise = {name: value / np.sqrt(np.median(count)) for name, value in run.noise.items()}
     return replace(run, noise=noise, track=replace(track, time=mean(track.time), **coarse))
