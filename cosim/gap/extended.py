@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from stickslip.effects.candidate import FreeParameter
+from stickslip.effects.candidate import FreeParameter, Scales
 
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
@@ -29,7 +29,7 @@ from cosim.gap.weak_form.rig_unknowns import (
 )
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
-from cosim.gap.windows.run_model import PER_WEIGHT, WITH_WEIGHT
+from cosim.gap.windows.run_model import FORCE_PART, PER_WEIGHT, TABLE_PART, WITH_WEIGHT
 
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
@@ -85,6 +85,9 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     if not fits:
         return Part(finding, curve, (), (), {})
     best = fits[0]
+    as_points = {} if best.follows else _points(campaign, finding, curve, scales)
+    if as_points:
+        return Part(finding, curve, tuple(fits), (), as_points)
     numbers, settings = _numbers(best)
     if finding.name in BY_SPEED:
         settings |= _of_load(finding, numbers, scales.force)
@@ -97,6 +100,33 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         if unknown.settings["per_weight"]:
             settings[f"per_weight.{best.effect}.per_joule"] = scales.force
     return Part(finding, curve, tuple(fits), tuple(numbers), settings)
+
+
+def _points(
+    campaign: Campaign, finding: Finding, curve: FreeCurve, scales: Scales
+) -> dict[str, float]:
+    """A curve that no law follows, as the springs' force curve or as the table of friction.
+
+    Of 2 n - 1 points that a force curve may have; {} where the model has no such table.
+    """
+    at, value = curve.at[[0, *range(2, curve.at.size)]], curve.mean[[0, *range(2, curve.at.size)]]
+    if finding.name == "spring_hardening":
+        more = value / (4.0 * scales.stiffness)
+        # along x two springs are stretched by what the others lose: odd about their tension
+        stretch = np.concatenate([-at[:0:-1], at])
+        part = scales.extension + stretch + np.concatenate([-more[:0:-1], more])
+        points = zip(scales.extension + stretch, np.maximum.accumulate(part), strict=True)
+        names = ("springs.force_curve_extension", FORCE_PART)
+    elif finding.main.unknown.curve.per == "mu_k" and campaign.friction_table is None:
+        points = zip(at, np.maximum(1.0 + value - value[0], 0.0), strict=True)
+        names = ("friction.table_speed", TABLE_PART)
+    else:
+        return {}
+    return {
+        f"{name}[{number}]": float(one)
+        for number, pair in enumerate(points, 1)
+        for name, one in zip(names, pair, strict=True)
+    }
 
 
 def _of_load(finding: Finding, numbers: Sequence[Number], force: float) -> dict[str, float]:

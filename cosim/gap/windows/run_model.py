@@ -34,8 +34,9 @@ UNEVEN = [
     for name in effect.switch
 ]
 FRICTION = ("friction.mu_s", "friction.mu_k")
-#: Points of a table of friction, in parts of mu_k, which then scales the whole table.
-TABLE_PART = "friction.table_part["
+#: Points of a table of friction, in parts of mu_k, and of the springs' force curve, over their
+#: stiffness: these then scale the whole.
+TABLE_PART, FORCE_PART = "friction.table_part", "springs.force_part"
 #: Of the tracker and the drive, not of the block.
 OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.", "scatter.")
 #: Standard deviation of the static friction from one stick to the next, relative.
@@ -66,9 +67,13 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
             flat[key.removeprefix(PER_WEIGHT)] *= typical / weight
         elif key.startswith(WITH_WEIGHT):
             flat[key.removeprefix(WITH_WEIGHT)] *= weight / typical
-    for key in [key for key in flat if key.startswith(TABLE_PART)]:
-        part = flat.pop(key)
-        flat[key.replace("table_part", "table_mu")] = part * flat["friction.mu_k"]
+    tables = {
+        TABLE_PART: ("friction.table_mu", flat.get("friction.mu_k", 0.0)),
+        FORCE_PART: ("springs.force_curve_force", flat["springs.stiffness"]),
+    }
+    for part, (name, scale) in tables.items():
+        for key in [key for key in flat if key.startswith(part)]:
+            flat[key.replace(part, name)] = scale * flat.pop(key)
     return flat
 
 
