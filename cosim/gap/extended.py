@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from stickslip.effects.candidate import FreeParameter, Scales
@@ -85,9 +85,8 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     if not fits:
         return Part(finding, curve, (), (), {})
     best = fits[0]
-    as_points = {} if best.follows else _points(campaign, finding, curve, scales)
-    if as_points:
-        return Part(finding, curve, tuple(fits), (), as_points)
+    if not best.follows and (points := _points(campaign, finding, curve, scales)):
+        return Part(finding, curve, tuple(fits), (), points)
     numbers, settings = _numbers(best)
     if finding.name in BY_SPEED:
         settings |= _of_load(finding, numbers, scales.force)
@@ -100,6 +99,15 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         if unknown.settings["per_weight"]:
             settings[f"per_weight.{best.effect}.per_joule"] = scales.force
     return Part(finding, curve, tuple(fits), tuple(numbers), settings)
+
+
+def as_points(campaign: Campaign, system: System, part: Part) -> Part:
+    """The same with its curve in place of the law; itself where the model has no such table."""
+    if part.curve is None:
+        return part
+    scales = scales_of(campaign, system.runs, system.level.kinetic)
+    points = _points(campaign, part.finding, part.curve, scales)
+    return replace(part, numbers=(), settings=points) if points else part
 
 
 def _points(

@@ -13,12 +13,13 @@ from cosim.gap.checks import doubts_of
 from cosim.gap.data import Campaign
 from cosim.gap.extended import (
     Part,
+    as_points,
     contact_numbers,
     part_of,
     scatter_numbers,
     started_from,
 )
-from cosim.gap.judge import is_needed, judge
+from cosim.gap.judge import explains, is_needed, judge, judged
 from cosim.gap.rates import rates_of, scatter_of
 from cosim.gap.report_of_findings import (
     exponents_of,
@@ -75,6 +76,13 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     step()
     parts = [part_of(campaign, system, rung, finding) for finding in named.findings]
     models = _Models.fitted(campaign, system, rung, parts, step)
+    if not explains(models.ladder):  # a law may be near its curve, and not near enough
+        points = [as_points(campaign, system, part) for part in parts]
+        if points != parts:
+            others = _Models.fitted(campaign, system, rung, points, step, models)
+            models, parts = min(
+                (models, parts), (others, points), key=lambda pair: judged(pair[0].ladder[-1].gap)
+            )
     if parts and named.findings[0].gain < SURE:
         without = _Models.fitted(campaign, system, system.rung(), [], step, models)
         if not is_needed(models.ladder, without.ladder):

@@ -56,7 +56,7 @@ def judge(
 
     rates : what this design would answer, were something else true
     """
-    before, after = _judged(ladder[0].gap), _judged(ladder[-1].gap)
+    before, after = judged(ladder[0].gap), judged(ladder[-1].gap)
     if not findings:
         return Verdict("none" if after <= NOTHING_MISSING else "unknown", (), ())
     classes = tuple(
@@ -76,12 +76,17 @@ def judge(
     return Verdict("unknown", (), classes)
 
 
+def explains(ladder: Sequence[Rung]) -> bool:
+    """Whether the last model is near enough to the runs."""
+    return judged(ladder[-1].gap) <= EXPLAINED
+
+
 def is_needed(ladder: Sequence[Rung], without: Sequence[Rung]) -> bool:
     """Whether the simulated runs miss what the rows ask for, or contact and scatter do as well.
 
     ladder, without : with the findings and without them
     """
-    if _judged(without[-1].gap) > NOTHING_MISSING or without[-1].gap.fit > NOTHING_MISSING:
+    if judged(without[-1].gap) > NOTHING_MISSING or without[-1].gap.fit > NOTHING_MISSING:
         return True
     left, before = _unscattered(ladder), _unscattered(without)
     return left**2 - 1.0 <= TAKEN * max(before**2 - 1.0, 0.0)
@@ -89,7 +94,7 @@ def is_needed(ladder: Sequence[Rung], without: Sequence[Rung]) -> bool:
 
 def _unscattered(ladder: Sequence[Rung]) -> float:
     """The gap before friction may scatter."""
-    return _judged([rung for rung in ladder if rung.name != "scatter"][-1].gap)
+    return judged([rung for rung in ladder if rung.name != "scatter"][-1].gap)
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
@@ -108,6 +113,6 @@ def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def _judged(score: Score) -> float:
+def judged(score: Score) -> float:
     """Held-out runs; fitted ones where none was held out."""
     return score.fit if score.held_out is None else score.held_out
