@@ -77,7 +77,10 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
         "structural_damping": level.kinetic * scales.force,
         "spring_hardening": scales.travel * 4.0 * scales.stiffness,
     }
-    curve = free_curve(rung, finding, units.get(finding.name, 1.0))
+    at_rest = unknown.curve is not None and unknown.curve.per == "mu_k"
+    kinetic = started_from(campaign, rung)[f"friction.{MU_K}"]
+    of_level = level.kinetic / kinetic if at_rest and kinetic > 0.0 else 1.0
+    curve = free_curve(rung, finding, units.get(finding.name, of_level))
     if curve is None:
         return Part(finding, None, (), (), {})
     context = Context(campaign, scales, {**unknown.settings, "mu_s": level.static}, _own())
@@ -125,7 +128,7 @@ def _points(
         part = scales.extension + stretch + np.concatenate([-more[:0:-1], more])
         points = zip(scales.extension + stretch, np.maximum.accumulate(part), strict=True)
         names = ("springs.force_curve_extension", FORCE_PART)
-    elif finding.main.unknown.curve.per == "mu_k" and campaign.friction_table is None:
+    elif finding.name == FALLS and campaign.friction_table is None:
         points = zip(at, np.maximum(1.0 + value - value[0], 0.0), strict=True)
         names = ("friction.table_speed", TABLE_PART)
     else:

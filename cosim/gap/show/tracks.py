@@ -28,6 +28,7 @@ def _compared(run: MeasuredRun, fitted: FittedRun) -> tuple[tuple[str, ...], np.
     """The channels, and (n, c) which of their samples there are."""
     names = tuple(name for name in AXES if name in run.motion.channels)
     there = np.isfinite(np.column_stack([run.motion[name] for name in names]))
+    there[: fitted.begin] = False
     if np.count_nonzero(there) == fitted.residuals.size:
         return names, there
     return AXES[:1], there[:, :1]
@@ -50,7 +51,8 @@ def residuals(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
 def starts(run: MeasuredRun, fitted: FittedRun) -> np.ndarray:
     """(w - 1,) samples at which the model sets out anew from the data, the first left out."""
     rows, _ = np.nonzero(_compared(run, fitted)[1])
-    return rows[np.flatnonzero(np.diff(fitted.window)) + 1]
+    first = [fitted.begin] * (fitted.begin > 0)
+    return np.concatenate([first, rows[np.flatnonzero(np.diff(fitted.window)) + 1]]).astype(int)
 
 
 def modelled(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:

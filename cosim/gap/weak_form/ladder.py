@@ -187,7 +187,7 @@ class Search:
             without = self._rung(rest)
             offers = first if not rest else self.offers(without, [n for n, _ in rest])
             reference = rung.evidence  # others' places and phases are as finely searched
-            if name in offers and not any(one.unknown.wave for one in added):
+            if name in offers and name not in {kind.name for kind in self.waves}:
                 reference = offers[name][0]
             others = {
                 other: offer[0] - reference for other, offer in offers.items() if other != name

@@ -32,6 +32,7 @@ class FittedRun:
         the logarithm of the factor on mu_s
     residuals : (m,) model less data in units of the noise, one for each sample seen
     window : (m,) number of the window that each belongs to
+    begin : first row of the data that is compared
     """
 
     name: str
@@ -41,6 +42,7 @@ class FittedRun:
     residuals: np.ndarray = field(repr=False)
     window: np.ndarray = field(repr=False)
     hold_out: bool
+    begin: int = 0
 
     @property
     def gap(self) -> float:

@@ -101,8 +101,7 @@ class RunModel:
         data = np.column_stack([run.motion[name] for name in windows.channels])
         noise = np.array([run.noise[name] for name in windows.channels])
         compared = np.isfinite(data)
-        if windows.led_in:
-            compared[: windows.first[1]] = False
+        compared[: windows.begin] = False
         self.rows, channel = np.nonzero(compared)
         self.axes = np.array([AXES.index(name) for name in windows.channels])[channel]
         self.noise, self.data = noise[channel], data[self.rows, channel]

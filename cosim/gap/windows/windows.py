@@ -64,6 +64,11 @@ class Windows:
     lets_go: np.ndarray
 
     @property
+    def begin(self) -> int:
+        """First row that is compared."""
+        return int(self.first[1]) if self.led_in else 0
+
+    @property
     def is_planar(self) -> bool:
         """Whether the block also moves across the surface."""
         return len(self.channels) > 1

@@ -82,15 +82,25 @@ def test_windows_fill_a_run_and_start_in_sticks(plain):
     for run in plain.runs:
         windows = windows_of(run)
         period = cycle(run)
-        starts = run.motion.time[windows.first]
+        starts = run.motion.time[windows.first[1:]]
         assert windows.first[0] == 0 and windows.channels == ("x",)
         assert all(2.0 * period < b - a < 4.5 * period for a, b in pairwise(starts))
         assert 1.0 * period < run.motion.time[-1] - starts[-1] < 5.0 * period
         in_stick = np.isfinite(windows.hold_since)
         onsets = {stick.first for stick in sticks_of(run)}
-        assert in_stick[1:].all() and set(windows.first[1:].tolist()) <= onsets
-        assert not windows.free[in_stick, 3].any() and windows.free[~in_stick, 3].all()
-        assert windows.free[:, 0].all() and not windows.free[:, [1, 2, 4, 5]].any()
+        assert in_stick[2:].all() and set(windows.first[2:].tolist()) <= onsets
+        assert not windows.free[in_stick, 3].any() and windows.free[1:][~in_stick[1:], 3].all()
+        assert windows.free[1:, 0].all() and not windows.free[:, [1, 2, 4, 5]].any()
+
+
+def test_what_had_been_before_the_record_is_not_compared(found, plain):
+    """Nobody knows how long the block had rested: a run counts from its first fast sliding."""
+    for run, fitted in zip(plain.runs, found.runs, strict=True):
+        windows, first = windows_of(run), sticks_of(run)[0]
+        assert windows.led_in and not windows.free[0].any()
+        assert first.last < windows.begin == fitted.begin < first.last + 100
+        assert fitted.residuals.size == run.motion.time.size - windows.begin
+        assert fitted.window.min() == 1
 
 
 def test_windows_without_sticks_start_in_fast_sliding(tmp_path):
@@ -98,7 +108,7 @@ def test_windows_without_sticks_start_in_fast_sliding(tmp_path):
     (run,) = measured(tmp_path, (speed,), film_drag={"coefficient": 0.2}).runs
     windows = windows_of(run)
     assert cycle(run) == pytest.approx(2.0 * math.pi / run.natural_frequency, rel=0.02)
-    assert np.isnan(windows.hold_since).all() and windows.free[:, 3].all()
+    assert np.isnan(windows.hold_since).all() and windows.free[1:, 3].all()
     assert len(windows.first) > 3
 
 
@@ -107,7 +117,7 @@ def test_known_truth_comes_back(found):
     for run in found.runs:
         size, states = run.residuals.size, np.count_nonzero(~np.isnan(run.states[:, [0, 3]]))
         assert run.gap == pytest.approx(1.0, abs=3.0 / math.sqrt(2.0 * size) + 0.5 * states / size)
-    assert all(gap == pytest.approx(1.0, abs=0.03) for gap in found.gap)
+    assert all(gap == pytest.approx(1.0, abs=0.05) for gap in found.gap)  # of 1400 samples
     for key, truth in (("friction.mu_s", MU_S), ("friction.mu_k", MU_K)):
         assert abs(found.values[key] - truth) < 3.0 * found.sd[key] < 0.03
     assert not found.at_bound
@@ -187,7 +197,7 @@ def test_judged_runs_are_those_of_the_fit(plain, found):
     assert judged.gap[1] == pytest.approx(found.gap[1], rel=1e-3) and math.isnan(judged.gap[0])
     off = {**settings, **found.values, "friction.mu_s": 1.05 * MU_S, "friction.mu_k": 1.05 * MU_K}
     strict, lenient = (judge(plain, windows, numbers, off, scatter) for scatter in (0.0, 0.05))
-    assert strict.gap[1] > 2.0 > lenient.gap[1] == pytest.approx(1.0, abs=0.03)
+    assert strict.gap[1] > 2.0 > lenient.gap[1] == pytest.approx(1.0, abs=0.05)
     assert lenient.values["offset.friction@run04"] == pytest.approx(-math.log(1.05), abs=0.01)
     assert "offset.friction@run04" not in strict.values
 
@@ -197,7 +207,7 @@ def test_the_track_is_what_the_residuals_are_of(plain, found):
         model = found.run(run.name)
         assert model.track.shape == (run.motion.time.size, 3)
         off = (model.track[:, 0] - run.motion.x) / NOISE
-        assert np.allclose(off, model.residuals, atol=1e-6)
+        assert np.allclose(off[model.begin :], model.residuals, atol=1e-6)
         # held-out runs may have shared numbers within the errors of the fit
         off = abs(model.values["friction.mu_s"] - found.values["friction.mu_s"])
         assert off <= 4.0 * found.sd["friction.mu_s"] * model.hold_out
