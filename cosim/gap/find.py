@@ -268,7 +268,7 @@ class _Models:
 
     def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:
         before = {**self.starts, **(self.fits[-1].values if self.fits else {})}
-        starts = [before, {**before, **started_from(self.campaign, rows)}]
+        starts = [{**before, **started_from(self.campaign, rows)}, before]
         return fit(self.campaign, self.windows, numbers, settings, scatter, starts)
 
     def _add(

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import inf
 
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.constants import (
@@ -18,6 +19,7 @@ from cosim.gap.weak_form.constants import (
     LEAST_GAIN,
     LEAST_PART,
     MOST_FINDINGS,
+    NEARLY_ALIKE,
 )
 from cosim.gap.weak_form.system import Added, Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
@@ -89,10 +91,11 @@ class Search:
                 evidence, added = rung.offered(variants)
                 price = FAULT_PRICE if name.startswith("measurement.") else 0.0
                 found[name] = (evidence - price, (added,))
+        best = max((offer[0] for offer in found.values()), default=-inf)
         for kind in self.waves:
             if kind.name in without:
                 continue
-            offer = periodic.offered(rung, kind)
+            offer = periodic.offered(rung, kind, best - NEARLY_ALIKE)
             # of two that tell no difference the first: time is simpler than travel
             if offer and (kind.name not in found or offer[0] > found[kind.name][0] + ALIKE):
                 found[kind.name] = offer

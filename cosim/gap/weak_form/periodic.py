@@ -78,9 +78,16 @@ def kinds(level_of_friction: float) -> tuple[Periodic, ...]:
     )
 
 
-def offered(rung: Rung, kind: Periodic) -> tuple[float, tuple[Added, ...]] | None:
-    """ln evidence with the best wave of a kind, and what is added; None where none fits in."""
+def offered(
+    rung: Rung, kind: Periodic, least: float = -np.inf
+) -> tuple[float, tuple[Added, ...]] | None:
+    """ln evidence with the best wave of a kind, and what is added; None where none fits in.
+
+    least : ln evidence that is asked for; no harmonic takes more than the strongest wave does
+    """
     wavenumbers, gains = _scan(rung, kind)
+    if rung.evidence + 0.5 * HARMONICS * gains.max(initial=0.0) < least:
+        return None
     peaks = find_peaks(np.pad(gains, 1, constant_values=-np.inf))[0] - 1
     tops = wavenumbers[peaks[np.argsort(-gains[peaks])]][:WAVES_FITTED]
     if tops.size == 0:
@@ -170,6 +177,8 @@ def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float,
             {name: speeds[name][1] * float(sds)
              for name, sds in zip(wave.phases, faster[0], strict=True)} if faster else {},
         )  # fmt: skip
+        if number == 1 and moving.evidence < rung.evidence:
+            break  # nothing that more rounds would bring about
         if number == 0:
             wave = _realigned(rung, wave, mean, speeds)
     return max(rounds, key=lambda each: each[0])

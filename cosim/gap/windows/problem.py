@@ -22,6 +22,8 @@ from .windows import Windows
 
 #: Most evaluations of a fit, and of one that only shows which start leads on.
 MOST_TRIES, FIRST_TRIES = 40, 8
+#: Gap up to which nothing is missing, and there is no other minimum to look for.
+IN_STEP = 1.05
 #: Fits in a row, each from better states of windows that were off course.
 REPEATS = 3
 
@@ -134,6 +136,8 @@ class Problem:
             for part in self.parts:
                 part.forget()
             points.append(self._descended(self._started_at(start), FIRST_TRIES))
+            if points[-1].cost < IN_STEP**2 * sum(part.model.size for part in self.parts):
+                break
         best = min(points, key=lambda point: point.cost)
         self._go_on_from(best)
         return best
