@@ -20,6 +20,7 @@ from cosim.gap.extended import (
     started_from,
 )
 from cosim.gap.judge import explains, is_needed, judge, judged
+from cosim.gap.plan.next_run import next_experiment
 from cosim.gap.rates import rates_of, scatter_of
 from cosim.gap.report_of_findings import (
     exponents_of,
@@ -111,7 +112,11 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
         rig=rig_numbers(campaign, extended),
         rates=rates,
         doubts=doubts,
-    )
+        next_experiment=(
+            next_experiment(ladder, named.unknowns, verdict.classes[0], scatter_of(rung)[0])
+            if verdict.classes else None
+        ),
+    )  # fmt: skip
     step.end()
     return replace(gap, sentence=sentence_of(gap, parts))
 
@@ -262,8 +267,11 @@ class _Models:
         rung = system.rung(added)
         text = f"friction scatters from run to run by {100.0 * models.scatter[0]:.2g} %"
         settings = {**settings, BREAK_AWAY: SCATTER_PRIOR}
-        models._try("scatter", text, [*numbers, *scatter_numbers(campaign, spread)], settings, rung,
-                    rung.evidence - last, spread)  # fmt: skip
+        if models._try("scatter", text, [*numbers, *scatter_numbers(campaign, spread)], settings,
+                       rung, rung.evidence - last, spread):  # fmt: skip
+            sticks = 100.0 * models.fits[-1].stick_scatter
+            text += f", what one stick holds to the next by {sticks:.2g} %"
+            models.ladder[-1] = replace(models.ladder[-1], text=text)
         return models
 
     def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:

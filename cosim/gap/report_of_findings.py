@@ -11,6 +11,7 @@ from scipy.special import logsumexp
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
+from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
 from cosim.gap.weak_form.system import Added, Rung, System
@@ -80,8 +81,9 @@ def _size(part: Part, gap: Gap) -> str:
     axis = _axis_of(part)
     if part.curve is None or axis is None:
         return ""
-    mean, sd = part.curve.mean[-1], float(np.sqrt(part.curve.covariance[-1, -1]))
-    at, per = part.curve.at[-1], _unit_of(part.finding.name, axis)
+    most = int(np.argmax(np.abs(part.curve.mean)))
+    mean, sd = part.curve.mean[most], float(np.sqrt(part.curve.covariance[most, most]))
+    at, per = part.curve.at[most], _unit_of(part.finding.name, axis)
     where = f"after {np.exp(at):.2g} s" if axis.unit == "ln s" else f"at {at:.2g} {axis.unit}"
     value = f", {mean:.2g} ({mean - NINETY * sd:.2g} to {mean + NINETY * sd:.2g}) "
     value += "N " if per == "N" else f"of {per} "
@@ -176,7 +178,11 @@ def ranking_of(
     else:
         rung = ladder.system.rung().evidence  # of the rows that the offers are of
         evidence = {name: offer[0] - rung for name, offer in ladder.first_offers.items()}
+        # with nothing named, that nothing is missing is among what may be
+        top = max(evidence.values(), default=0.0)
+        evidence["nothing"] = top + ALIKE if top > 0.0 else 0.0
     total = logsumexp(list(evidence.values()) or [0.0])
+    evidence.pop("nothing", None)
     named = {part.finding.name: part for part in parts}
     ranking = []
     for name, value in sorted(evidence.items(), key=lambda pair: -pair[1]):

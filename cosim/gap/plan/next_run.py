@@ -18,7 +18,9 @@ from cosim.gap.plan.laws import Law, laws_of
 from cosim.gap.plan.planned import PlannedRun, rows_of_run, simulated
 from cosim.gap.plan.sizes import Design
 from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.unknowns import Unknown
 
 #: Beyond the campaign's own settings, where no limits are stated, by this factor.
 BEYOND = 3.0
@@ -26,6 +28,8 @@ BEYOND = 3.0
 DRAWS = 40
 #: Runs this near to the best, in separation, are as good: then the one that changes the rig least.
 NEARLY = 0.9
+#: Sizes among which a law's is looked for: a fifth apart.
+SIZES = 50
 SETTINGS = ("surface_speed", "mass", "stiffness")
 
 
@@ -56,8 +60,42 @@ class NextRun:
         )
 
     def as_data(self) -> dict[str, Any]:
-        """As `plan.json` has it."""
+        """As `plan.json` has it, and `Gap.next_experiment`."""
         return {**asdict(self), "text": self.text}
+
+
+def next_experiment(
+    ladder: Ladder,
+    unknowns: Mapping[str, Sequence[Unknown]],
+    members: Sequence[str],
+    scatter: float,
+) -> dict[str, Any] | None:
+    """The run that would separate a class, each member as large as the rows have it.
+
+    unknowns : that were asked. None where no run within the limits does.
+    """
+    system, level = ladder.system, ladder.system.level
+    asked = {name: unknowns[name] for name in members if name in unknowns}
+    every = laws_of(system, asked)
+    laws = [_as_found(system, [law for law in every if law.argument == name]) for name in asked]
+    sized = [pair for pair in laws if pair is not None]
+    if len(sized) < 2:
+        return None
+    friction = {"mu_s": max(level.static, level.kinetic), "mu_k": level.kinetic}
+    found = best_next_run(system, sized, friction, scatter)
+    return None if found is None else found.as_data()
+
+
+def _as_found(system: System, laws: Sequence[Law]) -> tuple[Law, float] | None:
+    """Of an argument's laws the one that is nearest to its curve, and its value there."""
+    tried = []
+    for law in laws:
+        added = system.rung().offered([law.unknown])[1]
+        rung = system.rung([added])
+        curve = rung.posterior[0][rung.part_of(added)]
+        for value in (law.value(away) for away in law.range * np.geomspace(1e-4, 1.0, SIZES)):
+            tried.append((float(np.sum((law.sizes(value) - curve) ** 2)), law, value))
+    return min(tried, key=lambda one: one[0])[1:] if tried else None
 
 
 def best_next_run(

@@ -148,6 +148,13 @@ class Fitted:
         held_out = [run for run in self.runs if run.hold_out]
         return _rms([run for run in self.runs if not run.hold_out]), _rms(held_out)
 
+    @property
+    def stick_scatter(self) -> float:
+        """Root mean square by which single sticks of the fitted runs hold more or less, a part."""
+        own = np.concatenate([run.states[:, 6:].ravel() for run in self.runs if not run.hold_out])
+        own = own[own != 0.0]
+        return float(np.sqrt(np.mean(own**2))) if own.size else 0.0
+
     def run(self, name: str) -> FittedRun:
         """One run by its name; KeyError."""
         return {run.name: run for run in self.runs}[name]
