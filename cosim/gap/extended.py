@@ -56,6 +56,11 @@ class Part:
     starts: dict[str, float] = field(default_factory=dict)
 
     @property
+    def in_model(self) -> bool:
+        """Whether the curve itself is the law of the model."""
+        return self.curve is not None and bool(self.settings) and not self.numbers
+
+    @property
     def effect(self) -> str:
         """Id in the catalogue: of the law, where one of the user's own does better."""
         return self.fits[0].effect if self.fits else self.finding.name

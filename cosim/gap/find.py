@@ -19,7 +19,7 @@ from cosim.gap.extended import (
     scatter_numbers,
     started_from,
 )
-from cosim.gap.judge import explains, is_needed, judge, judged
+from cosim.gap.judge import explains, is_needed, is_sure, judge, judged
 from cosim.gap.plan.next_run import next_experiment
 from cosim.gap.rates import rates_of, scatter_of
 from cosim.gap.report_of_findings import (
@@ -55,10 +55,6 @@ STEPS = 6
 #: their gap down by a hundredth of noise.
 FELT_PART, FELT_GAP = 0.02, 0.01
 
-#: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
-#: foreign contacts (bristles, Iwan) have pretended up to 206.
-SURE = 500.0
-
 Progress = Callable[[int, int], object]
 
 
@@ -84,15 +80,18 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
             models, parts = min(
                 (models, parts), (others, points), key=lambda pair: judged(pair[0].ladder[-1].gap)
             )
-    if parts and named.findings[0].gain < SURE:
+    hints: list[str] = []
+    if not is_sure(named.findings):
         without = _Models.fitted(campaign, system, system.rung(), [], step, models)
         if not is_needed(models.ladder, without.ladder):
+            hints = [part.effect for part in parts]
             parts, models, named = [], without, replace(named, findings=())
     found = [part.effect for part in parts]
     rates = rates_of(ladder, named.unknowns)
     verdict = judge(named.findings, found, models.ladder, _physics(), rates)
-    severe = [doubt for doubt in doubts if doubt.severe]
-    if severe:
+    if parts and explains(models.ladder):  # the model has swings that those springs alone have not
+        doubts = tuple(replace(one, severe=one.severe and one.check != "springs") for one in doubts)
+    if any(doubt.severe for doubt in doubts):
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
     gap = Gap(
@@ -118,7 +117,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
         ),
     )  # fmt: skip
     step.end()
-    return replace(gap, sentence=sentence_of(gap, parts))
+    return replace(gap, sentence=sentence_of(gap, parts, hints))
 
 
 @dataclass(frozen=True)

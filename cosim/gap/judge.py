@@ -33,6 +33,9 @@ from cosim.gap.weak_form.ladder import Finding
 NOTHING_MISSING = 1.1
 #: Gap up to which what is named explains the runs.
 EXPLAINED = 1.3
+#: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
+#: foreign contacts (bristles, Iwan) have pretended up to 206.
+SURE = 500.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
@@ -79,6 +82,11 @@ def judge(
 def explains(ladder: Sequence[Rung]) -> bool:
     """Whether the last model is near enough to the runs."""
     return judged(ladder[-1].gap) <= EXPLAINED
+
+
+def is_sure(findings: Sequence[Finding]) -> bool:
+    """Whether no contact, however foreign, would make the rows ask for the first so much."""
+    return not findings or findings[0].gain >= SURE
 
 
 def is_needed(ladder: Sequence[Rung], without: Sequence[Rung]) -> bool:

@@ -57,12 +57,13 @@ def text_of(part: Part) -> str:
     return f"{words} ({variant})" if variant else words
 
 
-def sentence_of(gap: Gap, parts: Sequence[Part]) -> str:
-    """The answer in a sentence."""
+def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> str:
+    """The answer in a sentence. hints : what the rows ask for and simulated runs do without"""
     if gap.verdict == "none":
         extra = [rung.name for rung in gap.ladder[1:]]
         beside = f" once {' and '.join(extra)} are counted" if extra else ""
-        return f"No effect is missing: the stated model describes the runs{beside}."
+        more = f"; the rows hint at {', '.join(hints)}, which the runs do without" if hints else ""
+        return f"No effect is missing: the stated model describes the runs{beside}{more}."
     found = "; ".join(text_of(part) + _size(part, gap) for part in parts)
     if gap.verdict == "named":
         return f"{found}."
@@ -117,7 +118,7 @@ def law_of(system: System, rung: Rung, part: Part) -> Law | None:
     points, names = _points(system, rung, part.finding.main, axis, variance[-1])
     return Law(
         part.effect, axis.quantity, axis.unit, _unit_of(part.finding.name, axis), curve.at,
-        curve.mean, np.sqrt(variance), points, names, form, law,
+        curve.mean, np.sqrt(variance), points, names, form, law, part.in_model,
     )  # fmt: skip
 
 

@@ -199,7 +199,7 @@ class Gap:
     rig : what the runs say of the rig's stated numbers
     rates : how often this design would answer what; None where it was not asked
     next_experiment : of a class: the run that would separate it; else the one that tells most
-    doubts, remarks, lacks : a line each: of the data, for the reader, what the data lack
+    doubts : of the data, a line each
     """
 
     campaign: Campaign
@@ -219,8 +219,6 @@ class Gap:
     rates: Rates | None = None
     next_experiment: Mapping[str, Any] | None = None
     doubts: tuple[Doubt, ...] = ()
-    remarks: tuple[str, ...] = ()
-    lacks: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         """Verdict and gap in one line; everything else is in its attributes."""

@@ -19,7 +19,7 @@ DIGITS = 6
 #: What is written as it stands in an answer.
 AS_IT_IS = (
     "verdict", "effects", "sentence", "classes", "where", "share", "ladder", "next_experiment",
-    "exponents", "rig", "rates", "doubts", "lacks",
+    "exponents", "rig", "rates", "doubts",
 )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.gap.extended import Part
-from cosim.gap.judge import judge
+from cosim.gap.judge import is_needed, is_sure, judge
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Rates, Rung, Score
 from cosim.gap.weak_form.ladder import Finding, Search
@@ -70,6 +70,29 @@ def test_held_out_runs_judge_where_there_are_some():
     ladder = [rung(9.0, None), rung(1.0, None, 1.0)]
     assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == "named"
     assert judged(["run_in"], 1.2, 1.25)[0] == "unknown"  # worse than without it
+
+
+def ladder_to(*gaps):
+    """The user's model, then contact and scatter with these gaps of held-out runs."""
+    names = ["user's model", "contact", "scatter"]
+    return [Rung(name, "", Score(1.0, gap), Score(1.0, 1.0), 0.0)
+            for name, gap in zip(names, (5.0, *gaps), strict=True)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("left", "needed"), [(1.48, True), (1.6, False)])
+def test_a_finding_is_needed_where_the_contact_alone_leaves_twice_as_much(left, needed):
+    """2^2 - 1 without it, half of which is (1.58)^2 - 1."""
+    assert is_needed(ladder_to(left, 1.0), ladder_to(2.0, 1.0)) is needed
+
+
+@pytest.mark.parametrize(("reached", "needed"), [(1.09, False), (1.11, True)])
+def test_a_finding_is_needed_where_scatter_does_not_do(reached, needed):
+    assert is_needed(ladder_to(1.9, 1.0), ladder_to(2.0, reached)) is needed
+
+
+def test_only_faint_findings_are_asked_of_the_simulated_runs():
+    faint, strong = (Finding("run_in", (), gain, {}) for gain in (499.0, 501.0))
+    assert is_sure([]) and is_sure([strong]) and not is_sure([faint])
 
 
 def test_what_has_no_name_is_unknown():

@@ -22,7 +22,7 @@ from cosim.gap.show.tracks import residuals, starts
 
 PROMISED = {
     "verdict", "effects", "classes", "where", "ranking", "gap", "next_experiment", "model",
-    "exponents", "curves", "ladder", "scatter", "rig", "rates", "doubts", "remarks", "lacks",
+    "exponents", "curves", "ladder", "scatter", "rig", "rates", "doubts", "remarks",
     "campaign", "sentence", "share",
 }  # fmt: skip
 OF_RANKING = {
