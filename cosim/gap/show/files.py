@@ -20,7 +20,7 @@ from .corrected import write_corrected as write_corrected
 from .figures import figures_of as drawers
 from .model_file import model_text, scenario_of, shown_run
 from .model_file import safe_name as safe_name
-from .numbers import as_json, remarks
+from .numbers import as_json
 from .quantities import digits, fitted_quantities, with_digits
 from .text import closing_lines as closing_lines
 from .tracks import shown_runs, starts
@@ -68,7 +68,7 @@ def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> s
     rates = gap.rates.table.values() if gap.rates else ()
     return render(
         "gap.html.j2", "cosim.gap.show", gap=gap, text=text, digits=digits,
-        with_digits=with_digits, remarks=remarks(gap), reproduction=reproduction_line(gap),
+        with_digits=with_digits, remarks=gap.campaign.remarks, reproduction=reproduction_line(gap),
         corrected=corrected, quantities=quantities, runs=shown_runs(gap),
         first=[one for one in pictures if one.name in FIRST],
         folded=[one for one in pictures if one.name not in FIRST],

@@ -39,7 +39,7 @@ def as_data(gap: Gap, model: str) -> dict[str, Any]:
         "curves": [_curve(law) for law in gap.laws],
         "scatter": gap.scatter and dict(zip(("value", "low", "high"), gap.scatter, strict=True)),
         "model": model,
-        "remarks": remarks(gap),
+        "remarks": gap.campaign.remarks,
         "noise": {
             channel: {"value": value, "estimated": channel in estimated}
             for channel, value in campaign.noise.items()
@@ -48,11 +48,6 @@ def as_data(gap: Gap, model: str) -> dict[str, Any]:
         "extended": _fitted(gap.extended) | {"undetermined": sorted(undetermined(gap))},
     }
     return tree(data)
-
-
-def remarks(gap: Any) -> list[str]:
-    """Of the campaign and of the answer, each once."""
-    return list(dict.fromkeys((*gap.campaign.remarks, *gap.remarks)))
 
 
 def ranked(row: Ranked) -> dict[str, Any]:

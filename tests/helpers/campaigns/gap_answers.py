@@ -77,8 +77,6 @@ def answer(folder):
                          "film_drag": {"film_drag": 50}}),
         next_experiment={"surface_speed": 0.4, "mass": 0.87, "stiffness": 38.5},
         doubts=(Doubt("sampling", "run01 is sampled only 60 times a cycle", ("run01",)),),
-        remarks=("a remark",),
-        lacks=("two masses: load_dependence could not be seen",),
     )  # fmt: skip
 
 
