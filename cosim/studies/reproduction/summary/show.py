@@ -16,7 +16,7 @@ from cosim.gap.show import text
 from cosim.gap.show.files import write_pictures
 from cosim.gap.show.model_file import file_text, known_tables, put, scenario_from
 from cosim.gap.show.model_file import safe_name as safe_name
-from cosim.gap.show.numbers import ranked, remarks, tree
+from cosim.gap.show.numbers import ranked, tree
 from cosim.gap.show.quantities import Quantity, digits, quantity
 from cosim.report.files import json_text
 from cosim.report.page import Picture, render
@@ -142,7 +142,7 @@ def as_json(gap: SummaryGap, model: str) -> str:
         ],
         "model": model,
         "doubts": (),
-        "remarks": remarks(gap),
+        "remarks": _remarks(gap),
     }
     return json_text(tree(data))
 
@@ -176,7 +176,7 @@ def page(gap: SummaryGap, pictures: Sequence[Picture]) -> str:
     return render(
         "summary.html.j2", "cosim.studies.reproduction.summary", gap=gap, text=text, digits=digits,
         sentence=sentence(gap), gap_line=gap_line(gap), quantities=quantities(gap),
-        numbers=numbers, pictures=pictures, remarks=remarks(gap),
+        numbers=numbers, pictures=pictures, remarks=_remarks(gap),
     )  # fmt: skip
 
 
@@ -205,3 +205,8 @@ def draw_observations(gap: SummaryGap) -> Figure:
     axis.set_xlabel("modelled less observed (standard deviations)")
     figure.legend(loc="outside upper right", ncols=3)
     return figure
+
+
+def _remarks(gap: SummaryGap) -> list[str]:
+    """Of the campaign and of the answer, each once."""
+    return list(dict.fromkeys((*gap.campaign.remarks, *gap.remarks)))
