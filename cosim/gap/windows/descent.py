@@ -6,8 +6,10 @@ from typing import Protocol
 
 import numpy as np
 
-#: A fit ends where a step changes the sum of squares by less than this part of it.
-SETTLED = 1e-5
+#: A fit ends where a step changes the sum of squares by less than this part of it, and by as many
+#: times more as the mean square exceeds that of the noise, up to the second: there the model is not
+#: yet what it will be.
+SETTLED, COARSER = 1e-5, 10.0
 #: Damping at first, least and most, in parts of the normal matrix's diagonal; factors by which it
 #: falls after a step that gains and grows after one that does not.
 DAMPING, LEAST, MOST, EASIER, HARDER = 1e-3, 1e-7, 1e5, 0.2, 6.0
@@ -35,7 +37,8 @@ def descend(
     for _ in range(tries):
         step = _step(normal, slope, at, (low, high), damping)
         gain = -float(2.0 * slope @ step + step @ normal @ step)
-        if gain < SETTLED * cost:
+        enough = SETTLED * min(max(cost / off.size, 1.0), COARSER)
+        if gain < enough * cost:
             break
         off = rows.residuals(at + step)
         found = float(off @ off)
@@ -46,7 +49,7 @@ def descend(
             continue
         at, last, cost = at + step, cost, found
         damping = max(EASIER * damping, LEAST)
-        if last - cost < SETTLED * last:
+        if last - cost < enough * last:
             break
         normal, slope = _normal(rows.derivatives(at), off)
     return at
