@@ -19,7 +19,7 @@ from cosim.gap.extended import (
     scatter_numbers,
     started_from,
 )
-from cosim.gap.judge import explains, is_needed, is_sure, judge, judged
+from cosim.gap.judge import explains, is_needed, judge, judged, sure_of
 from cosim.gap.plan.next_run import next_experiment
 from cosim.gap.rates import rates_of, scatter_of
 from cosim.gap.report_of_findings import (
@@ -80,12 +80,14 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
             models, parts = min(
                 (models, parts), (others, points), key=lambda pair: judged(pair[0].ladder[-1].gap)
             )
-    hints: list[str] = []
-    if not is_sure(named.findings):
-        without = _Models.fitted(campaign, system, system.rung(), [], step, models)
+    hints, sure = [], sure_of(named.findings)
+    if len(sure) < len(parts):
+        kept = [part for part in parts if part.finding in sure]
+        fewer = system.rung([added for finding in sure for added in finding.added])
+        without = _Models.fitted(campaign, system, fewer, kept, step, models)
         if not is_needed(models.ladder, without.ladder):
-            hints = [part.effect for part in parts]
-            parts, models, named = [], without, replace(named, findings=())
+            hints = [part.effect for part in parts if part not in kept]
+            parts, models, named = kept, without, replace(named, findings=tuple(sure))
     found = [part.effect for part in parts]
     rates = rates_of(ladder, named.unknowns)
     verdict = judge(named.findings, found, models.ladder, _physics(), rates)
@@ -295,8 +297,10 @@ class _Models:
         self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
         evidence: float, scatter: float = 0.0,
     ) -> bool:  # fmt: skip
-        """Add what is felt."""
+        """Add what is felt; where noise is all that is left nothing can be."""
         before = self.ladder[-1].gap
+        if max(before.fit, before.held_out or 0.0) < 1.0 + FELT_GAP:
+            return False
         fitted = self._fit(numbers, settings, scatter, rows)
         after = _score(*fitted.gap)
         gained = before.fit**2 - after.fit**2

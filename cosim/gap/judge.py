@@ -84,15 +84,15 @@ def explains(ladder: Sequence[Rung]) -> bool:
     return judged(ladder[-1].gap) <= EXPLAINED
 
 
-def is_sure(findings: Sequence[Finding]) -> bool:
-    """Whether no contact, however foreign, would make the rows ask for the first so much."""
-    return not findings or findings[0].gain >= SURE
+def sure_of(findings: Sequence[Finding]) -> list[Finding]:
+    """Those that no contact, however foreign, would make the rows ask for so much."""
+    return [finding for finding in findings if finding.gain >= SURE]
 
 
 def is_needed(ladder: Sequence[Rung], without: Sequence[Rung]) -> bool:
     """Whether the simulated runs miss what the rows ask for, or contact and scatter do as well.
 
-    ladder, without : with the findings and without them
+    ladder, without : with all findings, and with those that are sure
     """
     if judged(without[-1].gap) > NOTHING_MISSING or without[-1].gap.fit > NOTHING_MISSING:
         return True

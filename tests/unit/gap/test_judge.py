@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.gap.extended import Part
-from cosim.gap.judge import is_needed, is_sure, judge
+from cosim.gap.judge import is_needed, judge, sure_of
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Rates, Rung, Score
 from cosim.gap.weak_form.ladder import Finding, Search
@@ -92,7 +92,7 @@ def test_a_finding_is_needed_where_scatter_does_not_do(reached, needed):
 
 def test_only_faint_findings_are_asked_of_the_simulated_runs():
     faint, strong = (Finding("run_in", (), gain, {}) for gain in (499.0, 501.0))
-    assert is_sure([]) and is_sure([strong]) and not is_sure([faint])
+    assert sure_of([faint, strong]) == [strong]
 
 
 def test_what_has_no_name_is_unknown():
