@@ -226,7 +226,7 @@ def _load(rung: Rung, finding: Finding, weight: float) -> Part:
 
 
 def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
-    """Amplitude, period and phases of a wave, with its second harmonic."""
+    """Amplitude, period and phases of a wave, with the harmonics that the model has."""
     wave = finding.main.unknown.wave
     sizes = rung.posterior[0][rung.part_of(finding.main)]
     first = complex(sizes[0], -sizes[HARMONICS])
@@ -242,7 +242,7 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     ]
     settings: dict[str, float] = {}
     starts: dict[str, float] = {}
-    if name == "surface_pattern":
+    if pattern:
         numbers.append(Number(f"{name}.wavelength", length, None, 0.9 * length, 1.1 * length))
         # a set-point that is off by a percent gets ahead by whole waves in a run
         numbers.append(set_point(campaign))
@@ -302,27 +302,29 @@ def set_point(campaign: Campaign) -> Number:
 
 def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:
     """label -> value of the rig's numbers, as the rows have them: where a fit sets out."""
-    runs, mean = rows.system.fitted, rows.posterior[0]
-    starts = {}
+    own = [run.track.run for run in rows.system.fitted]
+    starts: dict[str, float] = {}
+
+    def of_runs(key: str, values: np.ndarray) -> None:
+        labels = (f"{key}@{run.name}" for run in own)
+        starts.update(zip(labels, values.tolist(), strict=True))
+
     for each in rows.base:
-        name, values = each.unknown.name, mean[rows.part_of(each)]
-        own = [run.track.run for run in runs]
-        if name == MU_K or (name == MU_S and any(run.events for run in runs)):
+        name, values = each.unknown.name, rows.posterior[0][rows.part_of(each)]
+        if name == MU_K or (name == MU_S and any(run.events for run in rows.system.fitted)):
             starts[f"friction.{name}"] = float(values[0])
         elif name == SPRINGS:
             factor = math.log1p(max(float(values[0]), -0.5))
-            of_setup = [run for run in own if each.unknown.variant == setup_of(run)]
-            starts |= {f"offset.stiffness@setup {campaign.setup_of(run)}": factor
-                       for run in of_setup}  # fmt: skip
+            setups = {
+                campaign.setup_of(run) for run in own if setup_of(run) == each.unknown.variant
+            }
+            starts |= {f"offset.stiffness@setup {setup}": factor for setup in setups}
         elif name == ZERO_NAME:
-            starts |= {f"offset.x@{run.name}": campaign.zero_sd(run) * float(value)
-                       for run, value in zip(own, values, strict=True)}  # fmt: skip
+            of_runs("offset.x", values * [campaign.zero_sd(run) for run in own])
         elif name == SPEED:
-            starts |= {f"offset.speed@{run.name}": float(value)
-                       for run, value in zip(own, values, strict=True)}  # fmt: skip
+            of_runs("offset.speed", values)
         elif name == SCATTER and each.unknown.variant == "both":
-            starts |= {f"offset.friction@{run.name}": float(value)
-                       for run, value in zip(own, values, strict=True)}  # fmt: skip
+            of_runs("offset.friction", values)
         elif name == CONTACT and each.unknown.variant == "loading":
             starts["offset.loading"] = -float(values[0])
     return starts

@@ -11,8 +11,9 @@
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
- 8. `none`: no finding, or one that the simulated runs can do without (contact and scatter reach 1.1
-    and it takes less than half of what the contact alone leaves), and held-out runs at 1.1 at most.
+ 8. Findings below e^500 that the simulated runs can do without (contact and scatter reach 1.1, and
+    they take less than half of what the contact alone leaves) go; `none` is no finding left, and
+    held-out runs at 1.1 at most.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.

@@ -192,7 +192,7 @@ def speeds_of(rung: Rung, kind: Periodic) -> dict[str, tuple[float, float]]:
     if kind.unit == "s":
         return {}
     mean, covariance = rung.posterior
-    part = next(part for each, part in rung._parts if each.unknown.name == SPEED)
+    part = rung.part_of(next(each for each in rung.base if each.unknown.name == SPEED))
     pairs = zip(mean[part], np.sqrt(np.diag(covariance[part, part])), strict=True)
     names = [run.track.run.name for run in rung.system.fitted]
     return {name: (float(a), float(b)) for name, (a, b) in zip(names, pairs, strict=True)}
