@@ -7,6 +7,7 @@ code of the first. A process of its own for one of them (`isolate = true`) is th
 from __future__ import annotations
 
 import hashlib
+import re
 import sys
 import sysconfig
 from pathlib import Path
@@ -19,6 +20,8 @@ from cosim.coupling.fmu.errors import FmuError
 NAMES_MODULE = "slavemodule.txt"
 #: Brought along by units and meant to be shared.
 SHARED = ("pythonfmu", "pythonfmu3")
+#: A module named by the hash of its contents, as those of our own units are.
+NAMED_BY_CONTENTS = re.compile(r".+_[0-9a-f]{12,}")
 WAY_OUT = "give one of them a process of its own: isolate = true"
 
 #: Module -> unit that brought it, and what it is, for the life of this process.
@@ -74,14 +77,19 @@ def _digest(place: Path) -> str | None:
 def _is_hidden(name: str, digest: str, is_main: bool) -> bool:
     """Whether this process has another module of that name, which would run in its place.
 
-    A helper that is installed here is taken as it is: a unit brings it for hosts without it.
+    A helper that is installed here is taken as it is: a unit brings it for hosts without it. Where
+    another host has run the unit in this process, what it unpacked may be gone: then a module is
+    known by its name alone.
     """
     there = sys.modules.get(name)
     if there is None:
         return False
     file = Path(getattr(there, "__file__", None) or "")
     place = file.parent if file.name == "__init__.py" else file
-    if place.exists() and place.name and _digest(place) == digest:
+    if place.exists() and place.name:
+        if _digest(place) == digest:
+            return False
+    elif NAMED_BY_CONTENTS.fullmatch(name):
         return False
     installed = (sysconfig.get_path(key) for key in ("stdlib", "purelib", "platlib"))
     return is_main or not any(file.is_relative_to(folder) for folder in installed)

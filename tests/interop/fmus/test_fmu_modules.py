@@ -4,6 +4,7 @@ import importlib
 import sys
 
 import pytest
+from fmpy import simulate_fmu
 from pythonfmu import FmuBuilder
 
 from cosim.coupling import FmuError, FmuParticipant, IsolatedParticipant
@@ -102,6 +103,14 @@ def test_a_unit_that_was_built_in_this_process_runs_in_it(tmp_path, monkeypatch)
     importlib.import_module("twine")
     with FmuParticipant(unit) as one:
         assert x_of(one) == 7.0
+
+
+def test_a_unit_that_another_host_ran_in_this_process_runs_in_it(python_fmu):
+    """Its files are gone by then; the names of its modules are hashes of their contents."""
+    simulate_fmu(str(python_fmu), stop_time=0.1)
+    with FmuParticipant(python_fmu) as one:
+        one.enter_initialisation(0.0, 1.0)
+        one.exit_initialisation()
 
 
 def test_a_module_that_the_host_has_is_not_taken_for_the_units(tmp_path):
