@@ -277,7 +277,8 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
         Number(
             "friction.transition_speed", min(4e-3, 0.5 * top), None, TRANSITION[0], top, log=True
         ),
-        Number("friction.transition_exponent", 1.3, 0.5, 0.5, 3.0),
+        # below 1 friction falls infinitely fast at rest: no contact does, and steps would crawl
+        Number("friction.transition_exponent", 1.3, 0.5, 1.0, 3.0),
         Number("friction.stick_creep", 0.03 * slowest, None, 0.0, CREEP_PART * slowest),
         Number("offset.loading", 0.02, 0.02, -0.1, 0.1),
     ]

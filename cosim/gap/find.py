@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from stickslip.effects import EFFECTS
@@ -54,6 +55,8 @@ STEPS = 6
 #: A nuisance is a finding where it takes this part of the fitted runs' misfit or more, or brings
 #: their gap down by a hundredth of noise.
 FELT_PART, FELT_GAP = 0.02, 0.01
+#: Gap up to which noise is all that is left: fitted starts take 1 or 2 % of it.
+NOISE_LEFT = 1.02
 
 Progress = Callable[[int, int], object]
 
@@ -61,8 +64,10 @@ Progress = Callable[[int, int], object]
 def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
     """What the user's model lacks in a campaign with tracks.
 
-    Nothing is drawn: the same campaign gives the same answer. progress : called with the number of
-    steps done and of all
+    Nothing is drawn: the same campaign gives the same answer.
+
+    jobs : runs that are simulated at a time; progress : called with the number of steps done and
+    of all
     """
     step = _Steps(progress)
     doubts = doubts_of(campaign)
@@ -72,11 +77,12 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     system, ladder, rung = named.system, named.ladder, named.rung
     step()
     parts = [part_of(campaign, system, rung, finding) for finding in named.findings]
-    models = _Models.fitted(campaign, system, rung, parts, step)
+    modelled = partial(_Models.fitted, campaign, system, step=step, jobs=jobs)
+    models = modelled(rung, parts)
     if not explains(models.ladder):  # a law may be near its curve, and not near enough
         points = [as_points(campaign, system, part) for part in parts]
         if points != parts:
-            others = _Models.fitted(campaign, system, rung, points, step, models)
+            others = modelled(rung, points, others=models)
             models, parts = min(
                 (models, parts), (others, points), key=lambda pair: judged(pair[0].ladder[-1].gap)
             )
@@ -84,7 +90,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     if len(sure) < len(parts):
         kept = [part for part in parts if part.finding in sure]
         fewer = system.rung([added for finding in sure for added in finding.added])
-        without = _Models.fitted(campaign, system, fewer, kept, step, models)
+        without = modelled(fewer, kept, others=models)
         if not is_needed(models.ladder, without.ladder):
             hints = [part.effect for part in parts if part not in kept]
             parts, models, named = kept, without, replace(named, findings=tuple(sure))
@@ -228,21 +234,22 @@ class _Models:
     campaign: Campaign
     windows: Mapping[str, Windows]
     starts: dict[str, float]
+    jobs: int
     fits: list[Fitted] = field(default_factory=list)
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
 
     @classmethod
     def fitted(
-        cls, campaign: Campaign, system: System, rows: Rows, parts: list[Part], step: _Steps,
-        others: _Models | None = None,
+        cls, campaign: Campaign, system: System, rows: Rows, parts: list[Part], *, step: _Steps,
+        jobs: int, others: _Models | None = None,
     ) -> _Models:  # fmt: skip
         """The user's model, then the findings, then contact and scatter where they are felt.
 
         others : whose user's model it is as well
         """
         starts = {label: value for part in parts for label, value in part.starts.items()}
-        models = cls(campaign, windows_of_campaign(campaign), starts)
+        models = cls(campaign, windows_of_campaign(campaign), starts, jobs)
         numbers, settings = user_model(campaign)
         weak = system.rung(contact=False, scatter=False)
         first = others.fits[0] if others else None
@@ -278,7 +285,8 @@ class _Models:
     def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:
         before = {**self.starts, **(self.fits[-1].values if self.fits else {})}
         starts = [{**before, **started_from(self.campaign, rows)}, before]
-        return fit(self.campaign, self.windows, numbers, settings, scatter, starts)
+        near = self.fits[-1] if self.fits else None
+        return fit(self.campaign, self.windows, numbers, settings, scatter, starts, near, self.jobs)
 
     def _add(
         self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
@@ -299,7 +307,7 @@ class _Models:
     ) -> bool:  # fmt: skip
         """Add what is felt; where noise is all that is left nothing can be."""
         before = self.ladder[-1].gap
-        if max(before.fit, before.held_out or 0.0) < 1.0 + FELT_GAP:
+        if max(before.fit, before.held_out or 0.0) < NOISE_LEFT:
             return False
         fitted = self._fit(numbers, settings, scatter, rows)
         after = _score(*fitted.gap)

@@ -61,7 +61,8 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     """The answer in a sentence. hints : what the rows ask for and simulated runs do without"""
     if gap.verdict == "none":
         extra = [rung.name for rung in gap.ladder[1:]]
-        beside = f" once {' and '.join(extra)} are counted" if extra else ""
+        counted = f"{' and '.join(extra)} {'are' if len(extra) > 1 else 'is'} counted"
+        beside = f" once {counted}" if extra else ""
         more = f"; the rows hint at {', '.join(hints)}, which the runs do without" if hints else ""
         return f"No effect is missing: the stated model describes the runs{beside}{more}."
     found = "; ".join(text_of(part) + _size(part, gap) for part in parts)

@@ -59,7 +59,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--no-page", action="store_true", help=f"only {RESULT} and {MODEL}: no figures, no FMU"
     )
-    parser.add_argument("--jobs", metavar="N", type=count, default=2, help="processes (default: 2)")
+    parser.add_argument(
+        "--jobs",
+        metavar="N",
+        type=count,
+        default=2,
+        help="runs that are simulated at a time (default: 2)",
+    )
     parser.add_argument(
         "--seed",
         metavar="N",

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import permutations
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Polynomial
 from scipy import sparse
-from scipy.signal import savgol_coeffs, savgol_filter
+from scipy.signal import savgol_coeffs
 
 from cosim.gap.data import MeasuredRun
 from cosim.gap.weak_form.constants import (
@@ -181,8 +183,23 @@ def derivatives(values: np.ndarray, interval: float, reach: float, degree: int) 
     reach : of the window to either side, s
     """
     window = min(_window(reach, interval), (values.size - 1) // 2 * 2 + 1)
-    degree = min(degree, window - 2)
-    return np.array([savgol_filter(values, window, degree, n, interval) for n in range(3)])
+    half, found = window // 2, np.empty((3, values.size))
+    for n, weights in enumerate(_local_polynomials(window, min(degree, window - 2))):
+        found[n, :half] = weights[:half] @ values[:window]
+        found[n, half:-half] = np.correlate(values, weights[half], "valid")
+        found[n, -half:] = weights[-half:] @ values[-window:]
+        found[n] /= (half * interval) ** n
+    return found
+
+
+@lru_cache(maxsize=256)
+def _local_polynomials(window: int, degree: int) -> np.ndarray:
+    """(3, window, window) value and derivatives at each place of a window that is 2 long."""
+    place = np.linspace(-1.0, 1.0, window)
+    powers = [Polynomial.basis(power) for power in range(degree + 1)]
+    at = [np.stack([power.deriv(n)(place) if n else power(place) for power in powers], axis=1)
+          for n in range(3)]  # fmt: skip
+    return np.array(at) @ np.linalg.pinv(at[0])
 
 
 def _sliding_threshold(run: MeasuredRun, interval: float, velocity: np.ndarray) -> float:

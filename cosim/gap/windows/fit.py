@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from cosim.gap.data import Campaign, MeasuredRun
 
 from .fitted import Fitted, Leeway, joined
@@ -19,6 +21,8 @@ def fit(
     settings: Mapping[str, float] | None = None,
     scatter: float = 0.0,
     starts: Sequence[Mapping[str, float]] = (),
+    near: Fitted | None = None,
+    jobs: int = 2,
 ) -> Fitted:
     """Numbers that minimise the squared residuals over the windows of the runs for fitting.
 
@@ -28,10 +32,12 @@ def fit(
     windows : run's name -> windows, as of `windows_of_campaign`; settings : key or label -> value
     of what else of the model is not at its default; scatter : see `judge`; starts : labels ->
     values to set out from, of which the best is followed; other numbers are at their own starts
+    near : a model whose start states are near; jobs : runs simulated at a time
     """
     settings = dict(settings or {})
     runs = [run for run in campaign.fit_runs if run.name in windows]
-    problem = Problem(campaign, runs, windows, numbers, settings)
+    states = {run.name: run.states for run in near.runs} if near else {}
+    problem = Problem(campaign, runs, windows, numbers, settings, near=states, jobs=jobs)
     fitted = problem.solved(starts)
     held_out = [run for run in campaign.held_out_runs if run.name in windows]
     if not held_out:
@@ -39,7 +45,9 @@ def fit(
     values = {**settings, **fitted.values}
     own = {label: value for start in starts for label, value in start.items()
            if label.partition("@")[2] in {run.name for run in held_out}}  # fmt: skip
-    judged = judge(campaign, windows, numbers, values, scatter, held_out, fitted.leeway, own)
+    judged = judge(
+        campaign, windows, numbers, values, scatter, held_out, fitted.leeway, own, states, jobs
+    )
     return joined(fitted, judged, [run.name for run in campaign.runs])
 
 
@@ -52,6 +60,8 @@ def judge(
     runs: Sequence[MeasuredRun] | None = None,
     leeway: Leeway | None = None,
     start: Mapping[str, float] | None = None,
+    near: Mapping[str, np.ndarray] | None = None,
+    jobs: int = 2,
 ) -> Fitted:
     """How well given values describe some runs, those held out if not said.
 
@@ -67,4 +77,4 @@ def judge(
         own.append(Number("offset.friction", 0.0, scatter, -1.0, 1.0, "run"))
     runs = campaign.held_out_runs if runs is None else runs
     runs = [run for run in runs if run.name in windows]
-    return Problem(campaign, runs, windows, own, values, leeway).solved([start or {}])
+    return Problem(campaign, runs, windows, own, values, leeway, near, jobs).solved([start or {}])

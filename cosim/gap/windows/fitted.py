@@ -81,17 +81,18 @@ class Leeway:
         known = tuple(self.labels[i] for i in kept)
         return Leeway(known, self.centre[kept], self.rows[:, kept], self.weight)
 
-    def is_left(self, scaled: np.ndarray, labels: Sequence[str]) -> bool:
-        """Whether numbers are further from the fit than its errors explain, 3 in 1000."""
+    def excess(self, scaled: np.ndarray, labels: Sequence[str]) -> float:
+        """How far the numbers are from the fit, in parts of what its errors explain, 3 in 1000."""
         if not self.labels:
-            return False
+            return 0.0
         moved = np.array([scaled[labels.index(label)] for label in self.labels]) - self.centre
         size = float(np.linalg.norm(self.rows @ moved)) / self.weight
-        return size > math.sqrt(len(self.labels)) + FURTHEST
+        return size / (math.sqrt(len(self.labels)) + FURTHEST)
 
-    def tightened(self) -> Leeway:
-        """The same, held harder."""
-        return Leeway(self.labels, self.centre, 2.0 * self.rows, 2.0 * self.weight)
+    def tightened(self, excess: float) -> Leeway:
+        """The same, held harder: against a constant pull a weight's square shortens the way."""
+        by = max(2.0, math.sqrt(excess))
+        return Leeway(self.labels, self.centre, by * self.rows, by * self.weight)
 
 
 @dataclass(frozen=True)

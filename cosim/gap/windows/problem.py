@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -21,7 +20,7 @@ from .start_states import Started
 from .windows import Windows
 
 #: Most evaluations of a fit, and of one that only shows which start leads on.
-MOST_TRIES, FIRST_TRIES = 40, 8
+MOST_TRIES, FIRST_TRIES = 15, 6
 #: Gap up to which nothing is missing, and there is no other minimum to look for.
 IN_STEP = 1.05
 #: Fits in a row, each from better states of windows that were off course.
@@ -29,9 +28,9 @@ REPEATS = 3
 
 
 @cache
-def _threads() -> ThreadPoolExecutor:
-    """One for each processor: runs are simulated beside one another, outside the interpreter."""
-    return ThreadPoolExecutor(os.cpu_count())
+def _threads(count: int) -> ThreadPoolExecutor:
+    """Runs are simulated beside one another, outside the interpreter."""
+    return ThreadPoolExecutor(count)
 
 
 class Point(NamedTuple):
@@ -53,9 +52,12 @@ class Problem:
         numbers: Sequence[Number],
         settings: Mapping[str, float],
         leeway: Leeway | None = None,
+        near: Mapping[str, np.ndarray] | None = None,
+        jobs: int = 2,
     ):
-        """leeway : what another fit left open of some of the numbers, in place of their priors."""
-        self.settings = dict(settings)
+        """leeway : what another fit left open of some of the numbers, in place of their priors;
+        near : run's name -> start states of a model nearby; jobs : runs simulated at a time."""
+        self.settings, self.threads = dict(settings), _threads(jobs)
         self.unknowns = unknowns_of(campaign, runs, numbers)
         self.labels = [unknown.label for unknown in self.unknowns]
         self.leeway = None if leeway is None else leeway.of(self.labels)
@@ -64,7 +66,8 @@ class Problem:
             owners = set(owners_of(campaign, run).values())
             felt = [i for i, unknown in enumerate(self.unknowns) if unknown.owner in owners]
             model = RunModel(campaign, run, windows[run.name])
-            self.parts.append(RunFit(model, self.unknowns, felt, self.settings))
+            states = (near or {}).get(run.name)
+            self.parts.append(RunFit(model, self.unknowns, felt, self.settings, states))
 
     def values(self, scaled: np.ndarray) -> dict[str, float]:
         """label -> value."""
@@ -72,12 +75,12 @@ class Problem:
 
     def residuals(self, scaled: np.ndarray) -> np.ndarray:
         """Of all runs, with priors as rows (value - start) / prior."""
-        rows = _threads().map(lambda part: part.followed(scaled).residuals, self.parts)
+        rows = self.threads.map(lambda part: part.followed(scaled).residuals, self.parts)
         return np.concatenate([*rows, self._priors(scaled)[0]])
 
     def derivatives(self, scaled: np.ndarray) -> np.ndarray:
         """Of `residuals`, start states eliminated."""
-        blocks = _threads().map(lambda part: part.derivatives(scaled), self.parts)
+        blocks = self.threads.map(lambda part: part.derivatives(scaled), self.parts)
         return np.concatenate([*blocks, self._priors(scaled)[1]])
 
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -98,9 +101,12 @@ class Problem:
     def solved(self, starts: Sequence[Mapping[str, float]] = ()) -> Fitted:
         """The best numbers, from the best of several starts: labels -> values, the rest as given"""
         best = self._settled(self._first(starts or [{}]))
-        while self.leeway is not None and self.leeway.is_left(best.scaled, self.labels):
-            self.leeway = self.leeway.tightened()
-            best = self._descended(best.scaled, MOST_TRIES)
+        while self.leeway is not None:
+            excess = self.leeway.excess(best.scaled, self.labels)
+            if excess <= 1.0:
+                break
+            self.leeway = self.leeway.tightened(excess)
+            best = self._descended(best.scaled, FIRST_TRIES)
         return self._fitted(best.scaled)
 
     @property
@@ -115,9 +121,13 @@ class Problem:
         """The best nearby; again from where windows off course find better states."""
         for _ in range(REPEATS):
             at = self._descended(at.scaled, MOST_TRIES)
-            if not any([part.retried(at.scaled) for part in self.parts]):
+            if not self._retried(at.scaled):
                 break
         return self._point(at.scaled)
+
+    def _retried(self, scaled: np.ndarray) -> bool:
+        """Whether windows of any run, all tried, have found better states."""
+        return any(list(self.threads.map(lambda part: part.retried(scaled), self.parts)))
 
     def _point(self, scaled: np.ndarray) -> Point:
         started = [part.followed(scaled) for part in self.parts]

@@ -30,9 +30,12 @@ class RunFit:
         unknowns: Sequence[Unknown],
         felt: Sequence[int],
         settings: Mapping[str, float],
+        near: np.ndarray | None = None,
     ):
+        """near : start states of a model nearby."""
         self.model, self.starts = model, StartStates(model)
         self.unknowns, self.felt, self.settings = unknowns, list(felt), settings
+        self.near = near
         self.tried: dict[bytes, Started] = {}
         self.base: np.ndarray | None = None  # where the following were taken
         self.columns: np.ndarray | None = None
@@ -61,7 +64,7 @@ class RunFit:
         values = self.values(scaled)
         p = self.model.packed(values)
         if self.base is None:
-            return self.starts.found(values, p)
+            return self.starts.found(values, p, self.near)
         base = self.tried[self.base.tobytes()]
         if self.columns is None:
             return self.starts.settled(values, self.starts.started(values, base.states, p), p)

@@ -133,9 +133,12 @@ class StartStates:
         states[:, :3] -= self.model.zero(values)
         return states
 
-    def found(self, values, p: np.ndarray) -> Started:
-        """The best states from those read off the data."""
+    def found(self, values, p: np.ndarray, near: np.ndarray | None = None) -> Started:
+        """The best states from those read off the data, or from those of a model nearby."""
         at = self.started(values, self.read_off(values), p)
+        if near is not None:
+            there = np.where(self.free(values), near, at.states)
+            at = self.better(at, self.started(values, there, p))
         return self.retried(values, self.settled(values, at, p), p, at_last=False)
 
     def retried(self, values, at: Started, p: np.ndarray, at_last: bool = True) -> Started:
