@@ -3,6 +3,9 @@
 The kernel's files are joined into one module, whose name carries a hash of its text, and that
 module is written to the user's cache folder and imported from there: numba keeps its machine code
 beside a real file, and a changed kernel is a new module, so no run ever meets stale code.
+
+Machine code is code: a folder that anybody else could have written to is not used. One that can
+only be read is, and where there is none at all, the kernel is compiled in memory.
 """
 
 from __future__ import annotations
@@ -12,8 +15,10 @@ import importlib.util
 import logging
 import multiprocessing
 import os
+import stat
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
@@ -23,6 +28,12 @@ from typing import Any
 import llvmlite.binding
 import numba
 import platformdirs
+from numba.core.caching import (
+    CompileResultCacheImpl,
+    FunctionCache,
+    InTreeCacheLocator,
+    UserProvidedCacheLocator,
+)
 from numba.core.cpu import CPUTargetOptions
 
 from .generation.source import kernel_source
@@ -70,19 +81,60 @@ def compiled_kernel() -> ModuleType:
     say_if_compiling()
     source = kernel_source()
     name = _name(source)
-    file = _write_module(name, source)
+    file = _module_file(name, source)
     kept = "there from an earlier run" if is_cached() else "made as it is needed"
-    LOG.info("mechanical model: machine code %s, beside %s", kept, file)
+    where = "in memory" if file is None else f"beside {file}"
+    LOG.info("mechanical model: machine code %s, %s", kept, where)
+    module = _in_memory(name, source) if file is None else _from_file(name, file)
+    for key, value in list(vars(module).items()):
+        if isinstance(value, FunctionType) and value.__module__ == name:
+            setattr(module, key, _compiled(value, keep=file is not None))
+    return module
+
+
+def _from_file(name: str, file: Path) -> ModuleType:
     loader = SourceFileLoader(name, str(file))
     spec = importlib.util.spec_from_loader(name, loader)
     assert spec is not None  # there is a loader
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # numba's cache finds the functions again by this name
     loader.exec_module(module)
-    for key, value in list(vars(module).items()):
-        if isinstance(value, FunctionType) and value.__module__ == name:
-            setattr(module, key, numba.njit(value, **OPTIONS))
     return module
+
+
+def _in_memory(name: str, source: str) -> ModuleType:
+    module = sys.modules[name] = ModuleType(name)
+    exec(compile(source, f"<{name}>", "exec"), vars(module))
+    return module
+
+
+class _Beside(InTreeCacheLocator):
+    """Machine code beside the module, also where it can only be read."""
+
+    def ensure_cache_path(self) -> None:
+        with suppress(OSError):
+            super().ensure_cache_path()
+
+
+class _Kept(CompileResultCacheImpl):
+    _locator_classes: list[type[object]] = [UserProvidedCacheLocator, _Beside]  # noqa: RUF012
+
+
+class _Cache(FunctionCache):
+    """numba's own, but for what cannot be written: it is compiled again in the next process."""
+
+    _impl_class = _Kept
+
+    def save_overload(self, signature: Any, compiled: Any) -> None:
+        with suppress(OSError):
+            super().save_overload(signature, compiled)
+
+
+def _compiled(function: FunctionType, keep: bool) -> Any:
+    dispatcher: Any = numba.njit(function, **OPTIONS | {"cache": False})
+    if keep:
+        dispatcher._cache = _Cache(function)
+    return dispatcher
 
 
 def _name(source: str) -> str:
@@ -93,23 +145,59 @@ def _name(source: str) -> str:
     return "stickslip_kernel_" + hashlib.sha256(key.encode()).hexdigest()[:16]
 
 
-def _folders() -> tuple[Path, ...]:
-    """Where numba may keep its cache, the preferred first."""
-    return platformdirs.user_cache_path("stickslip"), Path(tempfile.gettempdir())
+def _folders() -> list[Path]:
+    """Where the machine code may be, the preferred first: folders that nobody else can write to."""
+    own = f"stickslip-{os.getuid()}" if hasattr(os, "getuid") else "stickslip"
+    folders = [platformdirs.user_cache_path("stickslip")]
+    with suppress(FileNotFoundError):  # there may be no scratch folder at all
+        folders.append(Path(tempfile.gettempdir()) / own)
+    return [folder for folder in folders if _is_private(folder)]
 
 
-def _write_module(name: str, source: str) -> Path:
-    """Write the module where numba may keep its cache beside it; processes may race for it."""
-    for folder in _folders():
-        path = folder / f"{name}.py"
+def _is_private(folder: Path) -> bool:
+    """Whether a folder, made where that is possible, is this user's or root's, and theirs alone."""
+    with suppress(OSError):
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700)
+    try:
+        status, link = folder.stat(), folder.lstat()
+    except OSError:
+        return False
+    if not stat.S_ISDIR(status.st_mode):
+        return False
+    if not hasattr(os, "getuid"):  # Windows: both folders are in the user's profile
+        return True
+    if not {status.st_uid, link.st_uid} <= {0, os.getuid()}:
+        return False
+    if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        _warn_of_others(folder)
+        return False
+    return True
+
+
+@cache
+def _warn_of_others(folder: Path) -> None:
+    LOG.warning(
+        "%s can be written to by others, so machine code in it is not used; allowed after: "
+        "chmod go-w %s",
+        *(folder, folder),
+    )
+
+
+def _module_file(name: str, source: str) -> Path | None:
+    """The module, found or written where numba may keep its cache beside it; None for nowhere.
+
+    Processes may race for it.
+    """
+    folders = _folders()
+    for path in (folder / f"{name}.py" for folder in folders):
         if path.exists() and path.read_text(encoding="utf-8") == source:
             return path
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            partial = folder / f"{name}.{os.getpid()}.partial"
+    for folder in folders:
+        path = folder / f"{name}.py"
+        partial = folder / f"{name}.{os.getpid()}.partial"
+        with suppress(OSError):
             partial.write_text(source, encoding="utf-8")
             partial.replace(path)
-        except OSError:
-            continue
-        return path
-    raise OSError("no folder for the compiled kernel is writable: set XDG_CACHE_HOME or TMPDIR")
+            return path
+    return None
