@@ -59,6 +59,14 @@ class Affine:
 IDENTITY: Affine = Affine()
 
 
+def watts(port: Port) -> float | None:
+    """W in the port's unit; None where it is no power."""
+    if port.definition is not None:
+        same = port.definition.exponents == POWER and port.definition.offset == 0.0
+        return port.definition.factor if same else None
+    return 1.0 if port.unit == "W" else None
+
+
 def conversion(source: Port, sink: Port) -> tuple[Affine, str]:
     """From the unit of an output to that of an input, and a remark where nothing could be compared.
 

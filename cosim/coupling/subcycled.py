@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from cosim.coupling.conversion import watts
 from cosim.coupling.participant import (
     Capabilities,
+    Causality,
     CouplingError,
     Participant,
     Port,
@@ -22,7 +24,8 @@ class Subcycled:
 
     Who cannot follow a waveform gets its mean over each substep, and joules handed over since the
     start as they stand at its end: with many substeps it is as if it could. What it gives out is
-    seen at the communication points alone.
+    seen at the communication points alone, but for power: that is the mean of the substeps, so that
+    nothing of a power that is itself a mean over the last step is lost.
     """
 
     def __init__(self, participant: Participant, substeps: int):
@@ -31,6 +34,7 @@ class Subcycled:
         self._inner: Any = participant
         self.substeps = substeps
         self._waves: dict[str, Waveform] = {}
+        self._means: dict[str, float] = {}
 
     @property
     def name(self) -> str:
@@ -59,13 +63,25 @@ class Subcycled:
 
     def step(self, time: float, size: float) -> float | None:
         """The macro step, in parts; ends with the part that ends early."""
+        powers = [name for name, port in self.ports.items()
+                  if port.causality is Causality.OUTPUT and watts(port) is not None]  # fmt: skip
+        sums, reached = dict.fromkeys(powers, 0.0), None
         for n in range(self.substeps):
             began, ended = (size * k / self.substeps for k in (n, n + 1))
             self._follow(began, ended - began)
             reached = self._inner.step(time + began, ended - began)
+            there = ended if reached is None else reached - time
+            values = self._inner.read() if powers else {}
+            for name in powers:
+                sums[name] += values[name] * (there - began)
             if reached is not None:
-                return reached
-        return None
+                break
+        self._means = {name: total / there for name, total in sums.items()}
+        return reached
+
+    def read(self) -> dict[str, float]:
+        """All outputs; of power the mean over the last macro step."""
+        return {**self._inner.read(), **self._means}
 
     def _follow(self, began: float, size: float) -> None:
         """Inputs for the part of the macro step that begins at a time since its start (s)."""

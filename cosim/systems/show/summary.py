@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from cosim.coupling import Connection, CoupledSystem, Port
-from cosim.coupling.conversion import POWER
-from cosim.coupling.system import find_port
+from cosim.coupling import Connection, CoupledSystem
+from cosim.coupling.conversion import watts
+from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.coupling import efforts, step_numbers
 from cosim.report.page import number
 from cosim.systems.run import SystemRun
@@ -54,7 +55,8 @@ def ledger(run: SystemRun) -> dict[str, Any]:
     """Energy that has crossed: connections in J by their receipts, those in W by their integrals.
 
     Of a power the one integral is that of what the sink was given, held over each row, the other
-    that under the source's curve by trapezoids; they differ by what the coupling has added.
+    what the source has made, by its own total or by trapezoids under its curve; they differ by what
+    the coupling has added.
     """
     result = run.result
     energies = [
@@ -73,41 +75,45 @@ def ledger(run: SystemRun) -> dict[str, Any]:
     ]
     powers = []
     for connection in run.assembly.system.connections:
-        given, curve = _integrals(run, connection)
-        if given is not None and curve is not None:
+        given, made, counted = _integrals(run, connection)
+        if given is not None and made is not None:
             powers.append(
                 {
                     "connection": str(connection),
                     "given": given,
-                    "under_the_curve": curve,
-                    "added": given - curve,
+                    "made" if counted else "under_the_curve": made,
+                    "added": given - made,
                 }
             )
     return {"energies": energies, "powers": powers, "residuals": residuals}
 
 
-def carries_power(port: Port) -> float | None:
-    """W in the port's unit; None where it is no power."""
-    if port.definition is not None:
-        same = port.definition.exponents == POWER and port.definition.offset == 0.0
-        return port.definition.factor if same else None
-    return 1.0 if port.unit == "W" else None
+def _integrals(run: SystemRun, connection: Connection) -> tuple[float | None, float | None, bool]:
+    """J given to the sink, J that the source made, and whether by its own total.
 
-
-def _integrals(run: SystemRun, connection: Connection) -> tuple[float | None, float | None]:
-    """J given to the sink, and J under the source's curve; None for what is no power."""
+    The total of `name_flow` in W is `name` in J beside it; else what is under the source's curve.
+    None for what is no power.
+    """
     participants, result = run.assembly.system.participants, run.result
-    source = carries_power(find_port(participants, connection.source))
-    sink = carries_power(find_port(participants, connection.sink))
+    source = watts(find_port(participants, connection.source))
+    sink = watts(find_port(participants, connection.sink))
     if source is None or sink is None or result.time.size < 2:
-        return None, None
+        return None, None, False
     given = result.values[str(connection.sink)]
     sent = result.values[str(connection.source)]
-    steps = np.diff(result.time)
-    return (
-        _number(sink * float(np.sum(given[1:] * steps))),
-        _number(source * float(np.trapezoid(sent, result.time))),
+    total = str(connection.source).removesuffix("_flow")
+    address = replace(connection.source, port=connection.source.port.removesuffix("_flow"))
+    ports = participants[address.participant].ports
+    counted = (
+        address != connection.source
+        and address.port in ports
+        and (ports[address.port].unit == ENERGY_UNIT)
     )
+    made = (
+        float(result.values[total][-1] - result.values[total][0])
+        if counted else source * float(np.trapezoid(sent, result.time))
+    )  # fmt: skip
+    return _number(sink * float(np.sum(given[1:] * np.diff(result.time)))), _number(made), counted
 
 
 def _coupling(run: SystemRun) -> dict[str, Any]:
@@ -212,7 +218,11 @@ def ledger_lines(found: Mapping[str, Any]) -> list[str]:
     ]
     return lines + [
         f"{flow['connection']}: {number(flow['given'])} J given, "
-        f"{number(flow['under_the_curve'])} J under the output's curve"
+        + (
+            f"{number(flow['made'])} J made by the source"
+            if "made" in flow
+            else f"{number(flow['under_the_curve'])} J under the output's curve"
+        )
         for flow in found["powers"]
     ]
 

@@ -94,9 +94,30 @@ def test_power_that_crosses_is_in_the_ledger(ssp, tmp_path):
     with_heat = result_of(ssp)["mechanics.heat"][-1]
     # heat_flow is the mean over the step that has ended: held over it, all of the heat is given
     assert power["given"] == pytest.approx(with_heat, rel=1e-12)
+    assert power["made"] == pytest.approx(with_heat, rel=1e-12) and abs(power["added"]) < 1e-12
     outputs = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["outputs"]
     # as the unit's description has it; rounding beside it is 0 on the page
     assert outputs["mechanics.x"]["nominal"] == 0.1
+
+
+def test_no_heat_is_lost_between_substeps(ssp, tmp_path):
+    """Ten substeps of the block in each step: the heat of all of them is given."""
+    lines = [f"coupling.macro_step = {10 * STEP}", f"run.stop = {STOP}"]
+    with read_system(ssp) as system:
+        for unit in system.units:
+            lines += [f'units.{unit.name}.file = "{unit.file}"']
+            lines += [f"units.{unit.name}.substeps = 10"] * (unit.name == structure.MECHANICS)
+            lines += [
+                f'units.{unit.name}.parameters."{key}" = {start.value!r}'
+                for key, start in unit.given.items()
+            ]
+        for link in system.links:
+            lines += ["[[connections]]", f'from = "{link.source}"', f'to = "{link.sink}"']
+        (tmp_path / "pair.toml").write_text("\n".join(lines), encoding="utf-8")
+        assert main(["couple", str(tmp_path / "pair.toml"), "-o", str(tmp_path / "out")]) == 0
+    (power,) = json.loads((tmp_path / "out/summary.json").read_text())["ledger"]["powers"]
+    assert power["made"] > 0.01
+    assert power["given"] == pytest.approx(power["made"], rel=1e-12)
 
 
 def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(ssp, in_turn, tmp_path):
