@@ -3,10 +3,16 @@
 A process has one set of effects, laid out when the model is first imported. So the files are looked
 for before that, in the text of every scenario and campaign that is named; a process that has the
 model already, with other effects, hands the command to a new one.
+
+A folder of results may be anybody's: of a run that was cut off, only code is run that the command
+line itself names, and that is as it was when the run began.
 """
 
 from __future__ import annotations
 
+import argparse
+import hashlib
+import json
 import os
 import subprocess
 import sys
@@ -15,10 +21,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-#: Files that a folder among the arguments can stand for: a campaign's, and that of a run cut off.
-INSIDE = ("campaign.toml", "unfinished/scenario.toml")
+#: The file that a folder among the arguments stands for, and commands that take such a folder.
+INSIDE, OF_CAMPAIGNS = "campaign.toml", ("gap", "plan")
 #: Commands whose arguments can be effects' files themselves.
 TAKE_FILES = ("build", "effects")
+#: Options whose value is no scenario and no campaign.
+WRITTEN = ("-o", "--output", "--json", "--fmu", "--resume")
 SUFFIX = ".py"
 
 
@@ -80,19 +88,81 @@ def load() -> None:
 
 
 def files_named(argv: Sequence[str]) -> list[Path]:
-    """Effects' files that arguments name: themselves, or in the scenarios and campaigns there."""
+    """Effects' files that arguments name: themselves, or in the scenarios and campaigns there.
+
+    BadInput for those of a run to go on with that it cannot be gone on with.
+    """
+    if "run" in argv[:2] and (resumed := _RESUMING.parse_known_args(argv)[0]).resume:
+        return _of_resumed(Path(resumed.resume), resumed.effects)
     found = []
     takes_files = any(word in TAKE_FILES for word in argv[:2])
-    for word in argv:
+    takes_folders = any(word in OF_CAMPAIGNS for word in argv[:2])
+    for before, word in zip(("", *argv), argv, strict=False):
         path = Path(word)
+        if before in WRITTEN:
+            continue
         if takes_files and word.endswith(SUFFIX) and not word.startswith("-"):
             found.append(path)
         # not Path.is_file: it raises where a word is too long for a name, as many values can be
         elif path.suffix == ".toml" and os.path.isfile(word):
             found += _in_toml(path)
-        elif os.path.isdir(word):
-            found += [file for name in INSIDE for file in _in_toml(path / name)]
+        elif takes_folders and os.path.isdir(word):
+            found += _in_toml(path / INSIDE)
     return list(dict.fromkeys(found))
+
+
+#: What `run` is told to go on with.
+_RESUMING = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+_RESUMING.add_argument("--resume", nargs="?")
+_RESUMING.add_argument("--effects", nargs="*", default=[])
+
+
+def digests(files: Sequence[Path]) -> dict[str, str]:
+    """Absolute name of each file -> SHA-256 of what is in it; "" of what cannot be read."""
+    return {str(file): _digest(file) for file in files}
+
+
+def _digest(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
+
+
+def _of_resumed(results: Path, named: Sequence[str]) -> list[Path]:
+    """The effects' files of a run that was cut off, all of them named, none of them changed."""
+    from stickslip.plugins import files
+
+    from cosim.cli import BadInput
+
+    known = _known(results / "unfinished" / "run.json")
+    now = digests([*files(), *(Path(name).resolve() for name in named)])
+    for file, digest in now.items():
+        if not digest or known.get(file) != digest:
+            what = "has changed since that began" if file in known else "is not one of its effects"
+            raise BadInput(
+                f"{results}: goes on with a run as it was begun, and {file} {what}; allowed "
+                f"are {', '.join(known) or 'no effects of your own'}, or to begin anew"
+            )
+    lacking = [file for file in known if file not in now]
+    if lacking:
+        raise BadInput(
+            f"{results}: its run has effects of one's own, whose code is run only where you name "
+            f"it; allowed is, if you trust them, --effects {' '.join(known)}"
+        )
+    asked = [str(file) for file in _in_toml(results / "unfinished" / "scenario.toml")]
+    if unknown := [file for file in asked if file not in known]:
+        raise BadInput(
+            f"{results}: names {unknown[0]}, but not the SHA-256 that it had when the run began, so"
+            " its code is not run; allowed is to begin anew"
+        )
+    return [Path(file) for file in known]
+
+
+def _known(manifest: Path) -> dict[str, str]:
+    """Effects' file -> its SHA-256, as a run began; none of what is no such list."""
+    try:
+        effects = json.loads(manifest.read_text(encoding="utf-8"))["effects"]
+        return {str(file): str(digest) for file, digest in effects.items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return {}
 
 
 def _in_toml(path: Path) -> list[Path]:

@@ -41,7 +41,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--resume",
         metavar="DIR",
         help="go on with the run in DIR that was cut off, from its newest checkpoint"
-        " (run.checkpoint_seconds says how often there is one)",
+        " (run.checkpoint_seconds says how often there is one). The units that it was begun with"
+        " are run: resume a folder of somebody else's only if you trust them",
     )
     add_json(parser)
     add_output(parser, "folder of the results; made when missing (default: results/NAME)")

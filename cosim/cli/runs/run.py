@@ -40,7 +40,16 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="DIR",
         help="go on with the run in DIR that was cut off, from its newest checkpoint"
         " (run.checkpoint_seconds says how often there is one); as it was begun, so nothing else"
-        " but -q, -v and --json is given",
+        " but --effects, -q, -v and --json is given. The FMU that it was begun with is run: resume"
+        " a folder of somebody else's only if you trust them",
+    )
+    parser.add_argument(
+        "--effects",
+        nargs="+",
+        default=[],
+        metavar="FILE.py",
+        help="with --resume: the effects of one's own that the run has. Code is run only of files"
+        " that are named here, and whose SHA-256 is still that of when the run began",
     )
 
 
@@ -134,10 +143,18 @@ def execute(arguments: Namespace) -> int:
 
 def _begun(arguments: Namespace) -> Job:
     """A run from its start."""
+    from stickslip.plugins import files
+
+    from cosim.cli.plug_ins import digests
     from cosim.cli.runs import running
     from cosim.coupling.record import RunFolder
     from cosim.manifest import require_own
 
+    if arguments.effects:
+        raise BadInput(
+            '--effects: is for --resume; allowed is effects = ["brush.py"] at the top of the '
+            "scenario"
+        )
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
     results = running.results_folder(arguments.output, scenario, arguments.force)
     require_own(results, [running.COLLECTION], arguments.force)
@@ -149,6 +166,7 @@ def _begun(arguments: Namespace) -> Job:
         "fmu": fmu,
         "views": arguments.animation,
         "taken": dict(scenario.taken),
+        "effects": digests(files()),
     }
     folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
     views, force = arguments.animation, arguments.force
@@ -185,7 +203,10 @@ def _found(arguments: Namespace) -> Job:
 
 
 def _resume(results: Path) -> str:
-    return shlex.join(["stickslip", "run", "--resume", str(results)])
+    from stickslip.plugins import files
+
+    effects = ["--effects", *map(str, files())] if files() else []
+    return shlex.join(["stickslip", "run", "--resume", str(results), *effects])
 
 
 def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from cosim.cli import main
-from cosim.cli.plug_ins import files_named
+from cosim.cli.plug_ins import digests, files_named
 from cosim.coupling.record.folder import UNFINISHED
 
 
@@ -43,20 +43,65 @@ def test_files_are_found_where_they_are_named(tmp_path):
     campaign.parent.mkdir()
     scenario.write_text('effects = ["a.py", "deep/b.py"]\n[rig]\nmass = 1\n', encoding="utf-8")
     campaign.write_text('[model]\neffects = ["c.py"]\n', encoding="utf-8")
-    left = tmp_path / "results" / UNFINISHED / "scenario.toml"
-    left.parent.mkdir(parents=True)
-    left.write_text('effects = ["/d.py"]', encoding="utf-8")
     (tmp_path / "broken.toml").write_text("effects = [", encoding="utf-8")
     found = [tmp_path / "a.py", tmp_path / "deep" / "b.py"]
     assert files_named(["sweep", str(scenario), "--vary", "rig.mass=1,2"]) == found
     assert files_named(["gap", str(campaign.parent)]) == [campaign.parent / "c.py"]
     assert files_named(["gap", str(campaign)]) == [campaign.parent / "c.py"]
-    assert [str(file) for file in files_named(["run", "--resume", str(tmp_path / "results")])] == [
-        os.sep + "d.py"
-    ]
+    assert files_named(["compare", str(campaign.parent), str(scenario)]) == found
+    assert files_named(["gap", "x.toml", "-o", str(campaign.parent)]) == []
     assert [str(file) for file in files_named(["build", "--effects", "e.py"])] == ["e.py"]
     assert files_named(["effect", "new", "e.py"]) == []
     assert files_named(["run", str(tmp_path / "broken.toml"), "reference"]) == []
+
+
+@pytest.fixture
+def left(tmp_path):
+    """A run that was cut off, and the effect that it has: code that tells when it is run."""
+    code = tmp_path / "brush.py"
+    code.write_text(f"open({str(tmp_path / 'run')!r}, 'w')\n", encoding="utf-8")
+    folder = tmp_path / "results" / UNFINISHED
+    folder.mkdir(parents=True)
+    (folder / "scenario.toml").write_text(f'effects = ["{code}"]\n', encoding="utf-8")
+    (folder / "run.json").write_text(json.dumps({"effects": digests([code])}), encoding="utf-8")
+    yield folder.parent
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_folder_of_results_alone_runs_no_code(left, capsys):
+    for words in (["plot", str(left)], ["compare", str(left), str(left)], ["run", "-o", str(left)]):
+        assert files_named(words) == []
+    assert main(["run", "--resume", str(left)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"--effects {left.parent / 'brush.py'}" in line and "if you trust them" in line
+
+
+def test_a_run_goes_on_with_the_effects_that_it_was_begun_with(left, capsys):
+    code, other = left.parent / "brush.py", left.parent / "other.py"
+    other.write_text("1 / 0\n", encoding="utf-8")
+    go_on = ["run", f"--resume={left}", "--effects"]
+    assert files_named([*go_on, str(code)]) == [code]
+    assert main([*go_on, str(code), str(other)]) == 2
+    assert f"{other} is not one of its effects" in capsys.readouterr().err
+    code.write_text("1 / 0\n", encoding="utf-8")
+    assert main([*go_on, str(code)]) == 2
+    assert f"{code} has changed since that began" in capsys.readouterr().err
+    code.unlink()
+    assert main([*go_on, str(code)]) == 2
+    assert f"{code} has changed since that began" in capsys.readouterr().err
+
+
+def test_effects_without_a_digest_are_not_run(left, capsys):
+    for text in ("{}", "[", '{"effects": []}', '{"effects": {"/other.py": ""}}'):
+        (left / UNFINISHED / "run.json").write_text(text, encoding="utf-8")
+        assert main(["run", "--resume", str(left)]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert "begin anew" in line or "--effects /other.py" in line
+
+
+def test_effects_are_named_beside_resume_only(capsys):
+    assert main(["run", "reference", "--effects", "brush.py"]) == 2
+    assert "--effects: is for --resume" in capsys.readouterr().err
 
 
 def test_a_word_can_be_longer_than_a_file_s_name():
