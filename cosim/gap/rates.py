@@ -18,10 +18,11 @@ from scipy.special import logsumexp
 
 from cosim.gap.result import Rates
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.constants import ALIKE, BENDS_ASKED, LEAST_GAIN, SCALES_ASKED
+from cosim.gap.weak_form.added import Added, factor_of, factors_of
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, SCALES_ASKED
 from cosim.gap.weak_form.ladder import Finding, Ladder
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
-from cosim.gap.weak_form.system import Added, Rung, System
+from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: Campaigns of every truth: a chance of 10 % is known to 4 %.
@@ -53,9 +54,8 @@ def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
     """Every variant of an argument, over scales and bends as `Rung.offered` has them."""
     found = []
     for unknown in variants:
-        bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
-        factors = tuple(factor_of(Added(unknown, 1.0, bend), runs) for bend in bends)
-        price = float(np.log(len(variants) * len(bends) * len(SCALES_ASKED)))
+        factors = tuple(factors_of(unknown, runs))
+        price = float(np.log(len(variants) * len(factors) * len(SCALES_ASKED)))
         found.append(Option((unknown,), factors, SCALES_ASKED, price))
     return found
 
@@ -68,11 +68,6 @@ def option_of_wave(
     count = periodic.wavenumbers_of(system.fitted, added[0].unknown.wave.kind).size
     price = periodic.price_of_scan(count)
     return Option(tuple(each.unknown for each in added), (factor,), scales, price)
-
-
-def factor_of(added: Added, runs: int) -> np.ndarray:
-    """(Q, Q) from unit unknowns to all columns of so many runs."""
-    return np.kron(np.eye(runs), added.factor) if added.unknown.per_run else added.factor
 
 
 @dataclass(frozen=True)
@@ -106,11 +101,11 @@ class Decision:
 
     def __init__(self, rung: Rung, options: Mapping[str, Sequence[Option]]):
         self.system, self.base = rung.system, [each.unknown for each in rung.unknowns]
-        lower = rung._solved[0]
-        #: (h, Q, Q) from X'z to w, and (h,) ln weight and determinant of each setting.
-        self.whitens = np.linalg.solve(lower, rung._deviations[:, :, None] * rung._factor.T)
-        self.weights = rung.settings[1] - np.log(np.einsum("hii->hi", lower)).sum(axis=1)
-        self.options = {name: [self._turned(one) for one in some] for name, some in options.items()}
+        self.whitens, self.weights = rung.whitens, rung.weights
+        self.options = {
+            name: [(rung.beside(one.unknowns, one.factors, one.scales), one.price) for one in some]
+            for name, some in options.items()
+        }
 
     def offers(self, rows: np.ndarray) -> Offers:
         """Of the rows of c campaigns (rows, c)."""
@@ -118,7 +113,7 @@ class Decision:
 
     def projected(self, rows: np.ndarray) -> list[np.ndarray]:
         """X'z (q, c) of the base and of every option; all that a decision needs to know of z."""
-        options = [one.unknowns for some in self.options.values() for one in some]
+        options = [one.unknowns for some in self.options.values() for one, _ in some]
         return [self._right(unknowns, rows) for unknowns in (self.base, *options)]
 
     def _right(self, unknowns: Sequence[Unknown], rows: np.ndarray) -> np.ndarray:
@@ -132,52 +127,14 @@ class Decision:
         without, rights = logsumexp(base, axis=0), iter(others)
         evidence, gain = [], []
         for options in self.options.values():
-            values = [option.offered(next(rights), w, base) for option in options]
+            values = [option.offered(next(rights), w, base) for option, _ in options]
             sums = np.array([logsumexp(each, axis=0) for each in values])
             most = np.array([each.max(axis=0) for each in values])
-            prices = np.array([option.price for option in options])[:, None]
+            prices = np.array([price for _, price in options])[:, None]
             best = np.argmax(sums - prices, axis=0)
             evidence.append(logsumexp(sums - prices, axis=0) - without)
             gain.append(np.take_along_axis(most, best[None], axis=0)[0] - without)
         return Offers(tuple(self.options), np.array(evidence), np.array(gain))
-
-    def _turned(self, option: Option) -> _Turned:
-        half = self.whitens @ self.system.gram(self.base, option.unknowns)
-        across = np.swapaxes(half, 1, 2)
-        gram = self.system.gram(option.unknowns, option.unknowns) - across @ half
-        axes = []
-        for factor in option.factors:
-            g, v = np.linalg.eigh(factor.T @ gram @ factor)
-            axes.append((np.maximum(g, 0.0), np.swapaxes(factor @ v, 1, 2)))
-        return _Turned(option.unknowns, across, axes, np.array(option.scales), option.price)
-
-
-@dataclass(frozen=True)
-class _Turned:
-    """An option in its own axes, beside what is there already.
-
-    With G and r what base leaves of X'X and X'z, F'G F = V diag(g) V' and u = V'F'r, an unknown of
-    scale s adds 1/2 sum of s^2 u^2 / (1 + s^2 g) - ln(1 + s^2 g) to the ln evidence.
-
-    half : (h, q, Q) from w to what is not left of X'z; axes : of every factor g (h, q), V'F'
-    """
-
-    unknowns: tuple[Unknown, ...]
-    half: np.ndarray
-    axes: list[tuple[np.ndarray, np.ndarray]]
-    scales: np.ndarray
-    price: float
-
-    def offered(self, right: np.ndarray, w: np.ndarray, base: np.ndarray) -> np.ndarray:
-        """(scales and bends, c) ln evidence, without the price."""
-        left, squares = right - self.half @ w, self.scales[:, None, None] ** 2
-        values = []
-        for g, turn in self.axes:
-            added = squares * g  # (s, h, q)
-            more = np.einsum("shq,hqc->shc", squares / (1.0 + added), np.square(turn @ left))
-            more -= np.log1p(added).sum(axis=2)[:, :, None]
-            values.append(logsumexp(base + 0.5 * more, axis=1))
-        return np.concatenate(values)
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,11 @@ from scipy.special import logsumexp
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
-from cosim.gap.weak_form.system import Added, Rung, System
+from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Curve
 from cosim.gap.windows import Fitted
 

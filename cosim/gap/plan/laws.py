@@ -18,8 +18,9 @@ from stickslip.effects.effect import Effect, no_candidates
 from cosim.gap.laws import SHAPES, Context, scales_of
 from cosim.gap.rates import Option, option_of_wave
 from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import HARMONICS, SCALES_ASKED
-from cosim.gap.weak_form.system import Added, System
+from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: Turn of a wave's phase from one run to the next, rad: by the golden angle no two are alike.

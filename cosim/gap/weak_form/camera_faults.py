@@ -36,11 +36,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import ndtr
 
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import FAULT_SIZES, FILTER_WIDTHS
 from cosim.gap.weak_form.corners import CornerResponse, CornerRows
 from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
-from cosim.gap.weak_form.system import Added, Rung
+from cosim.gap.weak_form.system import Rung
 from cosim.gap.weak_form.track import derivatives
 from cosim.gap.weak_form.unknowns import Unknown, column
 

@@ -13,6 +13,7 @@ from functools import cached_property
 from math import inf
 
 from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
     ALIKE,
     FAULT_PRICE,
@@ -21,7 +22,7 @@ from cosim.gap.weak_form.constants import (
     MOST_FINDINGS,
     NEARLY_ALIKE,
 )
-from cosim.gap.weak_form.system import Added, Rung, System
+from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: Findings that round corners, as what a contact and other findings leave there does: they are

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.signal import find_peaks
 
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
     ALIGNED,
     HARMONICS,
@@ -26,7 +27,7 @@ from cosim.gap.weak_form.constants import (
 )
 from cosim.gap.weak_form.rig_unknowns import SPEED
 from cosim.gap.weak_form.rows import Response, RunRows
-from cosim.gap.weak_form.system import Added, Rung
+from cosim.gap.weak_form.system import Rung
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: run -> (n,) coordinate of the wave; and (run, (n, q) waves) -> what a wave of unit size does.

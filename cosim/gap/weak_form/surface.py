@@ -12,6 +12,7 @@ import numpy as np
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
     ALIKE,
     CONTACT_SPEED,
@@ -20,7 +21,7 @@ from cosim.gap.weak_form.constants import (
     RIPPLE_BANDS,
 )
 from cosim.gap.weak_form.rows import BREAK_AWAY, STICK, Response, RunRows, rows_of
-from cosim.gap.weak_form.system import Added, System
+from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import SmoothTrack, smooth
 
 #: Times (n,), s -> the part by which a surface is faster than its set-point.

@@ -20,6 +20,7 @@ from scipy.linalg import block_diag
 from scipy.special import logsumexp
 
 from cosim.gap.data import Campaign
+from cosim.gap.weak_form.added import Added, Beside, factor_of, factors_of
 from cosim.gap.weak_form.constants import (
     BENDS_ASKED,
     SCALES_ASKED,
@@ -41,25 +42,6 @@ from cosim.gap.weak_form.rig_unknowns import (
 )
 from cosim.gap.weak_form.rows import RunRows
 from cosim.gap.weak_form.unknowns import Unknown
-
-
-@dataclass(frozen=True)
-class Added:
-    """An unknown of unit prior: at the scale, and as bent, as the rows ask for.
-
-    factor : (q, q), from unit unknowns to those of the unknown's own columns
-    """
-
-    unknown: Unknown
-    scale: float = 1.0
-    bend: float = 0.0
-
-    @cached_property
-    def factor(self) -> np.ndarray:
-        prior = self.unknown.prior
-        if self.unknown.bends is not None:
-            prior = prior + self.bend**2 * self.unknown.bends
-        return self.scale * np.linalg.cholesky(prior)
 
 
 class System:
@@ -160,40 +142,41 @@ class Rung:
     def _factor(self) -> np.ndarray:
         """(Q, Q) from unit unknowns to columns, scatter and zeros at 1."""
         runs = len(self.system.fitted)
-        return block_diag(
-            *(
-                np.kron(np.eye(runs), each.factor) if each.unknown.per_run else each.factor
-                for each in self.unknowns
-            )
-        )
+        return np.asarray(block_diag(*(factor_of(each, runs) for each in self.unknowns)))
 
-    @cached_property
-    def _deviations(self) -> np.ndarray:
-        """(h, Q) what the settings multiply the unit unknowns by."""
-        pairs, _ = self.settings
-        parts = []
-        for each, size in zip(self.unknowns, self._size, strict=True):
-            part = np.ones(len(pairs))
-            if each.unknown.name == SCATTER:
-                part = pairs[:, 0]
-            elif each.unknown.name == ZERO_NAME:
-                part = pairs[:, 1]
-            parts.append(np.repeat(part[:, None], size, axis=1))
-        return np.concatenate(parts, axis=1)
+    def _deviations(self, pairs: np.ndarray) -> np.ndarray:
+        """(h, Q) what settings (h, 2) multiply the unit unknowns by."""
+        parts = {SCATTER: pairs[:, 0], ZERO_NAME: pairs[:, 1]}
+        columns = [parts.get(each.unknown.name, np.ones(len(pairs))) for each in self.unknowns]
+        return np.repeat(np.column_stack(columns), self._size, axis=1)
 
-    @cached_property
-    def _solved(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Cholesky factors (h, Q, Q), w (h, Q) and ln evidences (h,)."""
+    def _at(self, pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of settings (h, 2): Cholesky factors (h, Q, Q), w (h, Q) and ln evidences (h,)."""
         names = [each.unknown for each in self.unknowns]
         gram = self._factor.T @ self.system.gram(names, names) @ self._factor
         right = self._factor.T @ self.system.right(names)
-        scale = self._deviations
+        scale = self._deviations(pairs)
         inner = scale[:, :, None] * gram * scale[:, None, :] + np.eye(gram.shape[0])
         lower = np.linalg.cholesky(inner)
         w = np.linalg.solve(lower, (scale * right)[:, :, None])[:, :, 0]
         determinants = np.log(np.einsum("hii->hi", lower)).sum(axis=1)
-        evidences = -0.5 * (self.system.square - np.sum(w**2, axis=1)) - determinants
-        return lower, w, evidences
+        return lower, w, -0.5 * (self.system.square - np.sum(w**2, axis=1)) - determinants
+
+    @cached_property
+    def _solved(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return self._at(self.settings[0])
+
+    @cached_property
+    def whitens(self) -> np.ndarray:
+        """(h, Q, Q) from X'z to w."""
+        turned = self._deviations(self.settings[0])[:, :, None] * self._factor.T
+        return np.asarray(np.linalg.solve(self._solved[0], turned))
+
+    @property
+    def weights(self) -> np.ndarray:
+        """(h,) ln weight and determinant of each setting: with w'w / 2 its ln evidence."""
+        lower = self._solved[0]
+        return self.settings[1] - np.log(np.einsum("hii->hi", lower)).sum(axis=1)
 
     @property
     def evidences(self) -> np.ndarray:
@@ -225,37 +208,30 @@ class Rung:
         )
 
     def _with(self, unknown: Unknown) -> np.ndarray:
-        """(scales, bends) ln evidence with one more unknown, each with its weight.
+        """(scales, bends) ln evidence with one more unknown, each with its weight."""
+        option = self.beside((unknown,), factors_of(unknown, len(self.system.fitted)), SCALES_ASKED)
+        w, right = self._solved[1][:, :, None], self.system.right([unknown])[:, None]
+        values = option.offered(right, w, self.evidences[:, None])[:, 0]
+        return values.reshape(-1, len(SCALES_ASKED)).T - np.log(values.size)
 
-        By the Schur complement of what is there already.
-        """
-        lower, w, evidences = self._solved
-        names = [each.unknown for each in self.unknowns]
-        cross = self._deviations[:, :, None] * (self._factor.T @ self.system.gram(names, [unknown]))
-        half = np.linalg.solve(lower, cross)  # (h, Q, q)
-        gram = self.system.gram([unknown], [unknown]) - np.einsum("hij,hik->hjk", half, half)
-        right = self.system.right([unknown]) - np.einsum("hij,hi->hj", half, w)
-        bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
-        values = np.empty((len(SCALES_ASKED), len(bends)))
-        weights = self.settings[1] - np.log(len(SCALES_ASKED) * len(bends))
-        for number, bend in enumerate(bends):
-            factor = Added(unknown, 1.0, bend).factor
-            if unknown.per_run:
-                factor = np.kron(np.eye(len(self.system.fitted)), factor)
-            for place, scale in enumerate(SCALES_ASKED):
-                inner = scale**2 * (factor.T @ gram @ factor) + np.eye(factor.shape[0])
-                inside = np.linalg.cholesky(inner)
-                turned = scale * (right @ factor)
-                v = np.linalg.solve(inside, turned[:, :, None])[:, :, 0]
-                more = 0.5 * np.sum(v**2, axis=1) - np.log(np.einsum("hii->hi", inside)).sum(axis=1)
-                values[place, number] = logsumexp(evidences + more + weights)
-        return values
+    def beside(
+        self, unknowns: Sequence[Unknown], factors: Sequence[np.ndarray], scales: Sequence[float]
+    ) -> Beside:
+        """More unknowns beside these. factors : (q, q) each, from unit unknowns to columns"""
+        half = self.whitens @ self.system.gram([each.unknown for each in self.unknowns], unknowns)
+        across = np.swapaxes(half, 1, 2)
+        gram = self.system.gram(unknowns, unknowns) - across @ half
+        axes = []
+        for factor in factors:
+            g, v = np.linalg.eigh(factor.T @ gram @ factor)
+            axes.append((np.maximum(g, 0.0), np.swapaxes(factor @ v, 1, 2)))
+        return Beside(tuple(unknowns), across, axes, np.array(scales))
 
     @cached_property
     def posterior(self) -> tuple[np.ndarray, np.ndarray]:
         """Mean (Q,) and covariance (Q, Q) of the columns' unknowns at the most probable setting."""
         lower, w, _ = self._solved
-        factor = self._factor * self._deviations[self.best]
+        factor = self._factor * self._deviations(self.settings[0])[self.best]
         half = np.linalg.solve(lower[self.best], factor.T)
         return half.T @ w[self.best], half.T @ half
 
@@ -324,19 +300,9 @@ class Rung:
     def scatter_posterior(self) -> tuple[np.ndarray, np.ndarray]:
         """(s,) values of the scatter of friction and their probabilities, at the best zeros."""
         spreads = np.geomspace(*SCATTER_RANGE, SCATTER_STEPS)
-        zeros = self.settings[0][self.best][1]
-        unknowns = [each.unknown for each in self.unknowns]
-        gram = self._factor.T @ self.system.gram(unknowns, unknowns) @ self._factor
-        right = self._factor.T @ self.system.right(unknowns)
-        values = []
-        for spread in spreads:
-            scale = np.concatenate([
-                np.full(size, {SCATTER: spread, ZERO_NAME: zeros}.get(each.unknown.name, 1.0))
-                for each, size in zip(self.unknowns, self._size, strict=True)
-            ])  # fmt: skip
-            lower = np.linalg.cholesky(scale[:, None] * gram * scale + np.eye(scale.size))
-            w = np.linalg.solve(lower, scale * right)
-            values.append(0.5 * w @ w - np.log(np.diag(lower)).sum()
-                          - 0.5 * (spread / SCATTER_PRIOR) ** 2)  # fmt: skip
-        weights = np.exp(np.array(values) - max(values))
+        zeros = np.full(spreads.size, self.settings[0][self.best][1])
+        values = (
+            self._at(np.column_stack([spreads, zeros]))[2] - 0.5 * (spreads / SCATTER_PRIOR) ** 2
+        )
+        weights = np.exp(values - values.max())
         return spreads, weights / weights.sum()

@@ -7,10 +7,11 @@ import pytest
 from gap_campaigns import RIG, motion, noisy, write_campaign
 
 from cosim.gap.data import read_campaign
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import COURSES, camera_faults, smoothing
 from cosim.gap.weak_form.corners import CORNER, CornerRows, corner_contact, with_corners
 from cosim.gap.weak_form.rows import rows_of
-from cosim.gap.weak_form.system import Added, System
+from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
 
 NOISE, FINE, EVERY, DURATION = 5e-5, 1e-3, 10, 10.0
