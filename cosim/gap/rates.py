@@ -218,8 +218,9 @@ def _truths(
     if finding is None:
         return [nothing]
     found = [Truth.of(finding.name, rung.system.rung([*finding.added, *rung.added]))]
-    near = sorted(finding.others, key=lambda name: -finding.others[name])
-    for name in near[:RUNNERS_UP]:
+    # a wave that offered nothing at first is not asked, and has no place to stand at
+    near = [name for name in finding.others if name in unknowns or name in ladder.first_offers]
+    for name in sorted(near, key=lambda name: -finding.others[name])[:RUNNERS_UP]:
         offer = unknowns.get(name)
         added = [rung.offered(offer)[1]] if offer else ladder.first_offers[name][1]
         found.append(Truth.of(name, rung.system.rung([*added, *rung.added])))

@@ -1,5 +1,6 @@
 """Error rates of a design: the ladder's own decision, drawn campaigns, when a name is a class."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -75,6 +76,15 @@ def test_one_mass_cannot_tell_force_from_coefficient(searched):
     alone = rates.table[truth].get(truth, 0)
     assert both >= 45 if masses == 1 else alone >= 45
     assert rates.table[NONE].get(NONE, 0) >= 47
+
+
+def test_a_wave_that_offered_nothing_at_first_is_no_truth(searched):
+    """Beside other findings it may come near; where it would stand nobody has looked for."""
+    ladder, unknowns, _ = searched
+    (finding, *rest) = ladder.findings
+    near = replace(finding, others={"surface_pattern": -0.1, **finding.others})
+    rates = rates_of(replace(ladder, findings=(near, *rest)), unknowns, each=2)
+    assert finding.name in rates.table and "surface_pattern" not in rates.table
 
 
 def test_a_seed_draws_the_same_campaigns(searched):
