@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.gap.data import MeasuredRun
-from cosim.gap.data.units import friction_of, velocity_of
+from cosim.gap.data.units import cycle_of, friction_of, velocity_of
 from cosim.gap.result import Doubt
 
 #: Sticks only make cycles longer than free vibrations, hardening springs shorter by a factor of
@@ -38,13 +38,3 @@ def _wrong(run: MeasuredRun) -> str:
     if friction_of(run) > SWINGS and abs(run.surface_speed) > UNIT_SPEED * fastest:
         return f"surface_speed = {run.surface_speed:g} m/s, but x moves at {fastest:.2g} m/s: mm/s?"
     return ""
-
-
-def cycle_of(run: MeasuredRun) -> float:
-    """Median time between upward crossings of the mean of x, s; infinite where there are few."""
-    seen = np.isfinite(run.motion.x)
-    time, level = run.motion.time[seen], run.motion.x[seen] - np.nanmean(run.motion.x)
-    clear = np.abs(level) > max(0.2 * float(np.std(level)), 3.0 * run.noise["x"])
-    time, above = time[clear], level[clear] > 0.0
-    up = time[1:][above[1:] & ~above[:-1]]
-    return float(np.median(np.diff(up))) if up.size > 3 else math.inf

@@ -96,3 +96,13 @@ def velocity_of(run: MeasuredRun) -> tuple[np.ndarray, float]:
     time, x = run.motion.time[seen], run.motion.x[seen]
     lag = max(1, round(LAG * 2.0 * math.pi / run.natural_frequency / run.motion.interval))
     return (x[lag:] - x[:-lag]) / (time[lag:] - time[:-lag]), lag * run.motion.interval
+
+
+def cycle_of(run: MeasuredRun) -> float:
+    """Median time between upward crossings of the mean of x, s; infinite where there are few."""
+    seen = np.isfinite(run.motion.x)
+    time, level = run.motion.time[seen], run.motion.x[seen] - np.nanmean(run.motion.x)
+    clear = np.abs(level) > max(0.2 * float(np.std(level)), 3.0 * run.noise["x"])
+    time, above = time[clear], level[clear] > 0.0
+    up = time[1:][above[1:] & ~above[:-1]]
+    return float(np.median(np.diff(up))) if up.size > 2 else math.inf

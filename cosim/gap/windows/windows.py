@@ -16,6 +16,7 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from cosim.gap.data import Campaign, MeasuredRun, Track
+from cosim.gap.data.units import cycle_of
 
 from .sticks import Stick, smoothed, sticks_of
 
@@ -123,13 +124,8 @@ def _swings(run: MeasuredRun, period: float) -> np.ndarray:
 
 def cycle(run: MeasuredRun) -> float:
     """Period of the motion, s: of upward crossings of the mean of x, else 2 pi / omega."""
-    free = 2.0 * math.pi / run.natural_frequency
-    seen = np.isfinite(run.motion.x)
-    time, level = run.motion.time[seen], run.motion.x[seen] - np.nanmean(run.motion.x)
-    clear = np.abs(level) > max(0.2 * float(np.std(level)), 3.0 * run.noise["x"])
-    time, above = time[clear], level[clear] > 0.0
-    up = time[1:][above[1:] & ~above[:-1]]
-    return max(float(np.median(np.diff(up))), FASTEST * free) if up.size > 1 else free
+    free, found = 2.0 * math.pi / run.natural_frequency, cycle_of(run)
+    return max(found, FASTEST * free) if math.isfinite(found) else free
 
 
 def _begin(track: Track, sticks: list[Stick], speed: float, period: float) -> int:

@@ -26,9 +26,9 @@ from cosim.gap.checks.tracker import (
     felt,
     lattice,
 )
-from cosim.gap.checks.units import SHORT_CYCLE, cycle_of, doubts_of_units
+from cosim.gap.checks.units import SHORT_CYCLE, doubts_of_units
 from cosim.gap.data.campaign_file import Rig
-from cosim.gap.data.units import COARSEST, MOST_FRICTION, check_units, friction_of, swing
+from cosim.gap.data.units import COARSEST, MOST_FRICTION, check_units, cycle_of, friction_of, swing
 
 SPEEDS = (0.03, 0.06, 0.3)
 #: Stated errors of the speed, beside what a sheared contact makes; of springs, beside friction.
