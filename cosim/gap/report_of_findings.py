@@ -66,6 +66,9 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
         beside = f" once {counted}" if extra else ""
         more = f"; the rows hint at {', '.join(hints)}, which the runs do without" if hints else ""
         return f"No effect is missing: the stated model describes the runs{beside}{more}."
+    severe = [doubt.text for doubt in gap.doubts if doubt.severe]
+    if severe:
+        return f"Nothing is named while the data are in doubt. {severe[0]}"
     found = "; ".join(text_of(part) + _size(part, gap) for part in parts)
     if gap.verdict == "named":
         return f"{found}."

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from cosim.gap.extended import Part
 from cosim.gap.judge import is_needed, judge, sure_of
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
-from cosim.gap.result import VERDICTS, Rates, Rung, Score
+from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.ladder import Finding, Search
 
 PHYSICS = {"run_in", "film_drag", "structural_damping", "speed_ripple"}
@@ -180,7 +180,12 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
     verdict = judge(findings, names, ladder, PHYSICS)
     parts = [part(each) for each in findings]
     answer = SimpleNamespace(
-        verdict=verdict.verdict, effects=verdict.effects, ladder=ladder, share=share, exponents=()
+        verdict=verdict.verdict,
+        effects=verdict.effects,
+        ladder=ladder,
+        share=share,
+        exponents=(),
+        doubts=(),
     )
     headline = sentence_of(answer, parts)
     before, after = (
@@ -230,6 +235,13 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     """It has numbers, and no rows along x."""
     across = Finding("film_drag", (), 50.0, numbers={"turn": (0.1, 0.01)})
     part = Part(across, None, (), (), {})
-    gap = SimpleNamespace(verdict="named", effects=("film_drag",), exponents=())
+    gap = SimpleNamespace(verdict="named", effects=("film_drag",), exponents=(), doubts=())
     assert sentence_of(gap, [part]).endswith("film_drag.")
     assert law_of(None, None, part) is None and list(exponents_of(part)) == []
+
+
+def test_data_in_doubt_are_said_to_be_the_reason():
+    """Not the model, of which nothing can be said."""
+    doubt = Doubt("units", "run01: mass in g?", ("run01",), True)
+    gap = SimpleNamespace(verdict="unknown", effects=(), exponents=(), doubts=(doubt,))
+    assert sentence_of(gap, []) == "Nothing is named while the data are in doubt. run01: mass in g?"
