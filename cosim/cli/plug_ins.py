@@ -16,10 +16,8 @@ import json
 import os
 import subprocess
 import sys
-import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 #: The file that a folder among the arguments stands for, and commands that take such a folder.
 INSIDE, OF_CAMPAIGNS = "campaign.toml", ("gap", "plan")
@@ -90,7 +88,7 @@ def load() -> None:
 def files_named(argv: Sequence[str]) -> list[Path]:
     """Effects' files that arguments name: themselves, or in the scenarios and campaigns there.
 
-    BadInput for those of a run to go on with that it cannot be gone on with.
+    PluginError for those of a run to go on with that it cannot be gone on with.
     """
     if "run" in argv[:2] and (resumed := _RESUMING.parse_known_args(argv)[0]).resume:
         return _of_resumed(Path(resumed.resume), resumed.effects)
@@ -128,28 +126,26 @@ def _digest(file: Path) -> str:
 
 def _of_resumed(results: Path, named: Sequence[str]) -> list[Path]:
     """The effects' files of a run that was cut off, all of them named, none of them changed."""
-    from stickslip.plugins import files
-
-    from cosim.cli import BadInput
+    from stickslip.plugins import PluginError, files
 
     known = _known(results / "unfinished" / "run.json")
     now = digests([*files(), *(Path(name).resolve() for name in named)])
     for file, digest in now.items():
         if not digest or known.get(file) != digest:
             what = "has changed since that began" if file in known else "is not one of its effects"
-            raise BadInput(
+            raise PluginError(
                 f"{results}: goes on with a run as it was begun, and {file} {what}; allowed "
                 f"are {', '.join(known) or 'no effects of your own'}, or to begin anew"
             )
     lacking = [file for file in known if file not in now]
     if lacking:
-        raise BadInput(
+        raise PluginError(
             f"{results}: its run has effects of one's own, whose code is run only where you name "
             f"it; allowed is, if you trust them, --effects {' '.join(known)}"
         )
     asked = [str(file) for file in _in_toml(results / "unfinished" / "scenario.toml")]
     if unknown := [file for file in asked if file not in known]:
-        raise BadInput(
+        raise PluginError(
             f"{results}: names {unknown[0]}, but not the SHA-256 that it had when the run began, so"
             " its code is not run; allowed is to begin anew"
         )
@@ -167,10 +163,14 @@ def _known(manifest: Path) -> dict[str, str]:
 
 def _in_toml(path: Path) -> list[Path]:
     """None of what cannot be read: the command will say what is wrong with it."""
+    from stickslip.text_file import MOST_TOML, read_text, tables_in
+
     try:
-        text = path.read_text(encoding="utf-8-sig")
-        tables: dict[str, Any] = tomllib.loads(text) if "effects" in text else {}
-    except (OSError, ValueError, RecursionError):
+        if not path.is_file():  # a pipe can be read once
+            return []
+        text = read_text(path, MOST_TOML)
+        tables = tables_in(text) if "effects" in text else {}
+    except (OSError, ValueError):
         return []
     model = tables.get("model")
     places = [tables, model] if isinstance(model, dict) else [tables]

@@ -6,18 +6,20 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from stickslip.text_file import MOST_TOML, read_text, tables_in
+
 from cosim.scenario.faults import ScenarioError
 
 
 def parsed(text: str, source: str | Path) -> dict[str, Any]:
     """The tables of a text; ScenarioError with line and column where it is no TOML."""
     try:
-        return tomllib.loads(text)
+        return tables_in(text)
     except tomllib.TOMLDecodeError as error:
         raise ScenarioError(f"{source}: not TOML: {_with_line(str(error), text)}") from None
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         # tomllib lets through what Python itself refuses: a number of 5000 digits, a date of
-        # month 13, a thousand nested brackets
+        # month 13
         raise ScenarioError(f"{source}: not TOML that can be used: {error}") from None
 
 
@@ -26,10 +28,8 @@ def text_of(source: str | Path) -> str:
     path = Path(source)
     if path.is_dir():
         raise ScenarioError(f"{source}: is a folder, allowed is a TOML file")
-    if not (path.is_file() or path.is_fifo()):  # a device may never end
-        raise ScenarioError(f"{source}: is not a file, allowed is a TOML file")
     try:
-        return path.read_text(encoding="utf-8-sig")  # editors on Windows put a mark in front
+        return read_text(path, MOST_TOML)
     except UnicodeDecodeError as error:
         raise ScenarioError(
             f"{source}: byte {error.start + 1} is not UTF-8, allowed is a TOML file in UTF-8"

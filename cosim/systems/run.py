@@ -72,6 +72,8 @@ def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> S
     path = Path(path)
     if not path.exists():
         raise SystemFault(f"{path}: no such file, allowed is an SSP or a TOML file")
+    if not (path.is_dir() or path.is_file()):  # a pipe or a device may never end
+        raise SystemFault(f"{path}: is no regular file, allowed is an SSP or a TOML file")
     archive = path.is_dir() or path.suffix.lower() in (".ssp", ".ssd") or _is_zip(path)
     return (read_ssp if archive else read_toml)(path, changes or {})
 

@@ -22,7 +22,10 @@ PACKAGES = {
 FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rglob("*.py")]
 
 #: Parts of cosim that compute and write without knowing what.
-LEAVES = ("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes")
+LEAVES = (
+    *("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes"),
+    "cosim.scratch",
+)
 PRODUCT = ("stickslip", "thermal", "cosim")
 #: Part -> what of the product it may import beside itself. What a part is not named for, the
 #: longest name that holds it is.

@@ -34,6 +34,9 @@ THINNEST = 1e-9
 _TETRAHEDRA = {"tetra", "tetra10"}
 _FACETS = ((1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2))
 
+#: Of a mesh file: ten times what the most unknowns take.
+MOST_BYTES = 256 * 2**20
+
 
 class MeshError(ParameterError):
     """A mesh that cannot be a sample of ice; one line: file, what is wrong, what is allowed."""
@@ -59,6 +62,8 @@ def read_sample(file: str | Path) -> tuple[Array, Cells]:
 def _read(file: Path) -> meshio.Mesh:
     if not file.is_file():
         raise MeshError(f"{file}: no such file, allowed is a mesh of tetrahedra")
+    if (size := file.stat().st_size) > MOST_BYTES:
+        raise MeshError(f"{file}: {size >> 20} MiB, allowed are {MOST_BYTES >> 20} MiB")
     said = io.StringIO()
     try:
         # meshio prints what it finds wrong and ends the process for some files

@@ -36,7 +36,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="?",
         help="TOML file, a folder with campaign.toml, or a packaged campaign: "
         f"{', '.join(packaged_campaigns())}; effects of one's own that it names are code, and are "
-        "run. A run's CSV file has columns t (s), x (m, along the "
+        "run. A run's CSV file, of up to 64 MiB, has columns t (s), x (m, along the "
         "surface's motion) and, where they were measured, y (m), phi (rad) and force (N: what all "
         "springs pull the block back with along x, positive where x is; compared with their "
         'stiffness, not fitted). Other names: [columns] x = "pos"; other units: [units] x = '
@@ -84,7 +84,9 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Read, find, write, report; 0, or 1 when stopped."""
+    from cosim.cli.measurements.run_files import check_files
     from cosim.gap import CampaignError, read_campaign
+    from cosim.gap.data.campaign_file import FILE_NAME
     from cosim.gap.example import write_example
 
     if arguments.write_example is not None:
@@ -92,7 +94,9 @@ def execute(arguments: Namespace) -> int:
         return DONE
     if arguments.campaign is None:
         raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
-    campaign = read_campaign(_source(arguments.campaign))
+    source = _source(arguments.campaign)
+    check_files(source / FILE_NAME if source.is_dir() else source)
+    campaign = read_campaign(source)
     with held_interrupts():
         files = import_module(SHOW_SUMMARY if _has_no_tracks(campaign) else SHOW)
     folder = Path(arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap")
@@ -103,7 +107,7 @@ def execute(arguments: Namespace) -> int:
         note(remark)
     with Bar(unit="step") as bar:
         gap = _find(campaign, arguments.seed, arguments.jobs, bar)
-    made = made_by(campaign=str(_source(arguments.campaign).resolve()))
+    made = made_by(campaign=str(source.resolve()))
     with results_in(folder, made, force=arguments.force) as results:
         with held_interrupts():
             text = files.write_data(gap, folder / RESULT, folder / MODEL)

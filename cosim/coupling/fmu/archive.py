@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import lzma
 import re
 import shutil
@@ -17,6 +16,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from cosim.coupling.fmu.errors import FmuError, one_line
+from cosim.scratch import scratch_folder
 
 #: Bytes that a unit may have unpacked, bytes of its description, and members.
 MOST_BYTES, MOST_XML, MOST_MEMBERS = 4 * 1024**3, 256 * 1024**2, 50_000
@@ -50,7 +50,7 @@ def read_xml(path: Path, member: str) -> bytes | None:
 def unpack(path: Path) -> tempfile.TemporaryDirectory[str]:
     """Unpack a unit into a fresh folder; FmuError in one line where that cannot be."""
     try:
-        directory = tempfile.TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True)
+        directory = scratch_folder("fmu")
     except OSError as error:
         raise FmuError(f"{path}: there is no folder to unpack it in ({one_line(error)})") from error
     folder = directory.name
@@ -162,7 +162,7 @@ def _check_prolog(path: Path, member: str, content: bytes) -> None:
     parser.StartDoctypeDeclHandler = refuse
     parser.StartElementHandler = end
     try:
-        parser.ParseFile(io.BytesIO(content))
+        parser.Parse(content, True)  # at once: in pieces, a long attribute is begun with each anew
     except _Root:
         pass
     except (expat.ExpatError, ValueError, LookupError) as error:

@@ -21,6 +21,7 @@ from typing import Any
 from cosim.coupling.isolated.line import CLOSE, DONE, MESSAGE, START, packed, waiter
 from cosim.coupling.messages import KEPT, LONGEST, Message
 from cosim.interrupts import held_interrupts, unheard_by_children
+from cosim.scratch import scratch_folder
 
 #: Time (s) that Python and the imports of a participant may take, beyond the time limit of a call.
 START_SECONDS = 60.0
@@ -60,7 +61,7 @@ class Process:
     def __init__(self, time_limit: float, heard: Callable[[Message], object]) -> None:
         self._limit = time_limit
         self._heard = heard
-        self._scratch = tempfile.TemporaryDirectory(prefix="isolated-", ignore_cleanup_errors=True)
+        self._scratch = scratch_folder("isolated")
         self._line, theirs = Pipe()
         self._wait = waiter(self._line)
         with held_interrupts(), unheard_by_children():

@@ -15,6 +15,7 @@ from urllib.parse import unquote, urlsplit
 
 from lxml import etree
 
+from cosim.scratch import scratch_folder
 from cosim.systems.faults import SystemFault
 
 STRUCTURE = "SystemStructure.ssd"
@@ -45,7 +46,7 @@ class Package:
             self._root, self.structure = path.parent, path.name
         else:
             self._archive = _opened(path)
-            self._scratch = tempfile.TemporaryDirectory(prefix="stickslip-ssp-")
+            self._scratch = scratch_folder("ssp")
             self._root = Path(self._scratch.name)
 
     def xml(self, name: str) -> etree._Element:

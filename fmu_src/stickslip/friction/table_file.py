@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 import re
 from collections.abc import Mapping
@@ -10,6 +11,10 @@ from itertools import pairwise, product
 from pathlib import Path
 
 from ..kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
+from ..text_file import read_text
+
+#: Of a file; the rows of a table take a hundredth of it.
+MOST_BYTES = 2**20
 
 #: Columns of a file: sliding speed, m/s, and coefficient; and of one over the temperature, too.
 COLUMNS = ("v", "mu")
@@ -82,13 +87,11 @@ def read_table(file: Path) -> FrictionTable:
 
 
 def _rows(file: Path) -> list[dict[str, str]]:
-    if file.exists() and not (file.is_file() or file.is_dir()):  # a device may never end
-        raise ValueError(f'table = "{file}": cannot be read: no regular file')
     try:
-        with file.open(encoding="utf-8-sig", newline="") as lines:
-            reader = csv.DictReader(lines, skipinitialspace=True)
-            rows = list(reader)
-            _check_columns(file, list(reader.fieldnames or ()))
+        lines = io.StringIO(read_text(file, MOST_BYTES), newline="")
+        reader = csv.DictReader(lines, skipinitialspace=True)
+        rows = list(reader)
+        _check_columns(file, list(reader.fieldnames or ()))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         why = getattr(error, "strerror", None) or "no CSV in UTF-8"
         raise ValueError(f'table = "{file}": cannot be read: {why}') from None

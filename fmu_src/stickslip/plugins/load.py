@@ -20,6 +20,7 @@ from ..effects.candidate import Candidate, Scales
 from ..effects.effect import Effect
 from ..generation.terms import terms_source
 from ..quantity import Table
+from ..text_file import read_text
 from .check import check_translatable
 from .chosen import GROUP, files
 from .errors import PluginError
@@ -31,6 +32,8 @@ TABLES = (
     *("name", "effects", "defaults", "ambient", "belt", "ice", "contact", "run", "coupling"),
     *("input", "measurement", "offset"),  # of the unit, and of the names that `gap` gives
 )
+#: Of the file of an effect.
+MOST_BYTES = 2**20
 #: A campaign as there could be one, to see that the candidates can be made.
 SCALES = Scales(
     speed=0.1, distance=2.0, heat=3.0, duration=20.0, stiffness=38.5, travel=0.02, mass=0.87,
@@ -109,7 +112,7 @@ def _declared_in(module: ModuleType, file: Path, text: str) -> Effect:
 def _module(file: Path) -> tuple[ModuleType, str]:
     """An empty module for a file, and the file's text."""
     try:
-        text = file.read_text(encoding="utf-8-sig")
+        text = read_text(file, MOST_BYTES)
     except OSError as error:
         raise PluginError(f"{file}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:

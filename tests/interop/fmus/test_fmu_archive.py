@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import stat
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
@@ -11,9 +12,11 @@ from pathlib import Path
 import pytest
 from c_units import made
 
+from cosim import scratch
 from cosim.coupling import CoupledSystem, FmuError, FmuParticipant, GaussSeidel, run
 from cosim.coupling.fmu import archive
 from cosim.coupling.fmu.errors import FmuCallError
+from cosim.scratch import scratch_folder
 
 
 @pytest.fixture
@@ -146,19 +149,36 @@ def test_a_library_that_does_not_load_leaves_all_as_it_was(unit, tmp_path, monke
 
 def test_no_room_is_said_before_and_while_unpacking(unit, tmp_path, monkeypatch, full_disk):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    there = rf"{tmp_path}/stickslip.fmu-\w+"
     with monkeypatch.context() as patch:
         usage = shutil.disk_usage(tmp_path)
         patch.setattr(shutil, "disk_usage", lambda folder: usage._replace(free=10))
-        refused(unit, rf"unpacked in {tmp_path}/fmu-\w+: takes 0 MiB, there are 0 MiB; .*TMPDIR")
+        refused(
+            unit,
+            rf"unpacked in {there}: takes 0 MiB, there are 0 MiB; .*TMPDIR",
+        )
     with monkeypatch.context() as patch:
         patch.setattr(zipfile.ZipFile, "extract", full_disk)
-        refused(unit, rf"unpacked in {tmp_path}/fmu-\w+: No space left on device; .*TMPDIR")
+        refused(unit, rf"unpacked in {there}: No space left on device; .*TMPDIR")
     assert list(tmp_path.iterdir()) == [unit]
 
 
 def test_no_folder_to_unpack_in_is_said(unit, monkeypatch, full_disk):
     monkeypatch.setattr(tempfile, "mkdtemp", full_disk)
     refused(unit, "there is no folder to unpack it in")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no lock on a folder")
+def test_what_a_killed_run_left_is_removed_and_what_a_living_one_has_is_not(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    living = scratch_folder("fmu")
+    left, others = tmp_path / "stickslip.fmu-left", tmp_path / "fmu-of-another-tool"
+    (left / "binaries").mkdir(parents=True)
+    others.mkdir()
+    scratch._clear.cache_clear()  # as in another process
+    with scratch_folder("ssp") as mine:
+        assert sorted(tmp_path.iterdir()) == sorted([others, *map(Path, (living.name, mine))])
+    living.cleanup()
 
 
 def test_what_an_earlier_run_left_is_not_used(unit, tmp_path, monkeypatch):
@@ -173,7 +193,7 @@ def test_what_an_earlier_run_left_is_not_used(unit, tmp_path, monkeypatch):
 
 
 def folder_of(tmp_path):
-    (folder,) = tmp_path.glob("fmu-*")
+    (folder,) = tmp_path.glob("stickslip.fmu-*")
     return folder
 
 
