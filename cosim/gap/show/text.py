@@ -64,7 +64,7 @@ def evidence(value: float | None) -> str:
 
 def numbers_of(gap: Gap, row: Ranked, known: Sequence[Quantity]) -> list[str]:
     """Of an effect that was tried; of one that was named those of the final model."""
-    own = [one.text for one in known if one.key.startswith(row.effect)]
+    own = [one.text for one in known if one.key.startswith(row.effect) and not one.owner]
     if row.effect in gap.effects and own:
         return own
     return [
