@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import os
+import platform
 import tempfile
+import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+
+#: A machine, in a file's name: process numbers are of one.
+_HOST = f"{zlib.crc32(platform.node().encode()):08x}"
 
 
 class OutputRefused(ValueError):
@@ -32,7 +37,10 @@ def watched(told: Callable[[Path], object]) -> Iterator[None]:
 
 
 def writable(folder: Path, files: Iterable[str] = ()) -> Path:
-    """Make a folder; OutputRefused when nothing can be written to it, or a name in it is taken."""
+    """Make a folder; OutputRefused when nothing can be written to it, or a name in it is taken.
+
+    Partial files of processes that were killed go.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -43,7 +51,28 @@ def writable(folder: Path, files: Iterable[str] = ()) -> Path:
             "name one with -o"
         ) from error
     not_taken(folder, files)
+    _clear_partial(folder)
     return folder
+
+
+def _clear_partial(folder: Path) -> None:
+    for file in folder.glob(".*.partial"):
+        host, _, number = file.name.split(".")[-2].partition("-")
+        if host == _HOST and number.isdecimal() and not _lives(int(number)):
+            file.unlink(missing_ok=True)
+
+
+def _lives(process: int) -> bool:
+    """Whether there is a process of that number; it may be another one since."""
+    if os.name == "nt":  # os.kill would end it
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        pass
+    return True
 
 
 def not_taken(folder: Path, files: Iterable[str]) -> None:
@@ -59,7 +88,7 @@ def write_atomically(path: Path, write: Callable[[Path], object]) -> Path:
     An earlier file of that name stays as it was until then. Raises OutputError where the disk
     refuses, and what ``write`` raises; no partial file is left.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    partial = path.with_name(f".{path.name}.{_HOST}-{os.getpid()}.partial")
     try:
         partial.touch()  # says in plain words why a folder refuses; HDF5 does not
         write(partial)

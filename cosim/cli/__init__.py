@@ -13,7 +13,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from errno import ENAMETOOLONG
+from errno import EBADF, EIO, ENAMETOOLONG, ENOSPC
 from typing import TextIO
 
 from cosim.cli.plug_ins import handed_on, is_of_an_effect
@@ -24,6 +24,11 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 #: What BLAS reads once, when numpy is imported.
 _BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+#: Standard output that takes nothing: a full disk or device, one that is broken, or not for this.
+_REFUSED = (ENOSPC, EIO, EBADF)
+_CLOSED = "standard output: is closed, allowed is a file, a pipe, or >/dev/null for none"
 
 
 class BadInput(ValueError):
@@ -57,6 +62,8 @@ def _one_blas_thread() -> None:
 def _guarded(argv: Sequence[str], ending: bool) -> int:
     """The exit status, whatever happens."""
     debug = "--debug" in argv
+    if sys.stdout is None:
+        return _give_up(BadInput(_CLOSED), BAD_INPUT, debug)
     try:
         status = handed_on(argv, ending)
         if status is not None:
@@ -78,8 +85,7 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
     except KeyboardInterrupt as error:
         return _give_up(error, FAILED, debug, "interrupted before there was a result")
     except BrokenPipeError:
-        # whoever read our output has gone; Python would complain again while it shuts down
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _silence(sys.stdout)  # whoever read our output has gone
         return FAILED
     except (OutputError, Failed) as error:
         return _give_up(error, FAILED, debug)
@@ -89,8 +95,17 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
         if isinstance(error, OSError) and error.errno == ENAMETOOLONG:  # of whoever gave the name
             text = f"{error.filename}: is too long for a file's name, allowed is a shorter one"
             return _give_up(error, BAD_INPUT, debug, text)
+        if isinstance(error, OSError) and error.filename is None and error.errno in _REFUSED:
+            text = f"standard output: {error.strerror}; files that were written are whole"
+            _silence(sys.stdout)
+            return _give_up(error, FAILED, debug, text)
         said = " ".join(str(error).split()) or type(error).__name__
         return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
+
+
+def _silence(stream: TextIO) -> None:
+    """What is still to be written goes nowhere: Python would complain while it shuts down."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _give_up(error: BaseException, status: int, debug: bool, message: str = "") -> int:

@@ -53,7 +53,7 @@ LAST = "advance"
 def is_cached() -> bool:
     """Has machine code of this kernel been made on this machine before?"""
     kept = f"{_name(kernel_source())}.{LAST}-*.py{sys.version_info[0]}{sys.version_info[1]}*.nbi"
-    places = [folder / "__pycache__" for folder in _folders()]
+    places = [folder / "__pycache__" for folder in _folders() if _is_private(folder)]
     if chosen := getattr(
         numba.config, "CACHE_DIR", ""
     ):  # by NUMBA_CACHE_DIR; a folder in it for each module's
@@ -146,19 +146,16 @@ def _name(source: str) -> str:
 
 
 def _folders() -> list[Path]:
-    """Where the machine code may be, the preferred first: folders that nobody else can write to."""
+    """Where the machine code may be, the preferred first; used where `_is_private`."""
     own = f"stickslip-{os.getuid()}" if hasattr(os, "getuid") else "stickslip"
     folders = [platformdirs.user_cache_path("stickslip")]
     with suppress(FileNotFoundError):  # there may be no scratch folder at all
         folders.append(Path(tempfile.gettempdir()) / own)
-    return [folder for folder in folders if _is_private(folder)]
+    return folders
 
 
 def _is_private(folder: Path) -> bool:
-    """Whether a folder, made where that is possible, is this user's or root's, and theirs alone."""
-    with suppress(OSError):
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        folder.mkdir(mode=0o700)
+    """Whether a folder is there, this user's or root's, and theirs alone."""
     try:
         status, link = folder.stat(), folder.lstat()
     except OSError:
@@ -190,14 +187,18 @@ def _module_file(name: str, source: str) -> Path | None:
     Processes may race for it.
     """
     folders = _folders()
-    for path in (folder / f"{name}.py" for folder in folders):
+    for path in (folder / f"{name}.py" for folder in folders if _is_private(folder)):
         if path.exists() and path.read_text(encoding="utf-8") == source:
             return path
     for folder in folders:
         path = folder / f"{name}.py"
         partial = folder / f"{name}.{os.getpid()}.partial"
         with suppress(OSError):
-            partial.write_text(source, encoding="utf-8")
-            partial.replace(path)
-            return path
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            with suppress(FileExistsError):
+                folder.mkdir(mode=0o700)
+            if _is_private(folder):
+                partial.write_text(source, encoding="utf-8")
+                partial.replace(path)
+                return path
     return None

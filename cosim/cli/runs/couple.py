@@ -80,6 +80,7 @@ class Job(NamedTuple):
 
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
+    from cosim.cli.runs import running
     from cosim.cli.runs.running import hearing, is_removed, log_files, message_log
     from cosim.manifest import made_by, results_in
 
@@ -87,7 +88,8 @@ def execute(arguments: Namespace) -> int:
     numbers = numbers_asked(arguments, KEYS)
     job = _begun(arguments) if arguments.resume is None else _found(arguments)
     logging = message_log(job.folder, arguments.verbose)
-    with job.specification, patient_interrupts() as patience, logging as log:
+    going_on = running.going_on(job.folder, job.resume)
+    with going_on, job.specification, patient_interrupts() as patience, logging as log:
         with units_speak_aside():
             done = _run(
                 job, patience, heard=hearing(log, arguments.verbose), debug=arguments.verbose
@@ -194,11 +196,10 @@ def _folder_name(name: str) -> str:
 
 def _run(job: Job, patience: Patience, **said: Any) -> SystemRun:
     """Run with a bar; one that does not come to its first step leaves nothing to go on from."""
-    begun = not job.folder.checkpoint.is_file()
     try:
         return _with_bar(job, patience, **said)
     except BaseException:
-        if begun:
+        if not job.folder.checkpoint.is_file():
             job.folder.finished()
         raise
 

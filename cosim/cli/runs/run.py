@@ -99,7 +99,8 @@ def execute(arguments: Namespace) -> int:
     fields = writable(job.results / running.FIELDS)
     running.compile_model()
     logging = running.message_log(job.folder, arguments.verbose)
-    with patient_interrupts() as patience, logging as log:
+    going_on = running.going_on(job.folder, _resume(job.results))
+    with going_on, patient_interrupts() as patience, logging as log:
         with running.progress_over(job.scenario.run.duration) as show:
 
             def progress(reached: float) -> None:
@@ -229,11 +230,10 @@ def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
 
 def _run(job: Job, **further: Any) -> CoupledRun:
     """The coupled run; one that does not come to its first step leaves nothing to go on from."""
-    begun = not job.folder.checkpoint.is_file()
     try:
         return _coupled(job.scenario, fmu=job.fmu, folder=job.folder, views=job.views, **further)
     except BaseException:
-        if begun:
+        if not job.folder.checkpoint.is_file():
             job.folder.finished()
         raise
 

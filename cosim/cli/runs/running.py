@@ -25,11 +25,11 @@ from cosim.cli.scenarios import given_scenario
 from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
 from cosim.coupling.record import LOG, MessageLog, RunFolder
 from cosim.coupling.system import MASTER
-from cosim.files import writable
+from cosim.files import OutputError, writable
 from cosim.interrupts import Patience
 from cosim.manifest import claim, require_own
 from cosim.report import Views, summary, write_results
-from cosim.report.bounds import bounds_sentences
+from cosim.report.bounds import bounds_sentences, is_believed
 from cosim.report.contents import attach_assessment, ramp_sentence, regime_sentence, unstable_line
 from cosim.report.coupling import doubts
 from cosim.report.files import json_text
@@ -146,6 +146,17 @@ def hearing(log: MessageLog, verbose: bool) -> Callable[[Message], None]:
 def log_files(log: MessageLog) -> dict[str, str]:
     """The log as the page lists it; it is there where something was said."""
     return {LOG: "what units and master said, a line each"} if log.path.is_file() else {}
+
+
+@contextmanager
+def going_on(folder: RunFolder, resume: str) -> Iterator[None]:
+    """What could not be written, as on a full disk, is said with what goes on from a checkpoint."""
+    try:
+        yield
+    except OutputError as error:
+        if not folder.checkpoint.is_file():
+            raise
+        raise OutputError(f"{error}; this goes on from the newest checkpoint: {resume}") from error
 
 
 def say_how_it_ended(
@@ -287,7 +298,7 @@ def finish(
         return FAILED
     if not printed:
         print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
-    return DONE
+    return DONE if is_believed(numbers) else FAILED
 
 
 def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any) -> None:

@@ -18,7 +18,14 @@ from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.saying import Bar as tqdm
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import OutputRefused, not_taken, write_atomically, write_bytes, write_text
+from cosim.files import (
+    OutputError,
+    OutputRefused,
+    not_taken,
+    write_atomically,
+    write_bytes,
+    write_text,
+)
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
@@ -143,9 +150,12 @@ def execute(arguments: Namespace) -> int:
         return FAILED
     # the finished combinations beside the results are kept from sweep to sweep
     made = made_by(scenario=scenario.to_toml())
-    with results_in(folder, made, force=arguments.force) as results:
-        _write(datasets, folder, arguments.show, made["command"])
-        results.complete = True
+    try:
+        with results_in(folder, made, force=arguments.force) as results:
+            _write(datasets, folder, arguments.show, made["command"])
+            results.complete = True
+    except OutputError as error:
+        raise OutputError(f"{error}; all runs are kept, the same command goes on") from error
     if numbers.give(_as_json(datasets)):
         return _status(datasets)
     return _report(datasets, folder, time.perf_counter() - began)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from cosim.coupling.record.checkpoint import CheckpointError
-from cosim.files import OutputError, OutputRefused, write_text
+from cosim.files import OutputError, OutputRefused, writable, write_text
 
 try:
     import fcntl
@@ -91,7 +91,7 @@ class RunFolder:
         """The folder of a run that was cut off and has a checkpoint.
 
         Raises CheckpointError, in one line, where there is none, OutputRefused where another
-        process is at work here.
+        process is at work here, or nothing can be written.
         """
         folder = cls(results)
         if not results.is_dir():
@@ -109,6 +109,7 @@ class RunFolder:
                 f"{results}: its run has no checkpoint yet, or what it couples cannot be saved: "
                 "begin anew"
             )
+        writable(results)
         folder._clear_partial()
         return folder
 

@@ -27,16 +27,19 @@ from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
 from cosim.names import listed
 
+#: Of the first checkpoint, s of wall time: what is lost without one is all that a run was.
+FIRST_SECONDS = 1.0
+
 
 @dataclass(frozen=True)
 class Keep:
     """What a run leaves on disk while it goes.
 
     folder: for rows and checkpoints; where it holds a checkpoint, the run goes on from that.
-    seconds: of wall time from one checkpoint to the next; steps: the same in accepted macro steps;
-    0 of either: not by that. setup: key -> text or number, what makes the case, so that no other
-    one goes on from its checkpoint. also: what goes on beside the participants, by names that none
-    of them has.
+    seconds: of wall time from one checkpoint to the next, the first after a second; steps: the same
+    in accepted macro steps; 0 of either: not by that. setup: key -> text or number, what makes the
+    case, so that no other one goes on from its checkpoint. also: what goes on beside the
+    participants, by names that none of them has.
     """
 
     folder: RunFolder
@@ -74,6 +77,7 @@ class Keeper:
         how = {"scheme": _spelled(scheme), "control": _spelled(control)}
         self._setup = dict(keep.setup) | _made_of(exchange.system) | how | dict(details)
         self._steps, self._saved_at = 0, clock.monotonic()
+        self._seconds = min(FIRST_SECONDS, keep.seconds)
         self._able = bool(keep.steps or keep.seconds) and _can_be_saved(exchange.system)
 
     def passed(self) -> Passed | None:
@@ -107,7 +111,7 @@ class Keeper:
         self._steps += 1
         keep = self._keep
         due = keep.steps and self._steps >= keep.steps
-        if due or (keep.seconds and clock.monotonic() - self._saved_at >= keep.seconds):
+        if due or (keep.seconds and clock.monotonic() - self._saved_at >= self._seconds):
             self.save(table, rows, seconds)
 
     def save(self, table: GrowingTable, rows: int, seconds: float) -> None:
@@ -117,6 +121,7 @@ class Keeper:
         disk. A checkpoint that cannot be made is a warning: the run does without.
         """
         self._steps, self._saved_at = 0, clock.monotonic()
+        self._seconds = self._keep.seconds
         if not self._able:
             return
         table.sync()

@@ -15,6 +15,8 @@ from joblib import Parallel, delayed
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from cosim.processes import ENDING_WITH_PARENT
+
 from .case import Case
 from .polynomial import fitted
 from .unknowns import ENTRY, ICE, INTERFACE, Unknown, answers, combined, unknowns_of
@@ -147,7 +149,8 @@ def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Arra
         key=lambda i: (meant[i][1]["ice_conductivity"], meant[i][1]["contact_area"]),
     )
     shares = [order[len(order) * i // jobs : len(order) * (i + 1) // jobs] for i in range(jobs)]
-    found = Parallel(n_jobs=jobs)(delayed(_each)([meant[i] for i in share]) for share in shares)
+    workers = Parallel(n_jobs=jobs, **ENDING_WITH_PARENT)
+    found = workers(delayed(_each)([meant[i] for i in share]) for share in shares)
     parts = np.empty((len(meant), 3, 3))
     for share, part in zip(shares, found, strict=True):
         parts[share] = part

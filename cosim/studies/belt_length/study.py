@@ -15,6 +15,7 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
+from cosim.processes import ENDING_WITH_PARENT
 from thermal import Belt, ParameterError
 from thermal.steady_state import NoSteadyState
 
@@ -219,4 +220,5 @@ def _in_processes(calls: list[tuple[Case, Options, Answer | None]], jobs: int) -
     if jobs == 1 or len(calls) == 1:
         yield from (_row(*call) for call in calls)
         return
-    yield from Parallel(n_jobs=jobs, return_as="generator")(delayed(_row)(*call) for call in calls)
+    workers = Parallel(n_jobs=jobs, return_as="generator", **ENDING_WITH_PARENT)
+    yield from workers(delayed(_row)(*call) for call in calls)

@@ -1,13 +1,17 @@
 """What a command finds in the folder that it writes to: its own goes, others' files stay."""
 
 import json
+import os
+import subprocess
+import sys
 from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 
+import cosim.files
 from cosim.cli import main
-from cosim.files import OutputRefused, write_text
+from cosim.files import OutputRefused, writable, write_text
 from cosim.manifest import (
     MANIFEST,
     files_of_earlier,
@@ -186,3 +190,16 @@ def test_a_list_that_is_damaged_or_leaves_the_folder_owns_nothing(tmp_path, text
 def test_a_device_is_not_read_to_its_end():
     with pytest.raises(OutputRefused, match="no result of this command"):
         require_json(Path("/dev/zero"), ("status",))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="whether a process lives is not asked there")
+def test_what_a_killed_process_was_writing_goes_with_the_next_run(tmp_path):
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    host = cosim.files._HOST
+    names = [f".result.csv.{host}-{number}.partial" for number in (dead.pid, os.getpid(), 1)]
+    others = [".result.csv.another-1.partial", ".result.csv.1.partial", ".partial", "x.partial"]
+    for name in names + others:
+        (tmp_path / name).touch()
+    writable(tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names[1:] + others)

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numba
 import pytest
@@ -117,3 +118,44 @@ def test_an_interrupt_ends_a_call_apart(tmp_path):
         [sys.executable, str(script)], capture_output=True, text=True, timeout=50, check=True
     )
     assert done.stdout.strip() == "interrupted"
+
+
+KILLED = """
+import os, signal, time
+from joblib import Parallel, delayed
+from cosim.processes import ENDING_WITH_PARENT
+
+def work(place):
+    open(os.path.join(place, str(os.getpid())), "w").close()
+    time.sleep(600.0)
+
+Parallel(n_jobs=2, **ENDING_WITH_PARENT)(delayed(work)(PLACE) for _ in range(2))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks in /proc")
+def test_workers_of_joblib_end_with_a_parent_that_was_killed(tmp_path):
+    """They would wait for it, for ever."""
+    place, script = tmp_path / "there", tmp_path / "killed.py"
+    place.mkdir()
+    script.write_text(KILLED.replace("PLACE", repr(str(place))), encoding="utf-8")
+    with subprocess.Popen([sys.executable, str(script)]) as parent:
+        is_soon(lambda: len(list(place.iterdir())) == 2)
+        parent.kill()
+    workers = [int(file.name) for file in place.iterdir()]
+    is_soon(lambda: not any(map(lives, workers)))
+
+
+def is_soon(true):
+    until = time.monotonic() + 40.0
+    while not true():
+        assert time.monotonic() < until
+        time.sleep(0.1)
+
+
+def lives(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return " Z " not in Path(f"/proc/{process}/stat").read_text()

@@ -63,31 +63,39 @@ def test_without_any_folder_the_kernel_is_compiled_in_memory(tmp_path, monkeypat
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
-@posix
-def test_machine_code_that_another_user_may_have_written_is_not_loaded(
-    tmp_path, monkeypatch, caplog
-):
+@pytest.fixture
+def kept_in(tmp_path, monkeypatch):
+    """The folder that a kernel is kept in, None for none, and what it may be."""
     monkeypatch.setattr(compiled.platformdirs, "user_cache_path", lambda name: tmp_path / name)
     monkeypatch.setattr(compiled.tempfile, "gettempdir", lambda: str(tmp_path))
-    mine, scratch = tmp_path / "stickslip", tmp_path / f"stickslip-{os.getuid()}"
-    assert compiled._folders() == [mine, scratch]
-    assert {folder.stat().st_mode & 0o777 for folder in (mine, scratch)} == {0o700}
+
+    def keep():
+        file = compiled._module_file("kernel", "pass\n")
+        return None if file is None else file.parent
+
+    return keep, tmp_path / "stickslip", tmp_path / f"stickslip-{os.getuid()}"
+
+
+@posix
+def test_machine_code_is_not_kept_where_others_can_write(kept_in, caplog):
+    keep, mine, scratch = kept_in
+    assert keep() == mine and not scratch.exists()
     mine.chmod(0o777)
     with caplog.at_level(logging.WARNING):
-        assert compiled._folders() == [scratch]
+        assert keep() == scratch
     assert f"chmod go-w {mine}" in caplog.text
+    assert scratch.stat().st_mode & 0o777 == 0o700
 
 
 @posix
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="needs two users")
-def test_a_folder_or_link_of_another_user_in_its_place_is_not_used(tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled.platformdirs, "user_cache_path", lambda name: tmp_path / name)
-    monkeypatch.setattr(compiled.tempfile, "gettempdir", lambda: str(tmp_path))
-    mine, scratch = tmp_path / "stickslip", tmp_path / "stickslip-0"
+def test_a_folder_or_link_of_another_user_in_its_place_is_not_used(kept_in):
+    keep, mine, scratch = kept_in
     mine.mkdir()
     os.chown(mine, NOBODY, NOBODY)
-    elsewhere = tmp_path / "elsewhere"
+    elsewhere = mine.with_name("elsewhere")
     elsewhere.mkdir(mode=0o700)
     scratch.symlink_to(elsewhere)
     os.chown(scratch, NOBODY, NOBODY, follow_symlinks=False)
-    assert compiled._folders() == []
+    (mine / "kernel.py").write_text("pass\n")
+    assert keep() is None
