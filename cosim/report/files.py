@@ -10,12 +10,17 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import xarray as xr
 
 from cosim.files import write_atomically, write_text
 
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: What a spreadsheet takes a cell for a formula by.
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
 PACKAGES = (
     "stickslip",
     "numpy",
@@ -84,7 +89,25 @@ def write_csv(dataset: xr.Dataset, path: Path) -> Path:
     """Everything over ``time`` as a table; numbers with the digits that restore them exactly."""
     names = [name for name in dataset.data_vars if dataset[name].dims == ("time",)]
     table = dataset[names].to_dataframe()
-    return write_atomically(path, lambda partial: table.to_csv(partial))
+    return write_table(table, path)
+
+
+def write_table(table: pd.DataFrame, path: Path, index: bool = True) -> Path:
+    """A table as CSV, of which a spreadsheet takes no name and no text for a formula."""
+    texts = table.select_dtypes(exclude="number").map(_no_formula)
+    safe = table.assign(**texts).rename(columns=_no_formula)
+    return write_atomically(path, lambda partial: safe.to_csv(partial, index=index))
+
+
+def _no_formula(cell: Any) -> Any:
+    """A text behind an apostrophe where it begins as a formula does and is no number."""
+    if not (isinstance(cell, str) and cell.startswith(FORMULA)):
+        return cell
+    try:
+        float(cell)
+    except ValueError:
+        return f"'{cell}"
+    return cell
 
 
 def json_text(content: Mapping[str, Any]) -> str:

@@ -35,6 +35,7 @@ from cosim.report.coupling import doubts
 from cosim.report.files import json_text
 from cosim.report.quantities import ROUNDING
 from cosim.scenario import Scenario, ScenarioError, check_work
+from cosim.scenario.units import doubted
 from cosim.scenario.work import WORTH_SAYING, in_words
 
 RESULTS = "results"
@@ -61,6 +62,8 @@ def scenario_to_run(source: str | None, settings: Iterable[str] = (), *, coupled
         seconds = check_work(scenario, coupled=coupled)
     except ScenarioError as fault:
         raise ScenarioError(f"{source}: {fault}") from None
+    if doubt := doubted(scenario.mechanics):
+        print(f"warning: {doubt}", file=sys.stderr)
     if seconds > WORTH_SAYING:
         note(f"this run takes some {in_words(seconds)}")
     return scenario

@@ -9,7 +9,6 @@ import tomllib
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +21,6 @@ from cosim.files import (
     OutputError,
     OutputRefused,
     not_taken,
-    write_atomically,
     write_bytes,
     write_text,
 )
@@ -210,7 +208,7 @@ def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
 
 
 def _write(datasets: dict[str, xr.Dataset], folder: Path, asked: list[str], command: str) -> None:
-    from cosim.report.files import write_netcdf
+    from cosim.report.files import write_netcdf, write_table
     from cosim.studies.sweep.figure import draw_sweep, shown_features
     from cosim.studies.sweep.page import page, records
 
@@ -219,7 +217,7 @@ def _write(datasets: dict[str, xr.Dataset], folder: Path, asked: list[str], comm
     import pandas as pd
 
     table = pd.DataFrame(records(dataset))
-    write_atomically(folder / TABLE, partial(table.to_csv, index=False))
+    write_table(table, folder / TABLE, index=False)
     drawn, still = shown_features(dataset, asked)
     picture = draw_sweep(dataset, drawn)
     write_bytes(picture.png, folder / FIGURE)
