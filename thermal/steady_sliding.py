@@ -81,9 +81,9 @@ class SteadySliding:
     waves: of the Fourier series along the loop; left out, two cells of the belt make the shortest.
     block: contact and ice of these parameters, when they are there from another belt, for the modes
     of the ice take time. sensitivity: part of the friction lost for each kelvin of the interface's
-    rise, 1/K. ice_rise: of the ice above the air at the start, K. `ramp`, `run` and `pause` make
-    an experiment, `state` tells the present temperatures. ValueError for a speed or force that
-    cannot be.
+    rise, 1/K. ice_rise: of the ice above the air at the start, K. `air_warming`: of the air while
+    the belt runs, K/s, 0 unless it is set. `ramp`, `run` and `pause` make an experiment, `state`
+    tells the present temperatures. ValueError for a speed or force that cannot be.
     """
 
     def __init__(
@@ -104,6 +104,7 @@ class SteadySliding:
         self.footprint, self.ice = standing_block(parameters) if block is None else block
         self.belt = BeltSeries(parameters.belt, self.footprint, waves)
         self.sensitivity = sensitivity
+        self.air_warming = 0.0
         self.reset(ice_rise)
 
     def reset(self, ice_rise: float = 0.0) -> None:
@@ -135,6 +136,7 @@ class SteadySliding:
         if not duration > 0.0:
             raise ValueError(f"duration = {duration:g} s must be positive")
         speed = self.speed if speed is None else speed
+        self._warm_air(duration, speed)
         contact = self.belt.step_response(duration, speed)
         friction = 0.0 if lifted else self._friction(speed)
         self._fluxes = fluxes = (
@@ -142,10 +144,17 @@ class SteadySliding:
         )
         self.belt.advance(duration, speed, contact.fluxes(fluxes.belt))
         self.ice.advance(duration, fluxes.ice * self.footprint.area)
+        self._warm_air(duration, speed)
         self._into_belt += float(fluxes.from_contact.mean()) * duration
         self._produced += friction * duration
         self._time += duration
         self._left = max(0.0, 1.0 - self.sensitivity * self._interface())
+
+    def _warm_air(self, duration: float, speed: float) -> None:
+        """Half of what the air warms in a step: the bodies are that much colder than it."""
+        if self.air_warming and speed > 0.0:
+            for body in (self.belt, self.ice):
+                body.warm(-0.5 * self.air_warming * duration)
 
     def _together(self, belt: BeltFace, duration: float, friction: float) -> Fluxes:
         contact = self.parameters.contact

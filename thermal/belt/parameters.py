@@ -119,7 +119,8 @@ class Belt(Table, strict=False):
         """Heat transfer to the air on each free face, W/m2K: given, or of a moving belt.
 
         The belt's spans between its rollers are half a loop; air at -8 degC, since 8 K change
-        it by 3 %.
+        it by 3 %, and a belt 1 K warmer than it: a scenario knows what warms it, and takes
+        `air.heated_belt`.
         """
         if self.still_air_speed == 0.0:
             return self.air_heat_transfer

@@ -147,6 +147,11 @@ class BeltSeries:
         series = smooth * self._weight * (self._faces[0] @ self.amplitudes)
         return (np.exp(1j * np.outer(x, self._wave)) @ series).real
 
+    def warm(self, rise: float) -> None:
+        """Make the whole belt warmer, K."""
+        # as in `ice.body`: the coefficients of 1 are the heat of each mode, of a metre
+        self.amplitudes[:, 0] += rise * self._modes.heat
+
     def mean_rise(self) -> float:
         """Of the whole belt, K: its heat over its capacity."""
         stored = float(self._modes.heat @ self.amplitudes[:, 0].real)

@@ -206,8 +206,13 @@ class IceBody:
 
     def fill(self, rise: float) -> None:
         """Make the whole block as warm, K above the air."""
+        self.amplitudes[:] = 0.0
+        self.warm(rise)
+
+    def warm(self, rise: float) -> None:
+        """Make the whole block warmer, K."""
         # phi^T C phi = 1, so the coefficients of 1 are phi^T C 1: the heat of each mode
-        self.amplitudes[:] = rise * self._heat
+        self.amplitudes += rise * self._heat
 
     def heat(self) -> float:
         """Heat stored above ambient, J."""

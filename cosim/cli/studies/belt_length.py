@@ -43,6 +43,7 @@ from cosim.studies.belt_length import (
     with_ranges,
     work_off,
 )
+from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.page import page
 from cosim.studies.belt_length.study import check_case, check_options
 from thermal import MeshError, ParameterError
@@ -448,7 +449,7 @@ def _print_shortest(study: Study) -> None:
 
 
 def _length(value: float | None) -> str:
-    return "none" if value is None else f"{value:.2g}"
+    return "none" if value is None else rounded_up(value)[0]
 
 
 def _print_changes(study: Study) -> None:

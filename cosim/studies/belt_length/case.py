@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from cosim.coupling.case.thermal_participant import prepared_block
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
-from thermal.belt.air import convection, laminar_span, moving_belt, radiation
+from thermal.belt.air import convection, heated_belt, laminar_span, radiation
 from thermal.belt.frost import Frost, frost
 from thermal.belt.single_pass import SinglePass
 from thermal.contact.footprint import Footprint
@@ -153,8 +153,27 @@ class Case:
         """The same while the belt stands still: a draught stays, air dragged along does not."""
         return self.h if self.h is not None else self._still_air(0.0)
 
-    def _still_air(self, speed: float) -> float:
-        return moving_belt(speed, self._span, self.ambient_degC, self.rig.belt.width)
+    @property
+    def lasting(self) -> Case:
+        """The same for ever, when the belt is warmer and still air takes more."""
+        still = self.h is None
+        return replace(self, h=self._still_air(self.speed, math.inf)) if still else self
+
+    def _still_air(self, speed: float, duration: float | None = None) -> float:
+        """Of a belt as warm as friction makes it in a time, s; left out, in a run."""
+        belt = self.rig.belt
+        if self.thickness is not None:
+            belt = belt.model_copy(update={"thickness": self.thickness})
+        lane = min(belt.width, 2.0 * self.rig.contact.radius)
+        return heated_belt(
+            speed,
+            self._span,
+            self.force * self.speed / (self.length * lane),
+            belt.capacity_per_area,
+            self.protocol.moving if duration is None else duration,
+            self.ambient_degC,
+            belt.width,
+        )
 
     @property
     def _span(self) -> float:

@@ -26,6 +26,9 @@ COLDER_AIR, COLDER_SAMPLE, WARMER_SAMPLE, GOOD_ROLLER, ROLLER_ARC = 8.0, 1.0, 0.
 #: What they are called that are no part of the doubt.
 COLDER_START = f"sample {COLDER_SAMPLE:g} K colder than the air at the start"
 WARMER_START = f"sample {WARMER_SAMPLE:g} K warmer than the air at the start"
+#: No help: a belt that nobody has room for, and a start that hides a rise behind its own.
+ENDLESS = "belt that never comes round"
+NO_HELP = (ENDLESS, COLDER_START, WARMER_START)
 #: PTFE on cloth; half of the heat enters the belt.
 RAILING_FRICTION = 0.1
 
@@ -57,7 +60,7 @@ def _changed(case: Case) -> Iterator[tuple[str, Case]]:
     protocol, contact, belt = case.protocol, case.rig.contact, case.rig.belt
     yield "as it is", case
     yield "belt twice as long", case.with_length(2.0 * case.length)
-    yield "belt that never comes round", endless_belt(case)
+    yield ENDLESS, endless_belt(case)
     yield f"air {COLDER_AIR:g} K colder", replace(case, ambient_degC=case.ambient_degC - COLDER_AIR)
     yield "run half as long", replace(case, protocol=replace(protocol, run=0.5 * protocol.run))
     if protocol.ramp > 0.0:

@@ -56,7 +56,7 @@ def drift(case: Case) -> Drift:
     """All of it. NoSteadyState for h = 0, ParameterError for a belt that cannot be."""
     sliding = case.sliding()
     before, run = case.follow(sliding)
-    steady = sliding.settle()
+    steady = case.lasting.sliding().settle()
     endless_before, endless = _follow(endless_belt(case))
     ambient = case.ambient_degC
     return Drift(
@@ -94,7 +94,7 @@ def interface_drift(case: Case) -> float:
 
 def steady_drift(case: Case) -> float:
     """Rise where the belt enters the contact for ever, K."""
-    return case.sliding().settle().entry
+    return case.lasting.sliding().settle().entry
 
 
 def never_comes_round(case: Case) -> bool:

@@ -33,11 +33,36 @@ LEVELS = {"median": "median", "high": f"{INTERVAL[1]:.0%} level"}
 
 @dataclass(frozen=True)
 class Length:
-    """Shortest belt, m; None with the reason. says: for tables, such as 1.6, <1 or >4."""
+    """Shortest belt, m; None with the reason. says: for tables, such as 1.7, <1 or >4."""
 
     length: float | None
     says: str
     reason: str = ""
+
+    @property
+    def in_words(self) -> str:
+        """The same with its unit, for sentences."""
+        for sign, words in (("<", "less than "), (">", "more than ")):
+            if self.says.startswith(sign):
+                return f"{words}{self.says[1:]} m"
+        return f"{self.says} m"
+
+
+def rounded_up(length: float) -> tuple[str, str]:
+    """Two digits of a length (m), upwards, so that the belt is long enough; and their step, m.
+
+    >>> rounded_up(10.24)
+    ('11', '1')
+    """
+    step = 10.0 ** (math.floor(math.log10(length)) - 1)
+    # what is two digits but for the binary rounding stays so
+    return f"{step * math.ceil(length / step - 1e-9):.3g}", f"{step:g}"
+
+
+def metres(length: float) -> str:
+    """A shortest belt for a sentence."""
+    up, step = rounded_up(length)
+    return f"{up} m (rounded up to the next {step} m)"
 
 
 def shortest_belt(
@@ -56,13 +81,14 @@ def shortest_belt(
         runs), `steady_drift` (the same for ever) or `interface_drift`
     longest : m, the longest that is tried
 
-    Returns the shortest that has room where that does already, None where `longest` does not.
+    Returns a belt that is long enough, by at most 1 % too long: the shortest that has room where
+    that does already, None where `longest` does not.
     Raises ParameterError, in one line, for a case that cannot be; NoSteadyState with
     `steady_drift` where nothing takes the heat.
 
     >>> from cosim.studies.belt_length import Case, shortest_belt
     >>> shortest_belt(Case(length=1.0, speed=0.15), limit=0.07)
-    1.61...
+    1.66...
     """
     if not limit > 0.0:
         raise StudyError(f"limit = {limit:g} K: must be above 0")
@@ -75,7 +101,11 @@ def shortest_belt(
         return case.shortest
     if over_the_limit(high) > 0.0:
         return None
-    return math.exp(brentq(over_the_limit, low, high, xtol=_TOLERANCE))
+    found = brentq(over_the_limit, low, high, xtol=_TOLERANCE)
+    # the root is that near, on either side
+    while over_the_limit(found) > 0.0:
+        found += _TOLERANCE
+    return math.exp(min(found, high))
 
 
 def shortest_in_doubt(
@@ -105,7 +135,8 @@ def between(lengths: Sequence[float], rises: Sequence[float], limit: float, leve
     """
     above = [i for i, rise in enumerate(rises) if rise > limit]
     if not above:
-        return Length(lengths[0], f"<{lengths[0]:.3g}", "the shortest of the belts looked at")
+        short = rounded_up(lengths[0])[0]
+        return Length(lengths[0], f"<{short}", "the shortest of the belts looked at")
     last = above[-1]
     if last == len(lengths) - 1:
         return Length(
@@ -117,7 +148,7 @@ def between(lengths: Sequence[float], rises: Sequence[float], limit: float, leve
     below = max(rises[last + 1], 0.1 * limit)
     part = math.log(rises[last] / limit) / math.log(rises[last] / below)
     length = lengths[last] * (lengths[last + 1] / lengths[last]) ** part
-    return Length(length, f"{length:.2g}")
+    return Length(length, rounded_up(length)[0])
 
 
 #: Corners of the map: m and m/s.

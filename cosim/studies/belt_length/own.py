@@ -18,7 +18,7 @@ from cosim.scenario import Scenario
 
 from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift, steady_drift
-from .lengths import LONGEST, Length, between, shortest_belt
+from .lengths import LONGEST, Length, between, rounded_up, shortest_belt
 from .rigs import MOST_MELTING, Rigs
 from .said import scenario_case
 from .uncertainty import INTERVAL, quantiles
@@ -115,7 +115,7 @@ class Answer:
 
     def __repr__(self) -> str:
         run = self.run
-        least = "no belt" if run.shortest is None else f"{run.shortest:.2g} m"
+        least = "no belt" if run.shortest is None else f"{rounded_up(run.shortest)[0]} m"
         sure = f", {run.low.says} to {run.high.says} m" if run.low and run.high else ""
         return (
             f"<Answer: {least}{sure} for {self.limit:g} K at {self.case.speed:g} m/s; on"
@@ -153,7 +153,7 @@ def how_long(
     >>> steel = {"thickness": 5e-4, "density": 7850.0, "heat_capacity": 470.0, "conductivity": 45.0}
     >>> own = read_scenario().changed({"belt": {"length": 2.0, "layers": [steel]}})
     >>> how_long(own, limit=0.05, samples=0)
-    <Answer: 0.37 m for 0.05 K at 0.15 m/s; on 2 m 0.0084 K>
+    <Answer: 0.38 m for 0.05 K at 0.15 m/s; on 2 m 0.0084 K>
     """
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
     endless = endless_belt(case).length

@@ -1,6 +1,6 @@
 """All rigs that may be meant: what is not known of one is drawn, and polynomials answer for each.
 
-The model is run for some of them, evenly spread; through its answers, the three that a rise is made
+The model is run for some of them, evenly spread; through its answers, the parts that a rise is made
 of (`unknowns`), polynomials are laid that stand in for it. How much of the variance they miss is
 measured on runs that they have not seen. On one belt, or with the length as one more dimension.
 """
@@ -19,7 +19,17 @@ from cosim.processes import ENDING_WITH_PARENT
 
 from .case import Case
 from .polynomial import fitted
-from .unknowns import ENTRY, ICE, INTERFACE, Unknown, answers, combined, unknowns_of
+from .unknowns import (
+    COLUMNS,
+    ENTRY,
+    ICE,
+    INTERFACE,
+    SAMPLE,
+    Unknown,
+    answers,
+    combined,
+    unknowns_of,
+)
 
 Array = NDArray[np.float64]
 
@@ -64,12 +74,19 @@ class Rigs:
         drawn = np.concatenate((draws.random(samples), draws.random(tested)))
         points = self._levelled(drawn)
         parts = _in_processes([*map(partial(self._meant, case), points)], jobs)
-        kinds: tuple[bool, ...] = (False, True)
+        self._floor = floor
+        heats: tuple[bool, ...] = (False, True)
         if lengths is not None:
             # a rise falls by orders of magnitude with the length, and is needed at the limit
-            parts, kinds = np.maximum(parts, floor), (True,)
+            heats = (True,)
+            parts[..., :SAMPLE] = np.maximum(parts[..., :SAMPLE], floor)
+        # what the room does goes either way, and has no logarithm
+        kinds = [heats if column < SAMPLE else (False,) for column in COLUMNS]
         self._polynomials = {
-            rise: [fitted(points[:samples], column, kinds) for column in parts[:samples, rise].T]
+            rise: [
+                fitted(points[:samples], parts[:samples, rise, column], kinds[column])
+                for column in COLUMNS
+            ]
             for rise in (ENTRY, INTERFACE, ICE)
         }
         self.unexplained = {
@@ -130,8 +147,11 @@ class Rigs:
             return float(np.mean((found - true) ** 2) / np.var(true))
         # what a length does is no doubt about a rig: all of them on the belt in the middle
         same = np.column_stack((points[:, :-1], np.full(len(points), 0.5)))
-        spread = np.var(np.log(self._of(which, same, meant)))
-        return float(np.mean(np.log(found / true) ** 2) / spread)
+        same_length, found, true = (
+            np.log(np.maximum(rises, self._floor))
+            for rises in (self._of(which, same, meant), found, true)
+        )
+        return float(np.mean((found - true) ** 2) / np.var(same_length))
 
 
 def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
@@ -140,7 +160,7 @@ def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
 
 
 def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Array:
-    """`answers` to each: (n, 3, 3), in as many processes."""
+    """`answers` to each: (n, 3, 5), in as many processes."""
     if jobs == 1:
         return np.array([answers(*one) for one in meant])
     # neighbours share blocks of ice, whose modes take time
@@ -151,11 +171,11 @@ def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Arra
     shares = [order[len(order) * i // jobs : len(order) * (i + 1) // jobs] for i in range(jobs)]
     workers = Parallel(n_jobs=jobs, **ENDING_WITH_PARENT)
     found = workers(delayed(_each)([meant[i] for i in share]) for share in shares)
-    parts = np.empty((len(meant), 3, 3))
+    parts = np.empty((len(meant), 3, len(COLUMNS)))
     for share, part in zip(shares, found, strict=True):
         parts[share] = part
     return parts
 
 
 def _each(meant: list[tuple[Case, dict[str, float]]]) -> Array:
-    return np.array([answers(*one) for one in meant]).reshape(-1, 3, 3)
+    return np.array([answers(*one) for one in meant]).reshape(-1, 3, len(COLUMNS))

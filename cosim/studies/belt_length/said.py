@@ -51,6 +51,9 @@ _KNOWN = {
     "railing_conductance": _Known(("belt.railing_conductance",), 1.0 / 3.0, 3.0, there=_RAILING),
     "roller_conductance": _Known(("belt.roller_conductance",), 1.0 / 3.0, 3.0, there=_ROLLERS),
     "roller_rise": _Known(("belt.roller_rise",), 0.5, 1.5, there=_ROLLERS),
+    # no scenario says what its room does
+    "sample_rise": _Known((), 1.0, 1.0),
+    "air_warming": _Known((), 1.0, 1.0),
 }
 #: Least of what is a logarithm's: W/m2K.
 _LEAST = 1e-3
@@ -79,8 +82,9 @@ def scenario_case(scenario: Scenario) -> Case:
             f" surface.run_up_time = {surface.run_up_time:g} s"
         )
     thermal, belt = scenario.thermal, scenario.belt
-    # in still air it is that of each case's own speed
+    # in still air it is that of each case's own speed; the rig's remains what a coupled run takes
     given = "air_heat_transfer" in belt.model_fields_set and belt.still_air_speed == 0.0
+    air = {"still_air_speed": 0.0, "air_heat_transfer": thermal.belt.film}
     case = Case(
         length=belt.length,
         speed=abs(surface.speed),
@@ -89,7 +93,7 @@ def scenario_case(scenario: Scenario) -> Case:
         friction=friction.mu_k,
         ambient_degC=scenario.ambient.temperature_degC,
         protocol=Protocol(surface.run_up_time, constant),
-        rig=thermal.model_copy(update={"belt": belt.model_copy(update={"still_air_speed": 0.0})}),
+        rig=thermal.model_copy(update={"belt": belt.model_copy(update=air)}),
         static_over_kinetic=friction.mu_s / friction.mu_k,
         stiffness=scenario.springs.stiffness,
     )
@@ -232,5 +236,7 @@ def _bounds(unknown: Unknown) -> tuple[float, float]:
         return 0.0, 1.0
     if unknown.key == "contact_area":
         return 0.05, 1.0
+    if unknown.key in ("sample_rise", "air_warming"):
+        return -10.0, 10.0
     least = 0.01 if unknown.unit == "x" else _LEAST if unknown.logarithmic else 0.0
     return least, {"W/m2K": 1e6, "x": 100.0, "K": 100.0}.get(unknown.unit, 10.0)

@@ -2,7 +2,7 @@
 
 Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order and total indices with
 bootstrapped 95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
-each of the three answers that a rise is made of (`rigs`).
+each of the answers that a rise is made of (`rigs`).
 """
 
 from __future__ import annotations
@@ -19,11 +19,13 @@ from scipy.stats import qmc
 from .case import Case
 from .rigs import MOST_MELTING, Rigs
 from .unknowns import (
+    AIR,
     CONTACT,
     ENTRY,
     INTERFACE,
     RAILING,
     ROLLERS,
+    SAMPLE,
     Melts,
     Unknown,
     answers,
@@ -177,6 +179,8 @@ def _drift_with(case: Case, one: Unknown, end: float) -> float:
         CONTACT: 1.0,
         RAILING: values["railing_friction"] * values["railing_share"],
         ROLLERS: values["roller_rise"],
+        SAMPLE: values["sample_rise"],
+        AIR: values["air_warming"],
     }
     columns = [column for column, heat in heats.items() if heat != 0.0]
     parts = answers(case, values, columns)[ENTRY][None, :]

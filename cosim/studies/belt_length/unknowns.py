@@ -2,10 +2,11 @@
 
 The temperatures are linear in all heat that is put in, as long as nothing melts. So
 
-    drift = a A + b s B + T C,
+    drift = a A + b s B + T C + d D + w E,
 
 a the factor of the contact's friction, b the railing's friction and s its share into the belt, T
-the rise of the rollers; A, B and C, the answers to one unit of each, hang on the other unknowns
+the rise of the rollers, d that of the sample at the start and w the warming of the air in the run,
+as a thermostat swings it; A to E, the answers to one unit of each, hang on the other unknowns
 alone. So is the rise of the interface at constant speed, with answers of its own. The part of the
 contact's heat that the belt takes is none of the unknowns: it follows from how belt and ice
 conduct, from the conductance between them and from where the heat arises.
@@ -72,7 +73,7 @@ UNKNOWNS = (
         "h",
         "heat transfer to the air",
         "W/m2K",
-        5.0,
+        4.0,
         25.0,
         "still air with radiation, to a light draught",
         logarithmic=True,
@@ -183,10 +184,28 @@ UNKNOWNS = (
         "assumed: as cold as the air, to warmed by their drive",
         linear=True,
     ),
+    Unknown(
+        "sample_rise",
+        "sample above the air at the start, as the room's thermostat swings",
+        "K",
+        -0.5,
+        0.5,
+        "assumed: a thermostat lets the air swing by 1 K, which the sample does not follow",
+        linear=True,
+    ),
+    Unknown(
+        "air_warming",
+        "warming of the air in the run, as the room's thermostat swings",
+        "K/min",
+        -0.3,
+        0.3,
+        "assumed: the same swing up and down in ten minutes",
+        linear=True,
+    ),
 )
 #: With which the railing's share and the rollers' rise are seen where a rig has neither.
 SOME_FRICTION, SOME_CONDUCTANCE = 0.1, 100.0
-#: What A, B and C hang on.
+#: What A to E hang on.
 SHAPING = tuple(one for one in UNKNOWNS if not one.linear)
 
 
@@ -204,8 +223,11 @@ def unknowns_of(case: Case) -> tuple[Unknown, ...]:
 #: Rises that are answered: of the belt at entry, of the interface at constant speed, of the ice's
 #: face from the start, by which it is known whether it comes to melt.
 ENTRY, INTERFACE, ICE = 0, 1, 2
-#: Columns of A, B and C.
-CONTACT, RAILING, ROLLERS = 0, 1, 2
+#: Columns of A to E.
+CONTACT, RAILING, ROLLERS, SAMPLE, AIR = range(5)
+COLUMNS = (CONTACT, RAILING, ROLLERS, SAMPLE, AIR)
+#: K/s in K/min.
+_PER_MINUTE = 1.0 / 60.0
 
 
 #: Part of each unit of heat that the model is run with: so little melts no ice, and what is linear
@@ -217,35 +239,38 @@ class Melts(Exception):
     """The ice melts: the drift is not linear in the heat."""
 
 
-def answers(
-    case: Case, values: dict[str, float], columns: Sequence[int] = (CONTACT, RAILING, ROLLERS)
-) -> Array:
-    """A, B, C of the rises of a case with values of SHAPING, K: (3, 3), as if no ice melted.
+def answers(case: Case, values: dict[str, float], columns: Sequence[int] = COLUMNS) -> Array:
+    """A to E of the rises of a case with values of SHAPING, K: (3, 5), as if no ice melted.
 
-    columns: those that are wanted, the others are 0. Melts where the air is as warm as melting ice.
+    The interface's warming counts that of the air, with which a camera sees it. columns: those that
+    are wanted, the others are 0. Melts where the air is as warm as melting ice.
     """
     sliding = _shaped(case, values).sliding()
-    force, found = sliding.force, np.zeros((3, 3))
+    force, found = sliding.force, np.zeros((3, len(COLUMNS)))
     for column in columns:
         sliding.force = force * _LITTLE * (column == CONTACT)
         sliding.belt.railing_heat_factor = _LITTLE * (column == RAILING)
         sliding.belt.roller_rise_factor = _LITTLE * (column == ROLLERS)
-        sliding.reset()
+        sliding.air_warming = _LITTLE * _PER_MINUTE * (column == AIR)
+        sliding.reset(_LITTLE * (column == SAMPLE))
         start, end = case.follow(sliding)
         if end.melting > 0.0:
             raise Melts
         found[ENTRY, column] = end.entry
         found[INTERFACE, column] = end.mean_interface - start.mean_interface
+        found[INTERFACE, column] += sliding.air_warming * case.protocol.run
         found[ICE, column] = end.ice_face
     return found / _LITTLE
 
 
 def combined(parts: Array, values: dict[str, Array]) -> Array:
-    """A rise, K, from its A, B and C (n, 3) and the other unknowns, each (n,)."""
+    """A rise, K, from its A to E (n, 5) and the other unknowns, each (n,)."""
     return (
         values["friction"] * parts[:, CONTACT]
         + values["railing_friction"] * values["railing_share"] * parts[:, RAILING]
         + values["roller_rise"] * parts[:, ROLLERS]
+        + values["sample_rise"] * parts[:, SAMPLE]
+        + values["air_warming"] * parts[:, AIR]
     )
 
 
@@ -268,6 +293,8 @@ def as_it_is(case: Case, key: str) -> dict[str, float]:
         "railing_conductance": belt.railing_conductance if railing else case.film,
         "roller_conductance": belt.roller_conductance if rollers else case.film,
         "roller_rise": belt.roller_rise if rollers else 0.0,
+        "sample_rise": case.ice_rise,
+        "air_warming": 0.0,
     }
     return values | needs(case, key)
 

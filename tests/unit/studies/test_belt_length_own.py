@@ -20,6 +20,7 @@ from cosim.studies.belt_length import (
     shortest_belt,
     with_ranges,
 )
+from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.verdict import answered
 from cosim.studies.belt_length.unknowns import UNKNOWNS, answers, as_it_is, unknowns_of
 
@@ -85,10 +86,11 @@ def numbers(results):
 def test_the_length_has_an_interval_and_meets_the_limit(steel, numbers):
     (answer,) = numbers["answers"]
     run, case = answer["run"], scenario_case(read_scenario(steel))
-    # the length is found to half a percent, and the rise falls about as its inverse
-    assert run_drift(case.with_length(run["shortest"])) == pytest.approx(LIMIT, rel=0.02)
+    # the length is at most 1 % too long, and the rise falls about as its inverse
+    rise = run_drift(case.with_length(run["shortest"]))
+    assert 0.98 * LIMIT < rise <= LIMIT
     low, median, high = (run[name]["length"] for name in ("low", "median", "high"))
-    assert low < median < high
+    assert low < median and (high is None or median < high)
     assert run["rises"] == sorted(run["rises"]) and 0.0 < run["share"] < 1.0
     interface = answer["interface"]
     assert interface_drift(case.with_length(interface["shortest"])) == pytest.approx(
@@ -109,22 +111,40 @@ def test_the_levels_over_the_length_agree_with_the_interval(numbers):
 def test_the_verdict_is_its_own(numbers):
     said = " ".join(numbers["verdict"])
     assert numbers["verdict"][0].startswith("At 0.5 m/s a belt of ")
-    assert "5 to 95 % of the rigs" in numbers["verdict"][0]
+    assert "as the rig is given; over what is not known of it on " in numbers["verdict"][0]
     assert numbers["verdict"][1].startswith("The belt of 2 m meets the ice ")
     assert "1 m of belt" not in said and "source study" not in said and "C13" not in said
 
 
-def test_the_verdict_says_what_film_it_took_and_how_the_samples_start(numbers, results):
+def test_the_verdict_says_what_film_it_took(numbers):
     said = " ".join(numbers["verdict"])
     film = numbers["cases"][0]["case"]["h"]
-    assert (
-        f"The belt gives {film:.3g} W/m2K to the air on each face, which is that of a belt" in said
-    )
-    assert "belt.still_air_speed = 0.5" in said and "15 W/m2K where a scenario says neither" in said
-    rise = pd.read_csv(results / "changes.csv").set_index("what")["run"]
-    warmer = rise["sample 0.3 K warmer than the air at the start"]
-    assert "start at the air's temperature, which is not in the doubt: the entering" in said
-    assert f"are {warmer:.2g} K with a sample 0.3 K warmer" in said
+    assert f"The belt of 2 m gives {film:.2g} W/m2K to the air on each face, as a belt" in said
+    assert "`stickslip run` takes 15 W/m2K, which is what belt.air_heat_transfer is" in said
+
+
+def test_a_run_and_its_belt_length_have_one_heat_transfer():
+    scenario = read_scenario("reference")
+    assert scenario_case(scenario).film == scenario.thermal.belt.film
+    said = answered(how_long(scenario, samples=0))
+    assert any("`stickslip run` takes the same." in one for one in said)
+
+
+def test_the_rooms_thermostat_is_in_doubt(results):
+    doubt = pd.read_csv(results / "doubt.csv").set_index("key")
+    for key in ("sample_rise", "air_warming"):
+        assert "room's thermostat" in doubt["says"][key]
+        assert doubt["drift_low"][key] != doubt["drift_high"][key]
+
+
+@pytest.mark.parametrize("speed", [0.15, 0.82])
+def test_a_length_that_is_told_is_long_enough(speed):
+    """10.24 m were told as 10 m, on which the belt comes round 0.08 K warm and not 0.07 K."""
+    answer = how_long(Case(1.0, speed), samples=0)
+    told, step = rounded_up(answer.run.shortest)
+    assert answer.run.shortest <= float(told) < answer.run.shortest + float(step)
+    assert run_drift(answer.case.with_length(float(told))) <= answer.limit
+    assert f"a belt of {told} m (rounded up to the next {step} m)" in answered(answer)[0]
 
 
 def test_a_resolution_that_is_not_heeded_is_told(steel, monkeypatch, capsys):
@@ -147,7 +167,7 @@ def test_a_resolution_that_is_not_heeded_is_told(steel, monkeypatch, capsys):
 
 def test_a_film_that_is_said_is_taken_as_it_is():
     said = answered(how_long(Case(1.0, 0.15, h=10.0), samples=0))
-    assert "The belt gives 10 W/m2K to the air on each face, as is said." in said
+    assert "The belt of 1 m gives 10 W/m2K to the air on each face, as given." in said
 
 
 class Pictures(HTMLParser):
@@ -221,7 +241,7 @@ def test_without_a_doubt_there_is_an_answer_without_an_interval():
     answer = how_long(Case(1.0, 0.15), samples=0)
     assert answer.run.shortest == shortest_belt(Case(1.0, 0.15), answer.limit)
     assert answer.run.low is None and answer.reason == "no doubt was asked for"
-    assert repr(answer) == "<Answer: 1.6 m for 0.07 K at 0.15 m/s; on 1 m 0.11 K>"
+    assert repr(answer) == "<Answer: 1.7 m for 0.07 K at 0.15 m/s; on 1 m 0.11 K>"
 
 
 @pytest.mark.slow  # 12 s; that the doubt of the same rig is none stays in the suite (no indices)

@@ -68,7 +68,7 @@ def test_waiting_so_long_is_enough_and_less_is_not(runs):
     case = Case(2.0, 0.5, protocol=Protocol(runs=runs))
     found = wait(case, CAMERA)
     assert found.before == max(2, runs)
-    assert found.drift is None and "enters 0.24 K warm at the end of the first run" in found.reason
+    assert found.drift is None and "enters 0.25 K warm at the end of the first run" in found.reason
     for pause, says in ((1.02 * found.begin, True), (0.95 * found.begin, False)):
         sliding = case.sliding()
         before = replace(case, protocol=replace(case.protocol, runs=found.before - 1, pause=pause))
@@ -105,8 +105,9 @@ def test_what_would_help_is_computed_change_by_change():
     start = found["as it is"]
     assert start.interface_drift == pytest.approx(interface_drift(Case(2.0, 0.5)))
     half = found["half the mass"]
+    # still air takes 1 % less, per kelvin, of a belt that is half as warm
     assert (half.run, half.interface_run) == pytest.approx(
-        (0.5 * start.run, 0.5 * start.interface_run), rel=1e-6
+        (0.5 * start.run, 0.5 * start.interface_run), rel=5e-3
     )
     assert found["belt that never comes round"].run == 0.0
     assert found["belt twice as long"].run < start.run

@@ -7,6 +7,7 @@ from typing import Any
 
 from cosim.report.page import Picture, render
 
+from ..lengths import rounded_up
 from ..own import Answer, Question
 from ..result import Row, Study
 from ..unknowns import unknowns_of
@@ -92,7 +93,7 @@ def _question_row(what: str, answer: Answer, question: Question, ever: str) -> t
 
 
 def _metres(length: float | None) -> str:
-    return "none" if length is None else f"{length:.2g}"
+    return "none" if length is None else rounded_up(length)[0]
 
 
 def _row(row: Row) -> tuple[str, ...]:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from thermal import Belt
+import math
 
 from ..case import Case
-from ..changes import COLDER_START, WARMER_START
+from ..changes import NO_HELP
 from ..drift import CAMERA
-from ..lengths import LONGEST
+from ..lengths import LONGEST, metres, rounded_up
 from ..own import NOT_ASKED, Answer, Question
 from ..result import Row, Study
 
 ONE_METRE = 1.0
 #: Part of the variance that polynomials may miss without a word.
 MISSED = 0.1
+#: Two heat transfers to the air that differ by less than this part are the same.
+_SAME = 0.01
+#: A change helps that leaves less than this part of a rise.
+_HELPS = 0.95
 
 
 def verdict(study: Study) -> list[str]:
@@ -25,7 +29,6 @@ def verdict(study: Study) -> list[str]:
     if study.answers:
         return [
             *_answered(study),
-            *_start(study),
             *_wait(study),
             *_helps(study),
             *_influence(study),
@@ -56,7 +59,7 @@ def answered(answer: Answer) -> list[str]:
     run, where = answer.run, f"At {answer.case.speed:g} m/s"
     cold = f"comes round less than {answer.limit:g} K above the air"
     return [
-        f"{where} a belt of {_needed(run.shortest, answer)} {cold} after"
+        f"{where} {_belt(run.shortest, answer)} {cold} after"
         f" {answer.case.protocol.in_words()}{_interval(run)}.",
         f"The belt of {answer.case.length:g} m meets the ice {_on_own(run)}.",
         f"For ever, {_for_ever(run)} {cold}.",
@@ -71,39 +74,35 @@ def answered(answer: Answer) -> list[str]:
 
 def _film(case: Case) -> str:
     """Which heat transfer to the air was taken, and why; a coupled run may take another."""
-    gives = f"The belt gives {case.film:.3g} W/m2K to the air on each face"
+    gives = f"The belt of {case.length:g} m gives {case.film:.2g} W/m2K to the air on each face"
     if case.h is not None:
-        return f"{gives}, as is said."
-    return (
-        f"{gives}, which is that of a belt at {case.speed:g} m/s through still air, for no number"
-        " is said; `stickslip run` takes the same with belt.still_air_speed ="
-        f" {case.speed:g}, and else belt.air_heat_transfer, which is"
-        f" {Belt().air_heat_transfer:g} W/m2K where a scenario says neither."
+        return f"{gives}, as given."
+    runs = case.rig.belt.film
+    same = (
+        "`stickslip run` takes the same"
+        if abs(runs / case.film - 1.0) < _SAME
+        else f"`stickslip run` takes {runs:.2g} W/m2K, which is what belt.air_heat_transfer is"
+        " unless a scenario gives it, or belt.still_air_speed, which makes both the same"
     )
-
-
-def _start(study: Study) -> list[str]:
-    """The interval is of rigs that start at the air's temperature: what it is worth to do so."""
-    said = []
-    for row in study.rows:
-        rises = {one.what: one.run for one in row.changes}
-        if row.uncertainty is not None and {COLDER_START, WARMER_START} <= rises.keys():
-            own, warmer, colder = row.drift.run, rises[WARMER_START], rises[COLDER_START]
-            said.append(
-                f"The interval on {row.case.length:g} m at {row.case.speed:g} m/s is of samples"
-                " that start at the air's temperature, which is not in the doubt: the entering"
-                f" belt's {own:.2g} K are {warmer:.2g} K with a {WARMER_START}, and {colder:.2g} K"
-                f" with a {COLDER_START}."
-            )
-    return said
+    return (
+        f"{gives}, as a belt at {case.speed:g} m/s through still air does that is as warm as it is"
+        f" after the runs, {case.lasting.film:.2g} W/m2K as warm as for ever. {same}."
+    )
 
 
 def _needed(nominal: float | None, answer: Answer) -> str:
     """The length that is needed, at its nominal value."""
     if nominal is None:
         return f"no length up to {LONGEST:g} m"
-    least = " or less" if nominal <= answer.case.shortest else ""
-    return f"{nominal:.2g} m{least} (as the rig is said)"
+    if nominal <= answer.case.shortest:
+        return f"any belt with room for contact and rollers, from {metres(nominal)}"
+    return f"{metres(nominal)}"
+
+
+def _belt(nominal: float | None, answer: Answer) -> str:
+    """The same for a sentence that begins with it."""
+    said = _needed(nominal, answer)
+    return said if said.startswith(("no ", "any ")) else f"a belt of {said}"
 
 
 def _interval(question: Question) -> str:
@@ -111,8 +110,8 @@ def _interval(question: Question) -> str:
     if not (question.low and question.median and question.high):
         return ""
     return (
-        f"; over what is not known of the rig {question.low.says} to {question.high.says} m (5 to"
-        f" 95 % of the rigs), {question.median.says} m in half of them"
+        f" as the rig is given; over what is not known of it on {question.low.in_words} in 5 % of"
+        f" the rigs, on {question.median.in_words} in half and on {question.high.in_words} in 95 %"
     )
 
 
@@ -131,16 +130,18 @@ def _percent(share: float) -> str:
 
 
 def _for_ever(run: Question) -> str:
-    return "no belt that was tried" if run.for_ever is None else f"a belt of {run.for_ever:.2g} m"
+    if run.for_ever is None:
+        return f"no belt up to {LONGEST:g} m"
+    return f"a belt of {metres(run.for_ever)}"
 
 
 def _how_sure(answer: Answer) -> list[str]:
     """What is still warm on a belt of any length, and where the polynomials miss something."""
-    said = _why_not_nominal(answer)
+    said = _why_outside(_out_of_answer(answer), answer.case)
     if answer.reason not in ("", NOT_ASKED):
         said.append(f"No interval is told: {answer.reason}, and then the answer is another.")
     for question, why in (
-        (answer.run, "what does not come round with the belt stays, such as warm rollers"),
+        (answer.run, "what does not come round with the belt stays: warm rollers, a warm sample"),
         (answer.interface, "the ice warms itself, whatever the belt"),
     ):
         if question.high is not None and question.high.length is None:
@@ -153,24 +154,51 @@ def _how_sure(answer: Answer) -> list[str]:
     return said
 
 
-def _why_not_nominal(answer: Answer) -> list[str]:
-    """Why what is said may lie outside of the interval."""
-    low, nominal, belt = answer.run.low, answer.run.shortest, answer.case.rig.belt
-    if low is None or low.length is None or nominal is None or nominal >= low.length:
+def outside(name: str, value: float, low: float, high: float, unit: str) -> str:
+    """A figure of the nominal rig that lies beyond its interval, or "" where it does not."""
+    if low <= value <= high:
+        return ""
+    return f"{name} ({_span(value, value)} {unit}, interval {_span(low, high)} {unit})"
+
+
+def _out_of_answer(answer: Answer) -> list[str]:
+    """Nominal figures of an answer that lie beyond their intervals."""
+    found = []
+    for question, rise, length in (
+        (answer.run, "the rise at entry", "the belt that comes round cold"),
+        (answer.interface, "the interface's rise", "the belt with a steady interface"),
+    ):
+        if question.rises is not None:
+            found.append(outside(rise, question.rise, question.rises[0], question.rises[2], "K"))
+        low, high = question.low, question.high
+        if question.shortest is None or not (low and high):
+            continue
+        # beyond the belts looked at an interval is open
+        least = 0.0 if low.says.startswith("<") else low.length or 0.0
+        found.append(outside(length, question.shortest, least, high.length or math.inf, "m"))
+    return [one for one in found if one]
+
+
+def _why_outside(found: list[str], case: Case) -> list[str]:
+    """Why nominal figures lie outside of their intervals, by what the rigs have and it has not."""
+    if not found:
         return []
-    lacks = [
+    belt = case.rig.belt
+    more = [
         what
         for what, there in (
-            ("no rollers", belt.rollers > 0),
-            ("rollers no warmer than the air", belt.rollers == 0 or belt.roller_rise > 0.0),
-            ("no railing", belt.railing_length > 0.0),
+            ("rollers", belt.rollers > 0),
+            ("rollers up to 0.5 K warmer than the air", belt.rollers == 0 or belt.roller_rise > 0),
+            ("a railing that rubs", belt.railing_friction > 0.0),
         )
         if not there
     ]
-    return [
-        f"As it is said the rig has {' and '.join(lacks)}, of which nothing else is known; the rigs"
-        " of the interval have what may be there, so they need more than the rig that is said."
-    ] * bool(lacks)
+    why = (
+        f"the rig as given has none of {', '.join(more)}, and the rigs of the interval do"
+        if more
+        else "what is in doubt of the rig acts to one side of what is given"
+    )
+    return [f"Outside of their own intervals are, as the rig is given: {'; '.join(found)}: {why}."]
 
 
 def _by_speed(rows: list[Row]) -> list[tuple[float, list[Row]]]:
@@ -244,30 +272,35 @@ def _doubted(study: Study) -> list[str]:
         found = [doubted[case] for case in dict.fromkeys(row.case.with_length(1.0) for row in rows)]
 
         def words(rise: str, level: str, found=found) -> str:
-            return ", ".join(dict.fromkeys(one[rise][level].says or "?" for one in found)) + " m"
+            known = [one[rise][level] for one in found]
+            return ", ".join(dict.fromkeys(one.in_words if one.says else "?" for one in known))
 
         said.append(
             f"At {speed:g} m/s, over what is not known of the rig, the belt comes round that cold"
             f" in half of the rigs on {words('run', 'median')}, in 95 % of them on"
             f" {words('run', 'high')}; the interface is that steady in half on"
             f" {words('interface', 'median')}, in 95 % on {words('interface', 'high')}"
-            " (between the lengths asked for; nothing is told beyond them)."
+            " (between the lengths asked for, rounded up to two digits; nothing is told beyond)."
         )
     if not said:
         return []
-    belt = study.rows[0].case.rig.belt
-    lacks = [
-        name
-        for name, there in (("rollers", belt.rollers), ("railing", belt.railing_length))
-        if not there
-    ]
-    if lacks:
-        said.append(
-            f"The nominal figures are of a rig as it is said, with no {' and no '.join(lacks)}; the"
-            " doubt has both in every rig, rollers up to 0.5 K warmer than the air and a railing"
-            " that rubs, so that a nominal figure may lie outside what the doubt calls likely."
+    beyond = [
+        f"{one} on {row.case.length:g} m at {row.case.speed:g} m/s"
+        for row in study.rows
+        if (doubt := row.uncertainty) is not None
+        for one in (
+            outside("the rise at entry", row.drift.run, doubt.low, doubt.high, "K"),
+            outside(
+                "the interface's rise",
+                row.drift.interface_drift,
+                doubt.interface_low,
+                doubt.interface_high,
+                "K",
+            ),
         )
-    return said
+        if one
+    ]
+    return said + _why_outside(beyond, study.rows[0].case)
 
 
 def _shortest(study: Study) -> list[str]:
@@ -289,7 +322,12 @@ def _lengths(rows: list[Row], name: str, longest: str = f"more than {LONGEST:g} 
         return longest
     if all(length is not None and length <= shortest for length, shortest in found):
         return "any belt"
-    span = f"{_span(min(known), max(known))} m"
+    shortest, longest_needed = (rounded_up(length)[0] for length in (min(known), max(known)))
+    span = (
+        metres(min(known))
+        if shortest == longest_needed
+        else f"{shortest} to {longest_needed} m (rounded up to two digits)"
+    )
     return span if len(known) == len(found) else f"{span}, in some cases {longest},"
 
 
@@ -331,7 +369,9 @@ def _wait(study: Study) -> list[str]:
     for speed, rows in _by_speed(study.rows):
         known = [row.wait.begin for row in rows if row.wait.begin is not None]
         reasons |= {row.wait.reason for row in rows if row.wait.begin is None}
-        if known:
+        if known and max(known) == 0.0:
+            said.append(f"no wait at {speed:g} m/s: they are already when the runs end")
+        elif known:
             said.append(f"{_span(min(known), max(known))} s at {speed:g} m/s")
     if not said:
         return [f"No pause makes a later run as cold as the first: {'; '.join(sorted(reasons))}."]
@@ -344,19 +384,24 @@ def _wait(study: Study) -> list[str]:
 
 
 def _helps(study: Study) -> list[str]:
-    """What helps most, in the case that drifts most: by one change alone."""
-    row = study.worst
-    start, rest = row.changes[0], row.changes[1:]
-
-    def best(name: str) -> str:
-        ranked = sorted(rest, key=lambda one: abs(getattr(one, name)))[:3]
-        return ", ".join(f"{one.what} {getattr(one, name):.2g} K" for one in ranked)
-
-    return [
-        f"On {row.case.length:g} m at {row.case.speed:g} m/s, of single changes, the entering"
-        f" belt's {start.run:.2g} K fall most by: {best('run')}; the interface's"
-        f" {start.interface_drift:.2g} K at constant speed by: {best('interface_drift')}."
-    ]
+    """What helps most, in the case that drifts most, by one change alone; nothing where none is
+    needed."""
+    row, limit = study.worst, study.options.limit
+    start, *rest = (one for one in row.changes if one.what not in NO_HELP)
+    said = []
+    for name, what in (
+        ("run", "the belt enters {:.2g} K warm"),
+        ("interface_drift", "the interface warms by {:.2g} K at constant speed"),
+    ):
+        rise = getattr(start, name)
+        left = sorted((abs(getattr(one, name)), one.what) for one in rest)
+        helps = [f"{kelvin:.2g} K with {one}" for kelvin, one in left if kelvin < _HELPS * rise]
+        if rise > limit and helps:
+            said.append(
+                f"{what.format(rise)}; one change alone leaves at best {', '.join(helps[:3])}"
+            )
+    where = f"On {row.case.length:g} m at {row.case.speed:g} m/s"
+    return [f"{where} {one}." for one in said]
 
 
 def _study_number(study: Study) -> list[str]:
