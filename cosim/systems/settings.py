@@ -48,7 +48,11 @@ class Run(Table):
         NOT_GIVEN, "s", "time between two rows of the results; left out, a row a macro step", gt=0
     )
     checkpoint_seconds: float = quantity(
-        30.0, "s", "wall time between two checkpoints, from which --resume goes on; 0: none", ge=0
+        30.0,
+        "s",
+        "wall time between two checkpoints, from which --resume goes on, the first after a second; "
+        "0: none",
+        ge=0,
     )
     checkpoint_steps: int = quantity(
         0, "1", "the same in macro steps, whichever is first; 0: by wall time alone", ge=0
