@@ -307,7 +307,9 @@ class UnitSlave(Fmi2Slave):
 
     @guarded("fmi2GetReal", ANY_PHASE, result=_nans)
     def get_real(self, references):
-        return [float(value) for value in self._values("fmi2GetReal", references, Real)]
+        # References are unique: some hosts read all variables by this function.
+        both = (Real, Integer)
+        return [float(value) for value in self._values("fmi2GetReal", references, both)]
 
     @guarded("fmi2GetInteger", ANY_PHASE, result=_zeros)
     def get_integer(self, references):

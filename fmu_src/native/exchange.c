@@ -101,7 +101,7 @@ bool update(Instance *instance, Update *told)
     return true;
 }
 
-bool complete_step(Instance *instance)
+bool complete_step(Instance *instance, bool *event)
 {
     Memory *memory = &instance->memory;
     double states[STATE_COUNT];
@@ -111,7 +111,7 @@ bool complete_step(Instance *instance)
             return refuse(instance, "a state is not a finite number");
         }
     }
-    return model_complete_step(&memory->model, memory->values, instance->message);
+    return model_complete_step(&memory->model, memory->values, event, instance->message);
 }
 
 /* Of the nominals: near the cube root of the spacing of numbers, best for central differences. */
@@ -160,7 +160,7 @@ static void look_aside(Memory *memory, const unsigned knowns[], size_t count, co
         if (state >= 0) {
             states[state] += span * seed[i];
         } else {
-            memory->values[knowns[i]] += span * seed[i];
+            model_look_aside(&memory->model, knowns[i] - FIRST_INPUT, span * seed[i]);
         }
     }
     model_put_states(&memory->model, states);

@@ -25,7 +25,8 @@ bool get_states(Instance *instance, double states[], size_t count);
 bool get_nominals(Instance *instance, double nominals[], size_t count);
 bool get_rates(Instance *instance, double rates[], size_t count);
 bool get_indicators(Instance *instance, double indicators[], size_t count);
-bool complete_step(Instance *instance);
+/* event: where to say whether the host is to enter event mode. */
+bool complete_step(Instance *instance, bool *event);
 
 /* Event indicators for who looks on, also in co-simulation. */
 bool look_at_indicators(Instance *instance, double indicators[]);

@@ -204,7 +204,9 @@ fmi2Status fmi2GetReal(fmi2Component handle, const fmi2ValueReference references
     ENTER(handle, READABLE)
     bool done = has_room(component, __func__, count, references, values);
     for (size_t i = 0; done && i < count; i++) {
-        done = get_number(&component->instance, references[i], false, &values[i]);
+        /* References are unique: some hosts read all variables by this function. */
+        bool integer = references[i] < VARIABLE_COUNT && VARIABLES[references[i]].is_integer;
+        done = get_number(&component->instance, references[i], integer, &values[i]);
     }
     return closed(component, done);
 }

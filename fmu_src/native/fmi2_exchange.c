@@ -48,9 +48,11 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component handle, fmi2Boolean no_way_
         return refused(component, "fmi2CompletedIntegratorStep: nowhere to put what it tells");
     }
     *event = *terminate = fmi2False;
-    if (!complete_step(&component->instance)) {
+    bool wanted = false;
+    if (!complete_step(&component->instance, &wanted)) {
         return closed(component, false);
     }
+    *event = wanted;
     warn_once(component);
     return fmi2OK;
 }

@@ -23,9 +23,11 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance handle, fmi3Boolean no_way_b
         return refused3(component, __func__, "nowhere to put what it tells");
     }
     *event = *terminate = fmi3False;
-    if (!complete_step(&component->instance)) {
+    bool wanted = false;
+    if (!complete_step(&component->instance, &wanted)) {
         return closed3(component, false);
     }
+    *event = wanted;
     warn_once3(component);
     return fmi3OK;
 }

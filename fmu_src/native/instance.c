@@ -275,6 +275,22 @@ static bool may_be_set(Instance *instance, const Variable *variable)
     return true;
 }
 
+/* An input next to a bound, beyond it, is one that a host varies for a difference: it is taken for
+   the bound. By up to this part of its nominal. */
+static double clipped(const Variable *variable, size_t reference, double value)
+{
+#if HAS_EXCHANGE
+    if (variable->causality == INPUT) {
+        double slack = 0.02 * INPUT_NOMINALS[reference - FIRST_INPUT];
+        bool below = value < variable->low && value >= variable->low - slack;
+        bool above = value > variable->high && value <= variable->high + slack;
+        return below ? variable->low : above ? variable->high : value;
+    }
+#endif
+    (void)variable, (void)reference;
+    return value;
+}
+
 bool set_number(Instance *instance, size_t reference, bool integer, double value)
 {
     Memory *memory = &instance->memory;
@@ -282,6 +298,7 @@ bool set_number(Instance *instance, size_t reference, bool integer, double value
         return false;
     }
     const Variable *variable = &VARIABLES[reference];
+    value = clipped(variable, reference, value);
     if (!may_be_set(instance, variable) || !is_inside(instance, variable, value)) {
         return false;
     }
@@ -292,6 +309,11 @@ bool set_number(Instance *instance, size_t reference, bool integer, double value
         memory->is_retuned = memory->is_retuned || variable->causality == PARAMETER;
     }
     memory->values[reference] = value;
+#if HAS_EXCHANGE
+    if (memory->exchanges && variable->causality == INPUT) {
+        model_hear_input(&memory->model, memory->phase == AT_EVENT);
+    }
+#endif
     return true;
 }
 

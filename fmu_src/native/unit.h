@@ -89,8 +89,15 @@ void model_update(Model *model, const double values[]);
 /* Time of the next event that is known before, or INFINITY. */
 double model_next_event(const Model *model);
 
-/* To be told of each step of the host; false where the run cannot go on. */
-bool model_complete_step(Model *model, const double values[], char message[]);
+/* To be told of each step of the host; false where the run cannot go on. event: where to say
+   whether the host is to enter event mode. */
+bool model_complete_step(Model *model, const double values[], bool *event, char message[]);
+
+/* To be told that the host has set an input, at the time that it has put. */
+void model_hear_input(Model *model, bool in_event);
+
+/* Look at an input beside the value that it has, by so much, from here on. */
+void model_look_aside(Model *model, size_t input, double by);
 
 #if defined(__GNUC__)
 #pragma GCC visibility pop

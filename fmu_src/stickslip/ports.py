@@ -23,7 +23,15 @@ class Port:
 
 # The starts are those of the study's reference case.
 INPUTS = (
-    Port("surface_speed", "U_SPEED", "m/s", 0.1, "Speed of the surface after its ramp", start=0.15),
+    Port(
+        "surface_speed",
+        "U_SPEED",
+        "m/s",
+        0.1,
+        "Speed of the surface after its ramp. In co-simulation that of the step's beginning, with "
+        "its rate where a host gives one; without, a stick is led to it up to the step's end",
+        start=0.15,
+    ),
     Port(
         "interface_temperature",
         "U_TEMPERATURE",

@@ -29,7 +29,7 @@ INDICATORS = {
     "event_indicators.contact": "load of a stick reaches the limit, or a slip is at its end",
     "event_indicators.sliding": "a slip in the plane passes the speed at which it has a direction",
     "event_indicators.faster": "a slip in the plane has gained so much speed that a host starts "
-    "anew",
+    "anew, or an input has left the course that rates were given for",
 }
 
 

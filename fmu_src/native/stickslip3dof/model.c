@@ -27,11 +27,26 @@ static bool pack_parameters(Model *model, const double values[], double toleranc
     return true;
 }
 
-/* The inputs of the moment, as they are. */
-static void put_inputs(Model *model, const double values[])
+static void take_values(Model *model, const double values[])
 {
-    memset(model->u, 0, sizeof model->u);
-    memcpy(model->u, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
+    memcpy(model->g + G_VALUE, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
+}
+
+/* Inputs and their rates at the time for which a host of model exchange asks for something. */
+static void follow_inputs(Model *model, const double values[], bool for_rates)
+{
+    take_values(model, values);
+    stickslip_follow_inputs(model->p, model->g, model->u, model_time(model), for_rates);
+}
+
+void model_hear_input(Model *model, bool in_event)
+{
+    stickslip_hear_input(model->g, model_time(model), in_event);
+}
+
+void model_look_aside(Model *model, size_t input, double by)
+{
+    model->g[G_ASIDE + input] = by;
 }
 
 void model_set_rate(Model *model, size_t input, double rate)
@@ -86,7 +101,9 @@ bool model_begin(Model *model, double values[], double tolerance, char message[]
     }
     memset(model->g + G_BEFORE, 0, (G_SIZE - G_BEFORE) * sizeof(double));
     model->g[G_FIRST] = values[INPUT_HOLD];
-    put_inputs(model, values);
+    take_values(model, values);
+    memset(model->u, 0, sizeof model->u);
+    memcpy(model->u, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
     stickslip_initialise(model->p, model->z, 0.0);
     return go_on(model, values, 0.0, NULL, message);
 }
@@ -94,7 +111,7 @@ bool model_begin(Model *model, double values[], double tolerance, char message[]
 bool model_step(Model *model, double values[], double end, bool *event, char message[])
 {
     double now = model->z[SHOWN + TIME];
-    memcpy(model->g + G_VALUE, values + FIRST_INPUT, GIVEN_INPUTS * sizeof(double));
+    take_values(model, values);
     stickslip_lead_inputs(model->g, model->u, model->z[SHOWN + MODE] == STICK, now, end - now);
     if (!go_on(model, values, end, event, message)) {
         return false;
@@ -169,6 +186,7 @@ void model_show_locals(Model *model, double values[])
 void model_hand_over(Model *model)
 {
     double w[W_SIZE] = {0.0};
+    stickslip_begin_memory(model->g, model->u, model_time(model));
     stickslip_begin_exchange(model->p, model->u, model->z, w);
 }
 
@@ -195,21 +213,23 @@ void model_nominals(const Model *model, const double values[], double nominals[]
 void model_rates(Model *model, const double values[], double rates[])
 {
     double w[W_SIZE] = {0.0};
-    put_inputs(model, values);
+    follow_inputs(model, values, true);
     stickslip_set_exchanged_rates(model->p, model->u, model->z, w, rates);
 }
 
 void model_indicators(Model *model, const double values[], double indicators[])
 {
     double w[W_SIZE] = {0.0};
-    put_inputs(model, values);
+    follow_inputs(model, values, false);
     stickslip_set_indicators(model->p, model->u, model->z, w, indicators);
+    double reserve = stickslip_course_reserve(model->p, model->u, model->g, model_time(model));
+    indicators[INDICATOR_COUNT - 1] = fmin(indicators[INDICATOR_COUNT - 1], reserve);
 }
 
 void model_show_moment(Model *model, double values[])
 {
     double w[W_SIZE] = {0.0}, o[O_SIZE], rates[EXCHANGED];
-    put_inputs(model, values);
+    follow_inputs(model, values, false);
     stickslip_show_moment(model->p, model->u, model->z, w, rates, o);
     for (int i = 0; i < OUTPUT_COUNT; i++) {
         values[FIRST_OUTPUT + i] = o[OUTPUT_SLOTS[i]];
@@ -220,8 +240,11 @@ void model_show_moment(Model *model, double values[])
 void model_update(Model *model, const double values[])
 {
     double w[W_SIZE] = {0.0}, e[E_FIRST] = {0.0};
-    put_inputs(model, values);
-    stickslip_update_event(model->p, model->u, model->z, w, e);
+    take_values(model, values);
+    bool anew = stickslip_take_given(model->p, model->g, model->u, model_time(model));
+    anew = anew || isnan(model->z[Z_INPUTS]); /* see model_tune */
+    memcpy(model->z + Z_INPUTS, model->u, sizeof model->u);
+    stickslip_update_event(model->p, model->u, model->z, w, e, anew);
 }
 
 double model_next_event(const Model *model)
@@ -229,12 +252,13 @@ double model_next_event(const Model *model)
     return model->z[Z_RAMPING] == 1.0 ? model->p[P_RUN_UP] : INFINITY;
 }
 
-bool model_complete_step(Model *model, const double values[], char message[])
+bool model_complete_step(Model *model, const double values[], bool *event, char message[])
 {
     double w[W_SIZE] = {0.0};
-    put_inputs(model, values);
+    follow_inputs(model, values, false);
     int status = (int)stickslip_complete_step(model->p, model->u, model->z, w);
-    if (status != DONE) {
+    *event = status == MODE_CHANGED;
+    if (status != DONE && status != MODE_CHANGED) {
         snprintf(message, MESSAGE_SIZE, "no way on from %g s after the start: %s",
                  model->z[SHOWN + TIME], WHY_NOT[status]);
         return false;

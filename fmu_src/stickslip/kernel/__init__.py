@@ -35,6 +35,7 @@ MODULES = (
     "terms",
     "rig.springs",
     "rig.drive",
+    "rig.history",
     "rig.surface",
     "friction.table",
     "friction.coefficient",

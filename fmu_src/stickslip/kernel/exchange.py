@@ -24,8 +24,8 @@ direction; its speed passes `slowest_slip`; the speed ramp ends (at a time known
 parameters change. Each is decided where `advance` decides it, by `settle` and `release`, and
 counted in the same way. An instant is made consistent there, and the ledger stays closed.
 
-Inputs may change in events, and between them too. Then the speed of the surface has no rate that
-the model knows of: the acceleration in a stick leaves it out until the next event.
+Inputs may change in events, and between them too: then their rates, and with them the acceleration
+of the surface, come from their past, see `rig.history`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from .contact import (
     speed_scale,
 )
 from .events import log_event, note_break_away, release, set_direction, settle
-from .friction.coefficient import age_left, holding_coefficient, is_felt
+from .friction.coefficient import age_left, holding_coefficient
 from .layout import (
     BRISTLES,
     DIRECTION,
@@ -51,6 +51,7 @@ from .layout import (
     HEAT,
     HOLD_SINCE,
     MODE,
+    MODE_CHANGED,
     O_HEAT_FLOW,
     OMEGA,
     P_FREE_PHI,
@@ -77,7 +78,6 @@ from .layout import (
     STATES,
     STICK,
     TIME,
-    U_SIZE,
     VX,
     VY,
     W_DIRECTION,
@@ -86,9 +86,9 @@ from .layout import (
     W_SLIDING,
     W_SLOPES,
     W_STATE,
+    W_SURFACE,
     WORK_SURFACE,
     Z_FASTER,
-    Z_INPUTS,
     Z_RAMPING,
     Z_SLIDING,
     X,
@@ -207,11 +207,41 @@ def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: f
     set_stick_velocity(p, u, w, p[P_PRESLIDING])
 
 
+def keep_to_velocity(p: Floats, z: Floats, w: Floats):
+    """Let the velocities of a stick at SHOWN follow those in ``w[W_STATE:]``; as `set_slopes`.
+
+    Their rates follow from the load, or from places ahead, and from the acceleration of the
+    surface. What that leaves a state behind goes at the motion's own rate. What the rates make of
+    the kinetic energy is the surface's work, see `stick.held_energy`: the ledger is closed.
+    """
+    held = 1
+    if p[P_LATERAL] > 0.0:
+        held = 3
+    for i in range(held):
+        inertia = p[P_MASS]
+        if VX + i == OMEGA:
+            inertia = p[P_INERTIA]
+        behind = w[W_STATE + VX + i] - z[SHOWN + VX + i]
+        rate = w[W_SLOPES + VX - 1 + i] + p[P_RATE] * behind
+        w[W_SLOPES + VX - 1 + i] = rate
+        w[W_SLOPES + WORK_SURFACE - 1] += inertia * z[SHOWN + VX + i] * rate
+
+
+def set_rates_in_stick(p: Floats, u: Floats, z: Floats, w: Floats):
+    """Slopes of a stick without presliding, into ``w[W_SLOPES:]``."""
+    set_slopes(p, u, w, STICK, W_SLOPES)
+    work = w[W_SURFACE + 3] * w[W_SURFACE] * p[P_MASS]
+    if p[P_LATERAL] > 0.0:
+        work += p[P_FREE_Y] * w[W_SURFACE + 4] * w[W_SURFACE + 1] * p[P_MASS]
+        work += p[P_FREE_PHI] * w[W_SURFACE + 5] * w[W_SURFACE + 2] * p[P_INERTIA]
+    w[W_SLOPES + WORK_SURFACE - 1] -= work
+    keep_to_velocity(p, z, w)
+
+
 def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats):
     """Slopes of a stick with presliding, into ``w[W_SLOPES:]``.
 
-    Velocities follow from places there. Their rates are central differences along the motion, and
-    what these make of the kinetic energy is the surface's work, see `stick.held_energy`.
+    Velocities follow from places there; their rates are central differences along the motion.
     """
     load_moment(p, z, w)
     set_slopes(p, u, w, STICK, W_SLOPES)
@@ -226,10 +256,8 @@ def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats):
     for i in range(held):
         rate = (w[W_SLOPES + VX - 1 + i] - w[W_STATE + VX + i]) / (2.0 * ahead)
         w[W_SLOPES + VX - 1 + i] = rate
-        inertia = p[P_MASS]
-        if VX + i == OMEGA:
-            inertia = p[P_INERTIA]
-        w[W_SLOPES + WORK_SURFACE - 1] += inertia * z[SHOWN + VX + i] * rate
+    set_presliding_velocity(p, u, z, w, 0.0)
+    keep_to_velocity(p, z, w)
 
 
 def set_exchanged_rates(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats):
@@ -243,8 +271,7 @@ def set_exchanged_rates(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats):
     elif p[P_PRESLIDING] != 0.0:
         set_rates_in_presliding(p, u, z, w)
     else:
-        set_stick_velocity(p, u, w, 0.0)
-        set_slopes(p, u, w, mode, W_SLOPES)
+        set_rates_in_stick(p, u, z, w)
     for i in range(STATES):
         s[i] = w[W_SLOPES + i]
     s[STATES] = mode
@@ -266,7 +293,10 @@ def stick_reserve(p: Floats, u: Floats, z: Floats, w: Floats) -> float:
 
 
 def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats):
-    """Event indicators at SHOWN, into ``g``: above 0 until their event, with 1 for none."""
+    """Event indicators at SHOWN, into ``g``: above 0 until their event, with 1 for none.
+
+    The last is at the same time that of the inputs, see `rig.history.course_reserve`.
+    """
     g[1] = 1.0
     g[2] = 1.0
     if has_bristles(p):
@@ -387,22 +417,15 @@ def change_bristle_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     log_event(z, e, SHOWN)
 
 
-def has_other_inputs(p: Floats, u: Floats, z: Floats) -> bool:
-    """Have inputs that matter changed since the last event or step? They are noted."""
-    changed = False
-    for i in range(U_SIZE):
-        if z[Z_INPUTS + i] != u[i] and is_felt(p, u, i):
-            changed = True
-        z[Z_INPUTS + i] = u[i]
-    return changed
+def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, anew: bool):
+    """Decide at an event what the contact does from SHOWN on, and make SHOWN consistent.
 
-
-def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
-    """Decide at an event what the contact does from SHOWN on, and make SHOWN consistent."""
+    ``anew``: inputs have jumped there, or parameters have changed.
+    """
     if z[Z_RAMPING] == 1.0 and z[SHOWN + TIME] >= p[P_RUN_UP] * (1.0 - RAMP_ROUNDING):
         z[Z_RAMPING] = 0.0
         z[SHOWN + TIME] = max(z[SHOWN + TIME], p[P_RUN_UP])
-    if has_other_inputs(p, u, z):
+    if anew:
         settle_contact(p, u, z, w, e)
         settle_sliding(p, u, z, w)
     elif has_bristles(p):
@@ -414,9 +437,10 @@ def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
 
 
 def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
-    """Note the course of a slip at the end of a step of the host; DONE, or why it cannot go on."""
-    for i in range(U_SIZE):
-        z[Z_INPUTS + i] = u[i]
+    """Note the course of a slip at the end of a step of the host; DONE, or why it cannot go on.
+
+    MODE_CHANGED where a stick has been carried beyond its limit: the host has to enter an event.
+    """
     if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
         look_at(p, u, z, w, SHOWN)
         speed = scaled_sliding_speed(p, w)
@@ -426,6 +450,8 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
                 slide_on(p, u, z, speed)
     if p[P_SHORTEST] > 0.0 and shortest_spring(p, z, SHOWN) < p[P_SHORTEST]:
         return SPRING_COLLAPSED
+    if z[SHOWN + MODE] == STICK and not has_bristles(p) and stick_reserve(p, u, z, w) <= 0.0:
+        return MODE_CHANGED
     return DONE
 
 

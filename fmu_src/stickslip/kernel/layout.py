@@ -115,10 +115,14 @@ INPUTS = (
     ("U_FORCE_X_RATE", 1),
     ("U_FORCE_Y_RATE", 1),
     ("U_MOMENT_RATE", 1),
+    ("U_SPEED_CURVE", 1),  # the rate of that of the speed, m/s^3
 )
 
-# --- g: inputs as a host of the FMU gives them, see rig.drive; those of `INPUTS` that have values
+# --- g: inputs as a host of the FMU gives them, see rig.drive and rig.history; those of `INPUTS`
+# that have values
 GIVEN_INPUTS = 6
+MOMENTS = 16  # times at which inputs are remembered in model exchange
+DEGREES = 4  # of the polynomials through some of them
 GIVEN = (
     ("G_VALUE", GIVEN_INPUTS),
     ("G_RATE", GIVEN_INPUTS),  # with which it goes on, per s
@@ -132,7 +136,27 @@ GIVEN = (
     ("G_POINT", 1),  # time of the last regular point, s
     ("G_STEP", 1),  # size of the step that the host has asked for there, s; 0: there was none
     ("G_CUT", 1),  # 1: an event has ended that step, and its own end has not been reached
+    ("G_CURVE", 1),  # the rate of that of the surface's speed, m/s^3
+    ("G_HAD_RATE", 1),  # 1 where the host has said that one's rate at the last regular point
+    ("G_RATE_BEFORE", 1),  # and which, m/s^2
     ("G_FIRST", 1),  # 1: an input without a rate goes on as it has between the last two values
+    # in model exchange, see rig.history
+    ("G_FOLLOWED", GIVEN_INPUTS),  # each at the time asked for
+    ("G_TREND", GIVEN_INPUTS),  # and its rate, per s
+    ("G_ASIDE", GIVEN_INPUTS),  # by how much each is looked at beside that
+    ("G_SET_TIME", 1),  # when the host has given one last, s
+    ("G_IS_NEW", 1),  # 1: it has not asked for anything since
+    ("G_IN_EVENT", 1),  # 1 where that was in an event which is not yet decided
+    ("G_EVENT_TIME", 1),  # of the last event, s
+    ("G_GIVES_ALWAYS", 1),  # 1: the host gives them wherever it asks for rates
+    ("G_FIRST_RATE", GIVEN_INPUTS),  # the rate that each begins with where only one time is known
+    ("G_COURSE", 2),  # one at a time, and its rate
+    ("G_ASKED_BY", 1),  # the latest time that was known when the host last asked for rates, s
+    ("G_COUNT", 1),  # how many times are remembered
+    ("G_MOMENT_TIME", MOMENTS),
+    ("G_MOMENT_VALUE", MOMENTS * GIVEN_INPUTS),  # row by row
+    ("G_NEAR", DEGREES + 2),  # numbers of the nearest
+    ("G_TABLE", DEGREES + 2),  # divided differences
 )
 
 # --- inside parts of p ------------------------------------------------------------------------

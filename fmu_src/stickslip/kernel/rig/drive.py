@@ -1,7 +1,10 @@
-"""What the inputs are at a time: constant during a call of `advance`, or linear in time.
+"""What the inputs are at a time: constant during a call of `advance`, or going on in time.
 
 A host gives inputs at its communication points. What they are in between is a matter of the
 parameter `input.hold`, and of the rates that it may give with them: see `lead_inputs`.
+
+Where a host gives the rate of the surface's speed at every point, the speed is quadratic in time:
+the acceleration, which decides when a stick ends, is then right to h^2, see `curve_of`.
 
 An event may end a step before the host's own end of it. Such a point may lie a moment behind the
 last one or before the next, so nothing is divided by its distance from them: slopes are those
@@ -15,14 +18,17 @@ from __future__ import annotations
 from .. import Floats
 from ..layout import (
     G_BEFORE,
+    G_CURVE,
     G_CUT,
     G_FIRST,
     G_GOING,
+    G_HAD_RATE,
     G_HAS_RATE,
     G_LAST,
     G_LINE,
     G_POINT,
     G_RATE,
+    G_RATE_BEFORE,
     G_REACHED,
     G_SLOPE,
     G_STEP,
@@ -37,6 +43,7 @@ from ..layout import (
     U_MOMENT_RATE,
     U_SINCE,
     U_SPEED,
+    U_SPEED_CURVE,
     U_SPEED_RATE,
     U_TEMPERATURE,
 )
@@ -47,7 +54,13 @@ ROUNDING = 1e-9
 
 def driven_speed(u: Floats, t: float) -> float:
     """Speed that the surface is driven with, after its ramp, m/s."""
-    return u[U_SPEED] + u[U_SPEED_RATE] * (t - u[U_SINCE])
+    since = t - u[U_SINCE]
+    return u[U_SPEED] + (u[U_SPEED_RATE] + 0.5 * u[U_SPEED_CURVE] * since) * since
+
+
+def driven_acceleration(u: Floats, t: float) -> float:
+    """Rate of `driven_speed`, m/s^2."""
+    return u[U_SPEED_RATE] + u[U_SPEED_CURVE] * (t - u[U_SINCE])
 
 
 def force_along(u: Floats, t: float) -> float:
@@ -66,8 +79,8 @@ def external_moment(u: Floats, t: float) -> float:
 
 
 def varies(u: Floats) -> bool:
-    """Does any input go on linearly in time?"""
-    if u[U_SPEED_RATE] != 0.0 or u[U_MOMENT_RATE] != 0.0:
+    """Does any input go on in time?"""
+    if u[U_SPEED_RATE] != 0.0 or u[U_SPEED_CURVE] != 0.0 or u[U_MOMENT_RATE] != 0.0:
         return True
     return u[U_FORCE_X_RATE] != 0.0 or u[U_FORCE_Y_RATE] != 0.0
 
@@ -109,6 +122,32 @@ def slope_of(g: Floats, i: int, t: float) -> float:
     return 0.0
 
 
+def curve_of(g: Floats, t: float) -> float:
+    """Rate of the rate of the surface's speed from the regular point at t on, m/s^3.
+
+    From rates at this point and the last one; not more than the value here has come of it, so that
+    a speed that is linear between the points stays so. 0 where the rates are not known.
+    """
+    h = t - g[G_POINT]
+    if g[G_HAD_RATE] == 0.0 or g[G_HAS_RATE + U_SPEED] == 0.0 or h <= 0.0:
+        return 0.0
+    by_rates = (g[G_RATE + U_SPEED] - g[G_RATE_BEFORE]) / h
+    by_value = g[G_VALUE + U_SPEED] - g[G_BEFORE + U_SPEED] - g[G_RATE_BEFORE] * h
+    by_value = 2.0 * by_value / (h * h)
+    if by_rates * by_value <= 0.0:
+        return 0.0
+    if abs(by_value) < abs(by_rates):
+        return by_value
+    return by_rates
+
+
+def curve(g: Floats, i: int) -> float:
+    """Rate of the rate with which input i goes on, per s^2."""
+    if i == U_SPEED:
+        return g[G_CURVE]
+    return 0.0
+
+
 def goes_on(g: Floats, i: int, sticks: bool) -> bool:
     """Does input i, of which something is heard, set out from where the last step has left it,
     rather than jump?
@@ -129,11 +168,12 @@ def lead_anew(g: Floats, u: Floats, i: int, start: float, line: float, h: float)
     span = h
     if g[G_CUT] == 1.0:
         span = max(h, g[G_STEP])
-    end = line + g[G_SLOPE + i] * span
-    g[G_GOING + i] = (end - start) / span
+    half = 0.5 * curve(g, i)
+    end = line + (g[G_SLOPE + i] + half * span) * span
+    g[G_GOING + i] = (end - start) / span - half * span
     g[G_REACHED + i] = end
     if span > h:
-        g[G_REACHED + i] = start + g[G_GOING + i] * h
+        g[G_REACHED + i] = start + (g[G_GOING + i] + half * h) * h
     u[i] = start
     if i == U_TEMPERATURE or i == U_FILM:
         u[i] = line + 0.5 * g[G_SLOPE + i] * h
@@ -144,14 +184,15 @@ def keep_on(g: Floats, u: Floats, i: int, h: float):
     if i == U_TEMPERATURE or i == U_FILM:
         return  # the mean of the whole step, up to its end
     u[i] = g[G_REACHED + i]
-    g[G_REACHED + i] = u[i] + g[G_GOING + i] * h
+    g[G_REACHED + i] = u[i] + (g[G_GOING + i] + 0.5 * curve(g, i) * h) * h
 
 
 def lead_input(g: Floats, u: Floats, i: int, sticks: bool, t: float, h: float):
     """Input i during the step of size h from the time t: where it begins, into ``u``, and its rate,
     into ``g``."""
     line = g[G_VALUE + i]
-    passed = g[G_SLOPE + i] * (t - u[U_SINCE])
+    since = t - u[U_SINCE]
+    passed = (g[G_SLOPE + i] - 0.5 * curve(g, i) * since) * since  # the slope is that at its end
     g[G_SLOPE + i] = slope_of(g, i, t)
     start = g[G_REACHED + i]
     if is_heard(g, i, t + h):
@@ -172,9 +213,14 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
     """Inputs during the step of size ``h`` from the time ``t``, into ``u``, of those in ``g``.
 
     The error of an input that is smooth in time is of the order h where it is held, h^2 where it
-    goes on linearly, whether or not events cut steps. Temperature and film are constant in a step:
+    goes on linearly, h^3 where it has a
+    curve, whether or not events cut steps. Temperature and film are constant in a step:
     half way to what they become.
     """
+    if g[G_CUT] == 0.0:
+        g[G_CURVE] = curve_of(g, t)
+        g[G_HAD_RATE] = g[G_HAS_RATE + U_SPEED]
+        g[G_RATE_BEFORE] = g[G_RATE + U_SPEED]
     for i in range(GIVEN_INPUTS):
         lead_input(g, u, i, sticks, t, h)
         if g[G_CUT] == 0.0:
@@ -182,6 +228,7 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
         g[G_HAS_RATE + i] = 0.0
     u[U_SINCE] = t
     u[U_SPEED_RATE] = g[G_GOING + U_SPEED]
+    u[U_SPEED_CURVE] = g[G_CURVE]
     u[U_FORCE_X_RATE] = g[G_GOING + U_FORCE_X]
     u[U_FORCE_Y_RATE] = g[G_GOING + U_FORCE_Y]
     u[U_MOMENT_RATE] = g[G_GOING + U_MOMENT]
@@ -195,6 +242,8 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
 def cut_inputs(g: Floats, u: Floats, t: float):
     """Note in ``g`` that the step which `lead_inputs` has prepared has ended early, at ``t``."""
     g[G_REACHED + U_SPEED] = driven_speed(u, t)
+    g[G_GOING + U_SPEED] = driven_acceleration(u, t)
+    g[G_SLOPE + U_SPEED] += g[G_CURVE] * (t - u[U_SINCE])
     g[G_REACHED + U_FORCE_X] = force_along(u, t)
     g[G_REACHED + U_FORCE_Y] = force_across(u, t)
     g[G_REACHED + U_MOMENT] = external_moment(u, t)

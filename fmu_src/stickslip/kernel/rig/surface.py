@@ -7,7 +7,6 @@ from ..layout import (
     P_CURVATURE,
     P_RUN_UP,
     TIME,
-    U_SPEED_RATE,
     VX,
     VY,
     W_RUNNING_UP,
@@ -16,7 +15,7 @@ from ..layout import (
     Y,
 )
 from ..terms import with_surface_acceleration, with_surface_speed
-from .drive import driven_speed
+from .drive import driven_acceleration, driven_speed
 
 
 def set_surface_phase(p: Floats, w: Floats, t: float):
@@ -44,7 +43,7 @@ def surface_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
 
 def surface_acceleration(p: Floats, u: Floats, w: Floats, t: float) -> float:
     """Rate of `surface_speed`, m/s^2."""
-    rate = u[U_SPEED_RATE]
+    rate = driven_acceleration(u, t)
     if w[W_RUNNING_UP] == 1.0:
         rate = (driven_speed(u, t) + rate * t) / p[P_RUN_UP]
     return with_surface_acceleration(p, u, w, rate, steady_speed(p, u, w, t), t)

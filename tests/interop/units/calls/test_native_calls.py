@@ -130,8 +130,6 @@ REFUSED = {
         call("GetReal", one(2**32 - 1), 1, reals(0.0)),
         "reference 4294967295",
     ),
-    "getReal of mode": (read("GetReal", "mode", c_double()), "mode is an integer, not a real"),
-    "getReal of slip_count": (read("GetReal", "slip_count", c_double()), "slip_count is an int"),
     "setReal of rig.free_y": (read("SetReal", "rig.free_y", c_double()), "rig.free_y is an int"),
     "getInteger of x": (read("GetInteger", "x", c_int()), "x is a real number, not an integer"),
     "setInteger of an input": (

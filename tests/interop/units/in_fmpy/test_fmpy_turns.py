@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from fmpy_instance import refused
+from fmpy_instance import instance, refused
 
 
 @pytest.mark.parametrize(
@@ -36,10 +36,23 @@ def test_a_call_that_makes_no_sense_is_refused(block, call, arguments, says):
     block.slave.freeFMUState(state)
 
 
-def test_an_integer_is_no_real_number(block):
+def test_a_whole_number_is_read_as_a_real_one_too(block):
+    """References are unique, and some hosts read all variables by one function; only to set one,
+    and to read a real number as a whole one, is refused."""
     block.initialise()
-    mode = block.variables["mode"].valueReference
-    assert block.refuses(block.slave.getReal, [mode]) == "mode is an integer, not a real number"
+    mode, x = (block.variables[name].valueReference for name in ("mode", "x"))
+    assert block.slave.getReal([mode, x]) == [
+        float(block.slave.getInteger([mode])[0]),
+        block.slave.getReal([x])[0],
+    ]
+    assert block.refuses(block.slave.getInteger, [x]) == "x is a real number, not an integer"
+
+
+def test_an_input_just_below_its_bound_is_at_it(fmu, tmp_path):
+    """A host that takes differences about 0 asks for a film that is thinner than none."""
+    with instance(fmu, tmp_path) as block:
+        block.initialise(film_thickness=-1e-8)
+        assert block.get("film_thickness") == 0.0
 
 
 def test_the_experiment_is_set_up_once_and_makes_sense(block):

@@ -1,0 +1,347 @@
+"""Inputs of model exchange between the times at which a host gives them, and their rates.
+
+A block that sticks follows the surface: what it loads the contact with depends on the surface's
+acceleration, and no host of FMI 2.0 can give the rate of an input in model exchange. Some do not
+even give the input at each time for which they ask for rates, as fmpy: there it is known at the
+ends of steps only. So the last values are remembered with their times, and input and rate are those
+of the polynomial through some of them,
+
+    u(t) = u0 + u01 (t - t0) + u012 (t - t0) (t - t1) + ...,
+
+Newton's, from the nearest time on. Of the degrees up to `DEGREES` it is the one at which the first
+term left out is the smallest: behind a kink, or where the times lie far apart, a low one. Around a
+break-away, where the host looks for it, the times get dense, and the rate as exact as it has to be.
+
+What jumps in an event has no past: there the memory begins anew. A host that gives inputs at each
+time for which it asks for rates and then leaves one as it is, holds it.
+"""
+
+from __future__ import annotations
+
+from .. import Floats
+from ..layout import (
+    DEGREES,
+    G_ASIDE,
+    G_ASKED_BY,
+    G_COUNT,
+    G_COURSE,
+    G_EVENT_TIME,
+    G_FIRST_RATE,
+    G_FOLLOWED,
+    G_GIVES_ALWAYS,
+    G_IN_EVENT,
+    G_IS_NEW,
+    G_MOMENT_TIME,
+    G_MOMENT_VALUE,
+    G_NEAR,
+    G_SET_TIME,
+    G_TABLE,
+    G_TREND,
+    G_VALUE,
+    GIVEN_INPUTS,
+    MOMENTS,
+    P_MU_K,
+    P_MU_S,
+    P_NORMAL_FORCE,
+    P_RADIUS,
+    P_RATE,
+    P_SPEED_SCALE,
+    P_TOLERANCE,
+    U_FILM,
+    U_FORCE_X,
+    U_FORCE_X_RATE,
+    U_FORCE_Y,
+    U_FORCE_Y_RATE,
+    U_MOMENT,
+    U_MOMENT_RATE,
+    U_SINCE,
+    U_SPEED,
+    U_SPEED_CURVE,
+    U_SPEED_RATE,
+    U_TEMPERATURE,
+)
+from .drive import driven_acceleration, driven_speed, external_moment, force_across, force_along
+
+# Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
+# which is of some 1e-16 of the input in this time.
+CLOSE = 1e-5
+# Of an input's size: by how much more it jumps than the memory can be off by.
+JUMP = 1e-7
+LATEST = 1e300  # s: later than any time
+# Of the tolerance, relative to sizes that count: by how much a course may be missed.
+ASTRAY = 10.0
+FINEST = 1e-10  # such a tolerance: below it is the rounding of differences
+AT_ITS_END = 0.01  # what an indicator may have left in its event
+
+
+def forget_later(g: Floats, t: float):
+    """Drop what is known of inputs behind the time t: it was of a step that the host takes back."""
+    kept = 0
+    for j in range(int(g[G_COUNT])):
+        if g[G_MOMENT_TIME + j] <= t:
+            g[G_MOMENT_TIME + kept] = g[G_MOMENT_TIME + j]
+            for i in range(GIVEN_INPUTS):
+                at = G_MOMENT_VALUE + i
+                g[at + GIVEN_INPUTS * kept] = g[at + GIVEN_INPUTS * j]
+            kept += 1
+    g[G_COUNT] = kept
+
+
+def latest_moment(g: Floats) -> float:
+    """Latest of the remembered times, s."""
+    latest = g[G_MOMENT_TIME]
+    for j in range(int(g[G_COUNT])):
+        latest = max(latest, g[G_MOMENT_TIME + j])
+    return latest
+
+
+def note_inputs(p: Floats, g: Floats, t: float):
+    """Remember the inputs as given for the time t.
+
+    One that is close to another says nothing new, but where it is of the very same time; where
+    there is no room, the one furthest from t goes.
+    """
+    slot = int(g[G_COUNT])
+    furthest = 0
+    for j in range(int(g[G_COUNT])):
+        apart = abs(g[G_MOMENT_TIME + j] - t)
+        if apart == 0.0:
+            slot = j
+        elif apart < CLOSE / p[P_RATE]:
+            return
+        if apart > abs(g[G_MOMENT_TIME + furthest] - t):
+            furthest = j
+    if slot == MOMENTS:
+        slot = furthest
+    g[G_COUNT] = max(g[G_COUNT], slot + 1.0)
+    g[G_MOMENT_TIME + slot] = t
+    for i in range(GIVEN_INPUTS):
+        g[G_MOMENT_VALUE + GIVEN_INPUTS * slot + i] = g[G_VALUE + i]
+
+
+def find_nearest(g: Floats, t: float, until: float) -> int:
+    """Numbers of remembered times from the nearest to t on, into ``g[G_NEAR:]``; how many.
+
+    Of those up to ``until``, s.
+    """
+    found = 0
+    last = -1.0
+    while found < DEGREES + 2:
+        best = -1
+        for j in range(int(g[G_COUNT])):
+            apart = abs(g[G_MOMENT_TIME + j] - t)
+            nearer = best < 0 or apart < abs(g[G_MOMENT_TIME + best] - t)
+            if g[G_MOMENT_TIME + j] <= until and apart > last and nearer:
+                best = j
+        if best < 0:
+            return found
+        g[G_NEAR + found] = best
+        last = abs(g[G_MOMENT_TIME + best] - t)
+        found += 1
+    return found
+
+
+def set_divided_differences(g: Floats, i: int, count: int):
+    """Newton's divided differences of input i over the times of `find_nearest`, into
+    ``g[G_TABLE:]``."""
+    for k in range(count):
+        g[G_TABLE + k] = g[G_MOMENT_VALUE + GIVEN_INPUTS * int(g[G_NEAR + k]) + i]
+    for level in range(1, count):
+        k = count - 1
+        while k >= level:
+            span = g[G_MOMENT_TIME + int(g[G_NEAR + k])]
+            span -= g[G_MOMENT_TIME + int(g[G_NEAR + k - level])]
+            g[G_TABLE + k] = (g[G_TABLE + k] - g[G_TABLE + k - 1]) / span
+            k -= 1
+
+
+def best_degree(g: Floats, count: int, t: float) -> int:
+    """Degree of the polynomial, at least 1, whose first term left out is the smallest at t."""
+    best = 1
+    least = -1.0
+    part = 1.0
+    for k in range(2, count):
+        part *= t - g[G_MOMENT_TIME + int(g[G_NEAR + k - 1])]
+        term = abs(g[G_TABLE + k] * part)
+        if least < 0.0 or term < least:
+            least = term
+            best = k - 1
+    return best
+
+
+def set_course(g: Floats, i: int, count: int, t: float):
+    """Input i and its rate at the time t, into ``g[G_COURSE:]``, by ``count`` times of
+    `find_nearest`.
+
+    By one alone it goes on with the rate that it begins with.
+    """
+    set_divided_differences(g, i, count)
+    since = t - g[G_MOMENT_TIME + int(g[G_NEAR])]
+    value = g[G_TABLE] + g[G_FIRST_RATE + i] * since
+    rate = g[G_FIRST_RATE + i]
+    if count > 1:
+        k = best_degree(g, count, t)
+        value = g[G_TABLE + k]
+        rate = 0.0
+        while k > 0:
+            k -= 1
+            since = t - g[G_MOMENT_TIME + int(g[G_NEAR + k])]
+            rate = rate * since + value
+            value = value * since + g[G_TABLE + k]
+    g[G_COURSE] = value
+    g[G_COURSE + 1] = rate
+
+
+def follow_memory(g: Floats, t: float):
+    """Inputs and their rates at the time t by what is remembered."""
+    count = find_nearest(g, t, LATEST)
+    for i in range(GIVEN_INPUTS):
+        set_course(g, i, count, t)
+        g[G_FOLLOWED + i] = g[G_COURSE]
+        g[G_TREND + i] = g[G_COURSE + 1]
+
+
+def input_size(p: Floats, u: Floats, i: int) -> float:
+    """A size of input i that counts; 0 for one whose course is not watched."""
+    grip = max(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE]
+    if i == U_SPEED:
+        return max(abs(u[U_SPEED]), p[P_SPEED_SCALE])
+    if i == U_FORCE_X or i == U_FORCE_Y:
+        return grip
+    if i == U_MOMENT:
+        return grip * p[P_RADIUS]
+    return 0.0
+
+
+def course_reserve(p: Floats, u: Floats, g: Floats, t: float) -> float:
+    """Event indicator: is the input as given at t the one that the last rates were told for?
+
+    1 for all of it, below 0 beyond `ASTRAY` times the tolerance. Of a host that does not give
+    inputs with every rate it controls the error of their course, and finds kinks.
+    """
+    if g[G_GIVES_ALWAYS] == 1.0 or g[G_SET_TIME] != t or t <= g[G_EVENT_TIME]:
+        return 1.0
+    if t - g[G_ASKED_BY] < CLOSE / p[P_RATE]:
+        return 1.0
+    count = find_nearest(g, t, g[G_ASKED_BY])
+    allowed = ASTRAY * max(p[P_TOLERANCE], FINEST)
+    reserve = 1.0
+    for i in range(GIVEN_INPUTS):
+        size = input_size(p, u, i)
+        if count > 0 and size > 0.0:
+            set_course(g, i, count, t)
+            off = abs(g[G_VALUE + i] - g[G_COURSE]) / size
+            reserve = min(reserve, 1.0 - off / allowed)
+    return reserve
+
+
+def hear_input(g: Floats, t: float, in_event: bool):
+    """The host gives an input at the time t."""
+    g[G_SET_TIME] = t
+    g[G_IS_NEW] = 1.0
+    if in_event:
+        g[G_IN_EVENT] = 1.0
+
+
+def put_followed(g: Floats, u: Floats, t: float):
+    """Inputs and rates at the time t, into ``u``."""
+    for i in range(GIVEN_INPUTS):
+        u[i] = g[G_FOLLOWED + i] + g[G_ASIDE + i]
+    u[U_FILM] = max(u[U_FILM], 0.0)
+    u[U_SINCE] = t
+    u[U_SPEED_RATE] = g[G_TREND + U_SPEED]
+    u[U_SPEED_CURVE] = 0.0
+    u[U_FORCE_X_RATE] = g[G_TREND + U_FORCE_X]
+    u[U_FORCE_Y_RATE] = g[G_TREND + U_FORCE_Y]
+    u[U_MOMENT_RATE] = g[G_TREND + U_MOMENT]
+
+
+def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool):
+    """Inputs at the time t, for which a host asks for something, into ``u``.
+
+    ``for_rates``: it asks for rates, which it does in steps that it has accepted, up to there.
+    """
+    given = g[G_SET_TIME] == t
+    if for_rates:
+        forget_later(g, t)
+        if given and g[G_IS_NEW] == 1.0 and t != g[G_EVENT_TIME]:
+            g[G_GIVES_ALWAYS] = 1.0
+        g[G_ASKED_BY] = latest_moment(g)
+    g[G_IS_NEW] = 0.0
+    at_event = t == g[G_EVENT_TIME]  # a host may fall back behind a jump
+    if (given or g[G_GIVES_ALWAYS] == 1.0) and g[G_IN_EVENT] == 0.0 and not at_event:
+        note_inputs(p, g, t)
+    follow_memory(g, t)
+    if (given or g[G_GIVES_ALWAYS] == 1.0) and not at_event:
+        for i in range(GIVEN_INPUTS):
+            g[G_FOLLOWED + i] = g[G_VALUE + i]
+    put_followed(g, u, t)
+
+
+def has_jumped(g: Floats, i: int) -> bool:
+    """Is input i, as given, another than the memory makes it in ``g[G_FOLLOWED:]``?"""
+    size = abs(g[G_VALUE + i])
+    for j in range(int(g[G_COUNT])):
+        size = max(size, abs(g[G_MOMENT_VALUE + GIVEN_INPUTS * j + i]))
+    return abs(g[G_VALUE + i] - g[G_FOLLOWED + i]) > JUMP * size
+
+
+def begin_course(p: Floats, g: Floats, t: float):
+    """Forget what was before the time t, where an input has a kink: its rate is that behind it."""
+    later = -1
+    for j in range(int(g[G_COUNT])):
+        if g[G_MOMENT_TIME + j] > t + CLOSE / p[P_RATE]:
+            if later < 0 or g[G_MOMENT_TIME + j] < g[G_MOMENT_TIME + later]:
+                later = j
+    for i in range(GIVEN_INPUTS):
+        g[G_FIRST_RATE + i] = 0.0
+        if later >= 0:
+            change = g[G_MOMENT_VALUE + GIVEN_INPUTS * later + i] - g[G_VALUE + i]
+            g[G_FIRST_RATE + i] = change / (g[G_MOMENT_TIME + later] - t)
+    g[G_COUNT] = 0.0
+    note_inputs(p, g, t)
+
+
+def take_given(p: Floats, g: Floats, u: Floats, t: float) -> bool:
+    """Inputs in an event at the time t, into ``u``; has one jumped there?
+
+    One that has, has no past and no known rate.
+    """
+    jumped = False
+    follow_memory(g, t)
+    if g[G_IN_EVENT] == 1.0:
+        for i in range(GIVEN_INPUTS):
+            g[G_FIRST_RATE + i] = g[G_TREND + i]
+            if has_jumped(g, i):
+                jumped = True
+                g[G_FIRST_RATE + i] = 0.0
+    if jumped:
+        g[G_COUNT] = 0.0
+        note_inputs(p, g, t)
+    elif course_reserve(p, u, g, t) <= AT_ITS_END:
+        begin_course(p, g, t)
+    follow_memory(g, t)  # as the host has found the event: by what lies behind it, too
+    forget_later(g, t)
+    g[G_IN_EVENT] = 0.0
+    g[G_EVENT_TIME] = t
+    put_followed(g, u, t)
+    return jumped
+
+
+def begin_memory(g: Floats, u: Floats, t: float):
+    """Remember the inputs in ``u`` at the time t, and nothing before."""
+    g[G_COUNT] = 1.0
+    g[G_MOMENT_TIME] = t
+    g[G_EVENT_TIME] = t
+    g[G_MOMENT_VALUE + U_SPEED] = driven_speed(u, t)
+    g[G_MOMENT_VALUE + U_TEMPERATURE] = u[U_TEMPERATURE]
+    g[G_MOMENT_VALUE + U_FORCE_X] = force_along(u, t)
+    g[G_MOMENT_VALUE + U_FORCE_Y] = force_across(u, t)
+    g[G_MOMENT_VALUE + U_MOMENT] = external_moment(u, t)
+    g[G_MOMENT_VALUE + U_FILM] = u[U_FILM]
+    for i in range(GIVEN_INPUTS):
+        g[G_FIRST_RATE + i] = 0.0
+    g[G_FIRST_RATE + U_SPEED] = driven_acceleration(u, t)
+    g[G_FIRST_RATE + U_FORCE_X] = u[U_FORCE_X_RATE]
+    g[G_FIRST_RATE + U_FORCE_Y] = u[U_FORCE_Y_RATE]
+    g[G_FIRST_RATE + U_MOMENT] = u[U_MOMENT_RATE]
