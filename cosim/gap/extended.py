@@ -15,7 +15,8 @@ from stickslip.effects.candidate import FreeParameter, Scales
 
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
-from cosim.gap.weak_form.constants import HARMONICS
+from cosim.gap.weak_form.camera_faults import SMOOTHING
+from cosim.gap.weak_form.constants import FAULT_SIZES, HARMONICS
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
 from cosim.gap.weak_form.rig_unknowns import (
     CONTACT,
@@ -36,6 +37,8 @@ from cosim.gap.windows.run_model import FORCE_PART, PER_WEIGHT, TABLE_PART, WITH
 TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
 
 #: Parameters of laws of the sliding speed that say how strong they are.
+#: A fault is at most so many times as large as is expected of one.
+MOST_FAULT = 5.0
 STRENGTHS = ("coefficient", "root_coefficient", "power", "saturating", "linear", "hyperbolic",
              "stribeck", "logarithmic")  # fmt: skip
 
@@ -75,6 +78,8 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     unknown = finding.main.unknown
     if unknown.wave is not None:
         return _wave(campaign, rung, finding)
+    if finding.name.startswith("measurement."):
+        return _fault(rung, finding)
     if finding.name == "load_dependence":
         return _load(rung, finding, scales.force)
     units = {
@@ -215,6 +220,21 @@ def _across(finding: Finding) -> Part:
         elif name == "ratio":
             settings["lateral_friction.ratio"] = 1.0
     return Part(finding, None, (), tuple(numbers), settings)
+
+
+def _fault(rung: Rung, finding: Finding) -> Part:
+    """A camera's fault: its size, one for all runs in which it is; a zero is each run's own."""
+    unknown, key = finding.main.unknown, finding.name
+    if unknown.per_run or key == "measurement.zero":
+        return Part(finding, None, (), (), {})
+    size = float(rung.posterior[0][rung.part_of(finding.main)][0])
+    most = MOST_FAULT * FAULT_SIZES[key.partition(".")[2]]
+    least = -most
+    if key == SMOOTHING:  # the rows have a part of the filter's variance
+        size = unknown.settings["width"] * math.sqrt(max(size, 0.0))
+        least, most = 0.0, MOST_FAULT * unknown.settings["width"]
+    settings = {f"{key}_{name}": value for name, value in unknown.settings.items()}
+    return Part(finding, None, (), (Number(key, size, None, least, most),), settings)
 
 
 def _load(rung: Rung, finding: Finding, weight: float) -> Part:

@@ -83,7 +83,10 @@ def _huber_scale(values: np.ndarray) -> float:
     def better(part: float) -> float:
         return math.sqrt(float(np.mean(np.minimum(size, HUBER * part) ** 2)) / CLIPPED)
 
-    return scale * float(fixed_point(better, 1.0, xtol=1e-9, maxiter=500))
+    try:
+        return scale * float(fixed_point(better, 1.0, xtol=1e-9, maxiter=500))
+    except RuntimeError:  # rounded samples are a staircase, whose steps it may go back and forth on
+        return scale * better(1.0)
 
 
 def with_noise(

@@ -12,6 +12,7 @@ from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import FmuBuildError, own_fmu
 from cosim.gap.result import Gap
+from cosim.gap.windows.camera import seen, true_time
 from cosim.interrupts import held_interrupts
 from cosim.report.page import Picture, render
 
@@ -94,7 +95,7 @@ def largest_difference(gap: Gap, fmu: Path) -> float:
     """Between FMU and fitted model along x until the fit sets out anew, in units of the noise."""
     run = shown_run(gap)
     scenario, fitted = scenario_of(gap, run), gap.extended.run(run.name)
-    time = run.motion.time[: next(iter(starts(run, fitted)), None)]
+    time = true_time(run.motion.time[: next(iter(starts(run, fitted)), None)], fitted.values)
     speed = {"surface_speed": scenario.surface.speed}
     with FmuParticipant(fmu, parameters=scenario.mechanics.flat(), inputs=speed) as block:
         block.enter_initialisation(float(time[0]), float(time[-1]))
@@ -103,5 +104,6 @@ def largest_difference(gap: Gap, fmu: Path) -> float:
         for before, after in zip(time[:-1], time[1:], strict=True):
             block.step(float(before), float(after - before))
             places.append(block.read()["x"])
-    off = np.array(places) + fitted.values.get("offset.x", 0.0) - fitted.track[: time.size, 0]
+    written = seen(np.pad(np.array(places)[:, None], ((0, 0), (0, 2))), time, fitted.values)[:, 0]
+    off = written + fitted.values.get("offset.x", 0.0) - fitted.track[: time.size, 0]
     return float(np.max(np.abs(off)) / run.noise["x"])

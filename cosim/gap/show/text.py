@@ -109,7 +109,7 @@ def assumptions(gap: Gap) -> list[str]:
     campaign, errors = gap.campaign, gap.campaign.errors
     fitted = {label.partition("@")[0] for label in gap.extended.values}
     kept = {key: value for run in gap.extended.runs for key, value in run.values.items()}
-    kept = {k: v for k, v in kept.items() if k not in fitted and not k.startswith(TABLES)}
+    kept = {k: v for k, v in kept.items() if k not in fitted and not k.startswith((TABLES, FAULT))}
     estimated = campaign.noise_estimated
     return [
         "masses and geometry of the rig, exactly as stated",

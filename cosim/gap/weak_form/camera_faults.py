@@ -68,8 +68,9 @@ def camera_faults(rung: Rung) -> dict[str, list[Unknown]]:
         "measurement.scale": _among(rung, _fault("scale", scale(level))),
         "measurement.clock": _among(rung, _fault("clock", clock(level))),
         "measurement.drift": [
-            one for course in COURSES  # the root lies between the others
-            for one in _among(rung, _fault("drift", drift(course), course), course == "root")
+            one for number, course in enumerate(COURSES)  # the root lies between the others
+            for one in _among(rung, _fault("drift", drift(course), course, course=number),
+                              course == "root")
         ],
         "measurement.latency": _among(rung, _fault("latency", latency)),
         SMOOTHING: filters(rung),
@@ -254,7 +255,8 @@ def _among(rung: Rung, unknown: Unknown, in_some: bool = True) -> list[Unknown]:
     return [
         replace(unknown, variant=", ".join(filter(None, [unknown.variant, words])),
                 respond=_within(unknown.respond, among) if among < frozenset(names)
-                else unknown.respond)
+                else unknown.respond,
+                settings=unknown.settings | {f"in@{name}": float(name in among) for name in names})
         for words, among in found.items()
     ]  # fmt: skip
 

@@ -15,6 +15,7 @@ from stickslip.restarted import Restarts, track_restarted
 
 from cosim.gap.data import Campaign, MeasuredRun
 
+from .camera import seen, true_time
 from .numbers import values_of_run
 from .windows import AXES, Windows
 
@@ -149,12 +150,14 @@ class RunModel:
             np.full(count, np.nan),
             np.ones((count, 2)),
         )
-        own[self.is_start], since[self.is_start] = states[:, :6], self.windows.hold_since
+        time = true_time(run.motion.time, values)
+        own[self.is_start] = states[:, :6]
+        since[self.is_start] = true_time(self.windows.hold_since, values)
         friction[:, 0] = np.exp(states[self.sticks])
         restarts = Restarts(self.restarts, own, since, friction)
         temperature = self.known["temperature_dependence.reference_degC"]
-        places = track_restarted(p, speed, temperature, run.motion.time, restarts)
-        return places + self.zero(values)
+        places = track_restarted(p, speed, temperature, time, restarts)
+        return seen(places, time, values) + self.zero(values)
 
     def residuals(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
         """(rows,) model less data in units of the noise, no more than the whole motion; then how

@@ -14,11 +14,13 @@ from stickslip import simulate
 from cosim import read_scenario
 from cosim.cli import main
 from cosim.gap import read_campaign
-from cosim.gap.show.corrected import corrected, write_corrected
+from cosim.gap.data import Track
+from cosim.gap.show.corrected import write_corrected
 from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_run
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
 from cosim.gap.show.quantities import digits, fitted_quantities, quantity, with_digits
 from cosim.gap.show.tracks import residuals, starts
+from cosim.gap.windows import camera
 
 PROMISED = {
     "verdict", "effects", "classes", "where", "ranking", "gap", "next_experiment", "model",
@@ -125,21 +127,42 @@ def test_residuals_stand_at_their_samples(gap):
 # --- measurement faults ---
 
 
-def test_a_fault_is_undone_in_the_data(gap, tmp_path):
+def test_a_fault_is_undone_in_the_data():
     """Its inverse, exactly, of a picture that was scaled, turned, shifted and badly timed."""
     rng, n = np.random.default_rng(0), 50
     time, x, y = np.linspace(0.0, 5.0, n), *rng.standard_normal((2, n))
-    numbers = {"scale": 0.03, "clock": -0.01, "rotation": 0.2, "drift_rate_x": 1e-3}
-    numbers |= {"drift_y": 0.01, "drift_time": 2.0}
+    numbers = {"scale": 0.03, "clock": -0.01, "rotation": 0.2, "drift": 0.01, "drift_course": 2.0}
     c, s = np.cos(0.2), np.sin(0.2)
-    seen_x = 1.03 * (c * x + s * y) + 1e-3 * time
-    seen_y = 1.03 * (c * y - s * x) - 0.01 * np.expm1(-time / 2.0)
-    run = gap.campaign.runs[0]
-    track = replace(run.motion, time=0.99 * time, x=seen_x, y=seen_y)
+    seen_x = 1.03 * (c * x + s * y) + 0.01 * np.sqrt(time / 5.0)
+    seen_y = 1.03 * (c * y - s * x)
     values = {f"measurement.{name}": value for name, value in numbers.items()}
-    freed = corrected(replace(run, track=track), values).motion
+    written = camera.seen(np.column_stack([x, y, 0.0 * x]), time, values)
+    np.testing.assert_allclose(written, np.column_stack([seen_x, seen_y, 0.0 * x]), atol=1e-12)
+    freed = camera.undone(Track(time=0.99 * time, x=seen_x, y=seen_y), values)
     for found, truth in ((freed.time, time), (freed.x, x), (freed.y, y)):
         assert found == pytest.approx(truth, abs=1e-12)
+
+
+def test_a_frame_that_is_read_out_late_and_a_filter_are_of_their_orders():
+    """x(t + c x / 0.1 m) to first order in c; a filter's gain at a frequency; runs without one."""
+    time = np.arange(0.0, 4.0, 0.001)
+    x = 0.02 * np.sin(6.0 * time)
+    places = np.column_stack([x, 0.0 * x, 0.0 * x])
+    inside = slice(200, -200)
+    late = camera.seen(places, time, {"measurement.latency": 0.01})[:, 0]
+    exact = 0.02 * np.sin(6.0 * (time + 0.01 * x / 0.1))
+    second = 0.5 * 0.02 * 6.0**2 * (0.01 * 0.02 / 0.1) ** 2  # x'' (c x / 0.1 m)^2 / 2
+    assert np.abs(late - exact)[inside].max() < 1.01 * second < 0.01 * np.abs(late - x).max()
+    gauss = camera.seen(places, time, {"measurement.smoothing": 0.03})[:, 0]
+    expected = np.exp(-0.5 * (6.0 * 0.03) ** 2) * x
+    np.testing.assert_allclose(gauss[inside], expected[inside], atol=1e-6)
+    past = {"measurement.smoothing": 0.03, "measurement.smoothing_past": 1.0}
+    gain = 1.0 / (1.0 + 6.0j * 0.03)
+    expected = 0.02 * np.imag(gain * np.exp(6.0j * time))
+    found = camera.seen(places, time, past)[:, 0]
+    np.testing.assert_allclose(found[inside], expected[inside], atol=1e-4)
+    elsewhere = {"measurement.scale": 0.1, "measurement.scale_in": 0.0}
+    np.testing.assert_array_equal(camera.seen(places, time, elsewhere), places)
 
 
 def test_corrected_data_are_a_campaign(gap, tmp_path):

@@ -7,6 +7,8 @@ import pytest
 from gap_campaigns import RIG, motion, noisy, write_campaign
 
 from cosim.gap.data import read_campaign
+from cosim.gap.find import find_gap
+from cosim.gap.show.corrected import write_corrected
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import COURSES, camera_faults, smoothing
 from cosim.gap.weak_form.corners import CORNER, CornerRows, corner_contact, with_corners
@@ -156,6 +158,20 @@ def test_the_runs_with_the_fault_are_told(tmp_path, fault, size):
     gain, added = found[fault]
     assert gain == max(each for each, _ in found.values())
     assert added.unknown.variant.endswith("in run01, run04")
+
+
+@pytest.mark.parametrize(("fault", "size"), [("drift", 4e-3), ("latency", 0.03), ("scale", 0.08)])
+def test_a_fault_is_fitted_and_what_it_took_goes(tmp_path, fault, size):
+    """The model that is shown writes as such a camera does: the gap goes down to the noise."""
+    key = f"measurement.{fault}"
+    gap = find_gap(system(tmp_path, fault, size, among=(0, 3, 4), **KNOWN_WELL).campaign)
+    assert (gap.verdict, gap.effects) == ("named", (key,))
+    assert gap.before.held_out > 1.5 > 1.1 > max(gap.after.held_out, gap.after.fit)
+    assert gap.extended.values[key] == pytest.approx(size, rel=0.1)
+    files = write_corrected(gap, tmp_path)
+    for run, freed in zip(gap.campaign.runs, read_campaign(files[0]).runs, strict=True):
+        there = np.allclose(run.motion.x, freed.motion.x, rtol=0.0, atol=1e-9, equal_nan=True)
+        assert there == (run.name in ("run02", "run03"))
 
 
 def test_zeros_beyond_what_is_stated(tmp_path):

@@ -1,0 +1,93 @@
+"""What a camera with a fault makes of the block's motion, and what of that can be undone.
+
+With the place r at the time s, the camera writes q at t:
+
+    t = (1 + clock) s,     q = R(rotation) (1 + scale) filter(r(s + latency x / 0.1 m)) + drift(s)
+
+A fault acts in the runs whose ``measurement.<fault>_in`` is not 0; without that in all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import lfilter
+
+from cosim.gap.data import Track
+from cosim.gap.weak_form.camera_faults import ACROSS, COURSES
+
+#: Faults that can be undone; what a filter took away, or rounding, is gone.
+UNDONE = ("scale", "clock", "rotation", "drift", "latency")
+#: Courses of a zero that creeps, by the number that `measurement.drift_course` has.
+COURSE_NUMBERS = {name: number for number, name in enumerate(COURSES)}
+
+
+def fault(values: Mapping[str, float], name: str) -> float:
+    """Size of a fault in a run, SI; 0 where it is not. values : of the run, key -> value"""
+    size = values.get(f"measurement.{name}", 0.0)
+    return float(size * values.get(f"measurement.{name}_in", 1.0))
+
+
+def true_time(time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
+    """Times (n,) written, s, by a clock without its fault."""
+    return np.asarray(time / (1.0 + fault(values, "clock")))
+
+
+def seen(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
+    """(n, 3) x, y, phi as the camera writes them, of the block's at times (n,); m, m, rad."""
+    if not any(key.startswith("measurement.") for key in values):
+        return places
+    places = places.copy()
+    latency = fault(values, "latency")
+    if latency:
+        places[:, 0] += latency * places[:, 0] * np.gradient(places[:, 0], time) / ACROSS
+    places = _filtered(places, time, values)
+    places[:, :2] = (1.0 + fault(values, "scale")) * _turned(places[:, :2], values, 1.0)
+    places[:, 0] += _drift(time, values)
+    return places
+
+
+def undone(track: Track, values: Mapping[str, float]) -> Track:
+    """The track as a camera without these faults would have written it, but for a filter's."""
+    time = true_time(track.time, values)
+    y = np.zeros_like(track.x) if track.y is None else track.y  # a missing y would take x with it
+    x, y = _turned(np.column_stack([track.x - _drift(time, values), y]), values, -1.0).T / (
+        1.0 + fault(values, "scale")
+    )
+    latency = fault(values, "latency")
+    if latency:
+        there = np.isfinite(x)
+        rate = np.gradient(x[there], time[there])
+        x[there] -= latency * x[there] * rate / ACROSS
+    return replace(track, time=time, x=x, y=None if track.y is None else y)
+
+
+def _turned(places: np.ndarray, values: Mapping[str, float], way: float) -> np.ndarray:
+    """(n, 2) in axes that are turned; way : 1 as written, -1 back."""
+    angle = way * fault(values, "rotation")
+    if angle == 0.0:
+        return places
+    c, s = np.cos(angle), np.sin(angle)
+    return np.asarray(places @ np.array([[c, -s], [s, c]]))
+
+
+def _drift(time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
+    """(n,) m"""
+    course = list(COURSES)[int(values.get("measurement.drift_course", 0.0))]
+    part = (time - time[0]) / (time[-1] - time[0])
+    return np.asarray(fault(values, "drift") * COURSES[course](part))
+
+
+def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
+    """By the tracker's filter: Gaussian, or exponential, of the past."""
+    width = fault(values, "smoothing") / float(np.median(np.diff(time)))
+    if width <= 0.0:
+        return places
+    if not values.get("measurement.smoothing_past", 0.0):
+        return np.asarray(gaussian_filter1d(places, width, axis=0, mode="nearest"))
+    keeps = np.exp(-1.0 / width)
+    held = keeps * places[:1]
+    return np.asarray(lfilter([1.0 - keeps], [1.0, -keeps], places, axis=0, zi=held)[0])
