@@ -104,7 +104,12 @@ WORDS = {
 }
 
 NONE = "–"
+#: Digits of what is given, and of differences between results.
 DIGITS = 5
+#: Digits of what a run finds: a rig's friction, springs and belt are known to percents. A rise of
+#: temperature is in doubt by a factor of 0.75 to 2 (`stickslip belt-length`).
+FOUND = 3
+FOUND_RISE = 2
 MINUS = str.maketrans("-", "−")
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 UNITS = {
@@ -151,23 +156,28 @@ def spelled(unit: str) -> str:
     return UNITS[unit] if unit in UNITS else unit_text(unit)
 
 
-def told(value: float | int | None, unit: str, share: bool = False) -> str:
-    """A number with its unit, five digits; a share in percent; a dash where there is none.
+def told(
+    value: float | int | None, unit: str, share: bool = False, count: int | None = None
+) -> str:
+    """A number with its unit; a share in percent; a dash where there is none.
 
-    What is but rounding beside the sizes that its unit has in a rig is 0.
+    count: of digits; left out, as many as what a run finds is worth. What is but rounding beside
+    the sizes that its unit has in a rig is 0.
     """
     if value is None:
         return NONE
+    if count is None:
+        count = FOUND_RISE if unit == "K" else FOUND
     if abs(value) < ROUNDING.get(unit, 0.0):
         value = 0
     if share:
-        return f"{100.0 * value:z.2f} %".translate(MINUS)
+        return f"{100.0 * value:z.{count - 2}f} %".translate(MINUS)
     if unit == "deg":
         return f"{value:z.2f}°".translate(MINUS)
     if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:
         factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
-        return f"{digits(factor * value)} {prefix}{unit}"
-    return with_unit(digits(value), spelled(unit))
+        return f"{digits(factor * value, count)} {prefix}{unit}"
+    return with_unit(digits(value, count), spelled(unit))
 
 
 def with_unit(number: str, unit: str) -> str:
@@ -175,15 +185,21 @@ def with_unit(number: str, unit: str) -> str:
     return number + unit if unit == "°" else f"{number} {unit}".rstrip()
 
 
-def digits(value: Any) -> str:
-    """A value with at most five digits, powers of ten written out; text and lists as they are."""
+def digits(value: Any, count: int = DIGITS) -> str:
+    """A value with at most so many digits, powers of ten written out; text and lists as they are.
+
+    A whole number has all of its own.
+    """
     if isinstance(value, (list, tuple)):
-        return ", ".join(digits(item) for item in value)
+        return ", ".join(digits(item, count) for item in value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return str(value)
     if isinstance(value, int) or value == int(value) and abs(value) < 1e6:
         return f"{int(value)}".translate(MINUS)
     if 1e-4 <= abs(value) < 1e6:
-        return f"{value:.{DIGITS}g}".translate(MINUS)
+        # %g would go over to powers of ten
+        decimals = count - 1 - math.floor(math.log10(abs(value)))
+        text = f"{round(value, decimals):.{max(0, decimals)}f}"
+        return (text.rstrip("0").rstrip(".") if "." in text else text).translate(MINUS)
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{mantissa.translate(MINUS)} · 10{str(int(exponent)).translate(SUPERSCRIPT)}"

@@ -265,5 +265,5 @@ def _at(numbers: Mapping[str, Any], path: str) -> Any:
 
 
 def _degrees(value: float | None) -> str:
-    """A temperature to 0.1 mK: rises of a thermometer's last digit are what runs differ in."""
-    return "–" if value is None else f"{value:z.4f} °C".replace("-", "−")
+    """A temperature to 0.01 K: the rise beside it has the digits that it is worth."""
+    return "–" if value is None else f"{value:z.2f} °C".replace("-", "−")

@@ -45,6 +45,7 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.page import page
+from cosim.studies.belt_length.show.verdict import two_digits
 from cosim.studies.belt_length.study import check_case, check_options
 from thermal import MeshError, ParameterError
 from thermal.belt.air import NotLaminar
@@ -391,7 +392,9 @@ def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None
                 "mu change",
             ]
         ]
-        print(shown.to_string(index=False, float_format=lambda value: f"{value:.3g}"))
+        # what is asked for is printed as it is, what is found with as much as it is worth
+        exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
+        print(shown.to_string(index=False, formatters=exact, float_format=two_digits))
         print(LEGEND)
         _print_shortest(study)
     if not study.answers:
@@ -407,6 +410,7 @@ def _print_answers(study: Study) -> None:
     """Of an own rig: the answer, then its numbers."""
     for sentence in verdict(study):
         print(sentence)
+    print("Lengths are rounded up to two digits.")
     print(f"{'shortest belt [m]':<22} {'speed [m/s]':>11} " + " ".join(f"{h:>8}" for h in HEADINGS))
     for answer in study.answers:
         for name, question in (
@@ -427,8 +431,8 @@ def _print_shortest(study: Study) -> None:
     """The shortest belts as the rig is said, and at the levels of its doubt."""
     doubted = study.shortest_in_doubt()
     print(
-        "Shortest belt [m]: as the rig is said; in half and in 95 % of the rigs of the doubt;"
-        " for ever"
+        "Shortest belt [m], rounded up to two digits: as the rig is given; in half and in 95 % of"
+        " the rigs of the doubt; for ever"
     )
     print(
         f"{'speed [m/s]':>12} {'question':<20} {'as said':>8} {'median':>8} {'95 %':>8}"
@@ -460,4 +464,5 @@ def _print_changes(study: Study) -> None:
         " interface at constant speed, K"
     )
     for one in row.changes:
-        print(f"  {one.what:60} {one.run:9.3f} {one.interface_drift:9.3f}")
+        rises = (two_digits(rise) for rise in (one.run, one.interface_drift))
+        print(f"  {one.what:60} {' '.join(f'{rise:>9}' for rise in rises)}")

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from cosim.report.page import Picture, render
-from cosim.report.quantities import NONE, ROUNDING, digits, told, worded
+from cosim.report.quantities import DIGITS, NONE, ROUNDING, digits, told, worded
 
 from .compare import Comparison, Difference
 from .series import Apart
@@ -80,9 +80,9 @@ def curve_cells(one: Apart) -> tuple[str, str, str, str, str]:
     nothing = ROUNDING.get(unit, 0.0)
     return (
         one.name,
-        told(one.largest, unit),
-        told(one.at, "s"),
-        told(one.rms, unit),
+        told(one.largest, unit, count=DIGITS),
+        told(one.at, "s", count=DIGITS),
+        told(one.rms, unit, count=DIGITS),
         NONE if one.span <= nothing else f"{100.0 * abs(one.largest) / one.span:.3g} %",
     )
 
@@ -91,9 +91,9 @@ def cells(one: Difference) -> tuple[str, str, str, str]:
     """A, B, difference and relative difference as they are read."""
     share = one.name.endswith("share") or one.name.startswith("heat_shares.")
     return (
-        told(one.a, one.unit, share),
-        told(one.b, one.unit, share),
-        told(one.difference, DEGREES.get(one.unit, one.unit), share),
+        told(one.a, one.unit, share, DIGITS),
+        told(one.b, one.unit, share, DIGITS),
+        told(one.difference, DEGREES.get(one.unit, one.unit), share, DIGITS),
         NONE if one.relative is None else _percent(one.relative),
     )
 

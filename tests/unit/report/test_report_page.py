@@ -88,7 +88,7 @@ def test_page_shows_scenario_ledger_numbers_and_versions(written):
         told(numbers["ledger"]["heat"]["received"], "J"),
         "scikit-fem",
         "Energy ledger",
-        f"{100 * numbers['heat_shares']['ice']:.2f} %",
+        f"{100 * numbers['heat_shares']['ice']:.1f} %",
         "<tr><td>iterations of one step at most</td><td>3</td></tr>",
         f"<tr><td>thermal</td><td>{numbers['rows'] - 1} steps, ",
     ):
@@ -124,7 +124,10 @@ def test_a_run_without_a_row_still_has_its_page(tmp_path):
         (None, "m", "–"),
         (0.034, "m", "34 mm"),
         (3.75, "m", "3.75 m"),
-        (0.0494134, "K", "49.413 mK"),
+        (0.0494134, "K", "49 mK"),
+        (1.2345, "K", "1.2 K"),
+        (62.3471, "J", "62.3 J"),
+        (62347.1, "J", "62300 J"),
         (-4.57e-12, "J", "−4.57 · 10⁻¹² J"),
         (14, "1", "14"),
         (-40.384, "deg", "−40.38°"),
@@ -161,7 +164,8 @@ def test_rounding_beside_a_channels_own_size_or_its_nominal_is_nought(value, siz
 
 def test_lists_and_words_of_parameters():
     assert digits([160.0, 20.0]) == "160, 20" and digits("disc") == "disc"
-    assert told(0.947, "1", share=True) == "94.70 %"
+    assert told(0.947, "1", share=True) == "94.7 %"
+    assert told(0.0494134, "K", count=5) == "49.413 mK", "of differences between results"
 
 
 def test_a_run_that_ends_in_its_ramp_has_no_numbers_after_it():

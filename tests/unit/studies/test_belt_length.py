@@ -188,7 +188,7 @@ def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
         == 0
     )
     printed = json.loads(capsys.readouterr().out)
-    assert printed["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 13
+    assert printed["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 15
     assert (tmp_path / "map.png").exists() and (tmp_path / "doubt.png").exists()
     assert len(pd.read_csv(tmp_path / "doubt.csv")) == 13
     assert np.shape(json.loads((tmp_path / "belt_length.json").read_text())["map"]["drift"]) == (

@@ -21,7 +21,7 @@ from cosim.studies.belt_length import (
     with_ranges,
 )
 from cosim.studies.belt_length.lengths import rounded_up
-from cosim.studies.belt_length.show.verdict import answered
+from cosim.studies.belt_length.show.verdict import answered, two_digits
 from cosim.studies.belt_length.unknowns import UNKNOWNS, answers, as_it_is, unknowns_of
 
 STEEL = """
@@ -135,6 +135,14 @@ def test_the_rooms_thermostat_is_in_doubt(results):
     for key in ("sample_rise", "air_warming"):
         assert "room's thermostat" in doubt["says"][key]
         assert doubt["drift_low"][key] != doubt["drift_high"][key]
+
+
+def test_the_page_has_two_digits_and_the_files_have_all(results, numbers):
+    rises = pd.read_csv(results / "changes.csv")["run"]
+    text = (results / "report.html").read_text()
+    assert f">{two_digits(rises[0])}<" in text and f"{rises[0]:.4f}" not in text
+    assert two_digits(0.062347) == "0.062" and two_digits(364.9) == "360"
+    assert numbers["answers"][0]["run"]["rise"] == rises[0]
 
 
 @pytest.mark.parametrize("speed", [0.15, 0.82])

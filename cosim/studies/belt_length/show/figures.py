@@ -28,12 +28,12 @@ def _title(cases: list[Case]) -> str:
     """What all curves share; heat transfer by still air differs from speed to speed."""
     first = cases[0]
     films = {case.film for case in cases}
-    film = " to ".join(f"{h:.3g}" for h in sorted({min(films), max(films)}))
+    film = " to ".join(f"{h:.2g}" for h in sorted({min(films), max(films)}))
     where = f" (still air, {first.length:g} m)" if first.h is None else ""
     stack = first.thermal().belt.stack
     belt = f"{stack[0].conductivity:g} W/(m K)" if len(stack) == 1 else f"of {len(stack)} layers"
     said = (
-        f"friction {first.force:.2f} N, h {film} W/(m² K){where}, belt {belt},"
+        f"friction {first.force:.3g} N, h {film} W/(m² K){where}, belt {belt},"
         f" air {first.ambient_degC:g} °C\n{first.protocol.in_words()}"
     )
     return said.replace("-", "−")

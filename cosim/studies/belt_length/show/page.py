@@ -11,7 +11,7 @@ from ..lengths import rounded_up
 from ..own import Answer, Question
 from ..result import Row, Study
 from ..unknowns import unknowns_of
-from .verdict import verdict
+from .verdict import two_digits, verdict
 
 FILES = {
     "belt_length.json": "everything on this page and more, numbers in full",
@@ -77,9 +77,9 @@ def _answer_rows(answer: Answer) -> list[tuple[str, ...]]:
 
 
 def _question_row(what: str, answer: Answer, question: Question, ever: str) -> tuple[str, ...]:
-    own = f"{question.rise:.2g}"
+    own = two_digits(question.rise)
     if question.rises is not None:
-        own += f" ({question.rises[0]:.2g} to {question.rises[2]:.2g})"
+        own += f" ({two_digits(question.rises[0])} to {two_digits(question.rises[2])})"
     return (
         what,
         f"{answer.case.speed:g}",
@@ -99,18 +99,18 @@ def _metres(length: float | None) -> str:
 def _row(row: Row) -> tuple[str, ...]:
     """Of a study without an own rig: length, speed, rises, shortest belts."""
     known, drift = row.uncertainty, row.drift
-    doubt = "–" if known is None else f"{known.low:.2g} to {known.high:.2g}"
+    doubt = "–" if known is None else f"{two_digits(known.low)} to {two_digits(known.high)}"
     return (
         f"{row.case.length:g}",
         f"{row.case.speed:g}",
-        f"{row.case.film:.3g}",
-        f"{drift.study:.2g}",
-        f"{drift.run:.2g}",
+        f"{row.case.film:.2g}",
+        two_digits(drift.study),
+        two_digits(drift.run),
         doubt,
-        f"{drift.steady:.2g}",
-        f"{drift.interface_drift:.2g}",
+        two_digits(drift.steady),
+        two_digits(drift.interface_drift),
         _metres(row.shortest_run),
-        "–" if row.wait.begin is None else f"{float(f'{row.wait.begin:.2g}'):g}",
+        "–" if row.wait.begin is None else two_digits(row.wait.begin),
     )
 
 
@@ -141,7 +141,7 @@ def _changes(study: Study) -> list[tuple[str, str, str]]:
         return []
     start, *rest = study.worst.changes
     ranked = [start, *sorted(rest, key=lambda one: abs(one.run))]
-    return [(one.what, f"{one.run:.3f}", f"{one.interface_drift:.3f}") for one in ranked]
+    return [(one.what, two_digits(one.run), two_digits(one.interface_drift)) for one in ranked]
 
 
 def _doubts(study: Study) -> list[dict[str, Any]]:

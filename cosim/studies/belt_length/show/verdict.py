@@ -16,6 +16,8 @@ ONE_METRE = 1.0
 MISSED = 0.1
 #: Two heat transfers to the air that differ by less than this part are the same.
 _SAME = 0.01
+#: K, s or m: less is not told from nothing.
+_NOTHING = 1e-4
 #: A change helps that leaves less than this part of a rise.
 _HELPS = 0.95
 
@@ -365,22 +367,26 @@ def _interface_doubt(rows: list[Row]) -> str:
 
 def _wait(study: Study) -> list[str]:
     """How long to wait before the next run, by speed."""
-    said, reasons = [], set()
+    pauses, reasons, already = [], set(), []
     for speed, rows in _by_speed(study.rows):
         known = [row.wait.begin for row in rows if row.wait.begin is not None]
         reasons |= {row.wait.reason for row in rows if row.wait.begin is None}
         if known and max(known) == 0.0:
-            said.append(f"no wait at {speed:g} m/s: they are already when the runs end")
+            already.append(f"{speed:g}")
         elif known:
-            said.append(f"{_span(min(known), max(known))} s at {speed:g} m/s")
-    if not said:
+            pauses.append(f"{_span(min(known), max(known))} s at {speed:g} m/s")
+    if not (pauses or already):
         return [f"No pause makes a later run as cold as the first: {'; '.join(sorted(reasons))}."]
     iced = "lifted" if study.rows[0].case.protocol.lifted else "resting"
-    return [
-        f"Belt and ice are within {study.options.limit:g} K of the air again, the belt at a"
-        f" standstill and the ice {iced}, after {', '.join(said)}"
-        f"{'; in other cases never: ' + '; '.join(sorted(reasons)) if reasons else ''}."
-    ]
+    near = f"Belt and ice are within {study.options.limit:g} K of the air"
+    said = []
+    if already:
+        said.append(f"{near} when the runs end at {', '.join(already)} m/s: no wait is needed.")
+    if pauses:
+        said.append(
+            f"{near} again, the belt at a standstill and the ice {iced}, after {', '.join(pauses)}."
+        )
+    return [*said, *[f"In other cases never: {'; '.join(sorted(reasons))}."] * bool(reasons)]
 
 
 def _helps(study: Study) -> list[str]:
@@ -457,9 +463,13 @@ def _melting_rigs(study: Study) -> list[str]:
     ]
 
 
+def two_digits(value: float) -> str:
+    """A figure whose doubt is a factor of 0.75 to 2; below 0.1 mK a rise is nothing."""
+    if abs(value) < _NOTHING:
+        return "0"
+    return f"{float(f'{value:.2g}'):g}"
+
+
 def _span(low: float, high: float) -> str:
-    one, other = (
-        f"{round(value, -1 if value >= 100.0 else 0):g}" if value >= 10.0 else f"{value:.2g}"
-        for value in (low, high)
-    )
+    one, other = two_digits(low), two_digits(high)
     return one if one == other else f"{one} to {other}"
