@@ -152,7 +152,7 @@ def test_a_frame_that_is_read_out_late_and_a_filter_are_of_their_orders():
     late = camera.seen(places, time, {"measurement.latency": 0.01})[:, 0]
     exact = 0.02 * np.sin(6.0 * (time + 0.01 * x / 0.1))
     second = 0.5 * 0.02 * 6.0**2 * (0.01 * 0.02 / 0.1) ** 2  # x'' (c x / 0.1 m)^2 / 2
-    assert np.abs(late - exact)[inside].max() < 1.01 * second < 0.01 * np.abs(late - x).max()
+    assert np.abs(late - exact)[inside].max() < 1.01 * second < 0.02 * np.abs(late - x).max()
     gauss = camera.seen(places, time, {"measurement.smoothing": 0.03})[:, 0]
     expected = np.exp(-0.5 * (6.0 * 0.03) ** 2) * x
     np.testing.assert_allclose(gauss[inside], expected[inside], atol=1e-6)
