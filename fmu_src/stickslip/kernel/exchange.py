@@ -450,8 +450,9 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
                 slide_on(p, u, z, speed)
     if p[P_SHORTEST] > 0.0 and shortest_spring(p, z, SHOWN) < p[P_SHORTEST]:
         return SPRING_COLLAPSED
-    if z[SHOWN + MODE] == STICK and not has_bristles(p) and stick_reserve(p, u, z, w) <= 0.0:
-        return MODE_CHANGED
+    if z[SHOWN + MODE] == STICK and not has_bristles(p):
+        if stick_reserve(p, u, z, w) < -AT_THE_LIMIT:
+            return MODE_CHANGED
     return DONE
 
 
