@@ -12,7 +12,6 @@ from .contact.exchange import Fluxes, IceFace, exchange
 from .ice.block import StandingBlock, standing_block
 from .ice.meltwater import Meltwater
 from .ledger import HeatLedger
-from .materials import MELTING_POINT_DEGC
 from .parameters import ThermalParameters
 
 Array = NDArray[np.float64]
@@ -48,7 +47,7 @@ class BeltIceModel:
         self.ledger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
         self.meltwater = Meltwater(
-            parameters, self.footprint, self.ice, self.belt, MELTING_POINT_DEGC - self._ambient
+            parameters, self.footprint, self.ice, self.belt, parameters.melting_rise
         )
         self.longest_movement = MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.

@@ -14,7 +14,6 @@ from .belt.air import NotLaminar
 from .belt.parameters import Belt, Layer
 from .contact.parameters import Contact
 from .ice.parameters import Ice
-from .materials import MELTING_POINT_DEGC
 
 #: Most cells along the belt: a slip of the unit must not exhaust the memory.
 MOST_CELLS = 200_000
@@ -30,9 +29,10 @@ class Ambient(Table, strict=False):
     temperature_degC: float = quantity(
         -8.0,
         "degC",
-        "air temperature; the source study's runs were at -8 and at -16",
+        "air temperature, below 0 where the block is of ice; the source study's runs were at -8"
+        " and at -16",
         ge=-100.0,
-        lt=MELTING_POINT_DEGC,
+        le=500.0,
     )
 
 
@@ -43,6 +43,22 @@ class ThermalParameters(Table, strict=False):
     belt: Belt = Belt()
     ice: Ice = Ice()
     contact: Contact = Contact()
+
+    @model_validator(mode="after")
+    def _ice_is_frozen(self) -> Self:
+        air = self.ambient.temperature_degC
+        if air >= self.ice.melting_point_degC:
+            raise ValueError(
+                f"ambient.temperature_degC = {air}: ice melts in air of"
+                f" {self.ice.melting_point_degC:g} degC and more, allowed is less, or a block of"
+                " another material: block.material"
+            )
+        return self
+
+    @property
+    def melting_rise(self) -> float:
+        """The block's melting point above the air, K; infinite where it does not melt."""
+        return self.ice.melting_point_degC - self.ambient.temperature_degC
 
     @model_validator(mode="after")
     def _belt_carries_contact(self) -> Self:

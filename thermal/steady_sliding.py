@@ -25,7 +25,6 @@ from .contact.exchange import BeltFace, Fluxes, IceFace, exchange
 from .contact.footprint import Footprint
 from .ice.block import standing_block
 from .ice.body import IceBody
-from .materials import MELTING_POINT_DEGC
 from .parameters import ThermalParameters
 from .steady_state import FOREVER, check_gives_heat
 
@@ -124,7 +123,7 @@ class SteadySliding:
             end,
             response.face_mean * area,
             response.face_end * area,
-            MELTING_POINT_DEGC - self.parameters.ambient.temperature_degC,
+            self.parameters.melting_rise,
         )
 
     def step(self, duration: float, speed: float | None = None, lifted: bool = False) -> None:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import numpy as np
 
 from .contact.exchange import IceFace, exchange
-from .materials import MELTING_POINT_DEGC
 from .model import BeltIceModel
 
 #: A step after which nothing changes any more, s: its mean differs from its end by the part of it
@@ -57,7 +56,7 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
         duration, model.contact_position, -displacement, displacement, response
     )
     ice = model.ice.response(FOREVER)
-    melting = MELTING_POINT_DEGC - parameters.ambient.temperature_degC
+    melting = parameters.melting_rise
     fluxes = exchange(
         found.contact.face,
         IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),

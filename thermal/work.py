@@ -10,7 +10,6 @@ import math
 
 from .ice.ablation import LONGEST_RECESSION, melt_heat
 from .ice.body import TOLERANCE
-from .materials import MELTING_POINT_DEGC
 from .model import MOVEMENT
 from .parameters import ThermalParameters
 
@@ -66,6 +65,7 @@ def seconds_to_run(
 def _recession(parameters: ThermalParameters, heat: float) -> float:
     """How far the face recedes where all the heat (J) melts ice, m."""
     ice, contact = parameters.ice, parameters.contact
+    if not math.isfinite(parameters.melting_rise):
+        return 0.0
     area = math.pi * contact.radius**2
-    melting = MELTING_POINT_DEGC - parameters.ambient.temperature_degC
-    return heat / (area * ice.density * melt_heat(ice, melting))
+    return heat / (area * ice.density * melt_heat(ice, parameters.melting_rise))

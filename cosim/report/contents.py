@@ -75,9 +75,11 @@ def tables_of(scenario: BaseModel) -> Tables:
     """Table -> key -> value, unit and description, from a pydantic model.
 
     A table is a model that holds numbers; models that only group tables are seen through, so
-    the tables are found at any depth. Numbers beside tables are left out.
+    the tables are found at any depth. Numbers beside tables are left out, and so is a table that
+    another name has already.
     """
-    return {name: _entries(table) for name, table in _walk(scenario)}
+    tables = {id(table): (name, table) for name, table in reversed([*_walk(scenario)])}
+    return {name: _entries(table) for name, table in reversed(tables.values())}
 
 
 def _walk(model: BaseModel) -> Iterator[tuple[str, BaseModel]]:
@@ -110,6 +112,11 @@ def stored_tables(dataset: xr.Dataset) -> Tables:
 def value_of(dataset: xr.Dataset, table: str, key: str) -> Any:
     """One parameter's value; None where the scenario has no such table or key."""
     return stored_tables(dataset).get(table, {}).get(key, {}).get("value")
+
+
+def material_of(dataset: xr.Dataset) -> str:
+    """What the block is of."""
+    return str(value_of(dataset, "ice", "material") or "ice")
 
 
 def mechanics_of(dataset: xr.Dataset) -> Parameters:

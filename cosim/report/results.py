@@ -14,10 +14,11 @@ from cosim.report.contents import REGIME_UNITS, STARTS, regime_sentence, stabili
 from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
-from .contents import Views, stored_tables
+from .contents import Views, material_of, stored_tables
 from .coupling import doubts, effort_rows, step_rows
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
+from .material import page_of_material
 from .page import Picture, render
 from .quantities import digits, spelled, told, with_unit, worded
 from .summary import summary
@@ -110,7 +111,7 @@ def page(
 ) -> str:
     """HTML of a run: numbers of `summary`, its figures, further files to be listed."""
     own = dict(OWN_FILES) | {f"{one.name}.png": "figure, as above" for one in pictures}
-    return render(
+    html = render(
         "run.html.j2",
         "cosim.report",
         numbers=numbers,
@@ -130,6 +131,7 @@ def page(
         command=command,
         coupled=numbers["case"] == "coupled",
     )
+    return page_of_material(html, material_of(dataset))
 
 
 def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -231,7 +233,7 @@ def parameter_tables(dataset: xr.Dataset) -> list[Table]:
     """Every parameter with value, unit and description, table by table."""
     return [
         Table(
-            name,
+            "block" if name == "ice" else name,
             [
                 (key, _valued(entry["value"], entry["unit"]), entry["description"])
                 for key, entry in entries.items()

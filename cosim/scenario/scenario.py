@@ -34,6 +34,7 @@ from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 from thermal.belt.air import heated_belt
+from thermal.materials import ICE, MATERIALS
 
 LOG = logging.getLogger(__name__)
 
@@ -44,6 +45,8 @@ MOST_STEPS = 10_000_000
 ROUNDING = 1e-9
 #: An hour of computing, s: longer is meant seldom, and then said.
 PATIENCE = 3600.0
+#: What a material is, and no shape.
+OF_MATERIAL = {"material", "density", "heat_capacity", "conductivity", "latent_heat"}
 #: What the contact has of the block.
 FROM_BLOCK = ("radius", "load")
 _HEAT_OF_CONTACT: dict[str, Any] = {
@@ -127,6 +130,9 @@ class Scenario(Parameters):
     ambient: Ambient = Ambient()
     belt: Belt = Belt()
     ice: Ice = Ice()
+    block: Ice = Field(
+        Ice(), description="the block of any material, in place of [ice], which is one of ice"
+    )
     contact: ContactHeat = ContactHeat()
     run: Run = Run()
     coupling: Coupling = Coupling()
@@ -158,6 +164,7 @@ class Scenario(Parameters):
 
     @model_validator(mode="after")
     def _join_with_heat(self) -> Self:
+        self._take_block()
         if self.rig.surface == "slab":
             self._take_length_from_slab()
         if fault := self._too_fine("run.output_interval", self.run.output_interval):
@@ -203,13 +210,34 @@ class Scenario(Parameters):
             and "load" not in self.contact.model_fields_set
         ):
             return f"rig.mass = {self.rig.mass:g} kg: its weight is beyond all numbers"
-        return fault.replace("contact.radius", "rig.contact_radius")
+        fault = fault.replace("contact.radius", "rig.contact_radius")
+        return fault.replace("ice.", "block.") if "block" in self.model_fields_set else fault
 
     def _belt_under_block(self) -> Belt:
         """The belt as the thermal model sees it: a railing carries the block's weight."""
         if self.belt.railing_friction == 0.0 or self.belt.railing_load > 0.0:
             return self.belt
         return self.belt.model_copy(update={"railing_load": self.rig.mass * GRAVITY})
+
+    def _take_block(self) -> None:
+        """Makes [ice] and [block] one table, whose shape either may give."""
+        block, ice = self.block, self.ice
+        if not block.model_fields_set:
+            self.__dict__["block"] = ice
+            return
+        if twice := sorted(ice.model_fields_set & (block.model_fields_set | OF_MATERIAL)):
+            raise ValueError(
+                f"ice.{twice[0]} and the table [block] are both given: [ice] is a [block] of ice,"
+                " leave one of the two out"
+            )
+        if "material" not in block.model_fields_set:
+            raise ValueError(
+                f"block.material is missing, needed is {', '.join((ICE, *MATERIALS))}, or a name of"
+                " your own with density, heat_capacity and conductivity"
+            )
+        whole = Ice(**ice.model_dump(exclude_unset=True), **block.model_dump(exclude_unset=True))
+        self.__dict__.update(ice=whole, block=whole)
+        self.model_fields_set.discard("ice")
 
     def _take_length_from_slab(self) -> None:
         """What the contact travels on a slab before it comes round: one turn."""
@@ -288,11 +316,12 @@ class Scenario(Parameters):
 
     def to_tables(self) -> dict[str, Any]:
         """All keys that a file can hold, with their values, less those that follow from others."""
-        follows = {}
+        follows: dict[str, Any] = {}
         if self.rig.surface == "slab":
             follows["belt"] = {"length"}
         if "output_interval" not in self.run.model_fields_set:
             follows["run"] = {"output_interval"}
+        follows["ice" if "block" in self.model_fields_set else "block"] = True
         tables = self.model_dump(exclude=follows)
         if not self.effects:
             del tables["effects"]
@@ -347,7 +376,7 @@ def scenario_of(
 
 
 #: Keys that name a file.
-FILE_KEYS = ("ice.mesh", "friction.table")
+FILE_KEYS = ("ice.mesh", "block.mesh", "friction.table")
 
 
 def _find_files(tables: dict[str, Any], folder: Path) -> None:

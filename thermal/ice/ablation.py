@@ -12,6 +12,7 @@ iteration within the step.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -35,8 +36,11 @@ _RELATIVE, _ABSOLUTE = 1e-11, 1e-17
 
 
 def melt_heat(ice: Ice, melting: float) -> float:
-    """Heat that melting takes from ice of the air's temperature, J/kg; melting: K above the air."""
-    return ice.latent_heat + ice.heat_capacity * melting
+    """Heat that melting takes from ice of the air's temperature, J/kg; melting: K above the air.
+
+    Of what never melts, whose melting point is infinite, none is ever taken: the latent heat.
+    """
+    return ice.latent_heat + (ice.heat_capacity * melting if math.isfinite(melting) else 0.0)
 
 
 class Receding(NamedTuple):
@@ -61,6 +65,8 @@ class Ablation:
 
     def parts(self, heat: float) -> int:
         """Internal steps that keep each recession short, should all the heat (J) melt ice."""
+        if not math.isfinite(self._melting):
+            return 1
         return max(1, int(np.ceil(heat / (self._area * self._volume_heat * LONGEST_RECESSION))))
 
     def exchange(

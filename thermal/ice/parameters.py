@@ -1,18 +1,24 @@
-"""What the block of ice is: its shape and its properties."""
+"""What the block is, of ice or of another material: its shape and its properties."""
 
 from __future__ import annotations
 
 import math
 from typing import Any, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 from stickslip.quantity import Table, quantity
 
-from thermal.materials import ZERO_DEGC
+from thermal.materials import ICE, MATERIALS, MELTING_POINT_DEGC, ZERO_DEGC
+
+#: What a material is told by.
+_PROPERTIES = ("density", "heat_capacity", "conductivity")
 
 
 class Ice(Table, strict=False):
-    """A standing cylinder of ice on the belt; its radius is the contact's.
+    """A standing cylinder on the belt, of ice unless given otherwise; its radius is the contact's.
+
+    A material of `thermal.materials` brings its density, heat capacity and conductivity where they
+    are not given; one with another name must have all three. Ice alone melts.
 
     The sample of the test rig: diameter 8 cm, height 10 cm. Properties of ice Ih near -8 degC,
     constant: between -16 and 0 degC conductivity falls by 9 % while capacity grows by 6 %, so the
@@ -21,6 +27,15 @@ class Ice(Table, strict=False):
     errs by 0.1 %. 10 W/m2K on side and top: natural convection and radiation, about 5 each.
     """
 
+    material: str = Field(
+        ICE,
+        min_length=1,
+        max_length=40,
+        pattern=r"^[^\s<>&][^<>&]*$",
+        description="what it is of, which alone melts if it is ice: "
+        f"{', '.join((ICE, *MATERIALS))}, or another name, and then density, heat_capacity and"
+        " conductivity are to be given",
+    )
     mesh: str = Field(
         "",
         max_length=1000,
@@ -42,6 +57,28 @@ class Ice(Table, strict=False):
     axial_elements: int = Field(
         10, ge=1, le=40, description="P2 elements along the height, finest at the contact"
     )
+
+    @model_validator(mode="after")
+    def _of_its_material(self) -> Self:
+        if self.material == ICE:
+            return self
+        known = MATERIALS.get(self.material)
+        for key in _PROPERTIES:
+            if key in self.model_fields_set:
+                continue
+            if known is None:
+                raise ValueError(
+                    f"material = {self.material!r} is not among {', '.join((ICE, *MATERIALS))},"
+                    f" so {key} is to be given"
+                )
+            # not set: what was not given stays so, and follows another material
+            self.__dict__[key] = getattr(known, key)
+        return self
+
+    @property
+    def melting_point_degC(self) -> float:
+        """Of ice 0 degC; nothing else melts here."""
+        return MELTING_POINT_DEGC if self.material == ICE else math.inf
 
     @classmethod
     def at(cls, temperature_degC: float, **others: Any) -> Self:

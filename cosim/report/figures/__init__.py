@@ -13,7 +13,8 @@ from cosim.report.live import Live
 from cosim.report.page import Picture
 from cosim.report.style import displayed, png
 
-from ..contents import mechanics_of
+from ..contents import material_of, mechanics_of
+from ..material import figure_of_material, live_of_material
 from .belt_map import belt_temperature_live, draw_belt_temperature
 from .friction_table import draw_friction_table
 from .heat import heat, melting, temperatures
@@ -41,10 +42,12 @@ class Plate:
 
     def picture(self, dataset: xr.Dataset) -> Picture:
         """Drawn, and with what makes it alive."""
+        material = material_of(dataset)
         alive = self.live(dataset) if self.live is not None else None
         if alive is not None:
-            alive = {"title": self.title, **alive}
-        return Picture(self.name, self.caption, png(self.draw(dataset)), self.alt, alive)
+            alive = live_of_material({"title": self.title, **alive}, material)
+        drawn = figure_of_material(self.draw(dataset), material)
+        return Picture(self.name, self.caption, png(drawn), self.alt, alive)
 
 
 def _over_time(

@@ -15,7 +15,7 @@ from thermal.belt.frost import Frost, frost
 from thermal.belt.single_pass import SinglePass
 from thermal.contact.footprint import Footprint
 from thermal.ice.body import IceBody
-from thermal.materials import GRAVITY
+from thermal.materials import GRAVITY, MELTING_POINT_DEGC
 
 
 class StudyError(ValueError):
@@ -199,8 +199,10 @@ class Case:
         return not self.drawn and belt.rollers > 0 and belt.roller_conductance > self.film
 
     @property
-    def frost(self) -> Frost:
-        """What frost on the belt can do at most."""
+    def frost(self) -> Frost | None:
+        """What frost on the belt can do at most; None in air in which there is none."""
+        if self.ambient_degC >= MELTING_POINT_DEGC:
+            return None
         carried = convection(self.speed, self._span, self.ambient_degC, self.rig.belt.width)
         return frost(carried, radiation(self.ambient_degC), self.ambient_degC)
 

@@ -78,7 +78,8 @@ def _changed(case: Case) -> Iterator[tuple[str, Case]]:
     yield COLDER_START, replace(case, ice_rise=-COLDER_SAMPLE)
     yield WARMER_START, replace(case, ice_rise=WARMER_SAMPLE)
     yield "twice the heat transfer to the air", replace(case, h=2.0 * case.film)
-    yield "belt frosted all over", replace(case, h=case.film + case.frost.added)
+    if case.frost is not None:
+        yield "belt frosted all over", replace(case, h=case.film + case.frost.added)
     if belt.rollers == 0 and belt.railing_length + 2.0 * ROLLER_ARC < 0.5 * case.length:
         yield (
             f"two rollers that touch {ROLLER_ARC:g} m with {GOOD_ROLLER:g} W/m2K",
@@ -137,9 +138,12 @@ class FrictionEffect:
     frequency_change: float | None
 
 
-def linear_sensitivity(ambient_degC: float) -> float:
-    """Part of mu_k lost per kelvin when nothing is left at the melting point, 1/K."""
-    return 1.0 / (MELTING_POINT_DEGC - ambient_degC)
+def linear_sensitivity(ambient_degC: float, melting_degC: float = MELTING_POINT_DEGC) -> float:
+    """Part of mu_k lost per kelvin when nothing is left at the melting point, 1/K.
+
+    0 for what does not melt, whose melting point is infinite.
+    """
+    return 1.0 / (melting_degC - ambient_degC)
 
 
 @lru_cache(maxsize=4096)
@@ -169,7 +173,9 @@ def mechanics(speed: float, mass: float, stiffness: float, mu_s: float, mu_k: fl
 
 def friction_effect(case: Case, sensitivity: float | None = None) -> FrictionEffect:
     """Of the interface's rise over the runs; sensitivity: 1/K, linear to melting when left out."""
-    lost = sensitivity if sensitivity is not None else linear_sensitivity(case.ambient_degC)
+    melting = case.rig.ice.melting_point_degC
+    linear = linear_sensitivity(case.ambient_degC, melting)
+    lost = linear if sensitivity is None else sensitivity
     _, warm_belt = case.follow(case.sliding(lost))
     mu_change = -min(1.0, lost * warm_belt.mean_interface)
     mu_s = case.static_over_kinetic * case.friction

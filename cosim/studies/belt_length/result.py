@@ -122,7 +122,7 @@ class Row:
         h = {
             "h": self.case.film,
             "h_of_still_air": self.case.h is None,
-            "frost": self.case.frost._asdict(),
+            "frost": self.case.frost and self.case.frost._asdict(),
         }
         rest = {
             name: value and asdict(value)
@@ -220,6 +220,12 @@ class Study:
                 for one in of(row)
             ]
         )
+
+    @property
+    def material(self) -> str:
+        """What the block is of."""
+        cases = [*(row.case for row in self.rows), *(answer.case for answer in self.answers)]
+        return cases[0].rig.ice.material if cases else "ice"
 
     @property
     def worst(self) -> Row:

@@ -67,7 +67,8 @@ class Rigs:
     ) -> None:
         self.unknowns = unknowns_of(case)
         self._shaping = tuple(one for one in self.unknowns if not (one.linear or one.fixed))
-        self._lengths, self._melts_at = lengths, -case.ambient_degC
+        self._lengths = lengths
+        self._melts_at = case.rig.ice.melting_point_degC - case.ambient_degC
         tested = round(_TESTED * samples)
         self.evaluations = samples + tested
         draws = qmc.Sobol(len(self._shaping) + (lengths is not None), rng=1)

@@ -42,7 +42,7 @@ _KNOWN = {
     "friction": _Known(("friction.mu_k",), 0.8, 1.2),
     "conductivity": _Known(("belt.conductivity", "belt.layers"), 0.7, 1.4),
     "heat_capacity": _Known(("belt.heat_capacity", "belt.layers"), 0.9, 1.1),
-    "ice_conductivity": _Known(("ice.conductivity",), 0.95, 1.05),
+    "ice_conductivity": _Known(("ice.conductivity", "ice.material"), 0.95, 1.05),
     "conductance": _Known(("contact.conductance",), 1.0 / 3.0, 3.0),
     "belt_side": _Known(("contact.belt_side",), 0.0, 2.0, 1.0),
     "contact_area": _Known(("contact.length",), 0.8, 1.0, there="contact.length"),
@@ -178,9 +178,15 @@ def _said(scenario: Scenario, case: Case) -> Iterator[Range]:
             unknown.key,
             low,
             high,
-            f"{' and '.join(keys)} of the scenario, assumed to be good to"
+            f"{' and '.join(_as_given(scenario, keys))} of the scenario, assumed to be good to"
             f" {known.low:.2g} to {known.high:.2g} times",
         )
+
+
+def _as_given(scenario: Scenario, keys: list[str]) -> list[str]:
+    """Keys as the scenario's file has them."""
+    of_block = "block" in scenario.model_fields_set
+    return [key.replace("ice.", "block.") if of_block else key for key in keys]
 
 
 def _holds(scenario: Scenario, key: str) -> bool:

@@ -39,7 +39,7 @@ BOUNDS = {
     "h": ("h", "W/m2K", 0.0, True, 1e4),
     "conductivity": ("conductivity", "W/mK", 0.0, False, 1e4),
     "friction": ("friction", "", 0.0, False, 10.0),
-    "ambient": ("ambient_degC", "degC", -100.0, True, -1e-9),
+    "ambient": ("ambient_degC", "degC", -100.0, True, 500.0),
     "conductance": ("conductance", "W/m2K", 0.0, False, 1e12),
     "thickness": ("thickness", "m", 0.0, False, 0.1),
 }
@@ -78,10 +78,9 @@ def _within(name: str, value: float, unit: str, low: float, included: bool, high
     if low < value <= high or (included and value == low):
         return
     least = "at least" if included else "above"
-    most = "below 0" if name == "ambient" else f"at most {high:g}"
     raise StudyError(
         f"--{name} = {value:g}{' ' + unit if unit else ''}: must be a number {least} {low:g} and"
-        f" {most}"
+        f" at most {high:g}"
     )
 
 

@@ -202,7 +202,11 @@ def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
     [
         (("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
         (("--thickness", 0.0), "--thickness = 0 m: must be a number above 0 and at most 0.1"),
-        (("--ambient", 1.0), "--ambient = 1 degC: must be a number at least -100 and below 0"),
+        (("--ambient", 1.0), "--ambient = 1.0: ice melts in air of 0 degC and more"),
+        (
+            ("--ambient", 501),
+            "--ambient = 501 degC: must be a number at least -100 and at most 500",
+        ),
         (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
         (("--h", -1.0), "--h = -1 W/m2K: must be a number at least 0"),
         (("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
 from ..lengths import rounded_up
@@ -32,7 +33,7 @@ def page(
     """HTML of a study; name, scenario (TOML): of an own rig."""
     sentences = verdict(study)
     answers = study.answers
-    return render(
+    html = render(
         "belt_length.html.j2",
         "cosim.studies.belt_length.show",
         name=name or "The source study's rig",
@@ -53,6 +54,7 @@ def page(
         command=command,
         files=FILES,
     )
+    return page_of_material(html, study.material)
 
 
 def _asked(study: Study) -> str:

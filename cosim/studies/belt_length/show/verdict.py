@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from cosim.report.material import of_material
+
 from ..case import Case
 from ..changes import NO_HELP
 from ..drift import CAMERA
@@ -24,6 +26,10 @@ _HELPS = 0.95
 
 def verdict(study: Study) -> list[str]:
     """Some sentences; what is said holds for the cases that were computed."""
+    return [of_material(sentence, study.material) for sentence in _verdict(study)]
+
+
+def _verdict(study: Study) -> list[str]:
     if not study.rows:
         if study.answers:
             return _answered(study)
@@ -57,7 +63,7 @@ def _answered(study: Study) -> list[str]:
 
 
 def answered(answer: Answer) -> list[str]:
-    """The answer for one drive, the shortest first."""
+    """The answer for one drive, the shortest first, in the words of ice."""
     run, where = answer.run, f"At {answer.case.speed:g} m/s"
     cold = f"comes round less than {answer.limit:g} K above the air"
     return [
