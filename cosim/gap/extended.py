@@ -31,6 +31,7 @@ from cosim.gap.weak_form.rig_unknowns import (
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
 from cosim.gap.windows.run_model import FORCE_PART, PER_WEIGHT, TABLE_PART, WITH_WEIGHT
+from cosim.gap.windows.windows import moves_across
 
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
@@ -79,7 +80,7 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     if unknown.wave is not None:
         return _wave(campaign, rung, finding)
     if finding.name.startswith("measurement."):
-        return _fault(rung, finding)
+        return _fault(campaign, rung, finding)
     if finding.name == "load_dependence":
         return _load(rung, finding, scales.force)
     units = {
@@ -222,7 +223,7 @@ def _across(finding: Finding) -> Part:
     return Part(finding, None, (), tuple(numbers), settings)
 
 
-def _fault(rung: Rung, finding: Finding) -> Part:
+def _fault(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     """A camera's fault: its size, one for all runs in which it is; a zero is each run's own."""
     unknown, key = finding.main.unknown, finding.name
     if unknown.per_run or key == "measurement.zero":
@@ -234,7 +235,10 @@ def _fault(rung: Rung, finding: Finding) -> Part:
         size = unknown.settings["width"] * math.sqrt(max(size, 0.0))
         least, most = 0.0, MOST_FAULT * unknown.settings["width"]
     settings = {f"{key}_{name}": value for name, value in unknown.settings.items()}
-    return Part(finding, None, (), (Number(key, size, None, least, most),), settings)
+    numbers = [Number(key, size, None, least, most)]
+    if key == "measurement.drift" and moves_across(campaign):
+        numbers.append(Number(f"{key}_y", 0.0, None, least, most))
+    return Part(finding, None, (), tuple(numbers), settings)
 
 
 def _load(rung: Rung, finding: Finding, weight: float) -> Part:

@@ -25,6 +25,7 @@ BESIDE_THE_MODEL = {
     "measurement.clock": (1e2, "%", "times written too long by the camera"),
     "measurement.rotation": (180.0 / math.pi, "°", "turn of the camera's axes"),
     "measurement.drift": (1e3, "mm", "creep of the camera's zero along x by the end of a run"),
+    "measurement.drift_y": (1e3, "mm", "creep of the camera's zero along y by the end of a run"),
     "measurement.latency": (1e3, "ms", "how much later a place 0.1 m further along x is seen"),
     "measurement.smoothing": (1e3, "ms", "standard deviation of the tracker's filter"),
     "measurement.quantisation": (1e3, "mm", "step of the numbers that the tracker writes"),

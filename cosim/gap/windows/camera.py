@@ -46,7 +46,7 @@ def seen(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> n
         places[:, 0] += latency * places[:, 0] * np.gradient(places[:, 0], time) / ACROSS
     places = _filtered(places, time, values)
     places[:, :2] = (1.0 + fault(values, "scale")) * _turned(places[:, :2], values, 1.0)
-    places[:, 0] += _drift(time, values)
+    places[:, :2] += _drift(time, values)
     return places
 
 
@@ -54,9 +54,8 @@ def undone(track: Track, values: Mapping[str, float]) -> Track:
     """The track as a camera without these faults would have written it, but for a filter's."""
     time = true_time(track.time, values)
     y = np.zeros_like(track.x) if track.y is None else track.y  # a missing y would take x with it
-    x, y = _turned(np.column_stack([track.x - _drift(time, values), y]), values, -1.0).T / (
-        1.0 + fault(values, "scale")
-    )
+    still = np.column_stack([track.x, y]) - _drift(time, values)
+    x, y = _turned(still, values, -1.0).T / (1.0 + fault(values, "scale"))
     latency = fault(values, "latency")
     if latency:
         there = np.isfinite(x)
@@ -75,10 +74,11 @@ def _turned(places: np.ndarray, values: Mapping[str, float], way: float) -> np.n
 
 
 def _drift(time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
-    """(n,) m"""
+    """(n, 2) of the zeros of x and y, m; an arm that gives way does so along both."""
     course = list(COURSES)[int(values.get("measurement.drift_course", 0.0))]
     part = (time - time[0]) / (time[-1] - time[0])
-    return np.asarray(fault(values, "drift") * COURSES[course](part))
+    aside = values.get("measurement.drift_y", 0.0) * values.get("measurement.drift_in", 1.0)
+    return np.outer(COURSES[course](part), [fault(values, "drift"), aside])
 
 
 def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:

@@ -132,9 +132,10 @@ def test_a_fault_is_undone_in_the_data():
     rng, n = np.random.default_rng(0), 50
     time, x, y = np.linspace(0.0, 5.0, n), *rng.standard_normal((2, n))
     numbers = {"scale": 0.03, "clock": -0.01, "rotation": 0.2, "drift": 0.01, "drift_course": 2.0}
+    numbers["drift_y"] = -0.02
     c, s = np.cos(0.2), np.sin(0.2)
     seen_x = 1.03 * (c * x + s * y) + 0.01 * np.sqrt(time / 5.0)
-    seen_y = 1.03 * (c * y - s * x)
+    seen_y = 1.03 * (c * y - s * x) - 0.02 * np.sqrt(time / 5.0)
     values = {f"measurement.{name}": value for name, value in numbers.items()}
     written = camera.seen(np.column_stack([x, y, 0.0 * x]), time, values)
     np.testing.assert_allclose(written, np.column_stack([seen_x, seen_y, 0.0 * x]), atol=1e-12)
