@@ -18,7 +18,7 @@ from cosim.gap.result import Gap
 from cosim.gap.windows.run_model import parameters_of
 from cosim.gap.windows.windows import moves_across
 from cosim.scenario import Scenario
-from thermal import Ambient
+from thermal import Ice
 
 from .quantities import Quantity, fitted_quantities, unit_and_meaning
 from .text import faults_of, gap_line
@@ -29,8 +29,8 @@ DIGITS = 12
 #: Tables that stand before the effects.
 FIRST = ("rig", "springs", "friction", "surface")
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
-#: Temperature of melting ice, which no room of a scenario reaches, degC.
-MELTING = next(m.lt for m in Ambient.model_fields["temperature_degC"].metadata if hasattr(m, "lt"))
+#: Temperature of melting ice, which no room of a scenario with a block of ice reaches, degC.
+MELTING = Ice().melting_point_degC
 USAGE = (
     "",
     "  stickslip simulate model.toml     the mechanics alone",
