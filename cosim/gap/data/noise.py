@@ -27,6 +27,8 @@ from scipy.optimize import fixed_point
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.measured import CHANNELS, MeasuredRun
 
+#: Part of all differences up to which half of them are the rounding of numbers that repeat.
+REPEATS = 1e-9
 #: Samples beyond this many standard deviations count as if they were there (Huber's proposal 2).
 HUBER = 2.0
 #: Variance of a standard deviate that is clipped there.
@@ -74,8 +76,9 @@ def _third_differences(time: np.ndarray, values: np.ndarray) -> np.ndarray:
 def _huber_scale(values: np.ndarray) -> float:
     """Standard deviation about zero, robust: Huber's proposal 2 with the location known."""
     scale = float(np.median(np.abs(values))) / stats.norm.ppf(0.75)
-    if scale == 0.0:  # half of the samples repeat: a coarse reading of the tracker
-        return float(np.sqrt(np.mean(values**2)))
+    whole = float(np.sqrt(np.mean(values**2))) if values.size else math.nan
+    if scale <= REPEATS * whole:  # half of the samples repeat: a coarse reading of the tracker
+        return whole
     if not math.isfinite(scale):
         return math.nan
     size = np.abs(values / scale)  # squares of large numbers overflow
@@ -83,10 +86,8 @@ def _huber_scale(values: np.ndarray) -> float:
     def better(part: float) -> float:
         return math.sqrt(float(np.mean(np.minimum(size, HUBER * part) ** 2)) / CLIPPED)
 
-    try:
-        return scale * float(fixed_point(better, 1.0, xtol=1e-9, maxiter=500))
-    except RuntimeError:  # rounded samples are a staircase, whose steps it may go back and forth on
-        return scale * better(1.0)
+    # it grows with its argument and is bounded, so that the plain iteration settles on any samples
+    return scale * float(fixed_point(better, 1.0, xtol=1e-9, maxiter=5000, method="iteration"))
 
 
 def with_noise(

@@ -66,6 +66,15 @@ def test_noise_of_the_examples(name, shared, tmp_path):
     assert read.noise == pytest.approx({"x": 2e-4, "y": 2e-4}, rel=0.03)
 
 
+@pytest.mark.parametrize("steps", [6, 14, 20])
+def test_coarsely_rounded_samples_have_a_noise(steps):
+    """Where most samples repeat, uneven times leave 1e-18 of their differences, and no more."""
+    random = np.random.default_rng(1)
+    time = 0.01 * np.arange(2400) + 0.002 * random.random(2400)
+    place = 4e-3 * np.round(steps * np.sin(0.9 * time))
+    assert 3e-4 < difference_noise(time, place) < 4e-3
+
+
 @pytest.mark.parametrize("speed", [0.008, 0.06, 0.2])
 def test_outliers_are_found_and_the_noise_is_the_same(speed):
     random = np.random.default_rng(3)
