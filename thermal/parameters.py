@@ -10,7 +10,7 @@ from typing import Any, Self
 from pydantic import ValidationError, model_validator
 from stickslip.quantity import Table, quantity
 
-from .belt.air import NotLaminar
+from .belt.air import NotLaminar, heated_belt
 from .belt.parameters import Belt, Layer
 from .contact.parameters import Contact
 from .ice.parameters import Ice
@@ -59,6 +59,28 @@ class ThermalParameters(Table, strict=False):
     def melting_rise(self) -> float:
         """The block's melting point above the air, K; infinite where it does not melt."""
         return self.ice.melting_point_degC - self.ambient.temperature_degC
+
+    def in_still_air(self, force: float, speed: float, duration: float) -> Self:
+        """With the heat transfer to still air of a belt as warm as friction makes it.
+
+        force: of friction, N; speed: of the belt under the block, m/s; duration: of the run, s, a
+        ramp counting half. Itself where belt.air_heat_transfer holds.
+        """
+        belt = self.belt
+        if belt.still_air_speed == 0.0:
+            return self
+        lane = min(belt.width, 2.0 * self.contact.radius)
+        film = heated_belt(
+            belt.still_air_speed,
+            0.5 * belt.length,
+            force * speed / (belt.length * lane),
+            belt.capacity_per_area,
+            duration,
+            self.ambient.temperature_degC,
+            belt.width,
+        )
+        own = belt.model_copy(update={"air_heat_transfer": film, "still_air_speed": 0.0})
+        return self.model_copy(update={"belt": own})
 
     @model_validator(mode="after")
     def _belt_carries_contact(self) -> Self:

@@ -138,7 +138,13 @@ def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
     radius, mass = (value_of(dataset, "rig", key) for key in ("contact_radius", "mass"))
     if radius is not None:
         tables["contact"] = {"radius": radius, "load": GRAVITY * mass} | tables.get("contact", {})
-    return ThermalParameters.model_validate(tables)
+    found = ThermalParameters.model_validate(tables)
+    keys = (("surface", "speed"), ("friction", "mu_k"), ("run", "duration"))
+    speed, mu, run = (value_of(dataset, *key) for key in keys)
+    if None in (speed, mu, run, mass):
+        return found
+    moving = run - 0.5 * min(ramp_end(dataset), run)
+    return found.in_still_air(mu * mass * GRAVITY, abs(speed), moving)
 
 
 def _selected(dataset: xr.Dataset, model: type[BaseModel]) -> dict[str, dict[str, Any]]:

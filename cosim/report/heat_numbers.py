@@ -24,7 +24,7 @@ from stickslip.kernel.layout import (
     P_RADIUS,
 )
 
-from .contents import SLIP, mechanics_of, value_of
+from .contents import SLIP, mechanics_of, ramp_end, thermal_of, value_of
 from .quantities import Quantity, ratio
 
 TEMPERATURES = (
@@ -137,6 +137,38 @@ def temperatures(dataset: xr.Dataset) -> dict[str, dict[str, Quantity]]:
             "max_rise": Quantity(None if high is None else high - ambient, "K"),
         }
     return found
+
+
+def end_of_sliding(dataset: xr.Dataset) -> dict[str, Quantity | str]:
+    """What the interface comes to if the sliding goes on for ever, and when it is near that.
+
+    Steady sliding with the mean friction heat after the ramp, on a belt that gives as much to the
+    air as in this run. Nothing for a run without such a time, nor for a mesh, which takes long.
+    """
+    from thermal.in_the_end import in_the_end
+    from thermal.steady_state import NoSteadyState
+
+    speed, ramp = abs(value_of(dataset, "surface", "speed") or 0.0), ramp_end(dataset)
+    late = dataset.sel(time=slice(ramp, None))
+    if late.sizes["time"] < 2 or speed == 0.0 or value_of(dataset, "ice", "mesh") != "":
+        return {}
+    power = float((late["heat"][-1] - late["heat"][0]) / (late["time"][-1] - late["time"][0]))
+    if not power > 0.0:
+        return {}
+    try:
+        end = in_the_end(thermal_of(dataset), speed, power / speed, ramp)
+    except NoSteadyState as error:
+        return {"reason": f"no end: {error}"}
+    if end.rise is None:
+        return {
+            "reason": "none: the face of the block comes to melt, and stays at its melting point"
+        }
+    return {
+        "interface_rise": Quantity(end.rise, "K"),
+        "interface_degC": Quantity(ambient_degC(dataset) + end.rise, "degC"),
+        "reached": Quantity(end.reached, "s"),
+        "within": Quantity(end.within, "1"),
+    }
 
 
 def ambient_degC(dataset: xr.Dataset) -> float:

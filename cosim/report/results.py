@@ -176,12 +176,15 @@ def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
         "after_run_up": "After the speed ramp",
         "whole_run": "Whole run",
         "heat_shares": "Where the heat is at the end",
+        "in_the_end": "How warm in the end, if this went on for ever",
         "melting": "Melting, and the balance of the film in the last second",
     }
     for name, title in titles.items():
         if name not in numbers:
             continue
-        if name == "after_run_up" and not numbers[name]["duration"]:
+        if name == "in_the_end":
+            yield Table(title, ending_rows(numbers[name]))
+        elif name == "after_run_up" and not numbers[name]["duration"]:
             begin = _told(numbers, f"{name}.begin")
             yield Table(title, [("none: the run ends before the ramp does", begin)])
         else:
@@ -190,6 +193,24 @@ def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
         coupling = numbers["coupling"]
         yield Table("How it was coupled", step_rows(coupling))
         yield Table("Steps of each side, and time in them", effort_rows(coupling["participants"]))
+
+
+def ending_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Where the interface would end, or why there is no such place."""
+    if "reason" in ends:
+        return [("the contact's temperature for ever", ends["reason"])]
+    near = f"from then on within {100.0 * ends['within']:.0f} % of that rise"
+    reached = (
+        "after 30 years not yet" if ends["reached"] is None else told(ends["reached"], "s", count=2)
+    )
+    return [
+        (
+            "the contact's temperature for ever, mean of both faces",
+            _degrees(ends["interface_degC"]),
+        ),
+        ("its rise over the air", told(ends["interface_rise"], "K")),
+        (near, reached),
+    ]
 
 
 def beyond(numbers: Mapping[str, Any]) -> list[str]:

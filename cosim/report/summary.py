@@ -15,7 +15,15 @@ from cosim.report.contents import assessment_numbers
 from .bounds import bounds_numbers
 from .contents import break_aways, ramp_end, slip_share
 from .coupling import coupling_numbers
-from .heat_numbers import coupling_ledger, heat_ledger, heat_shares, melting, melts, temperatures
+from .heat_numbers import (
+    coupling_ledger,
+    end_of_sliding,
+    heat_ledger,
+    heat_shares,
+    melting,
+    melts,
+    temperatures,
+)
 from .quantities import Quantity, ratio, split_units
 
 Array = NDArray[np.float64]
@@ -139,6 +147,8 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
         numbers["ledger"]["coupling"] = coupling_ledger(dataset)
         numbers["heat_shares"] = heat_shares(dataset)
         numbers["temperatures"] = temperatures(dataset)
+        if ends := end_of_sliding(dataset):
+            numbers["in_the_end"] = ends
         if melts(dataset):
             numbers["melting"] = melting(dataset)
     numbers["after_run_up"] = after_ramp(dataset)

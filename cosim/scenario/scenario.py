@@ -33,7 +33,6 @@ from cosim.scenario.faults import ScenarioError, checked
 from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
-from thermal.belt.air import heated_belt
 from thermal.materials import ICE, MATERIALS
 
 LOG = logging.getLogger(__name__)
@@ -182,26 +181,10 @@ class Scenario(Parameters):
             )
         except ParameterError as error:
             raise ValueError(self._in_keys_of_block(str(error))) from None
-        self._thermal = self._in_still_air(thermal)
+        run, ramp = self.run.duration, min(self.surface.run_up_time, self.run.duration)
+        force = self.friction.mu_k * self.rig.mass * GRAVITY
+        self._thermal = thermal.in_still_air(force, abs(self.surface.speed), run - 0.5 * ramp)
         return self
-
-    def _in_still_air(self, thermal: ThermalParameters) -> ThermalParameters:
-        """With a heat transfer to still air that follows from how warm the block makes the belt."""
-        belt, run, speed = thermal.belt, self.run, abs(self.surface.speed)
-        if belt.still_air_speed == 0.0:
-            return thermal
-        lane = min(belt.width, 2.0 * self.rig.contact_radius)
-        film = heated_belt(
-            belt.still_air_speed,
-            0.5 * belt.length,
-            self.friction.mu_k * self.rig.mass * GRAVITY * speed / (belt.length * lane),
-            belt.capacity_per_area,
-            run.duration - 0.5 * min(self.surface.run_up_time, run.duration),
-            thermal.ambient.temperature_degC,
-            belt.width,
-        )
-        own = belt.model_copy(update={"air_heat_transfer": film, "still_air_speed": 0.0})
-        return thermal.model_copy(update={"belt": own})
 
     def _in_keys_of_block(self, fault: str) -> str:
         """A fault of the contact in the keys that it was made from."""

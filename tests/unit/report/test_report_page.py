@@ -13,6 +13,7 @@ from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import digits, told
 from cosim.report.results import number_tables
+from cosim.report.summary import summary
 
 
 class References(HTMLParser):
@@ -173,3 +174,12 @@ def test_a_run_that_ends_in_its_ramp_has_no_numbers_after_it():
     numbers = {"after_run_up": {"begin": 10.0, "duration": 0.0, "frequency": None}}
     (table,) = number_tables(numbers | {"units": {"after_run_up.begin": "s"}})
     assert table.rows == [("none: the run ends before the ramp does", "10 s")]
+
+
+def test_the_page_says_how_warm_it_gets_in_the_end():
+    dataset = coupled_dataset()
+    ends = summary(dataset)["in_the_end"]
+    assert ends["interface_rise"] > 0.0 and ends["reached"] > dataset["time"][-1] and ends["within"]
+    rows = [row for table in number_tables(summary(dataset)) for row in table.rows]
+    assert ("its rise over the air", told(ends["interface_rise"], "K")) in rows
+    assert any(words == "from then on within 5 % of that rise" for words, _ in rows)
