@@ -16,6 +16,8 @@ from ..result import Row, Study
 ONE_METRE = 1.0
 #: Part of the variance that polynomials may miss without a word.
 MISSED = 0.1
+#: Beyond this part they say nothing.
+_WORTHLESS = 1.0
 #: Two heat transfers to the air that differ by less than this part are the same.
 _SAME = 0.01
 #: K, s or m: less is not told from nothing.
@@ -156,8 +158,9 @@ def _how_sure(answer: Answer) -> list[str]:
             said.append(f"A longer belt does not help all rigs: {question.high.reason}; {why}.")
     if (missed := max(answer.unexplained)) > MISSED:
         said.append(
-            f"The intervals are rough: their polynomials miss {_percent(missed)} of the variance"
-            " of unseen runs; --samples 256 makes them better."
+            f"The intervals are {'rough' if missed < _WORTHLESS else 'worth nothing'}: their"
+            f" polynomials miss {_percent(missed)} of the variance of unseen runs; more --samples"
+            " make them better."
         )
     return said
 
