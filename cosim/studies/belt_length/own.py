@@ -33,6 +33,8 @@ POINTS, RIGS = 40, 2048
 #: The lengths go from this part of the nominal shortest belt to this many times its length: the
 #: rigs of the doubt need hardly less, and up to ten times as much.
 _PART, _TIMES = 0.7, 16.0
+#: And at least to this many times the belt that is there, where nearly any belt does.
+_TIMES_OWN = 4.0
 #: Smallest rise that is told apart from none, in parts of the limit.
 _FLOOR = 0.03
 #: Why there is no doubt where none was wanted.
@@ -170,7 +172,8 @@ def how_long(
     belts = [case.length, *lengths]
     low = max(case.shortest, min(_PART * tried, min(belts)))
     # farther than the belt goes in all runs nothing changes
-    high = max(min(_TIMES * tried, 1.2 * endless, LONGEST), 1.01 * max(belts), 1.5 * low)
+    farthest = max(_TIMES * tried, _TIMES_OWN * case.length)
+    high = max(min(farthest, 1.2 * endless, LONGEST), 1.01 * max(belts), 1.5 * low)
     try:
         rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs)
     except Melts:
