@@ -40,7 +40,7 @@ def in_the_end(
 
     >>> found = in_the_end(ThermalParameters(), 0.15, 1.4, 10.0)
     >>> round(found.rise, 2), round(found.reached, -2)
-    (0.1, 700.0)
+    (0.12, 1000.0)
     """
     waves = min(math.ceil(_WAVES_PER_METRE * max(1.0, parameters.belt.length)), _MOST_WAVES)
     sliding = SteadySliding(parameters, speed, force, waves)

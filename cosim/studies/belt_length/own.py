@@ -155,7 +155,7 @@ def how_long(
     >>> steel = {"thickness": 5e-4, "density": 7850.0, "heat_capacity": 470.0, "conductivity": 45.0}
     >>> own = read_scenario().changed({"belt": {"length": 2.0, "layers": [steel]}})
     >>> how_long(own, limit=0.05, samples=0)
-    <Answer: 0.38 m for 0.05 K at 0.15 m/s; on 2 m 0.0084 K>
+    <Answer: 0.37 m for 0.05 K at 0.15 m/s; on 2 m 0.0085 K>
     """
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
     endless = endless_belt(case).length
