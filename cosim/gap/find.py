@@ -36,7 +36,7 @@ from cosim.gap.result import Gap, Rung, Score
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.asked import Unknowns, asked_of
 from cosim.gap.weak_form.camera_faults import FAULTS, SMOOTHING, filters
-from cosim.gap.weak_form.constants import SCATTER_PRIOR
+from cosim.gap.weak_form.constants import ALIKE, SCATTER_PRIOR
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -128,6 +128,9 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
         ),
     )  # fmt: skip
     step.end()
+    best = max(gap.ranking, key=lambda row: row.evidence, default=None)
+    if not (hints or parts) and best and best.evidence > ALIKE:
+        hints = [best.effect]
     return replace(gap, sentence=sentence_of(gap, parts, hints))
 
 

@@ -13,7 +13,7 @@
     windows of runs that no fit has seen; 1 is noise.
  8. Findings below e^500 that the simulated runs can do without (contact and scatter reach 1.1, and
     they take less than half of what the contact alone leaves) go; `none` is no finding left, and
-    held-out runs at 1.1 at most.
+    held-out runs at 1.1 at most; without any nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.
@@ -62,7 +62,8 @@ def judge(
     """
     before, after = judged(ladder[0].gap), judged(ladder[-1].gap)
     if not findings:
-        return Verdict("none" if after <= NOTHING_MISSING else "unknown", (), ())
+        told = after <= NOTHING_MISSING and ladder[-1].gap.held_out is not None
+        return Verdict("none" if told else "unknown", (), ())
     classes = tuple(
         group for finding, name in zip(findings, names, strict=True)
         if len(group := _alike(finding, name, rates)) > 1

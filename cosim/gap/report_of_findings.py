@@ -10,9 +10,10 @@ from scipy.special import logsumexp
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
+from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.constants import ALIKE
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
 from cosim.gap.weak_form.system import Rung, System
@@ -79,6 +80,8 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
         return f"{found}; this takes {part}, and something else is missing."
     if parts:
         return f"The model lacks something that the catalogue does not hold; nearest: {found}."
+    if gap.ladder[-1].gap.held_out is None and gap.ladder[-1].gap.fit <= NOTHING_MISSING:
+        return "Nothing more is asked for, and no run is held out that would tell if that is so."
     return "The model misses the runs, and nothing that was tried repairs it."
 
 
@@ -184,9 +187,10 @@ def ranking_of(
     else:
         rung = ladder.system.rung().evidence  # of the rows that the offers are of
         evidence = {name: offer[0] - rung for name, offer in ladder.first_offers.items()}
-        # with nothing named, that nothing is missing is among what may be
+        # with nothing named, that nothing is missing is among what may be: beforehand by as much as
+        # a finding is asked for, and by more where the simulated runs do without it
         top = max(evidence.values(), default=0.0)
-        evidence["nothing"] = top + ALIKE if top > 0.0 else 0.0
+        evidence["nothing"] = LEAST_GAIN if top < LEAST_GAIN else top + ALIKE
     total = logsumexp(list(evidence.values()) or [0.0])
     evidence.pop("nothing", None)
     named = {part.finding.name: part for part in parts}

@@ -16,9 +16,11 @@ DESCRIPTION = (
     "Temperature of a belt and of a block of ice that stands on it while the belt runs: friction "
     "heat in, temperature of the interface out"
 )
+#: Of still air about the reference scenario's belt as its run warms it, W/(m2 K).
+STILL_AIR = 6.417402098137803
 #: Where the units start from, beside the defaults of the heat model: its reference scenario.
 REFERENCE: Mapping[str, float] = {
-    "belt.still_air_speed": 0.15,
+    "belt.air_heat_transfer": STILL_AIR,
     "contact.load": 0.67 * 9.81,
 }
 #: Which of the belt's temperatures is read where.
@@ -82,7 +84,7 @@ def reduced_parameters() -> list[Variable]:
         _parameter(
             "belt.air_heat_transfer",
             "W/(m2.K)",
-            6.995090041995661,
+            STILL_AIR,
             "Heat transfer to the air, on each free face of the belt",
             (0.0, 1e4),
         ),

@@ -56,7 +56,8 @@ def _csv(track: Track, numbers: Mapping[str, float]) -> str:
     lines = [
         f"# {quantity(key, number, None).text}: "
         f"{'undone' if key.startswith(UNDONE) else 'still in the data, as it cannot be undone'}"
-        for key, number in numbers.items() if key in BESIDE_THE_MODEL
+        for key, number in numbers.items()
+        if key in BESIDE_THE_MODEL and numbers.get(f"{key}_in", 1.0)
     ]  # fmt: skip
     lines.append(",".join(columns))
     for row in np.stack(list(columns.values()), axis=1):

@@ -84,8 +84,9 @@ def reproduction_line(gap: Gap) -> str:
         off = largest_difference(gap, own_fmu())
     except FmuBuildError as error:
         return f"The FMU was not asked: {error}."
+    moves = "moves as the fitted model does" if off < 1.0 else "does not move as the fitted model"
     return (
-        "The FMU StickSlip3DOF with the numbers of model.toml moves as the fitted model does: "
+        f"The FMU StickSlip3DOF with the numbers of model.toml {moves}: "
         f"over the first cycles of {shown_run(gap).name} their places differ by "
         f"{'less than 0.001' if off < 1e-3 else digits(off, 2)} noise units at most."
     )

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 import textwrap
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import tomli_w
 from stickslip.effects import EFFECTS
 from stickslip.plugins.load import file_of
@@ -58,8 +58,9 @@ def scenario_of(gap: Gap, run: MeasuredRun) -> Scenario:
         tables["rig"]["degrees_of_freedom"] = ("x",)
     tables["surface"]["speed"] = run.surface_speed * (1.0 + fitted.values.get("offset.speed", 0.0))
     put(tables, parameters_of(run, fitted.values))
-    start = map(float, np.nan_to_num(fitted.states[0, :6]))
-    tables["initial"] = dict(zip(STATE, start, strict=True))
+    tables["initial"] = dict(zip(STATE, map(float, fitted.states[0, :6]), strict=True))
+    if math.isnan(tables["initial"]["vx"]):  # it rides on the surface
+        tables["initial"]["vx"] = tables["surface"]["speed"]
     interval = rounded(run.motion.interval, 6)
     tables["run"] = {"duration": float(run.motion.time[-1]), "output_interval": interval}
     tables["coupling"] = {"macro_step": interval}
@@ -86,7 +87,7 @@ def file_text(
     for table in sorted(filter(given.get, given), key=lambda table: table not in FIRST):
         lines += ["", f"[{table}]"]
         for key, value in given[table].items():
-            said = _comment(f"{table}.{key}", known.get(f"{table}.{key}"))
+            said = _comment(f"{table}.{key}", value, known.get(f"{table}.{key}"))
             lines.append(f"{_entry(key, value):<34}  # {said}")
     return "\n".join(lines) + "\n"
 
@@ -162,10 +163,12 @@ def _entry(key: str, value: Any) -> str:
     return re.sub(r"\s*\n\s*", " ", text).replace("[ ", "[").replace(", ]", "]")
 
 
-def _comment(key: str, known: Quantity | None) -> str:
-    """`meaning, unit; interval`."""
+def _comment(key: str, value: Any, known: Quantity | None) -> str:
+    """`meaning, unit; interval`; a run's own friction may lie outside the campaign's."""
     unit, meaning = unit_and_meaning(key)
     said = ", ".join(filter(None, (re.split(r"[:;\[]", meaning)[0].strip(), unit)))
     if known is None:
         return said
-    return f"{said}; {f'fitted, 90 %: {known.interval}' if known.interval else known.value}"
+    if known.interval and known.holds(value):
+        return f"{said}; fitted, 90 %: {known.interval}"
+    return f"{said}; {known.value if not known.interval else 'of this run'}"

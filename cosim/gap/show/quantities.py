@@ -53,6 +53,11 @@ class Quantity:
         """Its key, where a scenario has that; else its meaning."""
         return self.meaning if self.key in BESIDE_THE_MODEL else self.key
 
+    def holds(self, value: float) -> bool:
+        """Whether a value in the unit shown is in the interval, to its digits."""
+        low, high = (float(end.replace("−", "-")) for end in self.interval.split(" to "))
+        return low - 0.5 * (high - low) <= value <= high + 0.5 * (high - low)
+
     @property
     def text(self) -> str:
         """`name = value unit (low to high)`, or `name not determined`."""

@@ -29,8 +29,8 @@ from .trial import try_terms
 #: The tables of a scenario that are no effects.
 TABLES = (
     *("rig", "springs", "friction", "surface", "initial", "imperfections", "solver"),
-    *("name", "effects", "defaults", "ambient", "belt", "ice", "contact", "run", "coupling"),
-    *("input", "measurement", "offset"),  # of the unit, and of the names that `gap` gives
+    *("name", "effects", "defaults", "ambient", "belt", "block", "ice", "contact", "run"),
+    *("coupling", "input", "measurement", "offset"),  # of the unit, and `gap`
 )
 #: Of the file of an effect.
 MOST_BYTES = 2**20

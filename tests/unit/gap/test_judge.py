@@ -37,6 +37,13 @@ def test_nothing_is_missing_up_to_a_tenth_more_than_noise(gap, verdict):
     assert judged([], gap, gap) == (verdict, ())
 
 
+def test_no_run_alone_shows_that_nothing_is_missing():
+    alone = [rung(9.0, None), rung(1.0, None)]
+    assert judge([], [], alone, PHYSICS).verdict == "unknown"
+    gap = SimpleNamespace(verdict="unknown", effects=(), doubts=(), ladder=alone)
+    assert "no run is held out" in sentence_of(gap, [])
+
+
 @pytest.mark.parametrize(("gap", "verdict"), [(1.29, "named"), (1.31, "unknown")])
 def test_what_is_named_explains_the_runs(gap, verdict):
     assert judged(["run_in"], 5.0, gap, 0.5)[0] == verdict

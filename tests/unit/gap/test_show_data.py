@@ -124,6 +124,18 @@ def test_residuals_stand_at_their_samples(gap):
     assert np.isnan(residuals(run, fitted, "y")).all()
 
 
+def test_a_block_that_rides_on_the_surface_does_so_in_the_model(gap):
+    """Where a window begins in a stick its velocity is that of the surface."""
+    run = shown_run(gap)
+    fitted = gap.extended.run(run.name)
+    states = fitted.states.copy()
+    states[0, 3] = np.nan
+    runs = tuple(replace(one, states=states) if one is fitted else one for one in gap.extended.runs)
+    riding = replace(gap, extended=replace(gap.extended, runs=runs))
+    scenario = scenario_of(riding, run)
+    assert scenario.initial.vx == scenario.surface.speed != 0.0
+
+
 # --- measurement faults ---
 
 
