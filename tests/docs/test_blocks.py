@@ -19,6 +19,7 @@ from gap_campaigns import noisy, write_campaign
 from notebooks import PAGES, is_notebook, source
 from sessions import fences, typed
 
+from cosim import read_scenario
 from cosim.gap import read_campaign
 
 HERE = Path(__file__).resolve().parent
@@ -58,6 +59,7 @@ TABLES = {
     "[springs]": ("test_readme.py", "test_the_scenario_is_one"),
     "[[run]]": ("test_readme.py", "test_the_campaign_is_one"),
     "friction_table": ("test_blocks.py", "test_the_campaign_with_a_table_is_one"),
+    "[block]": ("test_blocks.py", "test_the_block_of_steel_is_one"),
     "[units]": ("test_readme.py", "test_the_system_is_one"),
     "[project.entry-points.": ("test_blocks.py", "test_the_entry_point_is_one"),
 }
@@ -110,6 +112,15 @@ def test_the_campaign_with_a_table_is_one(tmp_path):
         (0.0, 0.4),
         (0.22, 0.17),
     )
+
+
+def test_the_block_of_steel_is_one(tmp_path):
+    page = SITE / "guide" / "scenario.md"
+    (block,) = [text for file, _, text in PRINTED if file == page and "[block]" in text]
+    (tmp_path / "steel.toml").write_text(block + "[run]\nduration = 0.5\n", encoding="utf-8")
+    scenario = read_scenario(tmp_path / "steel.toml")
+    assert (scenario.block.material, scenario.ambient.temperature_degC) == ("steel", 20.0)
+    assert scenario.thermal.ice.melting_point_degC == np.inf
 
 
 INSTALLED = """
