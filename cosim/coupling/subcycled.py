@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 from cosim.coupling.conversion import watts
@@ -46,6 +47,13 @@ class Subcycled:
         """Those of the participant."""
         return self._inner.ports
 
+    @cached_property
+    def _powers(self) -> tuple[str, ...]:
+        """Outputs that are a power."""
+        outputs = ((name, port) for name, port in self.ports.items()
+                   if port.causality is Causality.OUTPUT)  # fmt: skip
+        return tuple(name for name, port in outputs if watts(port) is not None)
+
     @property
     def capabilities(self) -> Capabilities:
         """Those of the participant, and it follows waveforms."""
@@ -63,16 +71,14 @@ class Subcycled:
 
     def step(self, time: float, size: float) -> float | None:
         """The macro step, in parts; ends with the part that ends early."""
-        powers = [name for name, port in self.ports.items()
-                  if port.causality is Causality.OUTPUT and watts(port) is not None]  # fmt: skip
-        sums, reached = dict.fromkeys(powers, 0.0), None
+        sums, reached = dict.fromkeys(self._powers, 0.0), None
         for n in range(self.substeps):
             began, ended = (size * k / self.substeps for k in (n, n + 1))
             self._follow(began, ended - began)
             reached = self._inner.step(time + began, ended - began)
             there = ended if reached is None else reached - time
-            values = self._inner.read() if powers else {}
-            for name in powers:
+            values = self._inner.read() if sums else {}
+            for name in sums:
                 sums[name] += values[name] * (there - began)
             if reached is not None:
                 break

@@ -37,9 +37,10 @@ from cosim.gap.windows.windows import moves_across
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
 TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
 
-#: Parameters of laws of the sliding speed that say how strong they are.
 #: A fault is at most so many times as large as is expected of one.
 MOST_FAULT = 5.0
+
+#: Parameters of laws of the sliding speed that say how strong they are.
 STRENGTHS = ("coefficient", "root_coefficient", "power", "saturating", "linear", "hyperbolic",
              "stribeck", "logarithmic")  # fmt: skip
 

@@ -101,13 +101,6 @@ class Unknown:
             first = last
         return columns
 
-    def covariance(self, runs: int, scale: float = 1.0, bend: float = 0.0) -> np.ndarray:
-        """Of all of them, for so many runs; bend : of a curve, in parts of its straight line."""
-        prior = scale**2 * self.prior
-        if self.bends is not None:
-            prior = prior + (scale * bend) ** 2 * self.bends
-        return np.kron(np.eye(runs), prior) if self.per_run else prior
-
 
 def column(values: Sequence[float] | np.ndarray) -> np.ndarray:
     """(n, 1)"""

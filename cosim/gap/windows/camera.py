@@ -21,8 +21,6 @@ from cosim.gap.weak_form.camera_faults import ACROSS, COURSES
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
-#: Courses of a zero that creeps, by the number that `measurement.drift_course` has.
-COURSE_NUMBERS = {name: number for number, name in enumerate(COURSES)}
 
 
 def fault(values: Mapping[str, float], name: str) -> float:
