@@ -32,7 +32,7 @@ from cosim.gap.report_of_findings import (
     text_of,
     where_of,
 )
-from cosim.gap.result import Gap, Rung, Score
+from cosim.gap.result import Doubt, Gap, Rung, Score
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.asked import Unknowns, asked_of
 from cosim.gap.weak_form.camera_faults import FAULTS, SMOOTHING, filters
@@ -97,11 +97,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     found = [part.effect for part in parts]
     rates = rates_of(ladder, named.unknowns)
     verdict = judge(named.findings, found, models.ladder, _physics(), rates)
-    if explains(models.ladder):
-        # with findings the model has swings that those springs alone have not; without them nothing
-        # rests on the rows, which need finer samples than simulated runs do
-        answered = "springs" if parts else "sampling"
-        doubts = tuple(replace(one, severe=one.severe and one.check != answered) for one in doubts)
+    doubts = _unanswered(doubts, models.ladder, bool(parts))
     if any(doubt.severe for doubt in doubts):
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
@@ -205,6 +201,16 @@ def _at_corners(
     return (
         (cornered, found, {**unknowns, **smoothing}) if found.findings else (rows, ladder, unknowns)
     )
+
+
+def _unanswered(doubts: Sequence[Doubt], ladder: Sequence[Rung], found: bool) -> tuple[Doubt, ...]:
+    """Doubts, of which what the simulated runs answer is not severe.
+
+    With findings the model has swings that those springs alone have not; without them nothing rests
+    on the rows, which need finer samples than simulated runs do.
+    """
+    answered = ("springs" if found else "sampling") if explains(ladder) else None
+    return tuple(replace(one, severe=one.severe and one.check != answered) for one in doubts)
 
 
 def _across(planar: Planar) -> Iterator[Finding]:
