@@ -100,6 +100,9 @@ class UnitSlave(Fmi2Slave):
     #: Whether inputs that are set after initialisation and before the first step count as if they
     #: had been there from the beginning; else only steps know of them.
     begins_with_inputs = True
+    #: An input beyond a bound, by at most this part of its nominal, is one that a host varies for a
+    #: difference, or rounding: it is taken for the bound.
+    slack = 0.02
 
     def begin(self):
         """Begin a run from what is `given` and the `parameters`; `show` the outputs."""
@@ -128,6 +131,8 @@ class UnitSlave(Fmi2Slave):
         self.cells = []
         # value reference -> lowest and highest value, and whether the lowest itself is excluded
         self.bounds = {}
+        # value reference of an input -> how far beyond its bounds it is taken for them
+        self.slacks = {}
         # value reference -> where the model has it
         self.input_slots, self.output_slots, self.parameter_names = {}, {}, {}
         self.phase, self.failure = INSTANTIATED, ""
@@ -139,10 +144,11 @@ class UnitSlave(Fmi2Slave):
         self.stale = True
         self.retuned = False  # tunable parameters have changed since the last step
 
-    def add_input(self, name, slot, start, low, high):
-        """An input and its bounds."""
+    def add_input(self, name, slot, start, low, high, nominal):
+        """An input, its bounds and a size of it that counts."""
         reference = self._register(Real, name, start, causality=Fmi2Causality.input)
         self._bound(reference, low, high)
+        self.slacks[reference] = self.slack * nominal
         self.input_slots[reference] = slot
 
     def add_output(self, name, slot, integer):
@@ -335,6 +341,7 @@ class UnitSlave(Fmi2Slave):
         for reference, value in zip(references, values, strict=True):
             self._check_reference(reference, kind)
             self._check_settable(reference)
+            value = self._clipped(reference, value)
             self._check_value(reference, value)
             self._set(reference, value)
 
@@ -356,6 +363,11 @@ class UnitSlave(Fmi2Slave):
         is_fixed = reference in self.parameter_names and name not in self.tunable
         if is_fixed and self.phase not in BEFORE_THE_RUN:
             raise Refused(f"{name} is fixed and cannot be set after initialisation")
+
+    def _clipped(self, reference, value):
+        low, high, _ = self.bounds[reference]
+        nearest = min(max(value, low), high)
+        return nearest if abs(value - nearest) <= self.slacks.get(reference, 0.0) else value
 
     def _check_value(self, reference, value):
         name, (low, high, above_low) = self.vars[reference].name, self.bounds[reference]

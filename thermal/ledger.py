@@ -29,13 +29,19 @@ class HeatLedger:
     ice: float = 0.0
 
     @property
+    def stored(self) -> float:
+        """In belt, ice and melt water."""
+        return self.belt + self.ice + self.meltwater
+
+    @property
+    def lost(self) -> float:
+        """To air and supports, less what rubbing on the railing brings."""
+        return self.to_air + self.to_supports - self.from_railing
+
+    @property
     def residual(self) -> float:
         """Received less everything found: 0 up to rounding."""
-        return (
-            self.received
-            + self.from_railing
-            - (self.belt + self.ice + self.to_air + self.to_supports + self.meltwater)
-        )
+        return self.received - (self.stored + self.lost)
 
     @property
     def belt_share(self) -> float:

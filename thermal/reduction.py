@@ -51,13 +51,15 @@ class ReducedBelt:
     """n trial functions through the thickness, per metre of belt.
 
     conduction (n, n) W/(m K); film (n, n) m, to be multiplied by h; along (n, n) m2/s, to be
-    multiplied by a wave number squared; face (n,): values at the contact face.
+    multiplied by a wave number squared; face (n,): values at the contact face; heat (n,): what
+    amplitude 1 stores, J/m.
     """
 
     conduction: Array
     film: Array
     along: Array
     face: Array
+    heat: Array
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ class ReducedIce:
     """n trial functions of the block; the forms of `thermal.ice.space`, (n, n).
 
     across, upwards W/K; side, top m2, to be multiplied by h; sinking W/K for 1 m/s; contact (n,):
-    mean over the contact, and load of 1 W there.
+    mean over the contact, and load of 1 W there; heat (n,): what amplitude 1 stores, J.
     """
 
     across: Array
@@ -74,6 +76,7 @@ class ReducedIce:
     top: Array
     sinking: Array
     contact: Array
+    heat: Array
     weight: float
 
 
@@ -130,8 +133,9 @@ def _belt(belt: Belt, lane: float) -> ReducedBelt:
     contact_face = np.zeros(basis.N)
     contact_face[np.argmin(basis.doflocs[0])] = 1.0
     trial = _answers(stored, conduction, conduction + belt.film * film, contact_face)
+    trial, heat = _constant_first(trial, trial.T @ stored.sum(axis=0))
     conduction, film, along = (trial.T @ form @ trial for form in (conduction, film, along))
-    return ReducedBelt(conduction, film, along, contact_face @ trial)
+    return ReducedBelt(_conserving(conduction), film, along, face=contact_face @ trial, heat=heat)
 
 
 def _answers(stored: Array, conduction: Array, loss: Array, load: Array) -> Array:
@@ -153,17 +157,19 @@ def _ice(space: IceSpace, air: float, heat_capacity: float) -> ReducedIce:
     windy = _loss(space, _WIND / air)
     found = [np.linalg.solve(shift * space.capacity + windy, space.contact) for shift in _SLOW]
     trial = _orthonormal(np.column_stack([trial, *found]), space.capacity)
+    trial, heat = _constant_first(trial, trial.T @ space.heat)
     across, upwards, side, top = (
         (factor @ trial).T @ (factor @ trial)
         for factor in (space.across, space.upwards, space.side, space.top)
     )
     return ReducedIce(
-        across=across,
-        upwards=upwards,
+        across=_conserving(across),
+        upwards=_conserving(upwards),
         side=side / air,
         top=top / air,
         sinking=trial.T @ space.sinking @ trial,
         contact=trial.T @ space.contact,
+        heat=heat,
         weight=GRAVITY * space.whole_capacity / heat_capacity,
     )
 
@@ -181,3 +187,21 @@ def _orthonormal(functions: Array, capacity: Array) -> Array:
     scaled = lower.T @ functions
     basis, sizes, _ = np.linalg.svd(scaled / np.linalg.norm(scaled, axis=0), full_matrices=False)
     return np.linalg.solve(lower.T, basis[:, sizes > _SAME * sizes[0]])
+
+
+def _constant_first(trial: Array, heat: Array) -> tuple[Array, Array]:
+    """The same space (N, n), its first function the constant, and the heat (n,) of each.
+
+    heat (n,): of each function now, J for amplitude 1. Of orthonormal functions these are the
+    coefficients of the constant, which is in the space.
+    """
+    size = np.linalg.norm(heat)
+    rotation, _ = np.linalg.qr(heat[:, None], mode="complete")
+    rotation[:, 0] *= np.sign(rotation[:, 0] @ heat)
+    return trial @ rotation, np.append(size, np.zeros(heat.size - 1))
+
+
+def _conserving(form: Array) -> Array:
+    """Conduction (n, n) without what rounding lets the constant lose: it conducts nothing."""
+    form[0, :] = form[:, 0] = 0.0
+    return form

@@ -39,7 +39,12 @@ def table_lines(variables: Sequence[Variable]) -> list[str]:
         for place, variable in enumerate(elements)
     ]
     includes = ["#include <math.h>", "", '#include "unit.h"', ""]
-    return [*includes, "const Variable VARIABLES[VARIABLE_COUNT] = {", *rows, "};", ""]
+    nominals = [_number(each.nominal or 1.0) for each in variables if each.causality == "input"]
+    return [
+        *includes,
+        *("const Variable VARIABLES[VARIABLE_COUNT] = {", *rows, "};"),
+        *(f"const double INPUT_NOMINALS[] = {{{', '.join(nominals)}}};", ""),
+    ]
 
 
 def guarded(name: str, lines: Iterable[str]) -> str:
@@ -63,10 +68,8 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
     lines += ["/* Where the kernel keeps each output. */", "extern const int OUTPUT_SLOTS[];"]
     lines += ["/* Where each local variable is among the states and, behind them, their rates. */"]
     lines += ["extern const int LOCAL_SLOTS[];"]
-    lines += [
-        "/* Value reference of each continuous state, and a size of each input that counts. */"
-    ]
-    lines += ["extern const int STATE_REFERENCES[];", "extern const double INPUT_NOMINALS[];"]
+    lines += ["/* Value reference of each continuous state. */"]
+    lines += ["extern const int STATE_REFERENCES[];"]
     lines += [
         "/* Of each random number: its seed among the parameters; uniform, or else normal. */"
     ]
@@ -77,7 +80,6 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
 def variables_source(variables: Sequence[Variable]) -> str:
     """The table of the variables, and where the kernel keeps what they show."""
     places = constants()
-    nominals = [_number(each.nominal or 1.0) for each in variables if each.causality == "input"]
     slots = [str(places[each.slot]) for each in variables if each.causality == "output"]
     return "\n".join(
         [
@@ -86,7 +88,6 @@ def variables_source(variables: Sequence[Variable]) -> str:
             _whole_numbers("OUTPUT_SLOTS", slots),
             _whole_numbers("LOCAL_SLOTS", map(str, local_slots(variables))),
             _whole_numbers("STATE_REFERENCES", map(str, state_references(variables))),
-            f"const double INPUT_NOMINALS[] = {{{', '.join(nominals)}}};",
             _whole_numbers("DRAW_SEED", (f"{seed:g}" for seed in DRAW_SEED)),
             _whole_numbers("DRAW_UNIFORM", (f"{kind:g}" for kind in DRAW_UNIFORM)),
             "",

@@ -251,9 +251,9 @@ def variables_module(table: list[Entry], content: str) -> bytes:
     values = {
         "BUILD": content,
         "GUID": guid_of(NAME, content),
-        # (name, place in u, start, min, max) and (name, place in o, is an integer)
+        # (name, place in u, start, min, max, nominal) and (name, place in o, is an integer)
         "INPUTS": [
-            (each.name, getattr(layout, each.slot), each.start, each.min, each.max)
+            (each.name, getattr(layout, each.slot), each.start, each.min, each.max, each.nominal)
             for each in ports.INPUTS
         ],
         "OUTPUTS": [

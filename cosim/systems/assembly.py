@@ -26,7 +26,7 @@ from cosim.coupling.fmu.description import describe, faults_of
 from cosim.coupling.fmu.variables import scalars, unit_of
 from cosim.coupling.methods import control_of, scheme_of
 from cosim.coupling.participant import Causality
-from cosim.coupling.system import Address, find_port
+from cosim.coupling.system import ENERGY_UNIT, Address, find_port
 from cosim.coupling.tolerance import Tolerance
 from cosim.names import unknown_name
 from cosim.systems.faults import SystemFault, naming
@@ -75,8 +75,9 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
     for link in specification.links:
         with naming(source, link.place):
             affine, remark = _conversion(specification, by_name, link)
+        taken = link.taken or _receipt(by_name, link)
         connections.append(
-            Connection(link.source, link.sink, link.taken, transformation=affine, converts=False)
+            Connection(link.source, link.sink, taken, transformation=affine, converts=False)
         )
         if remark:
             remarks.append(f"{link}: {remark}")
@@ -203,6 +204,16 @@ def _conversion(
         affine = affine.then(hop.transformation)
         here = there
     return affine, "; ".join(dict.fromkeys(filter(None, remarks)))
+
+
+def _receipt(participants: Mapping[str, Participant], link: Link) -> str | None:
+    """Of joules into ``heat``, the output ``heat_received`` beside it, where there is one."""
+    sink = Address.parse(link.sink)
+    ports, name = participants[sink.participant].ports, f"{sink.port}_received"
+    receipt = ports.get(name)
+    is_one = receipt is not None and receipt.causality is Causality.OUTPUT
+    both = {port.unit for port in (ports[sink.port], receipt) if port is not None}
+    return name if is_one and both == {ENERGY_UNIT} else None
 
 
 def _end(

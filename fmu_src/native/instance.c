@@ -275,19 +275,18 @@ static bool may_be_set(Instance *instance, const Variable *variable)
     return true;
 }
 
-/* An input next to a bound, beyond it, is one that a host varies for a difference: it is taken for
-   the bound. By up to this part of its nominal. */
+/* An input next to a bound, beyond it, is one that a host varies for a difference, or rounding: it is
+   taken for the bound. By up to this part of its nominal. */
+static const double SLACK = HAS_EXCHANGE ? 0.02 : 1e-6;
+
 static double clipped(const Variable *variable, size_t reference, double value)
 {
-#if HAS_EXCHANGE
     if (variable->causality == INPUT) {
-        double slack = 0.02 * INPUT_NOMINALS[reference - FIRST_INPUT];
+        double slack = SLACK * INPUT_NOMINALS[reference - FIRST_INPUT];
         bool below = value < variable->low && value >= variable->low - slack;
         bool above = value > variable->high && value <= variable->high + slack;
         return below ? variable->low : above ? variable->high : value;
     }
-#endif
-    (void)variable, (void)reference;
     return value;
 }
 

@@ -34,6 +34,7 @@ typedef struct {
 } Variable;
 
 extern const Variable VARIABLES[VARIABLE_COUNT];
+extern const double INPUT_NOMINALS[INPUT_COUNT]; /* a size of each input that counts */
 
 /* Read what the model needs from the unit's resources, a URI or NULL, before anything else; once. */
 bool model_read(Model *model, const char *resources, char message[]);

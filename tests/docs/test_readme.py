@@ -90,7 +90,7 @@ def test_the_system_is_one(tmp_path):
     (tmp_path / "system.toml").write_text(toml_with("units"), encoding="utf-8")
     with read_system(tmp_path / "system.toml") as system:
         assert [str(link) for link in system.links] == [
-            "mechanics.heat_flow -> thermal.heat_flow",
+            "mechanics.heat -> thermal.heat",
             "mechanics.surface_speed_actual -> thermal.surface_speed",
             "mechanics.x -> thermal.x",
             "thermal.interface_temperature -> mechanics.interface_temperature",

@@ -122,7 +122,7 @@ def build(directory: Path) -> Path:
         "BUILD": content,
         "GUID": facts.guid,
         "INPUTS": [
-            (each.name, each.name, each.start, each.min, each.max)
+            (each.name, each.name, each.start, each.min, each.max, each.nominal)
             for each in declared
             if each.causality == "input"
         ],

@@ -13,12 +13,13 @@ from cosim.fmu.variables import Variable, names
 from thermal import BeltIceModel, ThermalParameters
 
 EXPERIMENT = Experiment(10.0, 0.05, 1e-6)
-#: Time, s -> heat flow, W, speed of the belt, m/s, and place of the block, m; linear in between.
+#: Time, s -> heat flow, W, speed of the belt, m/s, place of the block, m, and running total of the
+#: heat, which is not used here, J; linear in between.
 INPUTS: tuple[Row, ...] = (
-    (0.0, (0.0, 0.15, 0.0)),
-    (4.0, (0.5, 0.15, 0.02)),
-    (7.0, (0.2, 0.30, -0.01)),
-    (10.0, (0.3, 0.05, 0.0)),
+    (0.0, (0.0, 0.15, 0.0, 0.0)),
+    (4.0, (0.5, 0.15, 0.02, 0.0)),
+    (7.0, (0.2, 0.30, -0.01, 0.0)),
+    (10.0, (0.3, 0.05, 0.0, 0.0)),
 )
 
 
@@ -46,7 +47,7 @@ def _rows(parameters: ThermalParameters, outputs: list[str]) -> Iterator[Row]:
     x = INPUTS[0][1][2]
     yield 0.0, _values(model, outputs)
     for begin, end in pairwise(EXPERIMENT.times):
-        heat_flow, speed, place = (float(np.interp(begin, points, each)) for each in curves)
+        heat_flow, speed, place, _ = (float(np.interp(begin, points, each)) for each in curves)
         size = end - begin
         model.step(size, heat_flow * size, speed * size - (place - x), speed * size)
         x = place
@@ -54,5 +55,6 @@ def _rows(parameters: ThermalParameters, outputs: list[str]) -> Iterator[Row]:
 
 
 def _values(model: BeltIceModel, outputs: list[str]) -> list[float]:
-    values = model.outputs()
+    ledger = model.ledger
+    values = model.outputs() | {"heat_stored": ledger.stored, "heat_to_air": ledger.lost}
     return [values[name] for name in outputs]

@@ -1,6 +1,6 @@
 """The file in the resources of BeltIceThermal.fmu: the matrices of the heat model, as C reads them.
 
-A header of 64 bytes, little-endian: "BELTICE" and a zero byte; the number 0x01020304; version 1;
+A header of 64 bytes, little-endian: "BELTICE" and a zero byte; the number 0x01020304; version 2;
 four sizes: cells, trial functions through the thickness, trial functions of the ice, strips; 8
 bytes of nothing; how many numbers follow; FNV-1a of 64 bits over all of the header before it and of
 the numbers; 8 bytes of nothing. Then the numbers, 8 bytes each, in the order of
@@ -17,6 +17,8 @@ from thermal import ThermalParameters
 from thermal.reduction import Reduction, reduce
 
 FILE = "beltice.bin"
+#: Of the file's layout, as in resources.c.
+VERSION = 2
 #: What there is room for, as in model.h.
 MOST_CELLS, MOST_FIELD, MOST_ICE, MOST_STRIPS, MOST_WINDOW = 4096, 32768, 40, 32, 256
 
@@ -68,10 +70,11 @@ def packed(made: Reduction) -> bytes:
         *(np.array(scalars), np.array(list(starts(made).values()))),
         *(belt.conduction, belt.film, belt.along, belt.face),
         *(ice.across, ice.upwards, ice.side, ice.top, ice.sinking, ice.contact),
+        *(belt.heat, ice.heat),
     ]
     numbers = np.concatenate([array.ravel() for array in arrays]).astype("<f8")
     sizes = (p.belt.cells, belt.face.size, ice.contact.size, footprint.strips)
-    header = struct.pack("<8sII4iqQ", b"BELTICE", 0x01020304, 1, *sizes, 0, numbers.size)
+    header = struct.pack("<8sII4iqQ", b"BELTICE", 0x01020304, VERSION, *sizes, 0, numbers.size)
     body = numbers.tobytes()
     return header + struct.pack("<QQ", _checksum(header + body), 0) + body
 

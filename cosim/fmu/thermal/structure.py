@@ -29,11 +29,13 @@ MECHANICS, THERMAL = "mechanics", "thermal"
 SET, SET_FILE = "reference", "resources/reference.ssv"
 #: Output -> input: heat and travel of a step, and what the step leaves to the next.
 CONNECTIONS = (
-    ((MECHANICS, "heat_flow"), (THERMAL, "heat_flow")),
+    ((MECHANICS, "heat"), (THERMAL, "heat")),
     ((MECHANICS, "surface_speed_actual"), (THERMAL, "surface_speed")),
     ((MECHANICS, "x"), (THERMAL, "x")),
     ((THERMAL, "interface_temperature"), (MECHANICS, "interface_temperature")),
 )
+#: Outputs that are not connected: with them, who runs the system checks the balance of the heat.
+BALANCE = ("heat_received", "heat_stored", "heat_to_air")
 _NAMES = {
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
@@ -124,6 +126,7 @@ def _add_component(
     )
     known = {each.name: each for each in declared}
     ends = [end for connection in CONNECTIONS for end in connection if end[0] == name]
+    ends += [(name, port) for port in BALANCE if port in known]
     connectors = SubElement(component, _of("ssd", "Connectors"))
     for _, port in ends:
         variable = known[port]

@@ -23,6 +23,7 @@ REFERENCE: Mapping[str, float] = {
     "belt.air_heat_transfer": STILL_AIR,
     "contact.load": 0.67 * 9.81,
 }
+AIR = "Heat given to the air, and to what supports the belt less what rubbing there makes"
 #: Which of the belt's temperatures is read where.
 _EDGE = "face of the belt an eighth of the contact's length"
 
@@ -31,13 +32,28 @@ def inputs() -> list[Variable]:
     """Held over a step."""
     return [
         Variable(
-            "heat_flow", "input", "W", 0.1, "Friction heat, mean of the step, >= 0", start=0.0
+            "heat_flow",
+            "input",
+            "W",
+            0.1,
+            "Friction heat, mean over the step; does not count once heat has changed",
+            min=0.0,
+            start=0.0,
         ),
         Variable(
             "surface_speed", "input", "m/s", 0.1, "Speed of the belt, mean over the step", start=0.0
         ),
         Variable(
             "x", "input", "m", 0.1, "Position of the block along the belt's motion", start=0.0
+        ),
+        Variable(
+            "heat",
+            "input",
+            "J",
+            1.0,
+            "Friction heat, running total: what it has risen by since the last step is the heat of "
+            "this one; from its first change on it counts in place of heat_flow",
+            start=0.0,
         ),
     ]
 
@@ -54,6 +70,11 @@ def outputs() -> list[Variable]:
         ),
         _output("melt_rate", "kg/s", 1e-6, "Ice that melts, mean over the step; below 0: freezes"),
         _output("melted_mass", "kg", 1e-3, "Ice that has melted since the start"),
+        _output("heat_received", "J", 1.0, "Friction heat taken in: heat_stored + heat_to_air"),
+        _output(
+            "heat_stored", "J", 1.0, "Heat in belt, ice and melt water, from the air's temperature"
+        ),
+        _output("heat_to_air", "J", 1.0, AIR),
     ]
 
 

@@ -32,7 +32,11 @@ void belt_begin(Belt *belt, const Tables *tables, double film)
     for (int m = 0; m < n; m++) {
         for (int i = 0; i < n; i++) {
             belt->face[m] += tables->face[i] * shapes[i * n + m];
+            belt->heat[m] += tables->belt_heat[i] * shapes[i * n + m];
             for (int j = 0; j < n; j++) {
+                /* a film takes of each function what it takes of a belt that is as warm all over */
+                belt->air[m] += film * shapes[i * n + m] * tables->film[i * n + j] *
+                                tables->belt_heat[j];
                 belt->along[m] += shapes[i * n + m] * tables->along[i * n + j] * shapes[j * n + m];
             }
         }
@@ -157,11 +161,34 @@ void belt_conduct(Belt *belt, const Tables *tables, double duration)
     }
 }
 
-static void relax(Belt *belt, const Tables *tables, double duration)
+/* Sums of the amplitudes over all nodes. */
+static void add_up(const Belt *belt, const Tables *tables, double sums[])
 {
-    double decay[MOST_MODES];
+    memset(sums, 0, MOST_MODES * sizeof *sums);
+    for (int i = 0; i < tables->cells; i++) {
+        const double *node = belt->field + i * tables->modes;
+        for (int m = 0; m < tables->modes; m++) {
+            sums[m] += node[m];
+        }
+    }
+}
+
+double belt_stored(const Belt *belt, const Tables *tables)
+{
+    double sums[MOST_MODES];
+    add_up(belt, tables, sums);
+    return belt_cell(tables) * dot(tables->modes, belt->heat, sums);
+}
+
+/* Decay without flux; heat to the air, J. */
+static double relax(Belt *belt, const Tables *tables, double duration)
+{
+    double decay[MOST_MODES], sums[MOST_MODES], to_air = 0.0;
+    add_up(belt, tables, sums);
     for (int m = 0; m < tables->modes; m++) {
-        decay[m] = exp(-belt->rates[m] * duration);
+        double x = belt->rates[m] * duration;
+        decay[m] = exp(-x);
+        to_air += belt->air[m] * sums[m] * duration * mean_decay(x);
     }
     for (int i = 0; i < tables->cells; i++) {
         double *node = belt->field + i * tables->modes;
@@ -169,6 +196,16 @@ static void relax(Belt *belt, const Tables *tables, double duration)
             node[m] *= decay[m];
         }
     }
+    return belt_cell(tables) * to_air;
+}
+
+double belt_loss(const Belt *belt, const Tables *tables, double duration)
+{
+    double sum = 0.0;
+    for (int m = 0; m < tables->modes; m++) {
+        sum += belt->air[m] * belt->face[m] * mean_response(belt->rates[m] * duration);
+    }
+    return sum * duration * duration;
 }
 
 /* Amplitude at the end of a step for 1 W on a node. */
@@ -178,24 +215,26 @@ static double forced(const Belt *belt, const Tables *tables, double duration, in
     return belt->face[mode] * duration * mean / belt_cell(tables);
 }
 
-void belt_advance(Belt *belt, const Tables *tables, double duration, const Window *window,
-                  const double fluxes[])
+double belt_advance(Belt *belt, const Tables *tables, double duration, const Window *window,
+                    const double fluxes[])
 {
     int modes = tables->modes;
-    double entering[MOST_MODES];
+    double entering[MOST_MODES], power = 0.0;
     for (int m = 0; m < modes; m++) {
         entering[m] = forced(belt, tables, duration, m);
     }
-    relax(belt, tables, duration);
+    double to_air = relax(belt, tables, duration);
     for (int s = 0; s < tables->strips; s++) {
         for (int k = window->begin[s]; k < window->end[s]; k++) {
             double load = fluxes[s] * window->loads[s][k];
+            power += load;
             double *node = belt->field + belt_node(tables, window->first + k) * modes;
             for (int m = 0; m < modes; m++) {
                 node[m] += entering[m] * load;
             }
         }
     }
+    return to_air + power * belt_loss(belt, tables, duration);
 }
 
 double belt_rise(const Belt *belt, const Tables *tables, double duration)

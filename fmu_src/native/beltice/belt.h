@@ -41,12 +41,18 @@ void belt_find(const Belt *belt, const Tables *tables, double duration, double c
 /* Conduction along the belt over a time, s; of a step, half before all else and half behind it. */
 void belt_conduct(Belt *belt, const Tables *tables, double duration);
 
-/* Advance under fluxes (strips) W/m2, without conduction along the belt. */
-void belt_advance(Belt *belt, const Tables *tables, double duration, const Window *window,
+/* Heat in the belt above the air's temperature, J. */
+double belt_stored(const Belt *belt, const Tables *tables);
+
+/* Advance under fluxes (strips) W/m2, without conduction along the belt; what its faces give to the
+   air, J, as if all of both were free. */
+double belt_advance(Belt *belt, const Tables *tables, double duration, const Window *window,
                   const double fluxes[]);
 
-/* Rise of the face for 1 W on every node over a step, K/W; heat (W on a node) that freezes there. */
+/* Rise of the face for 1 W on every node over a step, K/W; heat that goes to the air for 1 W into
+   the face, J/W; heat (W on a node) that freezes there. */
 double belt_rise(const Belt *belt, const Tables *tables, double duration);
+double belt_loss(const Belt *belt, const Tables *tables, double duration);
 void belt_heat_node(Belt *belt, const Tables *tables, double duration, int node, double power);
 
 /* The face at a node, and at a place, m, between two nodes. */

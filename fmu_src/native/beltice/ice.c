@@ -28,11 +28,14 @@ static void diagonalise(Ice *ice, const Tables *tables, double film, double dept
     const double *shapes = ice->shapes;
     for (int m = 0; m < n; m++) {
         double moved[MOST_ICE];
-        ice->front[m] = 0.0;
+        ice->front[m] = ice->heat[m] = ice->air[m] = 0.0;
         for (int i = 0; i < n; i++) {
             ice->front[m] += tables->front[i] * shapes[i * n + m];
+            ice->heat[m] += tables->ice_heat[i] * shapes[i * n + m];
             moved[i] = 0.0;
             for (int j = 0; j < n; j++) {
+                double taken = film * (tables->side[i * n + j] + tables->top[i * n + j] / ratio);
+                ice->air[m] += shapes[i * n + m] * taken * tables->ice_heat[j];
                 moved[i] += tables->sinking[i * n + j] * shapes[j * n + m];
             }
         }
@@ -117,9 +120,12 @@ static void fit(Ice *ice, const Tables *tables, double film, double depth)
 }
 
 bool ice_advance(Ice *ice, const Tables *tables, double film, const IceStep *step, double load,
-                 const double sinking[], double recession)
+                 const double sinking[], double recession, double *to_air)
 {
+    *to_air = 0.0;
     for (int m = 0; m < tables->ice; m++) {
+        double forced = step->held_mean[m] * (ice->front[m] * load + sinking[m]);
+        *to_air += step->duration * ice->air[m] * (ice->amplitudes[m] * step->mean[m] + forced);
         ice->amplitudes[m] = after(ice, step, load, sinking, m);
     }
     ice->melted += recession;
@@ -131,6 +137,11 @@ bool ice_advance(Ice *ice, const Tables *tables, double film, const IceStep *ste
         fit(ice, tables, film, ice->melted + copysign(bears, gone));
     }
     return true;
+}
+
+double ice_stored(const Ice *ice, const Tables *tables)
+{
+    return dot(tables->ice, ice->heat, ice->amplitudes);
 }
 
 double ice_face(const Ice *ice, const Tables *tables)

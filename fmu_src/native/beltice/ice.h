@@ -33,9 +33,12 @@ void ice_free(const Ice *ice, const Tables *tables, const IceStep *step, const d
 void ice_sink(const Ice *ice, const Tables *tables, const IceStep *step, double recession,
               double load, double sinking[]);
 
-/* Advance; false when less than a twentieth of the block is left. */
+/* Advance, with what goes to the air, J; false when less than a twentieth of the block is left. */
 bool ice_advance(Ice *ice, const Tables *tables, double film, const IceStep *step, double load,
-                 const double sinking[], double recession);
+                 const double sinking[], double recession, double *to_air);
+
+/* Heat in the block above the air's temperature, J. */
+double ice_stored(const Ice *ice, const Tables *tables);
 
 double ice_face(const Ice *ice, const Tables *tables);
 

@@ -60,6 +60,10 @@ static void show(Model *model, double values[])
     out[OUT_BELT_SHARE] = model->received > 0.0 ? model->to_belt / model->received : 0.0;
     out[OUT_MELT_RATE] = model->melt_rate;
     out[OUT_MELTED_MASS] = model->water.melted;
+    out[OUT_HEAT_RECEIVED] = model->received;
+    out[OUT_HEAT_STORED] = belt_stored(&model->belt, tables) + ice_stored(&model->ice, tables) +
+                           melt_heat(model) * all_water(&model->water, tables);
+    out[OUT_HEAT_TO_AIR] = model->to_air;
 }
 
 bool model_begin(Model *model, double values[], double tolerance, char message[])
@@ -77,6 +81,7 @@ bool model_begin(Model *model, double values[], double tolerance, char message[]
     ice_begin(&model->ice, &model->tables, model->numbers.ice_film);
     model->direction = 1.0;
     model->x = model->taken_x = values[FIRST_INPUT + IN_X];
+    model->total = values[FIRST_INPUT + IN_HEAT];
     show(model, values);
     return true;
 }
@@ -175,14 +180,27 @@ static bool recede(Model *model, const Found *found, const IceStep *step, double
 
 /* --- steps --- */
 
-/* One internal step: what it finds, the fluxes, both fields, the water. */
+/* What the film below the contact took, J, where in truth there is none: `solve_strips` gives the
+   belt that much more. */
+static double taken_below(const Model *model, const Found *found, double duration,
+                          const double fluxes[])
+{
+    int n = model->tables.strips;
+    double rises = 0.0;
+    for (int i = 0; i < n; i++) {
+        rises += found->free[i] + dot(n, found->response + i * n, fluxes);
+    }
+    return model->numbers.belt_film * duration * model->tables.area / n * rises;
+}
+
+/* One internal step: what it finds, the fluxes, both fields, the water, the ledger. */
 static bool advance(Model *model, double duration, double heat, double displacement, char message[])
 {
     const Tables *tables = &model->tables;
     Found found;
     IceStep step;
     Fluxes fluxes;
-    double centre = contact_place(model), sinking[MOST_ICE], recession;
+    double centre = contact_place(model), sinking[MOST_ICE], recession, from_ice;
     belt_conduct(&model->belt, tables, 0.5 * duration);
     belt_find(&model->belt, tables, duration, centre, -displacement, &found);
     ice_prepare(&model->ice, tables, duration, &step);
@@ -192,14 +210,16 @@ static bool advance(Model *model, double duration, double heat, double displacem
                  " take a shorter step", MOST_ITERATIONS);
         return false;
     }
-    belt_advance(&model->belt, tables, duration, &found.window, fluxes.belt);
+    model->to_air += belt_advance(&model->belt, tables, duration, &found.window, fluxes.belt) -
+                     taken_below(model, &found, duration, fluxes.belt);
     double each = melt_heat(model);
     if (model->water.is_wet) {
-        freeze_on_belt(&model->water, &model->belt, tables, duration, -model->numbers.ambient, each);
+        model->to_air += freeze_on_belt(&model->water, &model->belt, tables, duration,
+                                        -model->numbers.ambient, each);
     }
     belt_conduct(&model->belt, tables, 0.5 * duration);
     if (!ice_advance(&model->ice, tables, model->numbers.ice_film, &step, fluxes.ice * tables->area,
-                     sinking, recession)) {
+                     sinking, recession, &from_ice)) {
         snprintf(message, MESSAGE_SIZE, "the ice has melted: of its %g m less than a twentieth is "
                  "left", tables->height);
         return false;
@@ -207,17 +227,27 @@ static bool advance(Model *model, double duration, double heat, double displacem
     move_water(&model->water, tables, &model->numbers, duration, displacement, centre,
                fluxes.melting * tables->area * duration / each);
     model->received += heat;
+    model->to_air += from_ice;
     model->to_belt += fluxes.from_contact * tables->area * duration;
     model->place = fmod(model->place + displacement, tables->length);
     return true;
+}
+
+/* What a step of the host brings: the increase of `heat` as soon as that has ever changed, before
+   `heat_flow` over the step. */
+static double brought(Model *model, const double values[], double duration)
+{
+    double total = values[FIRST_INPUT + IN_HEAT], before = model->total;
+    model->total = total;
+    model->follows_total = model->follows_total || total != before;
+    return model->follows_total ? total - before : values[FIRST_INPUT + IN_HEAT_FLOW] * duration;
 }
 
 /* Heat, J, and displacement, m, that a step of the host adds; false where it cannot be. */
 static bool added(Model *model, const double values[], double duration, double *heat, double *slid,
                   char message[])
 {
-    double heat_flow = values[FIRST_INPUT + IN_HEAT_FLOW];
-    model->heat += heat_flow * duration;
+    model->heat += brought(model, values, duration);
     model->travel += values[FIRST_INPUT + IN_SURFACE_SPEED] * duration;
     model->x = values[FIRST_INPUT + IN_X];
     *heat = model->heat - model->taken_heat;
@@ -232,8 +262,8 @@ static bool added(Model *model, const double values[], double duration, double *
         model->taken_x = model->x;
     }
     if (*heat < 0.0) {
-        snprintf(message, MESSAGE_SIZE, "heat_flow = %g W must not be negative: friction produces "
-                 "heat", heat_flow);
+        snprintf(message, MESSAGE_SIZE, "heat = %.15g J: has fallen by %g J; must not fall, as it is "
+                 "the running total of what friction produces", model->total, -*heat);
         return false;
     }
     if (fabs(*slid) > MOST_LOOPS * model->tables.length) {
@@ -254,8 +284,8 @@ bool model_step(Model *model, double values[], double end, bool *event, char mes
     }
     double layers = heat / (tables->area * tables->volume * melt_heat(model) * LONGEST_RECESSION);
     if (!(layers <= MOST_PARTS)) {
-        snprintf(message, MESSAGE_SIZE, "heat_flow gives %g J in one step, more than melts the block "
-                 "many times over: take shorter steps", heat);
+        snprintf(message, MESSAGE_SIZE, "heat or heat_flow gives %g J in one step, more than melts "
+                 "the block many times over: take shorter steps", heat);
         return false;
     }
     int parts = (int)fmax(fmax(1.0, ceil(layers)), ceil(fabs(slid) / (MOVEMENT * tables->contact)));

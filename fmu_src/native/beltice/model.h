@@ -30,11 +30,13 @@ typedef struct {
     double across[MOST_ICE * MOST_ICE], upwards[MOST_ICE * MOST_ICE];
     double side[MOST_ICE * MOST_ICE], top[MOST_ICE * MOST_ICE], sinking[MOST_ICE * MOST_ICE];
     double front[MOST_ICE]; /* contact face of the ice */
+    double belt_heat[MOST_MODES], ice_heat[MOST_ICE]; /* stored by amplitude 1: J/m, J */
 } Tables;
 
 /* The belt: modes through the thickness at each node along it. */
 typedef struct {
     double rates[MOST_MODES], along[MOST_MODES], face[MOST_MODES];
+    double heat[MOST_MODES], air[MOST_MODES]; /* stored, J/m; given to the air, W/m */
     double field[MOST_FIELD]; /* amplitudes, the modes of a node side by side */
 } Belt;
 
@@ -44,12 +46,14 @@ typedef struct {
     double speed;          /* of the receding face in the last step, m/s */
     double rates[MOST_ICE], shapes[MOST_ICE * MOST_ICE], front[MOST_ICE];
     double sinking[MOST_ICE * MOST_ICE];
+    double heat[MOST_ICE], air[MOST_ICE]; /* stored, J; given to the air, W */
     double amplitudes[MOST_ICE];
 } Ice;
 
 /* Water between ice and belt, and water and ice on the belt, kg. */
 typedef struct {
-    double film, melted;
+    double film, melted;    /* below the block; what the ice has lost */
+    double squeezed, wiped; /* water out at the sides of the block; off the belt */
     bool is_wet; /* whether there is anything on the belt */
     double water[MOST_CELLS], frozen[MOST_CELLS];
 } Water;
@@ -66,10 +70,12 @@ typedef struct {
     Water water;
     double time;
     double heat, travel, x;                   /* what has crossed the ports: J, m, m */
+    double total;                             /* of the input `heat` as it was last, J */
+    bool follows_total;                       /* `heat` has changed: heat_flow does not count */
     double taken_heat, taken_travel, taken_x; /* what of it is in the temperatures */
     double place;                             /* how far the belt has run below the block, m */
     double direction;                         /* of the last movement: 1 or -1 */
-    double received, to_belt;                 /* friction heat, and the belt's part of it, J */
+    double received, to_belt, to_air;         /* friction heat, the belt's part of it; air's; J */
     double melt_rate;                         /* kg/s, mean over the last step */
 } Model;
 

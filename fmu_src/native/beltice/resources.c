@@ -9,7 +9,7 @@
 #include <windows.h>
 #endif
 
-enum { HEADER = 64, SUM_AT = 48, VERSION = 1, ORDER = 0x01020304 };
+enum { HEADER = 64, SUM_AT = 48, VERSION = 2, ORDER = 0x01020304 };
 
 static bool starts_with(const char *text, const char *small)
 {
@@ -192,6 +192,8 @@ static void take_all(Reader *reader, Tables *t)
     take(reader, ice * ice, t->top);
     take(reader, ice * ice, t->sinking);
     take(reader, ice, t->front);
+    take(reader, modes, t->belt_heat);
+    take(reader, ice, t->ice_heat);
 }
 
 /* What is wrong with the file; NULL for nothing. */

@@ -23,6 +23,7 @@ static double advance_film(Water *water, const Tables *tables, const Numbers *nu
     double squeeze = 2.0 * (numbers->load / area) * PI / (3.0 * VISCOSITY * area);
     double thickness = stays / (DENSITY * area);
     water->film = stays / sqrt(1.0 + 2.0 * squeeze * thickness * thickness * duration);
+    water->squeezed += stays - water->film;
     return whole - stays;
 }
 
@@ -50,6 +51,7 @@ static void wipe(Water *water, const Tables *tables, double edge, double movemen
     int end = (int)ceil(fmax(edge, edge + movement) / cell);
     for (int i = first; i < end; i++) {
         int node = belt_node(tables, i);
+        water->wiped += share * water->water[node];
         water->water[node] *= 1.0 - share;
         water->frozen[node] *= 1.0 - share;
     }
@@ -85,10 +87,19 @@ void move_water(Water *water, const Tables *tables, const Numbers *numbers, doub
     pick_up(water, tables, centre - displacement);
 }
 
-void freeze_on_belt(Water *water, Belt *belt, const Tables *tables, double duration, double melting,
-                    double melt_heat)
+double all_water(const Water *water, const Tables *tables)
 {
-    double rise = belt_rise(belt, tables, duration);
+    double sum = water->film + water->squeezed + water->wiped;
+    for (int i = 0; water->is_wet && i < tables->cells; i++) {
+        sum += water->water[i];
+    }
+    return sum;
+}
+
+double freeze_on_belt(Water *water, Belt *belt, const Tables *tables, double duration, double melting,
+                      double melt_heat)
+{
+    double rise = belt_rise(belt, tables, duration), frozen = 0.0;
     for (int i = 0; i < tables->cells; i++) {
         if (water->water[i] == 0.0 && water->frozen[i] == 0.0) {
             continue;
@@ -97,6 +108,8 @@ void freeze_on_belt(Water *water, Belt *belt, const Tables *tables, double durat
         double mass = fmin(fmax(wanted, -water->frozen[i]), water->water[i]);
         water->water[i] -= mass;
         water->frozen[i] += mass;
+        frozen += mass;
         belt_heat_node(belt, tables, duration, i, mass * melt_heat / duration);
     }
+    return frozen * melt_heat / duration * belt_loss(belt, tables, duration);
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -10,14 +9,15 @@ from typing import Any
 from ..parameters import Parameters
 from .live import DRY, Interface, RunEnded
 from .pretension import COARSE, PretensionBorders, pretension_borders
-from .regimes import Regime, coexisting, regimes
+from .regimes import Regime, coexisting, grouped, regimes
 from .stability import Stability, stability
+from .work import OutOfWork, Work, steps_per_second
 
 #: Part at constant speed that is looked at: the longest, s and in natural periods, of which the
 #: longer holds, and the shortest, in natural periods.
 LONGEST, PERIODS, FEWEST = 60.0, 40.0, 5.0
-#: Time after which borders that are not found yet are not looked for any longer, s.
-PATIENCE = 10.0
+#: Internal steps after which nothing further is looked for: some ten seconds on a usual core.
+MOST_STEPS = 1e6
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,15 @@ class Assessment:
     stability : of the straight motion, or of the run's own where the rig has no straight one
     regimes : by the names of `regimes.STARTS`, the scenario's own first
     pretension : m, as it is
-    borders : pretensions at which the motion is unstable; None where that takes too long
+    borders : pretensions at which the motion is unstable; None where that takes too many steps
+    whole : whether all starts were followed within the steps that are allowed
     """
 
     stability: Stability
     regimes: dict[str, Regime]
     pretension: float
     borders: PretensionBorders | None
+    whole: bool = True
 
     @property
     def coexisting(self) -> dict[str, Regime]:
@@ -59,6 +61,8 @@ class Assessment:
             },
             "regimes": {start: asdict(regime) for start, regime in self.regimes.items()},
             "other_regimes": list(self.coexisting),
+            "same_regime": grouped(self.regimes),
+            "all_starts_followed": self.whole,
         }
 
 
@@ -67,15 +71,16 @@ def assess(
     duration: float = 30.0,
     interface: Interface = DRY,
     *,
-    look: Callable[[], None] | None = None,
+    most_steps: float = MOST_STEPS,
+    look: Callable[[], None] = lambda: None,
 ) -> Assessment | None:
     """Assess a run of ``duration`` (s), of which at most a minute, or 40 swings, at constant speed.
 
-    interface: its temperature and the water in it.
-    look: called between runs, and raises TimeoutError when there is no time for more; left out, it
-    does so after `PATIENCE`. None where the contact follows rate_and_state, whose runs take too
-    long to be repeated, where the run is over before five swings or ends early, where nothing
-    moves the block, and where there is no time.
+    interface: its temperature and the water in it. most_steps: internal steps that all runs may
+    take, so that the answer depends on the rig alone. look: called between runs; may raise.
+    None where the contact follows rate_and_state, whose runs take too long to be repeated, where
+    the run is over before five swings or ends early, where nothing moves the block, and where its
+    stability alone takes too many steps.
     """
     law = parameters.rate_and_state
     ramp = parameters.surface.run_up_time
@@ -85,34 +90,26 @@ def assess(
     if frequency == 0.0 or duration - ramp < FEWEST / frequency:
         return None
     duration = min(duration, ramp + max(LONGEST, PERIODS / frequency))
-    look = look or deadline(PATIENCE)
     try:
-        look()
-        return Assessment(
-            stability(parameters, duration, interface, look),
-            regimes(parameters, duration, interface, look),
-            parameters.rig.spring_length - parameters.rig.spring_natural_length,
-            _borders(parameters, duration, interface, look),
-        )
-    except (RunEnded, TimeoutError):
+        density = steps_per_second(parameters, duration, interface)
+        work = Work(most_steps, density, look)
+        stable = stability(parameters, duration, interface, work)
+        found = regimes(parameters, duration, interface, work)
+        whole = work.left >= 0.0
+        borders = _borders(parameters, duration, interface, work) if whole else None
+    except (RunEnded, OutOfWork):
         return None
+    rig = parameters.rig
+    pretension = rig.spring_length - rig.spring_natural_length
+    return Assessment(stable, found, pretension, borders, whole)
 
 
-def deadline(patience: float) -> Callable[[], None]:
-    """What raises TimeoutError when it is called after ``patience`` (s)."""
-    end = time.monotonic() + patience
-
-    def look() -> None:
-        if time.monotonic() > end:
-            raise TimeoutError
-
-    return look
-
-
-def _borders(parameters, duration, interface, look) -> PretensionBorders | None:
+def _borders(
+    parameters: Parameters, duration: float, interface: Interface, work: Work
+) -> PretensionBorders | None:
     if parameters.rig.degrees_of_freedom == ("x",):
         return PretensionBorders(())
     try:
-        return pretension_borders(parameters, duration, interface, step=COARSE, look=look)
-    except (RunEnded, TimeoutError):
+        return pretension_borders(parameters, duration, interface, step=COARSE, work=work)
+    except (RunEnded, OutOfWork):
         return None

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import STATE as NAMES
 from ..arrays import RunArrays, inputs, interface_temperature
-from ..kernel.layout import MODE, SHOWN, STICK, X
+from ..kernel.layout import MODE, SHOWN, STICK, Z_STEP, X
 from ..parameters import Parameters
 
 #: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
@@ -71,6 +71,11 @@ class LiveRun:
     def sticks(self) -> bool:
         """Does the contact hold?"""
         return bool(self._run.z[SHOWN + MODE] == STICK)
+
+    @property
+    def step(self) -> float:
+        """The integrator's step, s."""
+        return float(self._run.z[Z_STEP])
 
     def copy(self) -> Self:
         """The same instant, to go on differently from."""

@@ -6,7 +6,6 @@ line on which friction drags it. Pretension holds it there, as the tension of a 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +14,7 @@ from scipy.optimize import brentq
 from ..parameters import Parameters
 from .live import DRY, Interface
 from .stability import growth_in_a_cycle
+from .work import Work
 
 #: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
 FINE, COARSE, MOST = 0.005, 0.01, 0.30
@@ -53,18 +53,17 @@ def pretension_borders(
     interface: Interface = DRY,
     *,
     step: float = FINE,
-    look: Callable[[], None] = lambda: None,
+    work: Work | None = None,
 ) -> PretensionBorders:
     """Where a run of ``duration`` (s) is unstable, everything but the pretension as given.
 
     interface: its temperature and the water in it. step: of the search, part of the installed
-    length. look: called now and then; may raise. Raises `live.RunEnded` where a motion cannot be
-    followed.
+    length. work: steps that are left. Raises `live.RunEnded` where a motion cannot be followed.
     """
 
     def excess(pretension: float) -> float:
         changed = with_pretension(parameters, pretension)
-        return growth_in_a_cycle(changed, duration, interface, look) - 1.0 - ROUNDING
+        return growth_in_a_cycle(changed, duration, interface, work) - 1.0 - ROUNDING
 
     steps = parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)
     unstable = [excess(step) > 0.0 for step in steps]

@@ -1,18 +1,15 @@
 """Which regime a run is in, and whether another exists beside it.
 
-Dry friction lets several steady motions exist side by side, and the start decides between them: a
-block that rides on the surface breaks away, slips and is caught again, while the same block started
-from rest may swing about the place where its springs balance kinetic friction, for ever slower than
-the surface. So the model is started in three ways: from rest on a surface that has its full speed,
-riding on it, and on a surface that runs up to its speed; and as its scenario has it, but pushed
-aside and turned a little, as every rig is.
+The model is started as `starts` has it, and each run is followed until its numbers repeat. Regimes
+are the same where they are of one kind and their numbers agree: how often the block breaks away,
+how far it swings, where, and how far it is turned.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -20,27 +17,32 @@ from ..parameters import Parameters
 from ..simulation import simulate
 from ..trajectory import Trajectory, break_away_frequency, slip_share
 from .live import DRY, Interface, RunEnded
+from .starts import BALANCED, OWN, balanced, disturbed, other_starts
+from .work import OutOfWork, Work
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
-OWN, DISTURBED, REST, RIDING, RAMP = "own", "disturbed", "rest", "riding", "ramp"
-#: How each start is told.
-STARTS = {
-    OWN: "as the scenario starts",
-    DISTURBED: "as the scenario starts, but 0.1 mm aside and turned by 1 mrad",
-    REST: "from rest on a surface at full speed",
-    RIDING: "riding on a surface at full speed",
-    RAMP: "on a surface that runs up to its speed",
-}
-#: Of the disturbed start, m and rad.
-ASIDE, TURNED = 1e-4, 1e-3
-#: Speed ramp of the third start where the scenario has none, s.
-RAMP_TIME = 10.0
 #: Shortest run at constant speed that a regime is read from, s, and in natural periods.
 SHORTEST, PERIODS = 20.0, 20.0
+#: A run whose numbers do not repeat yet is made twice as long, so many times.
+DOUBLINGS = 5
 #: Part of the run at constant speed, from its end, that is looked at.
 LATE = 0.5
 #: A contact that is said to stick, but slides at this part of the surface's speed, creeps.
 FULL_SPEED = 0.9
+#: Two regimes are the same where each number agrees to this part, or to this much (SI, degrees).
+TOLERANCES = {
+    "frequency": (0.01, 0.0),
+    "mean_x": (0.02, 5e-4),
+    "half_range_x": (0.05, 5e-4),
+    "max_y": (0.1, 1e-3),
+    "max_rotation_deg": (0.1, 1.0),
+}
+#: Of a block that slides: a swing that loses this part of itself from one half of the window to the
+#: next dies out, one that changes by less than the second is kept up.
+DIES_OUT, KEPT_UP = 1e-2, 1e-3
+#: A distance from the line stays where it changes by no more than this part of itself from half to
+#: half; what is no more than the second, m or degrees, is rounding.
+STILL, NOTHING = 0.02, 1e-7
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,7 @@ class Regime:
     mean_x, half_range_x : m
     max_y : largest distance from the line, m
     max_rotation_deg : largest rotation, deg
+    change : of each number in `TOLERANCES`, from the first half of that part to the second
     """
 
     name: str
@@ -65,83 +68,154 @@ class Regime:
     half_range_x: float
     max_y: float
     max_rotation_deg: float
+    change: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def repeats(self) -> bool:
+        """Do its numbers stay as they are, or is it a swing that dies out while it slides?"""
+        compared = {"frequency", "mean_x", "half_range_x"}
+        if self.name == SLIDING and self.swing_change < 0.0:
+            compared -= {"half_range_x"}
+        return all(
+            abs(self.change[name]) <= 0.5 * _tolerance(name, getattr(self, name))
+            for name in compared
+        ) and all(self._keeps(name) for name in ("max_y", "max_rotation_deg"))
+
+    def _keeps(self, name: str) -> bool:
+        """Does a distance from the line neither grow nor, where it is more than little, shrink?"""
+        value, change = getattr(self, name), self.change[name]
+        return change <= STILL * value + NOTHING and (
+            value <= TOLERANCES[name][1] or change >= -STILL * value
+        )
+
+    @property
+    def swing_change(self) -> float:
+        """Of its half range, as a part of that."""
+        swing = self.half_range_x
+        return self.change.get("half_range_x", 0.0) / swing if swing > 0.0 else 0.0
+
+    def is_as(self, other: Regime) -> bool:
+        """Is it the same regime, or on its way to the same?
+
+        Numbers that still vary are the same where they are no further apart than they vary. The
+        swing of a block that slides is not compared where in both it dies out, or in both is kept
+        up: without damping it is as large as its start has made it.
+        """
+        if self.name != other.name:
+            return False
+        compared = set(TOLERANCES)
+        if self.name == SLIDING and not _one_swings(self, other):
+            compared -= {"half_range_x"}
+        for name in compared:
+            a, b = getattr(self, name), getattr(other, name)
+            varies = abs(self.change.get(name, 0.0)) + abs(other.change.get(name, 0.0))
+            if abs(a - b) > max(_tolerance(name, a), _tolerance(name, b), varies):
+                return False
+        return True
+
+
+def _one_swings(one: Regime, other: Regime) -> bool:
+    """Does one of two keep up a swing that dies out in the other?"""
+    low, high = sorted((one.swing_change, other.swing_change))
+    return low < -DIES_OUT and abs(high) < KEPT_UP
+
+
+def _tolerance(name: str, value: float) -> float:
+    part, absolute = TOLERANCES[name]
+    return max(part * abs(value), absolute)
 
 
 def regimes(
     parameters: Parameters,
     duration: float = 30.0,
     interface: Interface = DRY,
-    look: Callable[[], None] = lambda: None,
+    work: Work | None = None,
 ) -> dict[str, Regime]:
     """The regime of the scenario's own run and of the other starts, by the names of `STARTS`.
 
-    duration: of the own run, s; each of the others is at constant speed as long, and at least 20 s.
-    interface: its temperature and the water in it. look: called now and then; may raise. Raises
-    `live.RunEnded` where the own motion cannot be followed; another start of which that is so is
-    left out.
+    Each of the others is disturbed a little: what a rig cannot keep to is no regime of it.
+    duration: of the own run, s. interface: its temperature and the water in it. Raises
+    `live.RunEnded` where the own motion cannot be followed; another start of which that is so, or
+    for which no work is left, is not in the answer.
     """
-    found = {OWN: regime_of(parameters, duration, interface, look)}
-    steady = duration - parameters.surface.run_up_time
+    work = work or Work()
+    found = {OWN: regime_of(parameters, duration, interface, work)}
     natural = PERIODS / max(parameters.natural_frequency, 0.1)
-    steady = max(steady, SHORTEST, natural)
-    for name, started in other_starts(parameters).items():
+    steady = max(duration - parameters.surface.run_up_time, SHORTEST, natural)
+    followed: list[tuple[Parameters, Regime]] = []
+    for name, started in _starts(parameters, interface):
+        known = next((regime for other, regime in followed if other == started), None)
         try:
-            length = duration if name == DISTURBED else steady + started.surface.run_up_time
-            found[name] = regime_of(started, length, interface, look)
+            found[name] = known or settled_regime(started, steady, interface, work)
         except RunEnded:
             continue
+        except OutOfWork:
+            break
+        followed.append((started, found[name]))
     return found
 
 
+def _starts(parameters: Parameters, interface: Interface) -> Iterator[tuple[str, Parameters]]:
+    """Starts by their names; the one that others may miss, of steady sliding, first."""
+    try:
+        yield BALANCED, disturbed(balanced(parameters, interface))
+    except RunEnded:
+        pass
+    for name, start in other_starts(parameters).items():
+        yield name, disturbed(start)
+
+
+def grouped(found: dict[str, Regime]) -> dict[str, str | None]:
+    """Start -> the first start, the own one before all, that comes to the same regime.
+
+    None for a run that has not come to one: its numbers still change.
+    """
+    groups: dict[str, str | None] = {}
+    firsts = [OWN]
+    for start, regime in found.items():
+        same = [first for first in firsts if regime.is_as(found[first])]
+        if not same and regime.repeats:
+            firsts.append(start)
+            same = [start]
+        groups[start] = same[0] if same else None
+    return groups | {OWN: OWN}
+
+
 def coexisting(found: dict[str, Regime]) -> dict[str, Regime]:
-    """Those of `regimes` that differ by name from the scenario's own."""
-    return {start: regime for start, regime in found.items() if regime.name != found[OWN].name}
+    """Those of `regimes` that differ from the scenario's own and from each other."""
+    groups = grouped(found)
+    return {start: found[start] for start in found if start != OWN and groups[start] == start}
 
 
-def other_starts(parameters: Parameters) -> dict[str, Parameters]:
-    """The same rig disturbed, from rest, riding, and on a surface that runs up to its speed."""
-    surface, initial = parameters.surface, parameters.initial
-    at_speed = surface.model_copy(update={"run_up_time": 0.0})
-    running_up = surface.model_copy(update={"run_up_time": surface.run_up_time or RAMP_TIME})
-    curvature = parameters.turning_surface.curvature
-    if parameters.rig.surface == "slab":
-        curvature = 1.0 / parameters.rig.slab_radius
-    still = {"x": 0.0, "vx": 0.0, "vy": 0.0, "omega": 0.0}
-    carried = still | {"vx": surface.speed, "omega": surface.speed * curvature}
-    aside = {"y": initial.y + ASIDE, "phi": initial.phi + TURNED}
-    guided = {"y", "phi"} - set(parameters.rig.degrees_of_freedom)
-    aside = {name: place for name, place in aside.items() if name not in guided}
-    return {
-        DISTURBED: parameters.model_copy(update={"initial": initial.model_copy(update=aside)}),
-        REST: parameters.model_copy(
-            update={"surface": at_speed, "initial": initial.model_copy(update=still)}
-        ),
-        RIDING: parameters.model_copy(
-            update={"surface": at_speed, "initial": initial.model_copy(update=carried)}
-        ),
-        RAMP: parameters.model_copy(
-            update={"surface": running_up, "initial": initial.model_copy(update=still)}
-        ),
-    }
+def settled_regime(
+    parameters: Parameters, steady: float, interface: Interface = DRY, work: Work | None = None
+) -> Regime:
+    """The regime that a run comes to, made longer until its numbers repeat.
+
+    steady: length at constant speed to begin with, s.
+    """
+    for doubling in range(DOUBLINGS + 1):
+        length = parameters.surface.run_up_time + steady * 2.0**doubling
+        found = regime_of(parameters, length, interface, work)
+        if found.repeats:
+            break
+    return found
 
 
 def regime_of(
     parameters: Parameters,
     duration: float,
     interface: Interface = DRY,
-    look: Callable[[], None] = lambda: None,
+    work: Work | None = None,
 ) -> Regime:
-    """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early.
-
-    look: called now and then; may raise.
-    """
+    """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early."""
     period = 1.0 / max(parameters.natural_frequency, 0.1)
     run = simulate(
         parameters,
         duration,
         min(0.05 * period, 0.01 * duration),
         **interface.inputs,
-        progress=lambda reached: look(),
+        progress=(work or Work()).over(),
     )
     if not run.complete:
         raise RunEnded(run.reason)
@@ -151,28 +225,36 @@ def regime_of(
 
 def read_regime(run: Trajectory, begin: float) -> Regime:
     """The regime of a run from ``begin`` (s) on."""
-    late = run.time >= begin
-    time, mode = run.time[late], run["mode"][late]
-    share = slip_share(time, mode, run.events)
+    end = float(run.time[-1])
+    middle = 0.5 * (begin + end)
+    whole = _numbers(run, begin, end)
+    first, second = _numbers(run, begin, middle), _numbers(run, middle, end)
+    change = {name: second[name] - first[name] for name in TOLERANCES}
+    return Regime(_name(run, begin, whole["slip_share"]), **whole, change=change)
+
+
+def _numbers(run: Trajectory, begin: float, end: float) -> dict[str, float]:
+    """Of a run between two times, s."""
+    seen = (run.time >= begin) & (run.time <= end)
+    time, x = run.time[seen], run["x"][seen]
     starts = run.slip_starts
-    frequency = break_away_frequency(starts[(starts >= time[0]) & (starts <= time[-1])])
-    x = run["x"][late]
-    return Regime(
-        name=_name(run, late, share),
-        frequency=0.0 if math.isnan(frequency) else frequency,
-        slip_share=share,
-        mean_x=float(np.trapezoid(x, time) / np.ptp(time)),
-        half_range_x=0.5 * float(np.ptp(x)),
-        max_y=float(np.abs(run["y"][late]).max()),
-        max_rotation_deg=float(np.degrees(np.abs(run["phi"][late]).max())),
-    )
+    frequency = break_away_frequency(starts[(starts >= begin) & (starts <= end)])
+    return {
+        "frequency": 0.0 if math.isnan(frequency) else frequency,
+        "slip_share": slip_share(time, run["mode"][seen], run.events),
+        "mean_x": float(np.trapezoid(x, time) / np.ptp(time)),
+        "half_range_x": 0.5 * float(np.ptp(x)),
+        "max_y": float(np.abs(run["y"][seen]).max()),
+        "max_rotation_deg": float(np.degrees(np.abs(run["phi"][seen]).max())),
+    }
 
 
-def _name(run: Trajectory, late: np.ndarray, share: float) -> str:
+def _name(run: Trajectory, begin: float, share: float) -> str:
     if share == 1.0:
         return SLIDING
     if share > 0.0:
         return STICK_SLIP
+    late = run.time >= begin
     speed = abs(run["surface_speed_actual"][late][-1])
     slid = np.ptp(run["sliding_distance"][late]) / np.ptp(run.time[late])
     return CREEPING if speed > 0.0 and slid > FULL_SPEED * speed else STICKING

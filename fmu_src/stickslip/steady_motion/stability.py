@@ -13,7 +13,6 @@ in a natural period.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -23,6 +22,7 @@ from ..parameters import Parameters
 from ..simulation import simulate
 from ..trajectory import Trajectory
 from .live import DRY, Interface, LiveRun, RunEnded
+from .work import Work
 
 STABLE, NEUTRAL, UNSTABLE, GUIDED = "stable", "neutral", "unstable", "guided"
 #: Multipliers this close to 1 are told as 1: what grows by e in a thousand cycles is in no run.
@@ -85,19 +85,19 @@ def stability(
     parameters: Parameters,
     duration: float = 30.0,
     interface: Interface = DRY,
-    look: Callable[[], None] = lambda: None,
+    work: Work | None = None,
 ) -> Stability:
     """Multipliers of the last cycles of a run of ``duration`` (s), and what grows on the way there.
 
-    interface: its temperature and the water in it. look: called now and then; may raise. Raises
+    interface: its temperature and the water in it. work: steps that are left. Raises
     `live.RunEnded` where the motion cannot be followed that far.
     """
-    moduli, period, time = _multipliers(parameters, duration, interface, look)
+    moduli, period, time = _multipliers(parameters, duration, interface, work)
     straight = _has_line(parameters)
     if not moduli.size:
         amplified = 0.0
     elif straight:
-        amplified = _amplification(_as_drawn(parameters), time, interface, look)
+        amplified = _amplification(_as_drawn(parameters), time, interface, work)
     else:
         amplified = np.nan
     return Stability(moduli, period, amplified, straight)
@@ -107,10 +107,10 @@ def growth_in_a_cycle(
     parameters: Parameters,
     duration: float = 30.0,
     interface: Interface = DRY,
-    look: Callable[[], None] = lambda: None,
+    work: Work | None = None,
 ) -> float:
     """`Stability.growth` alone, in half the time: for searches and maps."""
-    moduli, _, _ = _multipliers(parameters, duration, interface, look)
+    moduli, _, _ = _multipliers(parameters, duration, interface, work)
     return float(moduli[0]) if moduli.size else 0.0
 
 
@@ -121,7 +121,7 @@ def guided(parameters: Parameters) -> Parameters:
 
 
 def _multipliers(
-    parameters: Parameters, duration: float, interface: Interface, look: Callable[[], None]
+    parameters: Parameters, duration: float, interface: Interface, work: Work | None
 ) -> tuple[np.ndarray, float, np.ndarray]:
     """Moduli of a cycle's multipliers, the largest first, its period (s), and the run's times."""
     on_line = parameters
@@ -139,7 +139,7 @@ def _multipliers(
         duration,
         _sampling(parameters),
         **interface.inputs,
-        progress=lambda reached: look(),
+        progress=(work or Work()).over(),
     )
     if not run.complete:
         raise RunEnded(run.reason)
@@ -154,7 +154,7 @@ def _multipliers(
     product, cycles = np.eye(len(beside)), len(moments) - 1
     live = LiveRun(on_line, interface)
     for begin, end in pairwise(moments):
-        look()
+        (work or Work()).spend(2.0 * len(beside) * (end - begin))
         free = live.advance(begin).of(parameters)
         product = _transfer(free, end, beside, scale, sticking) @ product
     moduli = np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles)
@@ -250,7 +250,7 @@ def _transfer(
 
 
 def _amplification(
-    parameters: Parameters, time: np.ndarray, interface: Interface, look: Callable[[], None]
+    parameters: Parameters, time: np.ndarray, interface: Interface, work: Work | None
 ) -> float:
     """Largest distance from the line over that at the start, of a block displaced, and turned."""
     arm, largest = parameters.rig.contact_radius, 0.0
@@ -262,7 +262,7 @@ def _amplification(
             update={"initial": parameters.initial.model_copy(update=start)}
         )
         run = simulate(
-            moved, time[-1], time[1], **interface.inputs, progress=lambda reached: look()
+            moved, time[-1], time[1], **interface.inputs, progress=(work or Work()).over()
         )
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)

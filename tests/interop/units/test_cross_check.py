@@ -72,8 +72,8 @@ def test_a_host_s_own_integrator_moves_it_so_too(units, name):
         assert last[each][0] == pytest.approx(last[each][1], abs=2e-6)
 
 
-#: What the reduced unit leaves out, K and 1: of the size that its documentation says.
-REDUCED = {"temperature": 2e-6, "belt_share": 2e-5, "melt": 1e-12}
+#: What the reduced unit leaves out, K, 1 and J: of the size that its documentation says.
+REDUCED = {"temperature": 2e-6, "belt_share": 2e-5, "melt": 1e-12, "heat": 2e-6}
 
 
 @pytest.mark.parametrize("name", [THERMAL, THERMAL_PYTHON])

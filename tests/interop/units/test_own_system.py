@@ -90,18 +90,18 @@ def test_jacobi_is_what_the_other_masters_do(ssp):
 def test_power_that_crosses_is_in_the_ledger(ssp, tmp_path):
     arguments = ["--set", f"coupling.macro_step={STEP}", "--set", f"run.stop={STOP}"]
     assert main(["couple", str(ssp), *arguments, "-o", str(tmp_path)]) == 0
-    (power,) = json.loads((tmp_path / "summary.json").read_text())["ledger"]["powers"]
+    (energy,) = json.loads((tmp_path / "summary.json").read_text())["ledger"]["energies"]
     with_heat = result_of(ssp)["mechanics.heat"][-1]
-    # heat_flow is the mean over the step that has ended: held over it, all of the heat is given
-    assert power["given"] == pytest.approx(with_heat, rel=1e-12)
-    assert power["made"] == pytest.approx(with_heat, rel=1e-12) and abs(power["added"]) < 1e-12
+    assert energy["handed"] == pytest.approx(with_heat, rel=1e-12)
+    assert energy["taken"] == pytest.approx(with_heat, rel=1e-12)
+    assert abs(energy["most_in_transit"]) < 1e-12
     outputs = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["outputs"]
     # as the unit's description has it; rounding beside it is 0 on the page
     assert outputs["mechanics.x"]["nominal"] == 0.1
 
 
 def test_no_heat_is_lost_between_substeps(ssp, tmp_path):
-    """Ten substeps of the block in each step: the heat of all of them is given."""
+    """Ten substeps of the block in each step, power handed over: that of all of them is given."""
     lines = [f"coupling.macro_step = {10 * STEP}", f"run.stop = {STOP}"]
     with read_system(ssp) as system:
         for unit in system.units:
@@ -112,7 +112,10 @@ def test_no_heat_is_lost_between_substeps(ssp, tmp_path):
                 for key, start in unit.given.items()
             ]
         for link in system.links:
-            lines += ["[[connections]]", f'from = "{link.source}"', f'to = "{link.sink}"']
+            ends = [
+                f"{end}_flow" if end.endswith(".heat") else end for end in (link.source, link.sink)
+            ]
+            lines += ["[[connections]]", f'from = "{ends[0]}"', f'to = "{ends[1]}"']
         (tmp_path / "pair.toml").write_text("\n".join(lines), encoding="utf-8")
         assert main(["couple", str(tmp_path / "pair.toml"), "-o", str(tmp_path / "out")]) == 0
     (power,) = json.loads((tmp_path / "out/summary.json").read_text())["ledger"]["powers"]

@@ -27,6 +27,7 @@ from cosim.fmu.build import SYSTEM, build_fmu
 from cosim.fmu.libraries import platforms_of
 from cosim.fmu.platforms import this_platform
 from cosim.fmu.thermal import structure
+from cosim.systems import read_system, run_system
 
 STEP, COUNT = 0.01, 600
 SCRIPT = Path(__file__).with_name("hosts") / "system_in_ecospy.py"
@@ -88,7 +89,8 @@ def test_in_fmpy(system, expected):
     agree(result["mechanics.x"], result["thermal.interface_temperature"], expected)
 
 
-def test_in_libcosim(system, expected, tmp_path):
+def in_libcosim(system, tmp_path, step, count, *wanted):
+    """Values of some variables, each (unit, name), after each step."""
     with zipfile.ZipFile(system) as archive:
         archive.extractall(tmp_path)
     places = {
@@ -98,7 +100,7 @@ def test_in_libcosim(system, expected, tmp_path):
         }
         for name, fmu in (("mechanics", "StickSlip3DOF.fmu"), ("thermal", "BeltIceThermal.fmu"))
     }
-    execution = CosimExecution.from_ssp_file(ssp_path=str(system), step_size=round(STEP * 1e9))
+    execution = CosimExecution.from_ssp_file(ssp_path=str(system), step_size=round(step * 1e9))
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer=observer)
     index = {each.name.decode(): each.index for each in execution.slave_infos()}
@@ -107,10 +109,37 @@ def test_in_libcosim(system, expected, tmp_path):
         return observer.last_real_values(index[name], [places[name][variable]])[0]
 
     rows = []
-    for _ in range(COUNT):
+    for _ in range(count):
         assert execution.step()
-        rows.append((value("mechanics", "x"), value("thermal", "interface_temperature")))
-    agree(*np.array(rows).T, expected)
+        rows.append([value(*each) for each in wanted])
+    return np.array(rows).T
+
+
+def test_in_libcosim(system, expected, tmp_path):
+    wanted = ("mechanics", "x"), ("thermal", "interface_temperature")
+    agree(*in_libcosim(system, tmp_path, STEP, COUNT, *wanted), expected)
+
+
+@pytest.mark.parametrize("step", [0.01, 0.05, 0.2, 0.5])
+def test_every_tool_hands_over_the_joules_that_the_block_has_made(system, step, tmp_path):
+    """Those that step both at once, at the next communication point; in turn, at once."""
+    wanted = ("mechanics", "heat"), ("thermal", "heat_received")
+    stop = 4.0
+    count = round(stop / step)
+    made, received = in_libcosim(system, tmp_path, step, count, *wanted)
+    np.testing.assert_allclose(received[1:], made[:-1], rtol=0, atol=1e-12 * made[-1])
+    chosen = read_ssv(system, resource=structure.SET_FILE)
+    result = simulate_ssp(system, stop_time=stop, step_size=step, parameter_set=chosen)
+    theirs, taken = result["mechanics.heat"], result["thermal.heat_received"]
+    np.testing.assert_allclose(taken[1:], theirs[:-1], rtol=0, atol=1e-12 * theirs[-1])
+    with read_system(system, {"coupling.macro_step": step, "run.stop": stop}) as read:
+        run = run_system(read)
+    ours = run.result["mechanics.heat"]
+    (flow,) = run.result.ledger.flows
+    assert ours[-1] > 0.1 and str(flow.connection) == "mechanics.heat -> thermal.heat"
+    np.testing.assert_allclose(flow.taken, ours, rtol=0, atol=1e-12 * ours[-1])
+    balance = [run.result[f"thermal.heat_{of}"] for of in ("received", "stored", "to_air")]
+    np.testing.assert_allclose(balance[1] + balance[2], balance[0], rtol=0, atol=1e-12 * ours[-1])
 
 
 def test_in_ecospy(system, expected, ecos_environment):  # noqa: F811

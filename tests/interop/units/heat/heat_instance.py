@@ -13,6 +13,9 @@ OUTPUTS = (
     "belt_share",
     "melt_rate",
     "melted_mass",
+    "heat_received",
+    "heat_stored",
+    "heat_to_air",
 )
 H = 0.01  # s, between communication points
 
