@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import xarray as xr
+from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_bytes, write_text
-from cosim.report.contents import REGIME_UNITS, STARTS, regime_sentence, stability_sentence
+from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
@@ -19,6 +20,7 @@ from .coupling import doubts, effort_rows, step_rows
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .material import page_of_material
+from .motion_text import regime_sentence, stability_sentence
 from .page import Picture, render
 from .quantities import digits, spelled, told, with_unit, worded
 from .summary import summary

@@ -14,9 +14,10 @@ from xml.etree import ElementTree
 import xarray as xr
 from stickslip import Parameters, simulate
 from stickslip.steady_motion import Interface, assess
-from stickslip.steady_motion.assessment import PATIENCE, deadline
-from stickslip.steady_motion.regimes import CREEPING, OWN
+from stickslip.steady_motion.assessment import MOST_STEPS
+from stickslip.steady_motion.regimes import CREEPING
 from stickslip.steady_motion.stability import UNSTABLE
+from stickslip.steady_motion.starts import OWN
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.numbers import NOT_ASKED, Numbers
@@ -30,9 +31,10 @@ from cosim.interrupts import Patience
 from cosim.manifest import claim, require_own
 from cosim.report import Views, summary, write_results
 from cosim.report.bounds import bounds_sentences, is_believed
-from cosim.report.contents import attach_assessment, ramp_sentence, regime_sentence, unstable_line
+from cosim.report.contents import attach_assessment
 from cosim.report.coupling import doubts
 from cosim.report.files import json_text
+from cosim.report.motion_text import ramp_sentence, regime_sentence, unstable_line
 from cosim.report.quantities import ROUNDING
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.units import doubted
@@ -216,16 +218,26 @@ def assess_motion(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -
             float(dataset["interface_temperature"].values[-1]),
             float(dataset["film_thickness"].values[-1]),
         )
-    in_time = deadline(PATIENCE)
 
     def check() -> None:
         if patience.requested:
-            raise TimeoutError
-        in_time()
+            raise _StoppedError
 
-    attach_assessment(
-        dataset, assess(scenario.mechanics, scenario.run.duration, interface, look=check)
-    )
+    try:
+        found = assess(
+            scenario.mechanics,
+            scenario.run.duration,
+            interface,
+            most_steps=MOST_STEPS,
+            look=check,
+        )
+    except _StoppedError:
+        return
+    attach_assessment(dataset, found)
+
+
+class _StoppedError(Exception):
+    """A Ctrl-C has ended the assessment."""
 
 
 @contextmanager

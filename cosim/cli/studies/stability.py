@@ -67,7 +67,7 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
-    from cosim.report.contents import regime_sentence, stability_sentence
+    from cosim.report.motion_text import regime_sentence, stability_sentence
     from cosim.studies.stability import NotAMotion, case_of
     from cosim.studies.stability.maps import as_json
 

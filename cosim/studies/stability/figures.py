@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
-from stickslip.steady_motion.regimes import RAMP, REST, RIDING, SLIDING, STICK_SLIP
+from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
+from stickslip.steady_motion.starts import RAMP, REST, RIDING
 
 from cosim.report.style import BLUE, INK, RED, SAND, SOFT_GREY, panels, picture
 

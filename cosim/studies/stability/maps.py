@@ -18,17 +18,9 @@ from stickslip.parameters import EffectTables
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension
-from stickslip.steady_motion.regimes import (
-    RAMP,
-    REST,
-    RIDING,
-    SLIDING,
-    STARTS,
-    STICK_SLIP,
-    other_starts,
-    regime_of,
-)
+from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
 from stickslip.steady_motion.stability import growth_in_a_cycle, guided
+from stickslip.steady_motion.starts import RAMP, REST, RIDING, STARTS, other_starts
 
 from cosim.report.page import Picture, render
 from cosim.scenario import Scenario
@@ -59,7 +51,7 @@ def case_of(scenario: Scenario) -> Case:
     parameters, interface = scenario.mechanics, Interface(scenario.ambient.temperature_degC)
     if fault := _fault(parameters):
         raise NotAMotion(f"{scenario.name}: {fault}")
-    found = assess(parameters, scenario.run.duration, interface, look=lambda: None)
+    found = assess(parameters, scenario.run.duration, interface, most_steps=math.inf)
     if found is None:
         raise NotAMotion(
             f"{scenario.name}: run.duration = {scenario.run.duration:g} s: the motion ends early, "

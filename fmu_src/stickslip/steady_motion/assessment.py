@@ -95,10 +95,10 @@ def assess(
         work = Work(most_steps, density, look)
         stable = stability(parameters, duration, interface, work)
         found = regimes(parameters, duration, interface, work)
-        whole = work.left >= 0.0
-        borders = _borders(parameters, duration, interface, work) if whole else None
     except (RunEnded, OutOfWork):
         return None
+    whole = work.left >= 0.0
+    borders = _borders(parameters, duration, interface, work) if whole else None
     rig = parameters.rig
     pretension = rig.spring_length - rig.spring_natural_length
     return Assessment(stable, found, pretension, borders, whole)

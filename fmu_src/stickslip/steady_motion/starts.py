@@ -87,6 +87,8 @@ def balanced(parameters: Parameters, interface: Interface = DRY) -> Parameters:
     RunEnded where it cannot.
     """
     rig, speed = parameters.rig, abs(parameters.surface.speed)
+    if speed == 0.0 or parameters.natural_frequency == 0.0:
+        raise RunEnded("nothing slides without a surface that moves, and springs")
     force = max(parameters.friction.mu_s, parameters.friction.mu_k) * rig.mass * GRAVITY
     rate = 2.0 * pi * parameters.natural_frequency
     coefficient = max(2.0 * rig.mass * rate, 4.0 * force / speed)

@@ -33,7 +33,7 @@ class Work:
     def spend(self, seconds: float) -> None:
         """Count so much motion (s); OutOfWork where no steps are left."""
         self.look()
-        self.left -= seconds * self.per_second
+        self.left -= float(seconds) * self.per_second
         if self.left < 0.0:
             raise OutOfWork
 

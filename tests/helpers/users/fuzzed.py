@@ -224,7 +224,7 @@ def called(*argv, figures=True):
         stack.enter_context(contextlib.redirect_stderr(err))
         stack.enter_context(warnings.catch_warnings())
         # whether a motion is stable is another question, which takes seconds
-        stack.enter_context(mock.patch("cosim.cli.runs.running.PATIENCE", 0.5))
+        stack.enter_context(mock.patch("cosim.cli.runs.running.MOST_STEPS", 2e4))
         if not figures:
             stack.enter_context(mock.patch("cosim.report.figures.plates_of", return_value=()))
             stack.enter_context(mock.patch("cosim.report.style.png", return_value=b""))

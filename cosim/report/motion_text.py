@@ -1,0 +1,172 @@
+"""Stability and regimes of a motion in sentences, from the numbers of a summary."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from stickslip.steady_motion.regimes import CREEPING, SLIDING, STICK_SLIP
+from stickslip.steady_motion.stability import GUIDED, NEUTRAL, UNSTABLE
+from stickslip.steady_motion.starts import (
+    BALANCED,
+    DISTURBED,
+    LONG_RAMP,
+    OWN,
+    RAMP,
+    REST,
+    RIDING,
+    SHORT_RAMP,
+    TURNED,
+)
+
+#: Beside the line by more than this, m and degrees, a motion is told to be.
+BENT_LENGTH, BENT_ANGLE_DEG = 2e-3, 2.0
+#: Starts, the most usual first.
+SHORT = {
+    DISTURBED: "0.1 mm aside and turned by 1 mrad",
+    REST: "from rest",
+    RAMP: "from a speed ramp",
+    SHORT_RAMP: "from a speed ramp a third as long",
+    RIDING: "riding on the surface",
+    LONG_RAMP: "from a speed ramp three times as long",
+    BALANCED: "from where the springs balance the friction of sliding",
+    TURNED: "from 10 mm aside and turned by 20°",
+}
+#: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
+MUCH = 100.0
+EXPLAINED = {
+    STICK_SLIP: "sticks and slips",
+    SLIDING: "slides without ever sticking",
+    "sticking": "sticks and never slips",
+    CREEPING: "creeps as fast as the surface, and never breaks away",
+}
+
+
+def stability_sentence(numbers: Mapping[str, Any]) -> str:
+    """Whether a rig could make the motion; from the summary's ``stability``."""
+    found = numbers["stability"]
+    if found["verdict"] == GUIDED:
+        return "The rig allows motion along x alone: there is nothing to be unstable."
+    what = "The motion along the line" if found["motion"] == "along the line" else "This motion"
+    if found["verdict"] != UNSTABLE:
+        fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
+        return (
+            f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
+            f"{fares}, by the factor {found['growth']:.3g} in {found['cycle']:.3g} s. "
+            f"{ramp_sentence(numbers)}".rstrip()
+            + _further(found)
+        )
+    return (
+        f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
+        f"{found['time_to_grow']:.3g} s, and no rig is without one.{_remedy(found)}"
+    )
+
+
+def unstable_line(numbers: Mapping[str, Any]) -> str:
+    """That an unstable motion is not kept to, how fast, and what would help; for a terminal."""
+    found = numbers["stability"]
+    least, now = found["least_pretension"], found["pretension"]
+    remedy = (
+        ""
+        if least is None
+        else (f"; stable from {1e3 * least:.3g} mm of pretension (now {1e3 * now:.3g})")
+    )
+    motion = "the line" if found["motion"] == "along the line" else "this motion"
+    time = f"{found['time_to_grow']:.3g} s"
+    return f"disturbances of {motion} grow tenfold in {time}, so that no rig keeps to it{remedy}"
+
+
+def _remedy(found: Mapping[str, Any]) -> str:
+    least = found["least_pretension"]
+    if found["unstable_pretensions"] is None:
+        return ""
+    if least is None:
+        return " No pretension that was tried makes it stable."
+    return (
+        f" Springs stretched by {1e3 * least:.3g} mm as installed would hold the block to it; "
+        f"they are by {1e3 * found['pretension']:.3g} mm."
+    )
+
+
+def ramp_sentence(numbers: Mapping[str, Any]) -> str:
+    """What the ramp to a stable motion makes of a disturbance, where that is much; else nothing."""
+    amplification = numbers["stability"]["amplification"] or 0.0
+    if amplification < MUCH:
+        return ""
+    return (
+        f"In the speed ramp before it a disturbance grows up to {amplification:.2g} "
+        "times: a rig that is not as drawn may have swerved by then, and stay there."
+    )
+
+
+def _further(found: Mapping[str, Any]) -> str:
+    """Where else it would not be stable."""
+    windows = found["unstable_pretensions"] or []
+    told = [
+        f"{1e3 * low:.3g} to {1e3 * high:.3g} mm" if high is not None else f"{1e3 * low:.3g} mm on"
+        for low, high in windows
+    ]
+    if not told:
+        return ""
+    return (
+        f" It is not with a pretension of {', nor of '.join(told)}; here it is "
+        f"{1e3 * found['pretension']:.3g} mm."
+    )
+
+
+def regime_sentence(numbers: Mapping[str, Any]) -> str:
+    """Which regime the run is in, how many starts lead to it, and what exists beside it."""
+    found, groups = numbers["regimes"], numbers["same_regime"]
+    starts = [start for start in SHORT if start in groups]
+    alike = [start for start in starts if groups[start] == OWN]
+    line = f"This run {described(found[OWN])}"
+    if not starts:
+        return f"{line}. Other starts take too many steps, and were not tried."
+    if alike:
+        line += f", as does the rig from {_counted(len(alike), len(starts))} other starts."
+    else:
+        line += f", to which none of {len(starts)} other starts leads."
+    if numbers["other_regimes"]:
+        several = len(numbers["other_regimes"]) > 1
+        line += f" {'Other regimes exist' if several else 'Another regime exists'} beside it:"
+        line += ";".join(_beside(found[first], first, groups) for first in numbers["other_regimes"])
+        line += "."
+    open_ended = [SHORT[start] for start in starts if groups[start] is None]
+    if open_ended:
+        line += f" {_capital(_listed(open_ended))} it has come to none in the time looked at."
+    if not numbers["all_starts_followed"]:
+        line += " Further starts take too many steps, and were not tried."
+    return line
+
+
+def _counted(part: int, whole: int) -> str:
+    return f"all {whole}" if part == whole else f"{part} of {whole}"
+
+
+def _beside(regime: Mapping[str, Any], first: str, groups: Mapping[str, str | None]) -> str:
+    """A regime with the most usual start that leads to it."""
+    starts = [start for start in SHORT if groups.get(start) == first]
+    more = f" (as from {len(starts) - 1} more)" if len(starts) > 1 else ""
+    return f" {SHORT[starts[0]]}{more} it {described(regime)}"
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def described(regime: Mapping[str, Any]) -> str:
+    """What the block does in a regime: "sticks and slips at 1.73 Hz"."""
+    line = EXPLAINED[regime["name"]]
+    if regime["frequency"]:
+        line += f" at {regime['frequency']:.4g} Hz"
+    aside, turned = regime["max_y"], regime["max_rotation_deg"]
+    bent = []
+    if aside >= BENT_LENGTH:
+        bent.append(f"up to {1e3 * aside:.2g} mm aside of its line")
+    if turned >= BENT_ANGLE_DEG:
+        bent.append(f"turned by up to {turned:.2g}°")
+    return ", ".join([line, " and ".join(bent)]) if bent else line
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
