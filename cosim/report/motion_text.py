@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stickslip.steady_motion.regimes import CREEPING, SLIDING, STICK_SLIP
+from stickslip.steady_motion.regimes import (
+    ASIDE_ANGLE_DEG,
+    ASIDE_LENGTH,
+    CREEPING,
+    SLIDING,
+    STICK_SLIP,
+)
 from stickslip.steady_motion.stability import GUIDED, NEUTRAL, UNSTABLE
 from stickslip.steady_motion.starts import (
     BALANCED,
@@ -19,8 +25,6 @@ from stickslip.steady_motion.starts import (
     TURNED,
 )
 
-#: Beside the line by more than this, m and degrees, a motion is told to be.
-BENT_LENGTH, BENT_ANGLE_DEG = 2e-3, 2.0
 #: Starts, the most usual first.
 SHORT = {
     DISTURBED: "0.1 mm aside and turned by 1 mrad",
@@ -32,6 +36,8 @@ SHORT = {
     BALANCED: "from where the springs balance the friction of sliding",
     TURNED: "from 10 mm aside and turned by 20°",
 }
+#: Of a number: a rig whose border is further off than this is well inside.
+WELL_INSIDE = 1.0 / 3.0
 #: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
 MUCH = 100.0
 EXPLAINED = {
@@ -154,6 +160,37 @@ def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
 
 
+def border_sentence(numbers: Mapping[str, Any]) -> str:
+    """How little of its numbers would have to differ for the rig to do something else."""
+    borders = numbers["nearest_borders"]
+    if borders is None:
+        return "How near its borders are takes too many steps, and was not looked for."
+    near = [one for one in borders if one["margin"] is not None and one["margin"] < WELL_INSIDE]
+    who = "It" if numbers["same_regime"].get(DISTURBED, OWN) == OWN else "Disturbed, it"
+    if not near:
+        return (
+            f"{who} is well inside: changed alone by a third, none of speed, speed ramp, damping, "
+            "pretension and mu_s/mu_k makes another regime of it."
+        )
+    told = []
+    for does in dict.fromkeys(_beyond(one) for one in near):
+        with_these = [_side(one) for one in near if _beyond(one) == does]
+        told.append(f"it {does} with {_listed(with_these, 'or')}")
+    return f"{who} is near a border: {'; '.join(told)}."
+
+
+def _beyond(border: Mapping[str, Any]) -> str:
+    where = ", aside of its line or turned" if border["aside"] else ""
+    return EXPLAINED.get(border["beyond"], "cannot be followed") + where
+
+
+def _side(border: Mapping[str, Any]) -> str:
+    """On which side of which value: "surface.speed above 0.157 m/s (0.15 here)"."""
+    side = "above" if border["border"] > border["value"] else "below"
+    unit = "" if border["unit"] == "1" else f" {border['unit']}"
+    return f"{border['key']} {side} {border['border']:.3g}{unit} ({border['value']:.3g} here)"
+
+
 def described(regime: Mapping[str, Any]) -> str:
     """What the block does in a regime: "sticks and slips at 1.73 Hz"."""
     line = EXPLAINED[regime["name"]]
@@ -161,12 +198,12 @@ def described(regime: Mapping[str, Any]) -> str:
         line += f" at {regime['frequency']:.4g} Hz"
     aside, turned = regime["max_y"], regime["max_rotation_deg"]
     bent = []
-    if aside >= BENT_LENGTH:
+    if aside >= ASIDE_LENGTH:
         bent.append(f"up to {1e3 * aside:.2g} mm aside of its line")
-    if turned >= BENT_ANGLE_DEG:
+    if turned >= ASIDE_ANGLE_DEG:
         bent.append(f"turned by up to {turned:.2g}°")
     return ", ".join([line, " and ".join(bent)]) if bent else line
 
 
-def _listed(words: list[str]) -> str:
-    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+def _listed(words: list[str], last: str = "and") -> str:
+    return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))

@@ -20,7 +20,7 @@ from .coupling import doubts, effort_rows, step_rows
 from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .material import page_of_material
-from .motion_text import regime_sentence, stability_sentence
+from .motion_text import border_sentence, regime_sentence, stability_sentence
 from .page import Picture, render
 from .quantities import digits, spelled, told, with_unit, worded
 from .summary import summary
@@ -225,7 +225,7 @@ def assessed(numbers: Mapping[str, Any]) -> list[str]:
     """Sentences on stability and regimes; none for a run that was not assessed."""
     if "stability" not in numbers:
         return []
-    return [stability_sentence(numbers), regime_sentence(numbers)]
+    return [stability_sentence(numbers), regime_sentence(numbers), border_sentence(numbers)]
 
 
 def regime_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:

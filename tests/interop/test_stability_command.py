@@ -34,6 +34,19 @@ def test_it_writes_maps_a_page_and_numbers(tmp_path):
     }
 
 
+def test_where_stick_slip_stops_is_one_command(tmp_path):
+    done = stickslip_here(tmp_path, "stability", "--border", "speed", "-o", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    (line,) = [line for line in done.stdout.splitlines() if "sticks and slips from rest" in line]
+    assert "up to 0.1812 m/s; riding on the surface up to 0.262 m/s" in line
+    assert "from a speed ramp of 10 s up to 0.1571 m/s" in line
+    numbers = json.loads((tmp_path / "out" / "stability.json").read_text())
+    assert set(numbers["stick_slip_range"]["stick_slip"]) == {"rest", "riding", "ramp"}
+    assert {border["key"] for border in numbers["nearest_borders"]} >= {"surface.speed"}
+    assert numbers["regime_map"] is None
+    assert "0.1571 m/s" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
 def test_a_run_on_an_unstable_path_says_so(tmp_path):
     done = stickslip_here(tmp_path, "simulate", "study", "-o", "out")
     assert done.returncode == 0
@@ -86,6 +99,10 @@ def test_a_run_too_short_to_tell_says_nothing_of_its_motion(tmp_path):
     ("arguments", "line"),
     [
         (["stability", "--grid", "1"], "--grid = 1: must be at least 2, or 0 for none"),
+        (
+            ["stability", "--border", "pretension", "--set", "rig.degrees_of_freedom=['x']"],
+            "--border pretension: this rig has none; allowed is speed, ramp, damping, ratio",
+        ),
         (["stability", "still.toml"], "still: surface.speed = 0: needed is a surface that moves"),
         (["stability", "free.toml"], "free: springs.stiffness = 0: needed are springs"),
         (["stability", "smooth.toml"], "smooth: friction.mu_k = 0: needed is friction in slip"),

@@ -241,7 +241,7 @@ def _finish(
     from cosim.report.coupling import doubts
     from cosim.report.files import json_text
     from cosim.systems.show import write_system
-    from cosim.systems.show.summary import closing_lines
+    from cosim.systems.show.summary import closing_lines, in_few_lines
 
     def written(name: str) -> None:
         if name == "summary.json":
@@ -259,7 +259,7 @@ def _finish(
         )
         return FAILED
     printed = asked.give(json_text(numbers))
-    for said in doubts(numbers["coupling"]):
+    for said in [*doubts(numbers["coupling"]), *in_few_lines(numbers["warnings"])]:
         print(f"warning: {said}", file=sys.stderr)
     if say_how_it_ended(numbers, folder, job.resume if goes_on else "", log) == FAILED:
         return FAILED

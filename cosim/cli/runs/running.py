@@ -34,7 +34,13 @@ from cosim.report.bounds import bounds_sentences, is_believed
 from cosim.report.contents import attach_assessment
 from cosim.report.coupling import doubts
 from cosim.report.files import json_text
-from cosim.report.motion_text import ramp_sentence, regime_sentence, unstable_line
+from cosim.report.motion_text import (
+    WELL_INSIDE,
+    border_sentence,
+    ramp_sentence,
+    regime_sentence,
+    unstable_line,
+)
 from cosim.report.quantities import ROUNDING
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.units import doubted
@@ -366,6 +372,8 @@ def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
         lines.append(f"  unstable     {ramp}")
     if numbers["other_regimes"] or numbers["regimes"][OWN]["name"] == CREEPING:
         lines.append(f"  regimes      {regime_sentence(numbers)}")
+    if any((border["margin"] or 1.0) < WELL_INSIDE for border in numbers["nearest_borders"] or ()):
+        lines.append(f"  border       {border_sentence(numbers)}")
     return lines
 
 

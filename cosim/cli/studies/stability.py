@@ -44,8 +44,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--grid",
         metavar="N",
         type=int,
-        default=20,
-        help="points a side of each map, 0 for none (default: 20)",
+        help="points a side of each map, 0 for none (default: 20, with --border none)",
+    )
+    parser.add_argument(
+        "--border",
+        choices=("speed", "ramp", "damping", "pretension", "ratio"),
+        help="where the block stops to stick and slip, in one number of the rig: from rest, riding"
+        " on the surface, and from a speed ramp. speed: of the surface; ramp: its run-up time;"
+        " ratio: mu_s/mu_k at the scenario's mu_k",
     )
     add_set(parser)
     add_json(parser)
@@ -67,13 +73,15 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
-    from cosim.report.motion_text import regime_sentence, stability_sentence
-    from cosim.studies.stability import NotAMotion, case_of
+    from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
+    from cosim.studies.stability import NotAMotion, case_of, range_sentence, stick_slip_range
     from cosim.studies.stability.maps import as_json
 
     began = time.perf_counter()
-    if arguments.grid < 0 or arguments.grid == 1:
-        raise NotAMotion(f"--grid = {arguments.grid}: must be at least 2, or 0 for none")
+    if (grid := arguments.grid) is None:
+        grid = 0 if arguments.border else 20
+    if grid < 0 or grid == 1:
+        raise NotAMotion(f"--grid = {grid}: must be at least 2, or 0 for none")
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)
     folder = Path(arguments.output)
@@ -82,14 +90,23 @@ def execute(arguments: Namespace) -> int:
     case, status = case_of(scenario), DONE
     note_taken(scenario)
     maps: dict[str, Any] = {}
+    found: dict[str, Any] | None = None
     try:
-        if arguments.grid:
-            _fill(maps, case, arguments.grid)
+        if arguments.border:
+            with Bar(unit="run") as bar:
+                found = stick_slip_range(case, arguments.border, bar.update)
+        if grid:
+            _fill(maps, case, grid)
     except KeyboardInterrupt:
         print(f"error: interrupted; what was computed is in {folder}", file=sys.stderr)
         status = FAILED
     numbers = as_json(case, maps.get("pretension"), maps.get("regimes"))
-    sentences = [stability_sentence(numbers), regime_sentence(numbers)]
+    sentences = [
+        speaks(numbers) for speaks in (stability_sentence, regime_sentence, border_sentence)
+    ]
+    numbers["stick_slip_range"] = found
+    if found is not None:
+        sentences.insert(0, range_sentence(found))
     made = made_by(scenario=scenario.to_toml())
     with results_in(folder, made, force=arguments.force) as results:
         _write(numbers, sentences, _pictures(maps, case), folder)
@@ -132,7 +149,7 @@ def _write(
 
 def _print(numbers: dict[str, Any], sentences: list[str], folder: Path, wall_time: float) -> None:
     print(f"{numbers['name']}: {sentences[0]}")
-    print(sentences[1])
+    print("\n".join(sentences[1:]))
     found = numbers["regime_map"]
     if found is not None and found["cells_that_differ"] is not None:
         cells = 3 * len(found["ratios"]) * len(found["speeds"])

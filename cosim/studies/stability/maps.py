@@ -18,6 +18,7 @@ from stickslip.parameters import EffectTables
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension
+from stickslip.steady_motion.numbers import at_speed, with_ratio
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
 from stickslip.steady_motion.stability import growth_in_a_cycle, guided
 from stickslip.steady_motion.starts import RAMP, REST, RIDING, STARTS, other_starts
@@ -80,19 +81,6 @@ def _fault(parameters: Parameters) -> str:
 def run_length(parameters: Parameters) -> float:
     """Speed ramp and what follows it, s."""
     return parameters.surface.run_up_time + max(SECONDS, PERIODS / parameters.natural_frequency)
-
-
-def at_speed(parameters: Parameters, speed: float) -> Parameters:
-    """The same rig on a surface of another speed; a block that starts with the surface's keeps it.
-
-    The direction is that of the scenario.
-    """
-    speed = float(np.copysign(speed, parameters.surface.speed))
-    surface = parameters.surface.model_copy(update={"speed": speed})
-    initial = parameters.initial
-    if initial.vx == parameters.surface.speed:
-        initial = initial.model_copy(update={"vx": speed})
-    return parameters.model_copy(update={"surface": surface, "initial": initial})
 
 
 @dataclass(frozen=True)
@@ -170,7 +158,7 @@ def regime_map(
     known = is_coulomb_oscillator(case.parameters)
     for i, ratio in enumerate(ratios):
         for j, speed in enumerate(speeds):
-            parameters = _with_ratio(at_speed(case.parameters, speed), ratio)
+            parameters = with_ratio(at_speed(case.parameters, speed), ratio)
             simulated[:, i, j] = _simulated(parameters, case.interface)
             if known:
                 closed[:, i, j] = predicted(parameters)
@@ -179,12 +167,6 @@ def regime_map(
     return RegimeMap(
         np.asarray(ratios), np.asarray(speeds), simulated, closed if known else None, fastest
     )
-
-
-def _with_ratio(parameters: Parameters, ratio: float) -> Parameters:
-    friction = parameters.friction
-    changed = friction.model_copy(update={"mu_s": ratio * friction.mu_k})
-    return parameters.model_copy(update={"friction": changed})
 
 
 def _simulated(parameters: Parameters, interface: Interface) -> list[str]:

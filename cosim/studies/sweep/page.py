@@ -14,6 +14,11 @@ from .figure import SHOWN, still_sentence
 
 #: Runs that the page lists; the rest is in the file.
 MOST_ROWS = 500
+SLIDES, HOLDS = "slides", "never slips"
+EXPLAINED = {
+    SLIDES: "it slides all the time",
+    HOLDS: "it never breaks away: it rests, or rides along with the surface",
+}
 FILES = {
     "sweep.nc": "all features of all runs, with units: netCDF 4, for xarray, Matlab",
     "sweep.csv": "the same as a table, a line for each run",
@@ -41,7 +46,7 @@ def page(
         coupled=bool(dataset.attrs["coupled"]),
         total=len(rows),
         complete=sum(row["status"] == "complete" for row in rows),
-        never_stick=sum(row["status"] == "complete" and row["frequency"] == 0.0 for row in rows),
+        regimes=regimes_sentence(rows),
         still=still_sentence(dataset, still),
         figure_of=picture,
         heads=[*(_headed(dataset, dim) for dim in dims), *(SHOWN[one][0] for one in drawn)],
@@ -84,10 +89,33 @@ def _row(row: Mapping[str, Any], dims: Sequence[str], drawn: Sequence[str]) -> l
     for name in drawn:
         value = row[name]
         if name == "frequency" and value == 0.0:
-            cells.append("no stick-slip")
+            cells.append(_without_frequency(row))
         else:
             cells.append(number(value * SHOWN[name][1]))
     return cells
+
+
+def _without_frequency(row: Mapping[str, Any]) -> str:
+    """What a block does that never breaks away at constant speed."""
+    return SLIDES if row["slip_share"] == 1.0 else HOLDS
+
+
+def regimes_sentence(rows: Sequence[Mapping[str, Any]]) -> str:
+    """In how many runs the block does what, where it does not stick and slip in all of them."""
+    complete = [row for row in rows if row["status"] == "complete"]
+    does = [_without_frequency(row) for row in complete if row["frequency"] == 0.0]
+    if not does:
+        return ""
+    told = [
+        f"in {does.count(what)} {explained}"
+        for what, explained in EXPLAINED.items()
+        if does.count(what)
+    ]
+    return (
+        f"In {len(does)} of {len(complete)} runs the block does not stick and slip at constant "
+        f"speed: {', '.join(told)}. Another start may lead to stick-slip there; "
+        "stickslip stability tells."
+    )
 
 
 def _where(row: Mapping[str, Any], dims: Sequence[str]) -> str:

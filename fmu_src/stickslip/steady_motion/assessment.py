@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..parameters import Parameters
+from .borders import Border, nearest_borders
 from .live import DRY, Interface, RunEnded
 from .pretension import COARSE, PretensionBorders, pretension_borders
 from .regimes import Regime, coexisting, grouped, regimes
@@ -31,6 +32,7 @@ class Assessment:
     pretension : m, as it is
     borders : pretensions at which the motion is unstable; None where that takes too many steps
     whole : whether all starts were followed within the steps that are allowed
+    near : the nearest border in each of the rig's numbers; None where that takes too many steps
     """
 
     stability: Stability
@@ -38,6 +40,7 @@ class Assessment:
     pretension: float
     borders: PretensionBorders | None
     whole: bool = True
+    near: list[Border] | None = None
 
     @property
     def coexisting(self) -> dict[str, Regime]:
@@ -63,6 +66,9 @@ class Assessment:
             "other_regimes": list(self.coexisting),
             "same_regime": grouped(self.regimes),
             "all_starts_followed": self.whole,
+            "nearest_borders": None
+            if self.near is None
+            else [border.as_dict() for border in self.near],
         }
 
 
@@ -101,7 +107,17 @@ def assess(
     borders = _borders(parameters, duration, interface, work) if whole else None
     rig = parameters.rig
     pretension = rig.spring_length - rig.spring_natural_length
-    return Assessment(stable, found, pretension, borders, whole)
+    near = _near(parameters, duration, interface, work) if whole else None
+    return Assessment(stable, found, pretension, borders, whole, near)
+
+
+def _near(
+    parameters: Parameters, duration: float, interface: Interface, work: Work
+) -> list[Border] | None:
+    try:
+        return nearest_borders(parameters, duration, interface, work)
+    except OutOfWork:
+        return None
 
 
 def _borders(

@@ -21,6 +21,10 @@ from .starts import BALANCED, OWN, balanced, disturbed, other_starts
 from .work import OutOfWork, Work
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
+#: Of a run that cannot be followed.
+ENDED = "ended"
+#: Beside the line by more than this, m and degrees, a motion is.
+ASIDE_LENGTH, ASIDE_ANGLE_DEG = 2e-3, 2.0
 #: Shortest run at constant speed that a regime is read from, s, and in natural periods.
 SHORTEST, PERIODS = 20.0, 20.0
 #: A run whose numbers do not repeat yet is made twice as long, so many times.
@@ -55,7 +59,7 @@ class Regime:
         is sheared at nearly the surface's speed and never breaks away)
     frequency : of the break-aways, from the first to the last, Hz; 0 of fewer than two
     slip_share : part of the time in slip
-    mean_x, half_range_x : m
+    mean_x, half_range_x : m; the mean of whole cycles where there are any
     max_y : largest distance from the line, m
     max_rotation_deg : largest rotation, deg
     change : of each number in `TOLERANCES`, from the first half of that part to the second
@@ -87,6 +91,11 @@ class Regime:
         return change <= STILL * value + NOTHING and (
             value <= TOLERANCES[name][1] or change >= -STILL * value
         )
+
+    @property
+    def is_aside(self) -> bool:
+        """Does the block keep beside its line, or turned?"""
+        return self.max_y >= ASIDE_LENGTH or self.max_rotation_deg >= ASIDE_ANGLE_DEG
 
     @property
     def swing_change(self) -> float:
@@ -238,11 +247,15 @@ def _numbers(run: Trajectory, begin: float, end: float) -> dict[str, float]:
     seen = (run.time >= begin) & (run.time <= end)
     time, x = run.time[seen], run["x"][seen]
     starts = run.slip_starts
-    frequency = break_away_frequency(starts[(starts >= begin) & (starts <= end)])
+    starts = starts[(starts >= begin) & (starts <= end)]
+    frequency = break_away_frequency(starts)
+    cycles = (time >= starts[0]) & (time <= starts[-1]) if starts.size > 1 else time >= begin
+    if np.count_nonzero(cycles) < 2:
+        cycles = time >= begin
     return {
         "frequency": 0.0 if math.isnan(frequency) else frequency,
         "slip_share": slip_share(time, run["mode"][seen], run.events),
-        "mean_x": float(np.trapezoid(x, time) / np.ptp(time)),
+        "mean_x": float(np.trapezoid(x[cycles], time[cycles]) / np.ptp(time[cycles])),
         "half_range_x": 0.5 * float(np.ptp(x)),
         "max_y": float(np.abs(run["y"][seen]).max()),
         "max_rotation_deg": float(np.degrees(np.abs(run["phi"][seen]).max())),

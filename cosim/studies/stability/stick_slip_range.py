@@ -1,0 +1,108 @@
+"""In which range of one number a rig sticks and slips: from rest, riding, and from a speed ramp."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from stickslip.steady_motion import numbers as rig
+from stickslip.steady_motion.borders import FARTHEST, all_borders, follower
+from stickslip.steady_motion.regimes import STICK_SLIP
+from stickslip.steady_motion.starts import RAMP, REST, RIDING, disturbed, other_starts
+
+from .maps import Case, NotAMotion, run_length
+
+#: What the command line calls the numbers of `numbers.numbers_of`.
+NUMBERS = {
+    "speed": rig.SPEED,
+    "ramp": rig.RAMP,
+    "damping": rig.DAMPING,
+    "pretension": rig.PRETENSION,
+    "ratio": rig.RATIO,
+}
+STARTS = (REST, RIDING, RAMP)
+TOLD = {REST: "from rest", RIDING: "riding on the surface", RAMP: "from a speed ramp"}
+
+
+def stick_slip_range(
+    case: Case, word: str, look: Callable[[], object] = lambda: None
+) -> dict[str, Any]:
+    """``key``, ``unit``, ``value``, ``searched`` (two values), ``ramp`` (s) and ``stick_slip``.
+
+    The last is start -> windows (from, to) in which the block sticks and slips; None is beyond what
+    was searched. Every border of such a window is bisected to a ten-thousandth. word: of `NUMBERS`.
+    NotAMotion for a number that the rig does not have. look: called after each step.
+    """
+    known = {number.key: number for number in rig.numbers_of(case.parameters)}
+    if NUMBERS[word] not in known:
+        has = ", ".join(name for name, key in NUMBERS.items() if key in known)
+        raise NotAMotion(f"{case.name}: --border {word}: this rig has none; allowed is {has}")
+    number = known[NUMBERS[word]]
+    starts = other_starts(case.parameters)
+    windows = {}
+    tried = (RAMP,) if number.key == rig.RAMP else STARTS
+    for start in tried:
+        parameters = disturbed(starts[start])
+        duration = run_length(parameters)
+        borders = all_borders(parameters, number, duration, case.interface, look)
+        steady = duration - parameters.surface.run_up_time
+        lowest = (
+            borders[0].below
+            if borders
+            else follower(parameters, number, steady, case.interface)(number.value)
+        )
+        windows[start] = _windows(lowest[0], [(one.value, one.above[0]) for one in borders])
+    own = number.value - number.least or number.first
+    return {
+        "key": number.key,
+        "unit": number.unit,
+        "value": number.value,
+        "searched": [number.least + own / FARTHEST, number.least + own * FARTHEST],
+        "ramp": starts[RAMP].surface.run_up_time,
+        "stick_slip": windows,
+    }
+
+
+def _windows(
+    lowest: str, borders: list[tuple[float, str]]
+) -> list[tuple[float | None, float | None]]:
+    """Where the block sticks and slips: by its regime at the least value and above each border."""
+    windows: list[tuple[float | None, float | None]] = []
+    begin: float | None = None
+    sticks = lowest == STICK_SLIP
+    for value, name in borders:
+        if sticks and name != STICK_SLIP:
+            windows.append((begin, value))
+        elif not sticks and name == STICK_SLIP:
+            begin = value
+        sticks = name == STICK_SLIP
+    return [*windows, (begin, None)] if sticks else windows
+
+
+def range_sentence(found: dict[str, Any]) -> str:
+    """The answer in a line: "sticks and slips: from rest up to 0.1812 m/s; riding ..."."""
+    unit = "" if found["unit"] == "1" else f" {found['unit']}"
+    ramp = "" if found["key"] == rig.RAMP else f" of {found['ramp']:g} s"
+    told = [
+        f"{TOLD[start]}{ramp if start == RAMP else ''} {_range(windows, unit)}"
+        for start, windows in found["stick_slip"].items()
+    ]
+    low, high = found["searched"]
+    return (
+        f"The block sticks and slips {'; '.join(told)} ({found['key']}, here {found['value']:.4g}"
+        f"{unit}; looked for from {low:.3g} to {high:.3g}{unit})."
+    )
+
+
+def _range(windows: list[tuple[float | None, float | None]], unit: str) -> str:
+    if not windows:
+        return "nowhere"
+    return " and ".join(_window(low, high, unit) for low, high in windows)
+
+
+def _window(low: float | None, high: float | None, unit: str) -> str:
+    if low is None:
+        return "everywhere" if high is None else f"up to {high:.4g}{unit}"
+    if high is None:
+        return f"from {low:.4g}{unit} on"
+    return f"from {low:.4g} to {high:.4g}{unit}"

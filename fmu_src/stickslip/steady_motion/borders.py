@@ -1,0 +1,164 @@
+"""How near a rig is to a border: at which values of its numbers its motion becomes another.
+
+Each number is changed alone, in steps, until the block does something else: sticks no more, or
+leaves its line. Between the last two values the border is bisected.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ..parameters import Parameters
+from .live import DRY, Interface, RunEnded
+from .numbers import Number, numbers_of
+from .regimes import ENDED, regime_of
+from .starts import disturbed
+from .work import Work
+
+#: Factors at which a number is tried, up and down, and of one that is 0, times its first value.
+FACTORS, FROM_NOTHING = (1.1, 1.25, 1.5, 2.0), (1.0, 2.0, 5.0, 10.0)
+#: To what part of itself a border is found, and where it is asked for.
+COARSE, FINE = 0.01, 1e-4
+#: Range of `all_borders`, as a factor, and how many values of it are tried.
+FARTHEST, COUNT = 10.0, 49
+
+#: What a block does: the name of its regime, and whether it does so beside its line.
+Kind = tuple[str, bool]
+
+
+@dataclass(frozen=True)
+class Border:
+    """A value of a number at which the motion becomes another.
+
+    below, above : what the block does on either side: a name of `regimes`, "ended" where no run can
+        be followed, and whether it does so beside its line
+    """
+
+    number: Number
+    value: float
+    below: Kind
+    above: Kind
+
+    @property
+    def beyond(self) -> Kind:
+        """What the block does on the side on which the rig is not."""
+        return self.above if self.value > self.number.value else self.below
+
+    @property
+    def margin(self) -> float | None:
+        """How far the number may change, as a part of what it is above its least; None: of 0."""
+        own = self.number.value - self.number.least
+        return abs(self.value - self.number.value) / own if own > 0.0 else None
+
+    def as_dict(self) -> dict[str, object]:
+        """Plain numbers."""
+        name, aside = self.beyond
+        return {
+            "key": self.number.key,
+            "unit": self.number.unit,
+            "value": self.number.value,
+            "border": self.value,
+            "margin": self.margin,
+            "beyond": name,
+            "aside": aside,
+        }
+
+
+def nearest_borders(
+    parameters: Parameters,
+    duration: float = 30.0,
+    interface: Interface = DRY,
+    work: Work | None = None,
+) -> list[Border]:
+    """The nearest border in each of `numbers_of`, within half and twice what it is above its least.
+
+    The nearest of all first. Of the run as it starts, a little disturbed, as long at constant speed
+    as it is in ``duration`` (s). A number without a border in that range is not in the list. Raises
+    `work.OutOfWork`.
+    """
+    steady = duration - parameters.surface.run_up_time
+    found = []
+    for number in numbers_of(parameters):
+        does = follower(disturbed(parameters), number, steady, interface, work)
+        sides = (next(changes(does, number, values, COARSE), None) for values in _outward(number))
+        found += sorted(filter(None, sides), key=lambda border: border.margin or 0.0)[:1]
+    return sorted(found, key=lambda border: 1.0 if border.margin is None else border.margin)
+
+
+def all_borders(
+    parameters: Parameters,
+    number: Number,
+    duration: float = 30.0,
+    interface: Interface = DRY,
+    look: Callable[[], object] = lambda: None,
+) -> list[Border]:
+    """Every border in a number, from a tenth of what it is above its least to ten times that.
+
+    From the run's own start. Of one that is 0, about its first value. look: called after each
+    step.
+    """
+    least = number.least
+    own = number.value - least if number.value > least else number.first
+    values = least + own * np.geomspace(1.0 / FARTHEST, FARTHEST, COUNT)
+    steady = duration - parameters.surface.run_up_time
+    does = follower(parameters, number, steady, interface)
+
+    def counted(value: float) -> Kind:
+        kind = does(value)
+        look()
+        return kind
+
+    return list(changes(counted, number, values.tolist(), FINE))
+
+
+def follower(
+    parameters: Parameters,
+    number: Number,
+    steady: float,
+    interface: Interface = DRY,
+    work: Work | None = None,
+) -> Callable[[float], Kind]:
+    """What the block does for a value of a number, in a run of ``steady`` s at constant speed."""
+
+    def does(value: float) -> Kind:
+        changed = number.change(parameters, value)
+        try:
+            regime = regime_of(changed, steady + changed.surface.run_up_time, interface, work)
+        except RunEnded:
+            return ENDED, False
+        return regime.name, regime.is_aside
+
+    return does
+
+
+def changes(
+    does: Callable[[float], Kind], number: Number, values: Sequence[float], resolution: float
+) -> Iterator[Border]:
+    """Borders between values that are tried one after the other, bisected."""
+    kinds = ((value, does(value)) for value in values)
+    for (one, before), (other, after) in pairwise(kinds):
+        if before == after:
+            continue
+        while abs(other - one) > resolution * (max(one, other) - number.least):
+            middle = 0.5 * (one + other)
+            kind = does(middle)
+            if kind == before:
+                one = middle
+            else:
+                other, after = middle, kind
+        below, above = (before, after) if one < other else (after, before)
+        yield Border(number, 0.5 * (one + other), below, above)
+
+
+def _outward(number: Number) -> tuple[list[float], list[float]]:
+    """Values from the number's own on, up and down."""
+    own, least = number.value, number.least
+    if own <= least:
+        return [own, *(least + factor * number.first for factor in FROM_NOTHING)], []
+    up = [least + factor * (own - least) for factor in FACTORS]
+    down = [least + (own - least) / factor for factor in FACTORS]
+    return [own, *up], [own, *down]

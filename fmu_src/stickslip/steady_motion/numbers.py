@@ -1,0 +1,87 @@
+"""The numbers of a rig that decide what its block does, and how each is changed alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import pi
+
+from ..parameters import Parameters
+from .pretension import with_pretension
+
+SPEED, RAMP, DAMPING = "surface.speed", "surface.run_up_time", "structural_damping.coefficient"
+PRETENSION, RATIO = "pretension", "mu_s/mu_k"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that can be changed.
+
+    Attributes
+    ----------
+    key, unit : `table.key` of a scenario, or what it is made of
+    value : as the rig has it
+    least : below which it cannot be
+    first : what is tried first where it is 0
+    change : the rig with another value
+    """
+
+    key: str
+    unit: str
+    value: float
+    least: float
+    first: float
+    change: Callable[[Parameters, float], Parameters]
+
+
+def numbers_of(parameters: Parameters) -> list[Number]:
+    """Speed, its ramp, damping, pretension where the block is not guided, and mu_s/mu_k."""
+    rig, surface, friction = parameters.rig, parameters.surface, parameters.friction
+    critical = 4.0 * pi * parameters.natural_frequency * rig.mass
+    damping = parameters.structural_damping.coefficient
+    found = [
+        Number(SPEED, "m/s", abs(surface.speed), 0.0, 0.01, at_speed),
+        Number(RAMP, "s", surface.run_up_time, 0.0, 1.0, _setting("surface", "run_up_time")),
+        Number(
+            DAMPING,
+            "N s/m",
+            damping,
+            0.0,
+            1e-3 * critical,
+            _setting("structural_damping", "coefficient"),
+        ),
+    ]
+    if rig.degrees_of_freedom != ("x",):
+        stretched = round(rig.spring_length - rig.spring_natural_length, 12)
+        first = 0.01 * rig.spring_length
+        found.append(Number(PRETENSION, "m", stretched, 0.0, first, with_pretension))
+    if friction.mu_k > 0.0 and not friction.has_table:
+        ratio = friction.mu_s / friction.mu_k
+        found.append(Number(RATIO, "1", ratio, 1.0, 0.1, with_ratio))
+    return found
+
+
+def at_speed(parameters: Parameters, speed: float) -> Parameters:
+    """The same rig on a surface of another speed; a block that starts with the surface's keeps it.
+
+    The direction is that of the rig.
+    """
+    surface = parameters.surface
+    speed = -abs(speed) if surface.speed < 0.0 else abs(speed)
+    changed = _setting("surface", "speed")(parameters, speed)
+    if parameters.initial.vx == surface.speed:
+        return _setting("initial", "vx")(changed, speed)
+    return changed
+
+
+def with_ratio(parameters: Parameters, ratio: float) -> Parameters:
+    """The same rig with another mu_s/mu_k at its mu_k."""
+    return _setting("friction", "mu_s")(parameters, ratio * parameters.friction.mu_k)
+
+
+def _setting(table: str, key: str) -> Callable[[Parameters, float], Parameters]:
+    def change(parameters: Parameters, value: float) -> Parameters:
+        changed = getattr(parameters, table).model_copy(update={key: value})
+        return parameters.model_copy(update={table: changed})
+
+    return change

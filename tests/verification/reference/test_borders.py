@@ -1,0 +1,98 @@
+"""At which numbers of a rig its motion becomes another: by closed forms, and of the reference."""
+
+import math
+
+import pytest
+from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
+from stickslip.reference.coulomb_oscillator import CoulombOscillator
+from stickslip.reference.coulomb_starts import BeltStart
+from stickslip.steady_motion import OutOfWork, Work
+from stickslip.steady_motion.borders import all_borders, nearest_borders
+from stickslip.steady_motion.numbers import DAMPING, RAMP, RATIO, SPEED, numbers_of
+from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
+from stickslip.steady_motion.starts import RAMP as FROM_RAMP
+from stickslip.steady_motion.starts import REST, RIDING, other_starts
+
+from cosim import read_scenario
+
+REFERENCE = read_scenario("reference").mechanics
+MU_S, MU_K, LOAD, STIFFNESS = 0.2815, 0.2086, 0.67 * 9.81, 4.0 * 20.17
+
+
+def rig(damping=0.0):
+    """The published rig, pretensioned, as drawn."""
+    return Parameters(
+        rig=Rig(spring_natural_length=0.17),
+        lateral_friction=LateralFriction(ratio=1.0),
+        surface=Surface(speed=0.15, run_up_time=10.0),
+        friction=Friction(mu_s=MU_S, mu_k=MU_K),
+        structural_damping=StructuralDamping(coefficient=damping),
+    )
+
+
+def closed_form(damping, sticks):
+    """The speed above which the Coulomb oscillator does not stick, bisected, m/s."""
+    low, high = 0.1, 0.6
+    while high - low > 1e-7:
+        speed = 0.5 * (low + high)
+        oscillator = CoulombOscillator(0.67, STIFFNESS, speed, MU_S * LOAD, MU_K * LOAD)
+        if sticks(BeltStart(oscillator, damping, 10.0)):
+            low = speed
+        else:
+            high = speed
+    return low
+
+
+@pytest.mark.parametrize(
+    ("start", "damping", "sticks"),
+    [
+        (REST, 0.0, BeltStart.sticks_from_rest),
+        (REST, 0.07, BeltStart.sticks_from_rest),
+        (RIDING, 0.07, BeltStart.sticks_riding),
+        (FROM_RAMP, 0.07, BeltStart.sticks_after_run_up),
+    ],
+)
+def test_the_fastest_stick_slip_is_that_of_the_closed_form(start, damping, sticks):
+    """Bisected to 1e-4; a last stick within half the run at constant speed is one."""
+    parameters = other_starts(rig(damping))[start]
+    found = all_borders(
+        parameters, numbers_of(parameters)[0], 20.0 + parameters.surface.run_up_time
+    )
+    stops = [border for border in found if border.below == (STICK_SLIP, False)]
+    assert len(stops) == 1 and stops[0].above == (SLIDING, False)
+    assert stops[0].value == pytest.approx(closed_form(damping, sticks), rel=2e-4)
+    if start == REST and damping == 0.0:
+        assert stops[0].value == pytest.approx(MU_K * 9.81 / math.sqrt(STIFFNESS / 0.67), rel=2e-4)
+
+
+def test_the_reference_is_near_its_borders():
+    """In speed, ramp, damping and mu_s/mu_k: beyond, the block slides."""
+    found = {border.number.key: border for border in nearest_borders(REFERENCE)}
+    values = {key: border.value for key, border in found.items()}
+    assert values == {
+        SPEED: pytest.approx(0.157, rel=0.01),
+        RAMP: pytest.approx(8.25, rel=0.01),
+        DAMPING: pytest.approx(0.0938, rel=0.01),
+        RATIO: pytest.approx(1.334, abs=0.005),
+    }
+    assert list(found) == [RATIO, SPEED, RAMP, DAMPING]
+    assert {border.beyond for border in found.values()} == {(SLIDING, False)}
+
+
+def test_a_slower_ramp_and_springs_that_damp_less_are_well_inside():
+    parameters = REFERENCE.model_copy(
+        update={
+            "surface": replace_in(REFERENCE.surface, run_up_time=20.0),
+            "structural_damping": replace_in(REFERENCE.structural_damping, coefficient=0.014),
+        }
+    )
+    assert all(border.margin > 1.0 / 3.0 for border in nearest_borders(parameters, 40.0))
+
+
+def replace_in(table, **values):
+    return table.model_copy(update=values)
+
+
+def test_no_more_steps_are_taken_than_are_allowed():
+    with pytest.raises(OutOfWork):
+        nearest_borders(REFERENCE, work=Work(1e4, 45.0))
