@@ -21,6 +21,7 @@ from stickslip.kernel.layout import (
     O_SIZE,
     P_MU_K,
     P_MU_S,
+    P_NATURAL_LENGTH,
     P_NORMAL_FORCE,
     P_PRESLIDING,
     SHOWN,
@@ -32,15 +33,19 @@ from stickslip.kernel.layout import (
     Z_ENERGY,
     Z_INPUTS,
     Z_SIZE,
+    Y,
 )
 from stickslip.kernel.motion import block_energy
 from stickslip.kernel.outputs import show
 from stickslip.kernel.rig.drive import lead_inputs
+from stickslip.kernel.rig.springs import spring_length
 from stickslip.packing import pack
 from stickslip.status import WHY_NOT
 from stickslip.unit_slave import Refused, UnitSlave
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS, TUNABLE
 
+#: Parameters that say what a rig bears.
+LIMITS = ("turning_surface.curvature", "belt.width", "springs.longest")
 FINEST_TOLERANCE = next(e["min"] for e in PARAMETERS if e["name"] == "solver.tolerance")
 
 
@@ -63,14 +68,16 @@ class StickSlip3DOF(UnitSlave):
             self.add_output(*port)
         for entry in PARAMETERS:
             self.add_parameter(entry)
-        self.said_to_creep = False
+        by_name = {name: reference for reference, name in self.parameter_names.items()}
+        self.limits = [by_name[name] for name in LIMITS]
+        self.said = []  # of what the user has been warned
         self.g = [0.0] * G_SIZE  # inputs as the host gives them
         self.u = [0.0] * U_SIZE  # inputs as the kernel has them
         self.p = []
         self.z = [0.0] * Z_SIZE
         self.w = [0.0] * W_SIZE
         self.e = [0.0] * E_FIRST  # no room for events: they are not logged here
-        self.o = [0.0] * O_SIZE
+        self.o = [0.0] * (O_SIZE + 2)  # and behind them what no rig bears
 
     def begin(self):
         """From the parameters, with the inputs as they are."""
@@ -119,16 +126,52 @@ class StickSlip3DOF(UnitSlave):
         self.z[Z_INPUTS] = nan  # the kernel starts afresh from here, as after a change of inputs
 
     def warn(self):
-        """Warn, once, of a surface that a stick's creep keeps up with: it would stick for ever."""
+        """Warn, once of each, of a surface that a stick's creep keeps up with: it would stick for
+        ever; and of what no rig bears."""
         creep, speed = self.p[P_PRESLIDING], abs(self.g[G_VALUE + U_SPEED])
         creep *= max(self.p[P_MU_S], self.p[P_MU_K]) * self.p[P_NORMAL_FORCE]
-        if not self.said_to_creep and 0.0 < speed <= creep:
-            self.said_to_creep = True
-            self.log(
+        time = self.z[SHOWN + TIME]
+        _, width, most = self._limits()
+        if 0.0 < speed <= creep:
+            self._say(
+                "creep",
                 f"surface_speed = {speed:g} m/s is not above friction.stick_creep = {creep:g} m/s: "
                 "the contact creeps as fast as the surface and never breaks away; its mode stays 0",
-                Fmi2Status.warning,
             )
+        if self.o[O_SIZE]:
+            self._say(
+                "off_belt",
+                f"off_belt: the block has left the belt {time:g} s after the start: its centre is "
+                f"{abs(self.z[SHOWN + Y]):g} m aside, the edge of belt.width = {width:g} m is at "
+                f"{0.5 * width:g} m; the motion from here on is none of a rig",
+            )
+        if self.o[O_SIZE + 1]:
+            self._say(
+                "spring_overstretched",
+                f"spring_overstretched: a spring is {self._longest_spring():g} m long {time:g} s "
+                f"after the start, more than springs.longest = {most:g} times its "
+                f"{self.p[P_NATURAL_LENGTH]:g} m without load",
+            )
+
+    def _say(self, what, text):
+        if what not in self.said:
+            self.said.append(what)
+            self.log(text, Fmi2Status.warning)
+
+    def _limits(self):
+        """Curvature of the surface's way, 1/m, width of the belt, m, and longest spring."""
+        return (self.cells[reference] for reference in self.limits)
+
+    def _longest_spring(self):
+        return max(spring_length(self.p, self.z, SHOWN, i) for i in range(4))
+
+    def _watch(self):
+        """Look whether the block is on the belt, and the springs as long as they bear."""
+        curvature, width, most = self._limits()
+        is_belt = curvature == 0.0 and width > 0.0
+        too_long = most * self.p[P_NATURAL_LENGTH]
+        self.o[O_SIZE] = float(is_belt and abs(self.z[SHOWN + Y]) > 0.5 * width)
+        self.o[O_SIZE + 1] = float(most > 0.0 and self._longest_spring() > too_long)
 
     def _advance(self, end):
         """On to a time after the start of the experiment, s."""
@@ -136,14 +179,16 @@ class StickSlip3DOF(UnitSlave):
         if status != DONE:
             raise Refused(f"no way to {end:g} s after the start: {WHY_NOT[status]}")
         show(self.p, self.u, self.z, self.w, self.o, 0)
+        self._watch()
         self.show(self.o)
 
     def keep(self):
-        """Copies of the kernel's arrays, and whether the warning has been given."""
-        return [self.said_to_creep, *(getattr(self, name).copy() for name in self.KEPT)]
+        """Copies of the kernel's arrays, and which warnings have been given."""
+        return [self.said.copy(), *(getattr(self, name).copy() for name in self.KEPT)]
 
     def put(self, kept):
         """Into the arrays that there are."""
-        self.said_to_creep, *arrays = kept
+        said, *arrays = kept
+        self.said = list(said)
         for name, array in zip(self.KEPT, arrays, strict=True):
             getattr(self, name)[:] = array

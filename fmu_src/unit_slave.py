@@ -29,7 +29,15 @@ import json
 import sys
 from math import inf, isfinite, nan, ulp
 
-from pythonfmu import Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real
+from pythonfmu import (
+    Boolean,
+    Fmi2Causality,
+    Fmi2Initial,
+    Fmi2Slave,
+    Fmi2Variability,
+    Integer,
+    Real,
+)
 from pythonfmu.enums import Fmi2Status
 
 # A host computes its communication points in one way or another and may miss the end of the last
@@ -46,8 +54,16 @@ READABLE = (INITIALISING, STEPPING, TERMINATED, FAILED)
 ANY_PHASE = (*SETTABLE, TERMINATED, FAILED)
 
 
+KINDS = {"Real": Real, "Integer": Integer, "Boolean": Boolean}
+SAID = {Real: "a real number", Integer: "an integer", Boolean: "a Boolean"}
+
+
 class Refused(Exception):
     """A call that cannot be carried out; the message goes to the host's log."""
+
+
+class Unread(Refused):
+    """A value is asked for that there is not: nothing has changed, and the instance goes on."""
 
 
 def guarded(call, phases, result=None):
@@ -63,6 +79,9 @@ def guarded(call, phases, result=None):
             try:
                 self._allow(call, phases)
                 return method(self, *arguments)
+            except Unread as error:
+                self.log(str(error).replace("%", "%%"), Fmi2Status.error)
+                return result(*arguments)
             except Refused as error:
                 reason = str(error)
             except BaseException as error:
@@ -151,11 +170,11 @@ class UnitSlave(Fmi2Slave):
         self.slacks[reference] = self.slack * nominal
         self.input_slots[reference] = slot
 
-    def add_output(self, name, slot, integer):
-        """An output."""
-        more = {"variability": Fmi2Variability.discrete} if integer else {}
+    def add_output(self, name, slot, kind):
+        """An output; kind: a real number, an integer or a Boolean, by its name in FMI."""
+        more = {} if kind == "Real" else {"variability": Fmi2Variability.discrete}
         more |= {"causality": Fmi2Causality.output, "initial": Fmi2Initial.calculated}
-        reference = self._register(Integer if integer else Real, name, 0, **more)
+        reference = self._register(KINDS[kind], name, 0, **more)
         self.output_slots[reference] = slot
 
     def add_parameter(self, entry):
@@ -314,16 +333,22 @@ class UnitSlave(Fmi2Slave):
     @guarded("fmi2GetReal", ANY_PHASE, result=_nans)
     def get_real(self, references):
         # References are unique: some hosts read all variables by this function.
-        both = (Real, Integer)
-        return [float(value) for value in self._values("fmi2GetReal", references, both)]
+        return [float(value) for value in self._values("fmi2GetReal", references, *SAID)]
 
     @guarded("fmi2GetInteger", ANY_PHASE, result=_zeros)
     def get_integer(self, references):
         return [int(value) for value in self._values("fmi2GetInteger", references, Integer)]
 
-    def _values(self, call, references, kind):
-        for reference in references:
-            self._check_reference(reference, kind)
+    @guarded("fmi2GetBoolean", ANY_PHASE, result=_zeros)
+    def get_boolean(self, references):
+        return [bool(value) for value in self._values("fmi2GetBoolean", references, Boolean)]
+
+    def _values(self, call, references, *kinds):
+        try:
+            for reference in references:
+                self._check_reference(reference, *kinds)
+        except Refused as error:
+            raise Unread(str(error)) from None
         if any(reference in self.output_slots for reference in references):
             self._allow(call, READABLE)
             self._refresh()
@@ -345,15 +370,14 @@ class UnitSlave(Fmi2Slave):
             self._check_value(reference, value)
             self._set(reference, value)
 
-    def _check_reference(self, reference, kind):
+    def _check_reference(self, reference, *kinds):
         variable = self.vars.get(reference)
         if variable is None:
             # The library hands unsigned references over as signed.
             reference %= 1 << 32
             raise Refused(f"value reference {reference}: there is no such variable")
-        if not isinstance(variable, kind):
-            both = ["a real number", "an integer"]
-            was, asked = both if kind is Integer else reversed(both)
+        if type(variable) not in kinds:
+            was, asked = SAID[type(variable)], SAID[kinds[0]]
             raise Refused(f"{variable.name} is {was}, not {asked}")
 
     def _check_settable(self, reference):
@@ -384,28 +408,22 @@ class UnitSlave(Fmi2Slave):
             self.retuned = self.retuned or reference in self.parameter_names
         self.cells[reference] = value
 
-    # No variable is of these types.
+    @guarded("fmi2SetBoolean", SETTABLE)
+    def set_boolean(self, references, values):
+        self._set_all(references, values, Boolean)
 
-    @guarded("fmi2GetBoolean", ANY_PHASE, result=_zeros)
-    def get_boolean(self, references):
-        return self._of_none("fmi2GetBoolean", references)
+    # No variable is a text.
 
     @guarded("fmi2GetString", ANY_PHASE, result=_empties)
     def get_string(self, references):
-        return self._of_none("fmi2GetString", references)
-
-    @guarded("fmi2SetBoolean", SETTABLE)
-    def set_boolean(self, references, values):
-        self._of_none("fmi2SetBoolean", references)
+        if references:
+            raise Unread("fmi2GetString: no variable is a text")
+        return []
 
     @guarded("fmi2SetString", SETTABLE)
     def set_string(self, references, values):
-        self._of_none("fmi2SetString", references)
-
-    def _of_none(self, call, references):
         if references:
-            raise Refused(f"{call}: all variables are real or integer")
-        return []
+            raise Refused("fmi2SetString: no variable is a text")
 
     # --- state ---
 

@@ -32,10 +32,14 @@ class Message:
     category: str
     text: str
 
+    @property
+    def when(self) -> str:
+        """The time in words."""
+        return "initialisation" if self.time is None else f"t = {self.time:.9g} s"
+
     def __str__(self) -> str:
-        when = "initialisation" if self.time is None else f"t = {self.time:.9g} s"
         category = f" [{self.category}]" if self.category else ""
-        return f"{self.source}: {when}: {self.status}{category}: {self.text}"
+        return f"{self.source}: {self.when}: {self.status}{category}: {self.text}"
 
 
 class Messages:

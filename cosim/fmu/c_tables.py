@@ -10,8 +10,10 @@ from stickslip.kernel.layout import DRAW_SEED, DRAW_UNIFORM, constants
 from stickslip.status import WHY_NOT
 
 from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
-from cosim.fmu.variables import HOLD, Variable, by_array, names
+from cosim.fmu.variables import HOLD, LIMITS, WATCHED, Variable, by_array, names
 
+#: What the kernel knows nothing of.
+UNIT_ALONE = (*(each.name for each in WATCHED), *(str(each["name"]) for each in LIMITS))
 MADE = "/* Made by the build from the declarations in Python. */\n"
 
 
@@ -64,6 +66,9 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
     can = dict.fromkeys(("HAS_EXCHANGE", "TAKES_RATES", "BEGINS_WITH_INPUTS"), True)
     hold = [variable.name for variable in variables].index(HOLD["name"])
     lines = [*count_lines(variables, guid, can), f"#define INPUT_HOLD {hold}"]
+    places = {each.name: place for place, each in enumerate(variables)}
+    lines += [f"#define {_constant(each)} {places[each]}" for each in UNIT_ALONE]
+    lines += [f"#define WATCHED_COUNT {len(WATCHED)}"]
     lines += [f"#define STATE_COUNT {len(states())}", f"#define INDICATOR_COUNT {INDICATORS}", ""]
     lines += ["/* Where the kernel keeps each output. */", "extern const int OUTPUT_SLOTS[];"]
     lines += ["/* Where each local variable is among the states and, behind them, their rates. */"]
@@ -80,7 +85,9 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
 def variables_source(variables: Sequence[Variable]) -> str:
     """The table of the variables, and where the kernel keeps what they show."""
     places = constants()
-    slots = [str(places[each.slot]) for each in variables if each.causality == "output"]
+    slots = [
+        str(places[each.slot]) for each in variables if each.causality == "output" and each.slot
+    ]
     return "\n".join(
         [
             MADE,
@@ -95,6 +102,11 @@ def variables_source(variables: Sequence[Variable]) -> str:
     )
 
 
+def _constant(name: str) -> str:
+    """As C has a constant: ``BELT_WIDTH`` of ``belt.width``."""
+    return name.replace(".", "_").upper()
+
+
 def _whole_numbers(name: str, numbers: Iterable[str]) -> str:
     return f"const int {name}[] = {{{', '.join(numbers)}}};"
 
@@ -102,8 +114,9 @@ def _whole_numbers(name: str, numbers: Iterable[str]) -> str:
 def _row(variable: Variable, elements: int) -> str:
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
-    flags = (variable.is_integer, variable.is_tunable)
-    said = ", ".join(str(flag).lower() for flag in flags)
+    kinds = {"BOOLEAN_TYPE": variable.is_boolean, "INTEGER_TYPE": variable.is_integer}
+    type_of = next((name for name, is_it in kinds.items() if is_it), "REAL_TYPE")
+    said = f"{type_of}, {str(variable.is_tunable).lower()}"
     numbers = ", ".join(_number(value) for value in (variable.start or 0.0, low, high))
     above = str(variable.above_min).lower()
     kind = variable.causality.upper()

@@ -38,7 +38,14 @@ from cosim.fmu.description.documentation import of_mechanics
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
-from cosim.fmu.variables import TUNABLE, Entry, Variable, parameter_table, variables
+from cosim.fmu.variables import (
+    TUNABLE,
+    WATCHED,
+    Entry,
+    Variable,
+    parameter_table,
+    variables,
+)
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"
@@ -251,13 +258,17 @@ def variables_module(table: list[Entry], content: str) -> bytes:
     values = {
         "BUILD": content,
         "GUID": guid_of(NAME, content),
-        # (name, place in u, start, min, max, nominal) and (name, place in o, is an integer)
+        # (name, place in u, start, min, max, nominal) and (name, place in o, type)
         "INPUTS": [
             (each.name, getattr(layout, each.slot), each.start, each.min, each.max, each.nominal)
             for each in ports.INPUTS
         ],
         "OUTPUTS": [
-            (each.name, getattr(layout, each.slot), each.unit is None) for each in ports.OUTPUTS
+            *(
+                (each.name, getattr(layout, each.slot), "Integer" if each.unit is None else "Real")
+                for each in ports.OUTPUTS
+            ),
+            *((each.name, layout.O_SIZE + place, "Boolean") for place, each in enumerate(WATCHED)),
         ],
         "PARAMETERS": table,
         "TUNABLE": TUNABLE,

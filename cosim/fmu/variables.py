@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from pydantic.fields import FieldInfo
@@ -11,6 +13,7 @@ from stickslip import Parameters, ports
 from stickslip.kernel import layout
 from stickslip.quantity import details
 
+import cosim
 from cosim.fmu.units import UNITS
 
 Entry = dict[str, Any]
@@ -51,6 +54,30 @@ HOLD: Entry = {
     "block that sticks does not jump",
     "start": 0,
 }
+#: Bounds of what the unit alone watches, see `WATCHED`.
+LIMITS: tuple[Entry, ...] = (
+    {
+        "name": "belt.width",
+        "unit": "m",
+        "nominal": 0.075,
+        "min": 0,
+        "max": 10,
+        "above_min": False,
+        "description": "width of the belt, for off_belt; 0: it has no edge",
+        "start": 0.075,
+    },
+    {
+        "name": "springs.longest",
+        "unit": "1",
+        "nominal": 2.0,
+        "min": 0,
+        "max": None,
+        "above_min": False,
+        "description": "length above which a spring is overstretched, in lengths without load; "
+        "most extension springs bear about 2; 0: any",
+        "start": 2.0,
+    },
+)
 #: Parameters that may be changed in a run, where a unit can take that.
 TUNABLE = ("friction.mu_s", "friction.mu_k")
 
@@ -61,7 +88,8 @@ class Variable:
 
     causality: input, output, parameter or local; unit: None for an integer; slot: where the kernel
     keeps a port; above_min: whether min itself is excluded; is_state: whether a host of model
-    exchange integrates it; derivative_of: name of the state that it is the rate of.
+    exchange integrates it; derivative_of: name of the state that it is the rate of; is_boolean:
+    whether it is true or false, and has no unit.
     """
 
     name: str
@@ -76,10 +104,16 @@ class Variable:
     slot: str = ""
     is_state: bool = False
     derivative_of: str = ""
+    is_boolean: bool = False
 
     @property
     def is_integer(self) -> bool:
-        """Whether it is of the type Integer of FMI; else it is Real."""
+        """Whether it is of the type Integer of FMI; else it is Real, or Boolean."""
+        return self.unit is None and not self.is_boolean
+
+    @property
+    def is_discrete(self) -> bool:
+        """Whether it is no real number, and changes at events only."""
         return self.unit is None
 
     @property
@@ -93,11 +127,34 @@ class Variable:
         return self.name in TUNABLE
 
 
+#: Outputs of the unit alone: what no rig bears. The model goes on as if it did.
+WATCHED = (
+    Variable(
+        "off_belt",
+        "output",
+        None,
+        None,
+        "Whether the block's centre is beyond an edge of the belt, |y| > belt.width / 2; never "
+        "on a slab",
+        is_boolean=True,
+    ),
+    Variable(
+        "spring_overstretched",
+        "output",
+        None,
+        None,
+        "Whether a spring is longer than springs.longest times its length without load",
+        is_boolean=True,
+    ),
+)
+
+
 def variables() -> list[Variable]:
     """All of them: inputs, outputs, parameters."""
     return [
         *(_of_port(port, "input") for port in ports.INPUTS),
         *(_of_port(port, "output") for port in ports.OUTPUTS),
+        *WATCHED,
         *(Variable(causality="parameter", **entry) for entry in parameter_table()),
     ]
 
@@ -106,9 +163,18 @@ def parameter_table() -> list[Entry]:
     """Every parameter of the FMU, with unit, bounds and description from the parameter models.
 
     One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
-    is excluded), description, start. Raises ValueError for a unit that `UNITS` lacks.
+    is excluded), description, start. The starts are those of a scenario's file that leaves all
+    out: a rig that can be built. Raises ValueError for a unit that `UNITS` lacks.
     """
-    return [*(_entry(name, start) for name, start in Parameters().flat().items()), HOLD]
+    starts = Parameters.model_validate(rig_defaults()).flat()
+    return [*(_entry(name, start) for name, start in starts.items()), HOLD, *LIMITS]
+
+
+def rig_defaults() -> dict[str, Entry]:
+    """Tables of what a scenario's file leaves out; `cosim.scenario`, which needs the heat model, is
+    not imported."""
+    file = Path(cosim.__path__[0]) / "scenario" / "defaults.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
 def by_array(declared: Iterable[Variable]) -> list[list[Variable]]:

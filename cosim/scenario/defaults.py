@@ -1,7 +1,7 @@
 """What a scenario file leaves out: a stated set of values, those of a rig as it can be built.
 
-The set is `defaults.toml` beside this file. It is of files only: the kernel, the FMU and
-`Scenario()` in Python begin from the plain model, in which every effect is off.
+The set is `defaults.toml` beside this file. The FMU starts from it, too; `Scenario()`
+and `Parameters()` in Python begin from the plain model, in which every effect is off.
 """
 
 from __future__ import annotations

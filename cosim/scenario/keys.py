@@ -17,7 +17,7 @@ class Key(NamedTuple):
     """A key of a scenario.
 
     default: of a file that leaves the key out; None where it must be given. plain: the same with
-    `defaults = "plain"`, in Python and in the FMU.
+    `defaults = "plain"`, and in Python.
     """
 
     key: str

@@ -268,7 +268,7 @@ static size_t rate_of(int state)
 bool get_output_rate(Instance *instance, size_t reference, int order, double *rate)
 {
     if (reference >= VARIABLE_COUNT || VARIABLES[reference].causality != OUTPUT ||
-        VARIABLES[reference].is_integer) {
+        VARIABLES[reference].type != REAL_TYPE) {
         return refuse(instance, "output derivatives are of outputs that are real numbers");
     }
     if (order != 1) {
@@ -276,7 +276,7 @@ bool get_output_rate(Instance *instance, size_t reference, int order, double *ra
     }
     int state = state_of((unsigned)reference);
     if (state >= 0) {
-        return get_number(instance, rate_of(state), false, rate);
+        return get_number(instance, rate_of(state), REAL_TYPE, rate);
     }
     if (!refresh(instance)) {
         return false;

@@ -1,7 +1,9 @@
 /* FMI 2.0: the functions of the standard around an instance, but those of model exchange.
 
    A call that is refused returns fmi2Error and says why in the log, whether or not the host has
-   switched logging on; the instance has failed then, until it is reset or given an earlier state. */
+   switched logging on; the instance has failed then, until it is reset or given an earlier state. But
+   to ask for a value that there is not harms nothing: the standard has fmi2Error for it, and the
+   instance goes on. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +49,12 @@ fmi2Status refused(Component *component, const char *why)
     return closed(component, false);
 }
 
+fmi2Status unread(const Component *component)
+{
+    say(component, fmi2Error, "logStatusError", component->instance.message);
+    return fmi2Error;
+}
+
 Component *entered(fmi2Component handle, const char *call, int phases)
 {
     Component *component = handle;
@@ -59,9 +67,8 @@ Component *entered(fmi2Component handle, const char *call, int phases)
 void warn_once(Component *component)
 {
     Memory *memory = &component->instance.memory;
-    if (!memory->has_warned &&
-        model_warns(&memory->model, memory->values, component->instance.message)) {
-        memory->has_warned = true;
+    while (model_warns(&memory->model, memory->values, &memory->warned,
+                       component->instance.message)) {
         if (component->logs_warnings) {
             say(component, fmi2Warning, "logStatusWarning", component->instance.message);
         }
@@ -198,31 +205,44 @@ static bool has_room(Component *component, const char *call, size_t count, const
     return false;
 }
 
-fmi2Status fmi2GetReal(fmi2Component handle, const fmi2ValueReference references[], size_t count,
-                       fmi2Real values[])
+/* References are unique: some hosts read all variables by fmi2GetReal. */
+static Type type_read(fmi2ValueReference reference, Type type)
 {
-    ENTER(handle, READABLE)
-    bool done = has_room(component, __func__, count, references, values);
-    for (size_t i = 0; done && i < count; i++) {
-        /* References are unique: some hosts read all variables by this function. */
-        bool integer = references[i] < VARIABLE_COUNT && VARIABLES[references[i]].is_integer;
-        done = get_number(&component->instance, references[i], integer, &values[i]);
-    }
-    return closed(component, done);
+    bool as_it_is = type == REAL_TYPE && reference < VARIABLE_COUNT;
+    return as_it_is ? VARIABLES[reference].type : type;
 }
 
-fmi2Status fmi2GetInteger(fmi2Component handle, const fmi2ValueReference references[], size_t count,
-                          fmi2Integer values[])
+/* Are there values of this type at all references, and room for them? */
+static bool can_read(Component *component, const char *call, const fmi2ValueReference references[],
+                     size_t count, const void *values, Type type)
 {
-    ENTER(handle, READABLE)
-    bool done = has_room(component, __func__, count, references, values);
-    for (size_t i = 0; done && i < count; i++) {
-        double value = 0.0;
-        done = get_number(&component->instance, references[i], true, &value);
-        values[i] = (fmi2Integer)value;
+    bool can = has_room(component, call, count, references, values);
+    for (size_t i = 0; can && i < count; i++) {
+        can = is_known(&component->instance, references[i], type_read(references[i], type));
     }
-    return closed(component, done);
+    return can;
 }
+
+#define GET(function, value, asked)                                                                \
+    fmi2Status function(fmi2Component handle, const fmi2ValueReference references[], size_t count, \
+                        value values[])                                                            \
+    {                                                                                              \
+        ENTER(handle, READABLE)                                                                    \
+        if (!can_read(component, __func__, references, count, values, asked)) {                    \
+            return unread(component);                                                              \
+        }                                                                                          \
+        bool done = true;                                                                          \
+        for (size_t i = 0; done && i < count; i++) {                                               \
+            double found = 0.0;                                                                    \
+            done = get_number(&component->instance, references[i],                                 \
+                              type_read(references[i], asked), &found);                            \
+            values[i] = (value)found;                                                              \
+        }                                                                                          \
+        return closed(component, done);                                                            \
+    }
+GET(fmi2GetReal, fmi2Real, REAL_TYPE)
+GET(fmi2GetInteger, fmi2Integer, INTEGER_TYPE)
+GET(fmi2GetBoolean, fmi2Boolean, BOOLEAN_TYPE)
 
 fmi2Status fmi2SetReal(fmi2Component handle, const fmi2ValueReference references[], size_t count,
                        const fmi2Real values[])
@@ -230,7 +250,7 @@ fmi2Status fmi2SetReal(fmi2Component handle, const fmi2ValueReference references
     ENTER(handle, SETTABLE)
     bool done = has_room(component, __func__, count, references, values);
     for (size_t i = 0; done && i < count; i++) {
-        done = set_number(&component->instance, references[i], false, values[i]);
+        done = set_number(&component->instance, references[i], REAL_TYPE, values[i]);
     }
     return closed(component, done);
 }
@@ -241,26 +261,40 @@ fmi2Status fmi2SetInteger(fmi2Component handle, const fmi2ValueReference referen
     ENTER(handle, SETTABLE)
     bool done = has_room(component, __func__, count, references, values);
     for (size_t i = 0; done && i < count; i++) {
-        done = set_number(&component->instance, references[i], true, values[i]);
+        done = set_number(&component->instance, references[i], INTEGER_TYPE, values[i]);
     }
     return closed(component, done);
 }
 
-/* This unit has no variables of these types. */
-#define OF_NO_VARIABLE(function, value, phases)                                                    \
-    fmi2Status function(fmi2Component handle, const fmi2ValueReference references[], size_t count, \
-                        value values[])                                                            \
-    {                                                                                              \
-        ENTER(handle, phases)                                                                      \
-        (void)references;                                                                          \
-        (void)values;                                                                              \
-        return count == 0 ? fmi2OK                                                                 \
-                          : refused(component, #function ": all variables are real or integer");   \
+fmi2Status fmi2SetBoolean(fmi2Component handle, const fmi2ValueReference references[], size_t count,
+                          const fmi2Boolean values[])
+{
+    ENTER(handle, SETTABLE)
+    bool done = has_room(component, __func__, count, references, values);
+    for (size_t i = 0; done && i < count; i++) {
+        done = set_number(&component->instance, references[i], BOOLEAN_TYPE, values[i]);
     }
-OF_NO_VARIABLE(fmi2GetBoolean, fmi2Boolean, READABLE)
-OF_NO_VARIABLE(fmi2GetString, fmi2String, READABLE)
-OF_NO_VARIABLE(fmi2SetBoolean, const fmi2Boolean, SETTABLE)
-OF_NO_VARIABLE(fmi2SetString, const fmi2String, SETTABLE)
+    return closed(component, done);
+}
+
+/* No variable is a text. */
+
+fmi2Status fmi2GetString(fmi2Component handle, const fmi2ValueReference references[], size_t count,
+                         fmi2String values[])
+{
+    ENTER(handle, READABLE)
+    (void)references, (void)values;
+    strcpy(component->instance.message, "fmi2GetString: no variable is a text");
+    return count == 0 ? fmi2OK : unread(component);
+}
+
+fmi2Status fmi2SetString(fmi2Component handle, const fmi2ValueReference references[], size_t count,
+                         const fmi2String values[])
+{
+    ENTER(handle, SETTABLE)
+    (void)references, (void)values;
+    return count == 0 ? fmi2OK : refused(component, "fmi2SetString: no variable is a text");
+}
 
 /* --- saved states --- */
 

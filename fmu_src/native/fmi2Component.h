@@ -22,6 +22,10 @@ typedef struct {
 fmi2Status closed(Component *component, bool done);
 fmi2Status refused(Component *component, const char *why);
 
+/* The status of a call that asks for what there is not: it has changed nothing, and the run goes on
+   for who goes on with it. */
+fmi2Status unread(const Component *component);
+
 /* The component, if the call is allowed in its phase; else NULL, and the call has been refused. */
 Component *entered(fmi2Component handle, const char *call, int phases);
 

@@ -2,7 +2,7 @@
 
    As in fmi2.c, a call that is refused returns fmi3Error and says why in the log, whether or not
    the host has switched logging on; the instance has failed then, until it is reset or given an
-   earlier state. */
+   earlier state; but not where a value was asked for that there is not. */
 #include "fmi3Component.h"
 
 #include <stdio.h>
@@ -27,6 +27,12 @@ fmi3Status closed3(Component3 *component, bool done)
     return fmi3Error;
 }
 
+fmi3Status unread3(const Component3 *component)
+{
+    say(component, fmi3Error, "logStatusError");
+    return fmi3Error;
+}
+
 fmi3Status refused3(Component3 *component, const char *call, const char *why)
 {
     snprintf(component->instance.message, MESSAGE_SIZE, "%s: %s", call, why);
@@ -45,9 +51,8 @@ Component3 *entered3(fmi3Instance handle, const char *call, int phases)
 void warn_once3(Component3 *component)
 {
     Memory *memory = &component->instance.memory;
-    if (!memory->has_warned &&
-        model_warns(&memory->model, memory->values, component->instance.message)) {
-        memory->has_warned = true;
+    while (model_warns(&memory->model, memory->values, &memory->warned,
+                       component->instance.message)) {
         if (component->logs_warnings) {
             say(component, fmi3Warning, "logStatusWarning");
         }

@@ -22,6 +22,7 @@ typedef struct {
 
 /* The status of a call: of one that was refused, the reason is in the instance's message. */
 fmi3Status closed3(Component3 *component, bool done);
+fmi3Status unread3(const Component3 *component);
 fmi3Status refused3(Component3 *component, const char *call, const char *why);
 
 /* The component, if the call is allowed in its phase; else NULL, and the call has been refused. */

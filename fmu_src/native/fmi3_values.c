@@ -47,7 +47,25 @@ static bool fits(Component3 *component, const char *call, const fmi3ValueReferen
     return true;
 }
 
-static bool get_real(Instance *instance, size_t reference, double *value)
+/* Is it a variable of this type, or, of real numbers, what FMI 3 alone asks for? */
+static bool is_there(Instance *instance, size_t reference, Type type)
+{
+    bool added = reference >= TIME_REFERENCE && reference - TIME_REFERENCE <= INDICATOR_COUNT;
+    return (added && type == REAL_TYPE) || is_known(instance, reference, type);
+}
+
+/* `fits`, and all of them are of this type. */
+static bool can_read(Component3 *component, const char *call, const fmi3ValueReference references[],
+                     size_t many, const void *values, size_t count, Type type)
+{
+    bool can = fits(component, call, references, many, values, count);
+    for (size_t i = 0; can && i < many; i++) {
+        can = is_there(&component->instance, references[i], type);
+    }
+    return can;
+}
+
+static bool get_value(Instance *instance, size_t reference, Type type, double *value)
 {
     if (reference == TIME_REFERENCE) {
         *value = instance->memory.time;
@@ -59,7 +77,7 @@ static bool get_real(Instance *instance, size_t reference, double *value)
         *value = done ? indicators[reference - FIRST_INDICATOR] : 0.0;
         return done;
     }
-    return get_number(instance, reference, false, value);
+    return get_number(instance, reference, type, value);
 }
 
 static bool set_real(Instance *instance, size_t reference, double value)
@@ -70,21 +88,30 @@ static bool set_real(Instance *instance, size_t reference, double value)
                                       : "an event indicator is a local variable and cannot be set");
         return false;
     }
-    return set_number(instance, reference, false, value);
+    return set_number(instance, reference, REAL_TYPE, value);
 }
 
-fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
-                          fmi3Float64 values[], size_t count)
-{
-    ENTER(handle, READABLE)
-    bool done = fits(component, __func__, references, many, values, count);
-    for (size_t i = 0; done && i < many; i++) {
-        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
-            done = get_real(&component->instance, references[i] + k, values++);
-        }
+#define GET(named, asked)                                                                          \
+    fmi3Status fmi3Get##named(fmi3Instance handle, const fmi3ValueReference references[],          \
+                              size_t many, fmi3##named values[], size_t count)                     \
+    {                                                                                              \
+        ENTER(handle, READABLE)                                                                    \
+        if (!can_read(component, __func__, references, many, values, count, asked)) {              \
+            return unread3(component);                                                             \
+        }                                                                                          \
+        bool done = true;                                                                          \
+        for (size_t i = 0; done && i < many; i++) {                                                \
+            for (size_t k = 0; done && k < elements_of(references[i]); k++) {                      \
+                double value = 0.0;                                                                \
+                done = get_value(&component->instance, references[i] + k, asked, &value);          \
+                *values++ = (fmi3##named)value;                                                    \
+            }                                                                                      \
+        }                                                                                          \
+        return closed3(component, done);                                                           \
     }
-    return closed3(component, done);
-}
+GET(Float64, REAL_TYPE)
+GET(Int32, INTEGER_TYPE)
+GET(Boolean, BOOLEAN_TYPE)
 
 fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
                           const fmi3Float64 values[], size_t count)
@@ -99,44 +126,36 @@ fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
     return closed3(component, done);
 }
 
-fmi3Status fmi3GetInt32(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
-                        fmi3Int32 values[], size_t count)
-{
-    ENTER(handle, READABLE)
-    bool done = fits(component, __func__, references, many, values, count);
-    for (size_t i = 0; done && i < many; i++) {
-        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
-            double value = 0.0;
-            done = get_number(&component->instance, references[i] + k, true, &value);
-            *values++ = (fmi3Int32)value;
-        }
+#define SET(named, asked)                                                                          \
+    fmi3Status fmi3Set##named(fmi3Instance handle, const fmi3ValueReference references[],          \
+                              size_t many, const fmi3##named values[], size_t count)               \
+    {                                                                                              \
+        ENTER(handle, SETTABLE)                                                                    \
+        bool done = fits(component, __func__, references, many, values, count);                    \
+        for (size_t i = 0; done && i < many; i++) {                                                \
+            for (size_t k = 0; done && k < elements_of(references[i]); k++) {                      \
+                done = set_number(&component->instance, references[i] + k, asked, *values++);      \
+            }                                                                                      \
+        }                                                                                          \
+        return closed3(component, done);                                                           \
     }
-    return closed3(component, done);
-}
-
-fmi3Status fmi3SetInt32(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
-                        const fmi3Int32 values[], size_t count)
-{
-    ENTER(handle, SETTABLE)
-    bool done = fits(component, __func__, references, many, values, count);
-    for (size_t i = 0; done && i < many; i++) {
-        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
-            done = set_number(&component->instance, references[i] + k, true, *values++);
-        }
-    }
-    return closed3(component, done);
-}
+SET(Int32, INTEGER_TYPE)
+SET(Boolean, BOOLEAN_TYPE)
 
 /* --- types that no variable has --- */
 
-static fmi3Status of_no_variable(fmi3Instance handle, const char *call, size_t many, int phases)
+static fmi3Status of_no_variable(fmi3Instance handle, const char *call, size_t many, bool reads)
 {
-    Component3 *component = entered3(handle, call, phases);
+    static const char *const WHY = "all variables are of the types Float64, Int32 and Boolean";
+    Component3 *component = entered3(handle, call, reads ? READABLE : SETTABLE);
     if (component == NULL) {
         return fmi3Error;
     }
-    return many == 0 ? fmi3OK
-                     : refused3(component, call, "all variables are of the types Float64 and Int32");
+    if (many > 0 && reads) {
+        snprintf(component->instance.message, MESSAGE_SIZE, "%s: %s", call, WHY);
+        return unread3(component);
+    }
+    return many == 0 ? fmi3OK : refused3(component, call, WHY);
 }
 
 #define OF_NO_VARIABLE(type)                                                                       \
@@ -144,13 +163,13 @@ static fmi3Status of_no_variable(fmi3Instance handle, const char *call, size_t m
                              size_t many, fmi3##type values[], size_t count)                       \
     {                                                                                              \
         (void)references, (void)values, (void)count;                                               \
-        return of_no_variable(handle, __func__, many, READABLE);                                   \
+        return of_no_variable(handle, __func__, many, true);                                       \
     }                                                                                              \
     fmi3Status fmi3Set##type(fmi3Instance handle, const fmi3ValueReference references[],           \
                              size_t many, const fmi3##type values[], size_t count)                 \
     {                                                                                              \
         (void)references, (void)values, (void)count;                                               \
-        return of_no_variable(handle, __func__, many, SETTABLE);                                   \
+        return of_no_variable(handle, __func__, many, false);                                      \
     }
 OF_NO_VARIABLE(Float32)
 OF_NO_VARIABLE(Int8)
@@ -160,21 +179,20 @@ OF_NO_VARIABLE(UInt16)
 OF_NO_VARIABLE(UInt32)
 OF_NO_VARIABLE(Int64)
 OF_NO_VARIABLE(UInt64)
-OF_NO_VARIABLE(Boolean)
 OF_NO_VARIABLE(String)
 
 fmi3Status fmi3GetBinary(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
                          size_t sizes[], fmi3Binary values[], size_t count)
 {
     (void)references, (void)sizes, (void)values, (void)count;
-    return of_no_variable(handle, __func__, many, READABLE);
+    return of_no_variable(handle, __func__, many, true);
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
                          const size_t sizes[], const fmi3Binary values[], size_t count)
 {
     (void)references, (void)sizes, (void)values, (void)count;
-    return of_no_variable(handle, __func__, many, SETTABLE);
+    return of_no_variable(handle, __func__, many, false);
 }
 
 /* --- clocks --- */

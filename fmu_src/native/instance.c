@@ -212,22 +212,22 @@ bool step(Instance *instance, double time, double size, bool *event)
     return true;
 }
 
-static bool is_known(Instance *instance, size_t reference, bool integer)
+bool is_known(Instance *instance, size_t reference, Type type)
 {
+    static const char *const NAMES[] = {"a real number", "an integer", "a Boolean"};
     if (reference >= VARIABLE_COUNT) {
         return refuse(instance, "value reference %zu: there is no such variable", reference);
     }
-    if (VARIABLES[reference].is_integer != integer) {
+    if (VARIABLES[reference].type != type) {
         return refuse(instance, "%s is %s, not %s", VARIABLES[reference].name,
-                      integer ? "a real number" : "an integer",
-                      integer ? "an integer" : "a real number");
+                      NAMES[VARIABLES[reference].type], NAMES[type]);
     }
     return true;
 }
 
-bool get_number(Instance *instance, size_t reference, bool integer, double *value)
+bool get_number(Instance *instance, size_t reference, Type type, double *value)
 {
-    if (!is_known(instance, reference, integer)) {
+    if (!is_known(instance, reference, type)) {
         return false;
     }
     Causality causality = VARIABLES[reference].causality;
@@ -290,10 +290,10 @@ static double clipped(const Variable *variable, size_t reference, double value)
     return value;
 }
 
-bool set_number(Instance *instance, size_t reference, bool integer, double value)
+bool set_number(Instance *instance, size_t reference, Type type, double value)
 {
     Memory *memory = &instance->memory;
-    if (!is_known(instance, reference, integer)) {
+    if (!is_known(instance, reference, type)) {
         return false;
     }
     const Variable *variable = &VARIABLES[reference];
@@ -337,7 +337,7 @@ size_t saved_size(void)
 
 bool set_rate(Instance *instance, size_t reference, int order, double rate)
 {
-    if (!is_known(instance, reference, false)) {
+    if (!is_known(instance, reference, REAL_TYPE)) {
         return false;
     }
     if (VARIABLES[reference].causality != INPUT) {

@@ -33,7 +33,7 @@ typedef struct {
     bool is_stale;       /* the model is to be begun again, from other parameters or inputs */
     bool is_retuned;     /* tunable parameters have changed since the last step */
     bool is_outdated;    /* what follows from states and time is not yet in `values` */
-    bool has_warned;
+    unsigned warned; /* what the user has been told of, see model_warns */
     double start; /* time at which the experiment begins, s */
     double stop;  /* time past which no step may go, s; infinite: any */
     double time;  /* of the last communication point, s */
@@ -68,8 +68,10 @@ bool step(Instance *instance, double time, double size, bool *event);
 bool choose_messages(Instance *instance, const char *call, size_t count,
                      const char *const categories[], bool *warnings);
 
-bool get_number(Instance *instance, size_t reference, bool integer, double *value);
-bool set_number(Instance *instance, size_t reference, bool integer, double value);
+/* Whether there is such a variable, of this type. */
+bool is_known(Instance *instance, size_t reference, Type type);
+bool get_number(Instance *instance, size_t reference, Type type, double *value);
+bool set_number(Instance *instance, size_t reference, Type type, double value);
 
 bool set_rate(Instance *instance, size_t reference, int order, double rate);
 

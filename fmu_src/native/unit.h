@@ -20,12 +20,13 @@
 enum { MESSAGE_SIZE = 1024 };
 
 typedef enum { INPUT, OUTPUT, PARAMETER, LOCAL } Causality;
+typedef enum { REAL_TYPE, INTEGER_TYPE, BOOLEAN_TYPE } Type;
 
 /* A variable stands in `VARIABLES` at the place of its value reference. */
 typedef struct {
     const char *name;
     Causality causality;
-    bool is_integer;
+    Type type;
     bool is_tunable; /* a parameter that may change in the run */
     double start;
     double low, high; /* bounds, both allowed */
@@ -61,8 +62,9 @@ void model_show_inputs(const Model *model, double values[]);
 /* Take over tunable parameters that have changed in `values` in the run. */
 bool model_tune(Model *model, double values[], double tolerance, char message[]);
 
-/* Is there anything that the user should know, though it is no failure? Asked after each step. */
-bool model_warns(const Model *model, const double values[], char message[]);
+/* Is there anything that the user should know, though it is no failure, and has not been told yet in
+   this run? `told` keeps a bit for each of what there may be. Asked after each step until it is not. */
+bool model_warns(const Model *model, const double values[], unsigned *told, char message[]);
 
 /* Fills in the local variables of a run that `model_step` leads: its states and their rates. */
 void model_show_locals(Model *model, double values[]);

@@ -11,7 +11,7 @@ from cosim.fmu.build import ensure_fmu
 fmu = ensure_fmu("build")
 units = {v.name: v.unit for v in read_model_description(fmu).modelVariables}
 
-rest = {"surface_speed": 0.2, "initial.vx": 0.2, "rig.spring_natural_length": 0.17}
+rest = {"surface_speed": 0.2, "initial.vx": 0.2, "surface.run_up_time": 0.0}
 result = simulate_fmu(
     fmu,
     stop_time=10.0,

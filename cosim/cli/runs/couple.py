@@ -259,10 +259,12 @@ def _finish(
         )
         return FAILED
     printed = asked.give(json_text(numbers))
-    for said in [*doubts(numbers["coupling"]), *in_few_lines(numbers["warnings"])]:
+    for said in doubts(numbers["coupling"]):
         print(f"warning: {said}", file=sys.stderr)
     if say_how_it_ended(numbers, folder, job.resume if goes_on else "", log) == FAILED:
         return FAILED
+    for said in in_few_lines(numbers["warnings"]):
+        print(f"warning: {said}", file=sys.stderr)
     if not printed:
         page = str(folder / "report.html")
         print("\n".join(closing_lines(numbers, page, time.perf_counter() - began)))

@@ -155,7 +155,7 @@ def run_scenario(
 def _mechanics(scenario: Scenario, fmu: Path, debug: bool) -> Participant:
     """The unit with the rig's parameters, in a process of its own where that is asked for."""
     given: dict[str, Any] = {
-        "parameters": scenario.mechanics.flat(),
+        "parameters": scenario.mechanics.flat() | {"belt.width": scenario.belt.width},
         "inputs": {"surface_speed": scenario.surface.speed},
         "debug": debug,
     }

@@ -117,7 +117,7 @@ def of_outputs(variables: Sequence[Variable]) -> Dependencies:
     for variable in variables:
         if variable.causality != "output":
             continue
-        if not states or variable.is_integer:
+        if not states or variable.is_discrete:
             found[variable.name] = []
         elif variable.name in DIRECT:
             found[variable.name] = None

@@ -17,7 +17,7 @@ from stickslip.kernel.layout import O_SIZE, U_SIZE, constants
 
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.libraries import FMI2
-from cosim.fmu.variables import Variable, by_array
+from cosim.fmu.variables import Variable, by_array, rig_defaults
 
 Row = tuple[float, Sequence[float]]
 
@@ -37,6 +37,7 @@ def documentation(
         effects=EFFECTS,
         allowed=allowed,
         starts=starts,
+        reference=MECHANICS,
     )
     return {"documentation/index.html": page.encode()} | of_mechanics(facts.name, variables)
 
@@ -81,9 +82,8 @@ class Experiment:
         )
 
 
-#: At its defaults the block does not keep from turning: what rounding has turned it by grows to
-#: some 1e-5 rad in 10 s, and in half of that to nothing that matters.
-MECHANICS = Experiment(5.0, 0.01, 1e-9)
+#: Over the run-up of the surface, and as long at its speed.
+MECHANICS = Experiment(20.0, 0.01, 1e-9)
 #: Those that are not zero but for rounding, and the same in co-simulation and in model exchange.
 SHOWN_OF_MECHANICS = (
     *("x", "vx", "friction_force_x", "sliding_speed", "heat", "sliding_distance"),
@@ -110,7 +110,7 @@ def _csv(columns: Sequence[str], rows: Iterable[Row]) -> str:
 
 
 def of_mechanics(name: str, variables: Sequence[Variable]) -> dict[str, bytes]:
-    """Of the block at its defaults: the interpreted model."""
+    """Of the block as the unit starts: the interpreted model."""
     inputs = [variable for variable in variables if variable.causality == "input"]
     starts = [each.start or 0.0 for each in inputs]
     u = [0.0] * U_SIZE
@@ -132,7 +132,8 @@ def _motion(u: tuple[float, ...]) -> list[tuple[float, list[float]]]:
     """Times, s, and all outputs of the kernel; once for the units of a process."""
     from stickslip.arrays import RunArrays  # numba: only for who gets here
 
-    run = RunArrays.begin(Parameters().pack(), list(u), interpreted=True)
+    rig = Parameters.model_validate(rig_defaults())
+    run = RunArrays.begin(rig.pack(), list(u), interpreted=True)
     rows = []
     for time in MECHANICS.times:
         o = [0.0] * O_SIZE

@@ -101,14 +101,15 @@ def _add_variable(
         scalar.set("variability", "tunable" if variable.is_tunable else "fixed")
         scalar.set("initial", "exact")
     elif variable.causality != "input":
-        if variable.is_integer:
+        if variable.is_discrete:
             scalar.set("variability", "discrete")
         scalar.set("initial", "calculated")
     scalar.set("description", variable.description)
-    kind = SubElement(scalar, "Integer" if variable.is_integer else "Real")
+    of_unit = "Integer" if variable.is_integer else "Real"
+    kind = SubElement(scalar, "Boolean" if variable.is_boolean else of_unit)
     for key in ("unit", "min", "max", "nominal", "start"):
         value = getattr(variable, key)
-        if value is not None and not (key == "unit" and variable.is_integer):
+        if value is not None:
             kind.set(key, value if isinstance(value, str) else repr(value))
     if variable.derivative_of:
         kind.set("derivative", index[variable.derivative_of])

@@ -102,6 +102,12 @@ def _add_interfaces(root: Element, facts: UnitFacts) -> None:
     )
 
 
+def _type(variable: Variable) -> str:
+    if variable.is_boolean:
+        return "Boolean"
+    return "Int32" if variable.is_integer else "Float64"
+
+
 def _add_variable(
     declared: Element, elements: Sequence[Variable], references: Mapping[str, str]
 ) -> None:
@@ -109,7 +115,7 @@ def _add_variable(
     first = elements[0]
     variable = SubElement(
         declared,
-        "Int32" if first.is_integer else "Float64",
+        _type(first),
         name=first.array or first.name,
         valueReference=references[first.name],
         causality=first.causality,
@@ -118,7 +124,7 @@ def _add_variable(
         variable.set("variability", "tunable" if first.is_tunable else "fixed")
         variable.set("initial", "exact")
     elif first.causality != "input":
-        variable.set("variability", "discrete" if first.is_integer else "continuous")
+        variable.set("variability", "discrete" if first.is_discrete else "continuous")
         variable.set("initial", "calculated")
     variable.set("description", first.description)
     for key in ("unit", "min", "max"):
@@ -126,7 +132,7 @@ def _add_variable(
         if value is not None:
             variable.set(key, value if isinstance(value, str) else repr(value))
     nominals = [each.nominal for each in elements if each.nominal is not None]
-    if nominals and not first.is_integer:
+    if nominals and not first.is_discrete:
         variable.set("nominal", repr(max(nominals)))
     if first.start is not None:
         variable.set("start", " ".join(repr(each.start) for each in elements))

@@ -130,6 +130,7 @@ def build_for(
 
 def _documentation(made: Reduction, declared: Sequence[Variable]) -> bytes:
     from cosim.fmu.description.documentation import allowed
+    from cosim.fmu.thermal.reference_run import EXPERIMENT
     from cosim.report.page import render
 
     page = render(
@@ -140,6 +141,7 @@ def _documentation(made: Reduction, declared: Sequence[Variable]) -> bytes:
         allowed=allowed,
         fixed=_fixed(made.parameters, {each.name for each in declared}),
         errors=ERRORS,
+        reference=EXPERIMENT,
         belt=made.belt.face.size,
         ice=made.ice.contact.size,
         cells=made.parameters.belt.cells,

@@ -126,7 +126,7 @@ def build(directory: Path) -> Path:
             for each in declared
             if each.causality == "input"
         ],
-        "OUTPUTS": [(name, name, False) for name in names(declared, "output")],
+        "OUTPUTS": [(name, name, "Real") for name in names(declared, "output")],
         "PARAMETERS": [asdict(each) for each in declared if each.causality == "parameter"],
     }
     return python_unit.made(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -13,6 +13,7 @@ import xarray as xr
 
 from cosim.coupling import Connection, CoupledSystem
 from cosim.coupling.conversion import watts
+from cosim.coupling.messages import WARNING
 from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.coupling import efforts, step_numbers
 from cosim.report.page import number
@@ -23,7 +24,8 @@ MOST_NOTES = 4
 
 
 def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
-    """Status, steps, participants, connections, ledger, outputs, remarks, versions, the system.
+    """Status, steps, participants, connections, ledger, outputs, remarks, versions, the system, and
+    what the units warned of.
 
     Times are in s, energies in J, outputs in their own units, which stand beside them; a number
     that a run does not have is None.
@@ -44,11 +46,23 @@ def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
         "ledger": ledger(run),
         "outputs": _outputs(run, dataset),
         "remarks": [*run.assembly.remarks, *result.remarks],
+        "warnings": warnings(run),
         "created": dataset.attrs["created"],
         "versions": json.loads(dataset.attrs["versions"]),
         "source": run.specification.source,
         "system": run.specification.text,
     }
+
+
+def warnings(run: SystemRun) -> list[str]:
+    """What each unit warned of, with the first time of the same text, a line each."""
+    found: dict[tuple[str, str], str] = {}
+    for participant in run.assembly.system.participants.values():
+        for message in participant.messages:  # type: ignore[attr-defined]  # all units have them
+            if message.status == WARNING:
+                said = f"{message.source}: {message.when}: {message.text}"
+                found.setdefault((message.source, message.text), said)
+    return list(found.values())
 
 
 def ledger(run: SystemRun) -> dict[str, Any]:
@@ -191,6 +205,12 @@ def _number(value: float) -> float | None:
     return value + 0.0 if math.isfinite(value) else None  # no negative zero
 
 
+def in_few_lines(said: Sequence[str]) -> list[str]:
+    """The first of them, and how many more there are."""
+    more = len(said) - MOST_NOTES
+    return [*said[:MOST_NOTES], *([f"{more} more on the page"] if more > 0 else [])]
+
+
 def closing_lines(numbers: Mapping[str, Any], page: str, wall_time: float) -> list[str]:
     """What whoever waited for the run is told."""
     coupling = numbers["coupling"]
@@ -202,10 +222,7 @@ def closing_lines(numbers: Mapping[str, Any], page: str, wall_time: float) -> li
         f"{_range(coupling['shortest_step'], coupling['longest_step'])}{_repeated(coupling)}",
     ]
     lines += [f"  energy       {line}" for line in ledger_lines(numbers["ledger"])]
-    remarks = numbers["remarks"]
-    lines += [f"  note         {remark}" for remark in remarks[:MOST_NOTES]]
-    if len(remarks) > MOST_NOTES:
-        lines.append(f"  note         {len(remarks) - MOST_NOTES} more on the page")
+    lines += [f"  note         {remark}" for remark in in_few_lines(numbers["remarks"])]
     return [*lines, f"  results      {page} and beside it"]
 
 

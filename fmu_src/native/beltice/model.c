@@ -322,9 +322,9 @@ bool model_tune(Model *model, double values[], double tolerance, char message[])
     return true;
 }
 
-bool model_warns(const Model *model, const double values[], char message[])
+bool model_warns(const Model *model, const double values[], unsigned *told, char message[])
 {
-    (void)model, (void)values, (void)message;
+    (void)model, (void)values, (void)told, (void)message;
     return false;
 }
 

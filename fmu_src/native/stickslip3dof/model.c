@@ -55,13 +55,42 @@ void model_set_rate(Model *model, size_t input, double rate)
     model->g[G_HAS_RATE + input] = 1.0;
 }
 
+/* --- what no rig bears, though the model goes on: see WATCHED in cosim/fmu/variables.py --- */
+
+static double longest_spring(const Model *model)
+{
+    double longest = 0.0;
+    for (int i = 0; i < 4; i++) {
+        longest = fmax(longest, stickslip_spring_length(model->p, model->z, SHOWN, i));
+    }
+    return longest;
+}
+
+/* As it is now; whether that is otherwise than it was seen last. */
+static bool look(const Model *model, const double values[], double seen[])
+{
+    double width = values[BELT_WIDTH], most = values[SPRINGS_LONGEST];
+    bool is_belt = values[FIRST_PARAMETER + V_TURNING_SURFACE_CURVATURE] == 0.0 && width > 0.0;
+    seen[0] = is_belt && fabs(model->z[SHOWN + Y]) > 0.5 * width;
+    seen[1] = most > 0.0 && longest_spring(model) > most * model->p[P_NATURAL_LENGTH];
+    return seen[0] != model->watched[0] || seen[1] != model->watched[1];
+}
+
+static void show_watched(const Model *model, double values[])
+{
+    values[OFF_BELT] = model->watched[0];
+    values[SPRING_OVERSTRETCHED] = model->watched[1];
+}
+
 static void show_outputs(Model *model, double w[], double values[])
 {
     double o[O_SIZE];
     stickslip_show(model->p, model->u, model->z, w, o, 0);
-    for (int i = 0; i < OUTPUT_COUNT; i++) {
+    for (int i = 0; i < OUTPUT_COUNT - WATCHED_COUNT; i++) {
         values[FIRST_OUTPUT + i] = o[OUTPUT_SLOTS[i]];
     }
+    look(model, values, model->watched);
+    show_watched(model, values);
 }
 
 static bool go_on(Model *model, double values[], double end, bool *event, char message[])
@@ -148,19 +177,34 @@ bool model_tune(Model *model, double values[], double tolerance, char message[])
     return true;
 }
 
-bool model_warns(const Model *model, const double values[], char message[])
+bool model_warns(const Model *model, const double values[], unsigned *told, char message[])
 {
+    enum { CREEPS = 1, LEFT_BELT = 2, STRETCHED = 4 };
     const double *p = model->p;
     double creep = p[P_PRESLIDING] * fmax(p[P_MU_S], p[P_MU_K]) * p[P_NORMAL_FORCE];
-    double speed = fabs(values[FIRST_INPUT + U_SPEED]);
-    if (speed == 0.0 || speed > creep) {
-        return false;
+    double speed = fabs(values[FIRST_INPUT + U_SPEED]), time = model_time(model);
+    unsigned before = *told;
+    if (!(*told & CREEPS) && speed != 0.0 && speed <= creep) {
+        *told |= CREEPS;
+        snprintf(message, MESSAGE_SIZE,
+                 "surface_speed = %g m/s is not above friction.stick_creep = %g m/s: the contact "
+                 "creeps as fast as the surface and never breaks away; its mode stays 0",
+                 speed, creep);
+    } else if (!(*told & LEFT_BELT) && model->watched[0] != 0.0) {
+        *told |= LEFT_BELT;
+        snprintf(message, MESSAGE_SIZE,
+                 "off_belt: the block has left the belt %g s after the start: its centre is %g m "
+                 "aside, the edge of belt.width = %g m is at %g m; the motion from here on is none "
+                 "of a rig",
+                 time, fabs(model->z[SHOWN + Y]), values[BELT_WIDTH], 0.5 * values[BELT_WIDTH]);
+    } else if (!(*told & STRETCHED) && model->watched[1] != 0.0) {
+        *told |= STRETCHED;
+        snprintf(message, MESSAGE_SIZE,
+                 "spring_overstretched: a spring is %g m long %g s after the start, more than "
+                 "springs.longest = %g times its %g m without load",
+                 longest_spring(model), time, values[SPRINGS_LONGEST], p[P_NATURAL_LENGTH]);
     }
-    snprintf(message, MESSAGE_SIZE,
-             "surface_speed = %g m/s is not above friction.stick_creep = %g m/s: the contact creeps "
-             "as fast as the surface and never breaks away; its mode stays 0",
-             speed, creep);
-    return true;
+    return *told != before;
 }
 
 static void show_states_and_rates(const Model *model, const double rates[], double values[])
@@ -231,9 +275,10 @@ void model_show_moment(Model *model, double values[])
     double w[W_SIZE] = {0.0}, o[O_SIZE], rates[EXCHANGED];
     follow_inputs(model, values, false);
     stickslip_show_moment(model->p, model->u, model->z, w, rates, o);
-    for (int i = 0; i < OUTPUT_COUNT; i++) {
+    for (int i = 0; i < OUTPUT_COUNT - WATCHED_COUNT; i++) {
         values[FIRST_OUTPUT + i] = o[OUTPUT_SLOTS[i]];
     }
+    show_watched(model, values); /* of the last event: a Boolean changes at no other time */
     show_states_and_rates(model, rates, values);
 }
 
@@ -245,6 +290,7 @@ void model_update(Model *model, const double values[])
     anew = anew || isnan(model->z[Z_INPUTS]); /* see model_tune */
     memcpy(model->z + Z_INPUTS, model->u, sizeof model->u);
     stickslip_update_event(model->p, model->u, model->z, w, e, anew);
+    look(model, values, model->watched);
 }
 
 double model_next_event(const Model *model)
@@ -257,7 +303,8 @@ bool model_complete_step(Model *model, const double values[], bool *event, char 
     double w[W_SIZE] = {0.0};
     follow_inputs(model, values, false);
     int status = (int)stickslip_complete_step(model->p, model->u, model->z, w);
-    *event = status == MODE_CHANGED;
+    double seen[WATCHED_COUNT];
+    *event = look(model, values, seen) || status == MODE_CHANGED;
     if (status != DONE && status != MODE_CHANGED) {
         snprintf(message, MESSAGE_SIZE, "no way on from %g s after the start: %s",
                  model->z[SHOWN + TIME], WHY_NOT[status]);

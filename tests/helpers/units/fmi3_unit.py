@@ -11,6 +11,8 @@ import zipfile
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint, c_void_p
 from pathlib import Path
 
+from plain_start import PLAIN
+
 from cosim.fmu.exchange import variables
 from cosim.fmu.native import NAME, built_guid, native_folder
 from cosim.fmu.platforms import this_platform
@@ -60,6 +62,7 @@ class Unit:
             function.argtypes, function.restype = arguments, c_int
         self.references = references()
         self.integers = {each.name for each in variables() if each.is_integer}
+        self.booleans = {each.name for each in variables() if each.is_boolean}
         self.sizes = {e[0].array or e[0].name: len(e) for e in by_array(variables())}
 
     def instance(self, **how) -> Instance:
@@ -116,11 +119,14 @@ class Instance:
     # --- with names ---
 
     def _values(self, name: str, given=()):
-        whole, size = name in self.unit.integers, self.unit.sizes.get(name, 1)
-        kind, exact = (c_int32, int) if whole else (c_double, float)
+        size, (named, kind, exact) = self.unit.sizes.get(name, 1), ("Float64", c_double, float)
+        if name in self.unit.integers:
+            named, kind, exact = "Int32", c_int32, int
+        elif name in self.unit.booleans:
+            named, kind, exact = "Boolean", c_bool, bool
         numbers = (kind * size)(*map(exact, given))
         reference = c_uint(self.unit.references[name])
-        return "Int32" if whole else "Float64", (byref(reference), 1, numbers, size)
+        return named, (byref(reference), 1, numbers, size)
 
     def set(self, name: str, *values: float) -> None:
         kind, arguments = self._values(name, values)
@@ -136,7 +142,7 @@ class Instance:
         return [self.get(name) for name in self.unit.references]
 
     def begin(self, **values) -> Instance:
-        for name, value in {"surface_speed": 0.15, **values}.items():
+        for name, value in {"surface_speed": 0.15, **PLAIN, **values}.items():
             self.set(name, *(value if isinstance(value, (list, tuple)) else [value]))
         self.done("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)
         self.done("ExitInitializationMode")

@@ -149,7 +149,8 @@ def test_a_derivative_that_the_unit_does_not_take_is_a_failure(old, new):
 
 
 def test_the_native_unit_follows_a_slope(fmu):
-    with started(fmu, inputs={"surface_speed": 0.15}) as unit:
+    at_once = {"surface.run_up_time": 0.0}
+    with started(fmu, inputs={"surface_speed": 0.15}, parameters=at_once) as unit:
         unit.write_waveforms({"surface_speed": Waveform((0.1, 0.2), 0.5)})
         unit.step(0.0, 0.5)
         assert unit.read()["surface_travel"] == pytest.approx(0.075, rel=1e-12)

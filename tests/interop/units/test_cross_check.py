@@ -51,12 +51,12 @@ def run(units, name, kind="CoSimulation"):
     "name", ["StickSlip3DOF.fmu", "StickSlip3DOF-fmi3.fmu", "StickSlip3DOF-python.fmu"]
 )
 def test_the_block_moves_as_in_the_reference(units, name):
-    """The same arithmetic, and what rounding has turned the block by grows to no more than this."""
+    """The same arithmetic; fmpy's times differ by rounding, which each of the slips passes on."""
     found, expected = run(units, name)
     np.testing.assert_allclose(found["time"], expected["time"], rtol=0, atol=1e-12)
     for each in expected.dtype.names[1:]:
         size = np.abs(expected[each]).max()
-        np.testing.assert_allclose(found[each], expected[each], rtol=0, atol=1e-9 * size)
+        np.testing.assert_allclose(found[each], expected[each], rtol=0, atol=1e-8 * size)
     assert expected["slip_count"][-1] > 6 and np.ptp(expected["x"]) > 0.01
 
 

@@ -152,7 +152,7 @@ def test_model_exchange_converges_to_the_models_own_events(fmu3):
             stop_time=5.0,
             output_interval=0.01,
             record_events=True,
-            start_values={"surface_speed": 0.15},
+            start_values=values({}),
             output=["mode"],
         )
         at = np.flatnonzero(np.diff(result["mode"])) + 1
@@ -198,7 +198,7 @@ def test_steps_end_at_the_models_own_events(unit, case):
 
 def test_fmpy_stops_at_events_and_the_motion_is_the_same(fmu3):
     given = {"stop_time": 3.0, "output_interval": 0.01, "output": ["x", "heat", "mode"]}
-    given["start_values"] = {"surface_speed": 0.15}
+    given["start_values"] = values({})
     plain = fmpy.simulate_fmu(str(fmu3), **given)
     stopped = fmpy.simulate_fmu(str(fmu3), use_event_mode=True, early_return_allowed=True, **given)
     own = simulate(Parameters(surface={"speed": 0.15}), duration=3.0).events

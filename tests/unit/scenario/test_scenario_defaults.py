@@ -40,7 +40,7 @@ def test_a_bare_file_is_the_reference_but_for_chance_and_moving_air(tmp_path):
     }
 
 
-def test_plain_is_the_model_of_python_and_the_fmu(tmp_path):
+def test_plain_is_the_model_of_python(tmp_path):
     plain = read_scenario(written(tmp_path, 'defaults = "plain"', "unnamed.toml"))
     assert plain == Scenario() and plain.taken == {}
     assert plain.mechanics.flat() == Scenario().mechanics.flat()

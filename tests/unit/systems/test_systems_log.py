@@ -55,12 +55,13 @@ def rows(folder):
 WARNINGS = [(f"{time}", "loud", "warning", "heat", "warm") for time in (0.25, 0.5, 0.75)]
 
 
-def test_messages_are_in_a_file_and_one_line_says_so(system, tmp_path, capsys):
+def test_messages_are_in_a_file_and_two_lines_say_so(system, tmp_path, capsys):
     folder = tmp_path / "out"
     assert main(["couple", system(LOGS), "-o", str(folder)]) == 0
     assert rows(folder) == WARNINGS
     said = capsys.readouterr()
-    assert said.err == f"note: 3 messages (3 warnings) in {folder / 'messages.log'}\n"
+    note = f"note: 3 messages (3 warnings) in {folder / 'messages.log'}\n"
+    assert said.err == note + "warning: loud: t = 0.25 s: warm\n"
     assert "warm" not in said.out
     numbers = json.loads((folder / "summary.json").read_text())
     assert [each["messages"] for each in numbers["participants"].values()] == [0, 3, 0]

@@ -36,7 +36,7 @@ def _row(group: list[Variable]) -> tuple[str, ...]:
     name = f"{first.array}[1..{len(group)}]" if many else first.name
     start = "" if many or first.start is None else f"{first.start:g}"
     tunable = " (tunable in a run)" if first.is_tunable else ""
-    unit = "integer" if first.is_integer else "" if first.unit == "1" else first.unit
+    unit = {None: "Boolean" if first.is_boolean else "integer", "1": ""}.get(first.unit, first.unit)
     return code(name), unit, start, _bounds(first), first.description + tunable
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from c_library import compiler
 from native_unit import library_of, references
+from plain_start import PLAIN
 from stickslip import Parameters, simulate
 
 from cosim.fmu.native import NAME, built_guid, native_folder
@@ -19,7 +20,7 @@ from cosim.fmu.native import NAME, built_guid, native_folder
 HOST = Path(__file__).with_name("host.c")
 # exact in binary, so that host and simulation speak of the same instants
 STEP = 0.0078125
-PLANAR = {"lateral_friction.ratio": 1.0, "initial.phi": 0.05}
+PLANAR = {**PLAIN, "lateral_friction.ratio": 1.0, "initial.phi": 0.05}
 SANITIZERS = "-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 pytestmark = [

@@ -16,6 +16,7 @@ import fmpy
 import numpy as np
 import pytest
 from native_unit import references
+from plain_start import PLAIN
 from stickslip import Parameters, simulate
 
 from cosim.fmu import native
@@ -142,7 +143,7 @@ WEAKENING = {"velocity_weakening": {"linear": 0.8}}
 def test_the_windows_library_moves_as_the_model_does(block, tables, output):
     parameters = Parameters(**tables)
     own = simulate(parameters, STEPS * STEP, STEP)[output][1:]
-    values = {f"{table}.{key}": number for table in tables for key, number in tables[table].items()}
+    values = PLAIN | {f"{table}.{key}": n for table in tables for key, n in tables[table].items()}
     # The sines of another C library differ in the last place, which comes to 4e-14 over these 5 s;
     # products that are rounded once with a sum instead of twice would come to more.
     np.testing.assert_allclose(block(output, STEPS, STEP, **values), own, rtol=0, atol=1e-12)

@@ -60,10 +60,10 @@ REFUSED = [
     ("SetFloat64", one_float("rig.mass"), "rig.mass is fixed and cannot be set after"),
     ("GetFloat64", one_float("friction.table_mu", 3), "3 values, the variables have 96"),
     ("GetFloat64", one_float("friction.table_mu+1"), "no such variable, it is within an array"),
-    ("GetBoolean", one_float(0), "all variables are of the types Float64 and Int32"),
-    ("SetString", one_float(0), "all variables are of the types Float64 and Int32"),
-    ("GetFloat32", one_float(0), "all variables are of the types Float64 and Int32"),
-    ("GetBinary", (None, 1, None, None, 1), "all variables are of the types Float64 and Int32"),
+    ("GetBoolean", one_float(0), "surface_speed is a real number, not a Boolean"),
+    ("SetString", one_float(0), "all variables are of the types Float64, Int32 and Boolean"),
+    ("GetFloat32", one_float(0), "all variables are of the types Float64, Int32 and Boolean"),
+    ("GetBinary", (None, 1, None, None, 1), "of the types Float64, Int32 and Boolean"),
     ("GetClock", (None, 1, None), "fmi3GetClock: this unit has no clocks"),
     ("SetIntervalFraction", (None, 1, None, None), "this unit has no clocks"),
     ("ActivateModelPartition", (0, 0.0), "this unit has no clocks"),
@@ -84,6 +84,9 @@ def test_a_call_that_makes_no_sense_is_refused(unit3, function, arguments, says)
     with unit3.instance() as block:
         block.begin()
         assert says in block.reason(function, *arguments)
+        if function in ("GetFloat64", "GetInt32", "GetBoolean", "GetFloat32", "GetBinary"):
+            block.step(0.01)  # to have asked harms nothing
+            return
         assert "failed before" in block.reason("EnterEventMode")
         block.done("Reset")
         block.begin()

@@ -183,6 +183,7 @@ def test_a_tunable_parameter_changes_in_event_mode_only(host):
     host.unit.reset()
     host.put("surface_speed", SPEED)
     host.put("initial.vx", SPEED)
+    host.put("surface.run_up_time", 0.0)
     host.initialise()
     host.unit.newDiscreteStates()
     assert host.get("mode") == 0

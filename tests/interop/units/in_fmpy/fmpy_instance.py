@@ -6,9 +6,10 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error
 from fmpy_slave import fmpy_slave
+from plain_start import PLAIN
 
 SPEED = 0.15
-SLIDING = {"surface_speed": SPEED}
+SLIDING = {"surface_speed": SPEED, **PLAIN}
 CREEPING = {"surface_speed": 0.03, "initial.vx": 0.03, "friction.stick_creep": 4e-3}
 SHEARED = {
     "surface_speed": 0.03,

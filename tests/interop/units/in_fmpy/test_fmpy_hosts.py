@@ -7,6 +7,8 @@ from pathlib import Path
 import fmpy
 from fmpy_instance import SLIDING
 
+from cosim.scenario.defaults import stated
+
 
 def test_simulate_fmu_runs_it(unit):
     result = fmpy.simulate_fmu(
@@ -26,7 +28,7 @@ def test_a_host_without_numpy_runs_it(unit, tmp_path, block):
     done = subprocess.run(
         [sys.executable, "-I", str(host), *arguments], capture_output=True, text=True, check=True
     )
-    block.initialise()
+    block.initialise(**stated())
     block.march(0, 100, 0.01)
     assert done.stdout.strip() == f"{block.get('x')!r} {{0}} False"
     assert done.stderr == ""

@@ -16,11 +16,11 @@ from fmpy_instance import instance, refused
         ("getReal", ([2**32 - 1],), "value reference 4294967295: there is no such variable"),
         ("setReal", ([4711], [1.0]), "value reference 4711: there is no such variable"),
         ("getInteger", ([0],), "surface_speed is a real number, not an integer"),
+        ("getBoolean", ([0],), "surface_speed is a real number, not a Boolean"),
+        ("setBoolean", ([0], [True]), "surface_speed is a real number, not a Boolean"),
         ("setInteger", ([0], [1]), "surface_speed is a real number, not an integer"),
-        ("getBoolean", ([0],), "fmi2GetBoolean: all variables are real or integer"),
-        ("setBoolean", ([0], [True]), "fmi2SetBoolean: all variables are real or integer"),
-        ("getString", ([0],), "fmi2GetString: all variables are real or integer"),
-        ("setString", ([0], ["x"]), "fmi2SetString: all variables are real or integer"),
+        ("getString", ([0],), "fmi2GetString: no variable is a text"),
+        ("setString", ([0], ["x"]), "fmi2SetString: no variable is a text"),
     ],
 )
 def test_a_call_that_makes_no_sense_is_refused(block, call, arguments, says):
@@ -29,9 +29,10 @@ def test_a_call_that_makes_no_sense_is_refused(block, call, arguments, says):
     state = block.slave.getFMUState()
     said = block.refuses(getattr(block.slave, call), *arguments)
     assert said.endswith(says) and "\n" not in said
-    refused(block.slave.doStep, 0.1, 0.01)
-    assert "failed before" in block.log.take_errors()
-    block.slave.setFMUState(state)
+    if not call.startswith("get"):  # to have asked harms nothing
+        refused(block.slave.doStep, 0.1, 0.01)
+        assert "failed before" in block.log.take_errors()
+        block.slave.setFMUState(state)
     block.slave.doStep(0.1, 0.01)
     block.slave.freeFMUState(state)
 
@@ -48,9 +49,9 @@ def test_a_whole_number_is_read_as_a_real_one_too(block):
     assert block.refuses(block.slave.getInteger, [x]) == "x is a real number, not an integer"
 
 
-def test_an_input_just_below_its_bound_is_at_it(fmu, tmp_path):
+def test_an_input_just_below_its_bound_is_at_it(unit, tmp_path):
     """A host that takes differences about 0 asks for a film that is thinner than none."""
-    with instance(fmu, tmp_path) as block:
+    with instance(unit, tmp_path) as block:
         block.initialise(film_thickness=-1e-8)
         assert block.get("film_thickness") == 0.0
 

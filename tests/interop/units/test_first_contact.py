@@ -1,0 +1,122 @@
+"""The units as they come, nothing set: a rig that can be, and a word where it is none any more."""
+
+import json
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from fmpy_slave import fmpy_slave
+
+from cosim.cli import main
+from cosim.fmu.build import THERMAL, build_fmu
+from cosim.fmu.platforms import this_platform
+from cosim.fmu.variables import parameter_table
+from cosim.scenario.defaults import stated
+
+STOP = 30.0  # s, as the units advise
+#: A block that is pushed off its belt within the first second.
+PUSHED = {"external_force_y": 4.0}
+LINKS = "".join(
+    f'[[connections]]\nfrom = "{source}"\nto = "{sink}"\n'
+    for source, sink in (
+        ("mechanics.heat", "thermal.heat"),
+        ("mechanics.surface_speed_actual", "thermal.surface_speed"),
+        ("mechanics.x", "thermal.x"),
+        ("thermal.interface_temperature", "mechanics.interface_temperature"),
+    )
+)
+
+
+def bare(fmu, **options):
+    """A whole run with nothing set."""
+    names = ["x", "y", "slip_count", "heat", "off_belt", "spring_overstretched"]
+    return simulate_fmu(str(fmu), output=names, output_interval=0.01, **options)
+
+
+def test_a_unit_starts_as_a_scenario_that_leaves_all_out():
+    starts = {each["name"]: each["start"] for each in parameter_table()}
+    assert {key: starts[key] for key in stated()} == stated()
+
+
+def test_a_host_that_sets_nothing_has_one_motion_however_it_runs_the_unit(fmu, fmu3, python_fmu):
+    """Slips and x of co-simulation and model exchange, FMI 2 and 3, over the default experiment."""
+    runs = [bare(fmu), bare(fmu3), bare(python_fmu)]
+    loose = [bare(each, fmi_type="ModelExchange") for each in (fmu, fmu3)]
+    tight = bare(fmu, fmi_type="ModelExchange", relative_tolerance=1e-9)
+    first = runs[0]
+    assert first["time"][-1] == STOP and first["slip_count"][-1] > 40
+    assert np.abs(first["y"]).max() < 1e-12
+    for other, allowed in [(each, 1e-12) for each in runs] + [(each, 1e-4) for each in loose]:
+        assert other["slip_count"][-1] == first["slip_count"][-1]
+        assert other["x"][-1] == pytest.approx(first["x"][-1], abs=allowed)
+        assert not other["off_belt"].any() and not other["spring_overstretched"].any()
+    x = np.interp(first["time"], tight["time"], tight["x"])
+    np.testing.assert_allclose(x, first["x"], rtol=0, atol=1e-6)
+
+
+@pytest.fixture(scope="module")
+def pair(fmu, tmp_path_factory):
+    """The bare pair as a system's file, with more lines."""
+    folder = tmp_path_factory.mktemp("pair")
+    heat = build_fmu(folder, THERMAL, [this_platform()])
+
+    def written(more=""):
+        units = f'[units.mechanics]\nfile = "{fmu}"\n{more}[units.thermal]\nfile = "{heat}"\n'
+        (folder / "pair.toml").write_text(units + LINKS, encoding="utf-8")
+        return folder / "pair.toml"
+
+    return written
+
+
+def test_the_bare_pair_keeps_to_its_line(pair, tmp_path, capsys):
+    arguments = ["--set", f"run.stop={STOP:g}", "-o", str(tmp_path)]
+    assert main(["couple", str(pair()), *arguments]) == 0
+    numbers = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    y = numbers["outputs"]["mechanics.y"]
+    assert max(abs(y["lowest"]), abs(y["highest"])) < 1e-9
+    assert numbers["outputs"]["mechanics.slip_count"]["end"] > 40
+    assert numbers["warnings"] == [] and "warning" not in capsys.readouterr().err
+
+
+def test_a_block_that_leaves_its_belt_is_told_in_one_line(pair, tmp_path, capsys):
+    pushed = "inputs = { external_force_y = 4.0 }\n"
+    arguments = ["--set", "run.stop=2", "-o", str(tmp_path)]
+    assert main(["couple", str(pair(pushed)), *arguments]) == 0
+    said = capsys.readouterr().err.splitlines()
+    (line,) = [each for each in said if each.startswith("warning")]
+    assert line.startswith("warning: mechanics: t = ") and "off_belt: the block has left" in line
+    numbers = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert numbers["warnings"] == [line.removeprefix("warning: ")]
+    assert "off_belt: the block has left" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("values", "name"),
+    [
+        (PUSHED, "off_belt"),
+        ({"springs.longest": 1.2, **PUSHED, "belt.width": 0.0}, "spring_overstretched"),
+    ],
+)
+def test_what_no_rig_bears_is_shown_and_logged_once(unit, values, name, tmp_path):
+    with fmpy_slave(unit, tmp_path) as (description, slave, log):
+        known = {each.name: each.valueReference for each in description.modelVariables}
+        slave.setReal([known[key] for key in values], [*values.values()])
+        slave.setupExperiment()
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+        seen = []
+        for n in range(150):
+            slave.doStep(n * 0.01, 0.01)
+            seen.append(bool(slave.getBoolean([known[name]])[0]))
+        (y,) = slave.getReal([known["y"]])
+        said = [each for each in log.messages if each.status == "warning"]
+    assert seen[-1] and not seen[0] and y > 0.0375
+    assert len(said) == 1 and said[0].text.startswith(f"{name}: ")
+
+
+def test_in_model_exchange_it_changes_at_an_event(fmu):
+    """So that a host may take it for what FMI calls discrete; late by a step of the integrator."""
+    result = bare(fmu, fmi_type="ModelExchange", stop_time=2.0, start_values=PUSHED)
+    at = int(np.flatnonzero(np.diff(result["off_belt"]))[0])
+    assert result["time"][at] == result["time"][at + 1]
+    assert 0.0375 < result["y"][at] < 0.0375 + 0.01
