@@ -12,7 +12,7 @@ from stickslip.steady_motion.regimes import (
     SLIDING,
     STICK_SLIP,
 )
-from stickslip.steady_motion.stability import GUIDED, NEUTRAL, UNSTABLE
+from stickslip.steady_motion.stability import GRAZING, GUIDED, NEUTRAL, UNSTABLE
 from stickslip.steady_motion.starts import (
     BALANCED,
     DISTURBED,
@@ -36,6 +36,8 @@ SHORT = {
     BALANCED: "from where the springs balance the friction of sliding",
     TURNED: "from 10 mm aside and turned by 20°",
 }
+#: Multipliers that differ by less than this part are told as one.
+ALIKE = 0.02
 #: Of a number: a rig whose border is further off than this is well inside.
 WELL_INSIDE = 1.0 / 3.0
 #: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
@@ -53,45 +55,89 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
     found = numbers["stability"]
     if found["verdict"] == GUIDED:
         return "The rig allows motion along x alone: there is nothing to be unstable."
+    if found["verdict"] == GRAZING:
+        return grazing_sentence(found)
     what = "The motion along the line" if found["motion"] == "along the line" else "This motion"
     if found["verdict"] != UNSTABLE:
         fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
         return (
             f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
-            f"{fares}, by the factor {found['growth']:.3g} in {found['cycle']:.3g} s. "
+            f"{fares}, by the factor {_factor(found)} in {found['cycle']:.3g} s. "
             f"{ramp_sentence(numbers)}".rstrip()
             + _further(found)
         )
     return (
         f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
-        f"{found['time_to_grow']:.3g} s, and no rig is without one.{_remedy(found)}"
+        f"{found['time_to_grow']:.3g} s{_kept(found)}.{_remedy(found)}"
     )
+
+
+def _factor(found: Mapping[str, Any]) -> str:
+    """Growth in a cycle, and of other disturbances where they grow otherwise."""
+    low, high = min(_growths(found)), max(_growths(found))
+    if high - low < ALIKE * high:
+        return f"{found['growth']:.3g}"
+    return f"{low:.2g} to {high:.2g}, as they are smaller or larger,"
+
+
+def grazing_sentence(found: Mapping[str, Any]) -> str:
+    """That multipliers of several sizes of disturbance disagree."""
+    low, high = min(_growths(found)), max(_growths(found))
+    return (
+        "Whether small disturbances to the side and in rotation grow cannot be judged: the motion "
+        f"grazes, so that it depends on how small they are (by the factor {low:.3g} or {high:.3g} "
+        f"in {found['cycle']:.3g} s)."
+    )
+
+
+def _growths(found: Mapping[str, Any]) -> list[float]:
+    return [found["growth"], *found["other_growths"]]
+
+
+def _kept(found: Mapping[str, Any]) -> str:
+    """What growth comes to in a run as long as this one."""
+    if found["time_to_grow"] <= found["watched"]:
+        return ", so that no rig keeps to it"
+    return f", in a run that lasts {found['watched']:.3g} s at constant speed"
 
 
 def unstable_line(numbers: Mapping[str, Any]) -> str:
-    """That an unstable motion is not kept to, how fast, and what would help; for a terminal."""
+    """How fast disturbances of an unstable motion grow, and what would help; for a terminal."""
     found = numbers["stability"]
-    least, now = found["least_pretension"], found["pretension"]
-    remedy = (
-        ""
-        if least is None
-        else (f"; stable from {1e3 * least:.3g} mm of pretension (now {1e3 * now:.3g})")
-    )
     motion = "the line" if found["motion"] == "along the line" else "this motion"
+    stable, now = _stable_side(found), f"now {1e3 * found['pretension']:.3g}"
+    remedy = f"; stable {stable} of pretension ({now})" if stable else ""
     time = f"{found['time_to_grow']:.3g} s"
-    return f"disturbances of {motion} grow tenfold in {time}, so that no rig keeps to it{remedy}"
+    return f"disturbances of {motion} grow tenfold in {time}{_kept(found)}{remedy}"
 
 
 def _remedy(found: Mapping[str, Any]) -> str:
-    least = found["least_pretension"]
     if found["unstable_pretensions"] is None:
         return ""
-    if least is None:
+    stable = _stable_side(found)
+    if stable is None:
         return " No pretension that was tried makes it stable."
     return (
-        f" Springs stretched by {1e3 * least:.3g} mm as installed would hold the block to it; "
-        f"they are by {1e3 * found['pretension']:.3g} mm."
+        f" It is stable {stable} of pretension, by which the springs are stretched as installed; "
+        f"here it is {1e3 * found['pretension']:.3g} mm."
     )
+
+
+def _stable_side(found: Mapping[str, Any]) -> str | None:
+    """From which pretension on the motion is stable, or up to which: the border that is nearest."""
+    for low, high in found["unstable_pretensions"] or ():
+        if low <= found["pretension"] and (high is None or found["pretension"] <= high):
+            if high is not None:
+                return f"from {_millimetres(high, found)} mm"
+            if low > 0.0:
+                return f"below {_millimetres(low, found)} mm"
+    return None
+
+
+def _millimetres(border: float, found: Mapping[str, Any]) -> str:
+    """Digits as the border is known to."""
+    step = 1e3 * found["pretension_resolution"]
+    return f"{1e3 * border:.3g}" if step < 0.1 else f"about {step * round(1e3 * border / step):.2g}"
 
 
 def ramp_sentence(numbers: Mapping[str, Any]) -> str:
@@ -109,7 +155,9 @@ def _further(found: Mapping[str, Any]) -> str:
     """Where else it would not be stable."""
     windows = found["unstable_pretensions"] or []
     told = [
-        f"{1e3 * low:.3g} to {1e3 * high:.3g} mm" if high is not None else f"{1e3 * low:.3g} mm on"
+        f"{_millimetres(low, found)} to {_millimetres(high, found)} mm"
+        if high is not None
+        else f"{_millimetres(low, found)} mm on"
         for low, high in windows
     ]
     if not told:

@@ -20,7 +20,7 @@ from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension
 from stickslip.steady_motion.numbers import at_speed, with_ratio
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
-from stickslip.steady_motion.stability import growth_in_a_cycle, guided
+from stickslip.steady_motion.stability import cycle_stability, guided
 from stickslip.steady_motion.starts import RAMP, REST, RIDING, STARTS, other_starts
 
 from cosim.report.page import Picture, render
@@ -116,7 +116,7 @@ def _cell(parameters: Parameters, interface: Interface) -> tuple[float, float]:
     """Growth, and 1 where the block sticks on its line, else 0; NaN where it cannot be followed."""
     duration = run_length(parameters)
     try:
-        growth = growth_in_a_cycle(parameters, duration, interface)
+        growth = cycle_stability(parameters, duration, interface).growth
         return growth, float(regime_of(guided(parameters), duration, interface).slip_share < 1.0)
     except RunEnded:
         return np.nan, np.nan

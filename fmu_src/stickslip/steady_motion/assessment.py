@@ -32,6 +32,7 @@ class Assessment:
     pretension : m, as it is
     borders : pretensions at which the motion is unstable; None where that takes too many steps
     whole : whether all starts were followed within the steps that are allowed
+    steady : length of the run at constant speed, s
     near : the nearest border in each of the rig's numbers; None where that takes too many steps
     """
 
@@ -41,6 +42,7 @@ class Assessment:
     borders: PretensionBorders | None
     whole: bool = True
     near: list[Border] | None = None
+    steady: float = 0.0
 
     @property
     def coexisting(self) -> dict[str, Regime]:
@@ -55,12 +57,15 @@ class Assessment:
                 "verdict": found.verdict,
                 "motion": "along the line" if found.straight else "its own",
                 "growth": found.growth,
+                "other_growths": list(found.others),
+                "watched": self.steady,
                 "cycle": found.period,
                 "time_to_grow": found.time_to_grow,
                 "amplification": found.amplification if found.straight else None,
                 "pretension": self.pretension,
                 "least_pretension": None if borders is None else borders.least,
                 "unstable_pretensions": None if borders is None else borders.windows,
+                "pretension_resolution": None if borders is None else borders.resolution,
             },
             "regimes": {start: asdict(regime) for start, regime in self.regimes.items()},
             "other_regimes": list(self.coexisting),
@@ -95,6 +100,7 @@ def assess(
         return None
     if frequency == 0.0 or duration - ramp < FEWEST / frequency:
         return None
+    steady = duration - ramp
     duration = min(duration, ramp + max(LONGEST, PERIODS / frequency))
     try:
         density = steps_per_second(parameters, duration, interface)
@@ -108,7 +114,7 @@ def assess(
     rig = parameters.rig
     pretension = rig.spring_length - rig.spring_natural_length
     near = _near(parameters, duration, interface, work) if whole else None
-    return Assessment(stable, found, pretension, borders, whole, near)
+    return Assessment(stable, found, pretension, borders, whole, near, steady)
 
 
 def _near(

@@ -13,14 +13,14 @@ from scipy.optimize import brentq
 
 from ..parameters import Parameters
 from .live import DRY, Interface
-from .stability import growth_in_a_cycle
+from .stability import GRAZING, Stability, cycle_stability
 from .work import Work
 
 #: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
 FINE, COARSE, MOST = 0.005, 0.01, 0.30
 #: Of a multiplier of 1, that of a motion beside which nothing grows or dies out.
 ROUNDING = 1e-5
-#: To which the borders are found, m.
+#: To which a border is found that the multipliers pass through 1 at, m.
 RESOLUTION = 1e-5
 
 
@@ -30,9 +30,11 @@ class PretensionBorders:
 
     windows : (begin, end), m, growing; an end of None is beyond what was looked at, `MOST` of the
         installed length. A window narrower than a step of the search can be missed.
+    resolution : to which they are known, m: a step of the search where the motion grazes there
     """
 
     windows: tuple[tuple[float, float | None], ...]
+    resolution: float = RESOLUTION
 
     @property
     def least(self) -> float | None:
@@ -61,17 +63,24 @@ def pretension_borders(
     length. work: steps that are left. Raises `live.RunEnded` where a motion cannot be followed.
     """
 
+    def at(pretension: float) -> Stability:
+        return cycle_stability(with_pretension(parameters, pretension), duration, interface, work)
+
     def excess(pretension: float) -> float:
-        changed = with_pretension(parameters, pretension)
-        return growth_in_a_cycle(changed, duration, interface, work) - 1.0 - ROUNDING
+        return at(pretension).growth - 1.0 - ROUNDING
 
     steps = parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)
-    unstable = [excess(step) > 0.0 for step in steps]
-    borders = [0.0] if unstable[0] else []
+    found = [at(pretension) for pretension in steps]
+    unstable = [one.multipliers.size > 0 and one.growth > 1.0 + ROUNDING for one in found]
+    borders, resolution = [0.0] if unstable[0] else [], RESOLUTION
     for i in np.flatnonzero(np.diff(unstable)):
-        borders.append(float(brentq(excess, steps[i], steps[i + 1], xtol=RESOLUTION)))
+        if GRAZING in (found[i].verdict, found[i + 1].verdict):
+            border, resolution = 0.5 * (steps[i] + steps[i + 1]), steps[1]
+        else:
+            border = brentq(excess, steps[i], steps[i + 1], xtol=RESOLUTION)
+        borders.append(float(border))
     ends = [*borders[1::2], None] if unstable[-1] else borders[1::2]
-    return PretensionBorders(tuple(zip(borders[::2], ends, strict=True)))
+    return PretensionBorders(tuple(zip(borders[::2], ends, strict=True)), float(resolution))
 
 
 def with_pretension(parameters: Parameters, pretension: float) -> Parameters:

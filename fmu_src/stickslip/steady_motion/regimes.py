@@ -17,7 +17,7 @@ from ..parameters import Parameters
 from ..simulation import simulate
 from ..trajectory import Trajectory, break_away_frequency, slip_share
 from .live import DRY, Interface, RunEnded
-from .starts import BALANCED, OWN, balanced, disturbed, other_starts
+from .starts import BALANCED, OWN, balanced, disturbed, other_starts, started
 from .work import OutOfWork, Work
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
@@ -28,7 +28,11 @@ ASIDE_LENGTH, ASIDE_ANGLE_DEG = 2e-3, 2.0
 #: Shortest run at constant speed that a regime is read from, s, and in natural periods.
 SHORTEST, PERIODS = 20.0, 20.0
 #: A run whose numbers do not repeat yet is made twice as long, so many times.
-DOUBLINGS = 5
+DOUBLINGS = 6
+#: One whose frequency still wanders by more than this part after so many never repeats.
+IRREGULAR, ENOUGH = 0.05, 2
+#: One that swerves slowly is also started so many times as far aside, as long as that is little.
+FURTHER_ASIDE = 3.0
 #: Part of the run at constant speed, from its end, that is looked at.
 LATE = 0.5
 #: A contact that is said to stick, but slides at this part of the surface's speed, creeps.
@@ -41,12 +45,13 @@ TOLERANCES = {
     "max_y": (0.1, 1e-3),
     "max_rotation_deg": (0.1, 1.0),
 }
+SIDEWAYS = ("max_y", "max_rotation_deg")
 #: Of a block that slides: a swing that loses this part of itself from one half of the window to the
 #: next dies out, one that changes by less than the second is kept up.
 DIES_OUT, KEPT_UP = 1e-2, 1e-3
-#: A distance from the line stays where it changes by no more than this part of itself from half to
-#: half; what is no more than the second, m or degrees, is rounding.
-STILL, NOTHING = 0.02, 1e-7
+#: A distance from the line stays where it grows, or shrinks, by no more than these parts of itself
+#: from half to half; growth by no more than the third, m or degrees, is rounding.
+GROWN, SHRUNK, NOTHING = 0.002, 0.02, 1e-7
 
 
 @dataclass(frozen=True)
@@ -83,14 +88,17 @@ class Regime:
         return all(
             abs(self.change[name]) <= 0.5 * _tolerance(name, getattr(self, name))
             for name in compared
-        ) and all(self._keeps(name) for name in ("max_y", "max_rotation_deg"))
+        ) and not (self.swerves or any(self._returns(name) for name in SIDEWAYS))
 
-    def _keeps(self, name: str) -> bool:
-        """Does a distance from the line neither grow nor, where it is more than little, shrink?"""
-        value, change = getattr(self, name), self.change[name]
-        return change <= STILL * value + NOTHING and (
-            value <= TOLERANCES[name][1] or change >= -STILL * value
-        )
+    @property
+    def swerves(self) -> bool:
+        """Does its distance from the line grow, or its rotation?"""
+        return any(self.change[name] > GROWN * getattr(self, name) + NOTHING for name in SIDEWAYS)
+
+    def _returns(self, name: str) -> bool:
+        """Does a distance from the line that is more than little shrink?"""
+        value = getattr(self, name)
+        return value > TOLERANCES[name][1] and self.change[name] < -SHRUNK * value
 
     @property
     def is_aside(self) -> bool:
@@ -152,15 +160,15 @@ def regimes(
     natural = PERIODS / max(parameters.natural_frequency, 0.1)
     steady = max(duration - parameters.surface.run_up_time, SHORTEST, natural)
     followed: list[tuple[Parameters, Regime]] = []
-    for name, started in _starts(parameters, interface):
-        known = next((regime for other, regime in followed if other == started), None)
+    for name, start in _starts(parameters, interface):
+        known = next((regime for other, regime in followed if other == start), None)
         try:
-            found[name] = known or settled_regime(started, steady, interface, work)
+            found[name] = known or settled_regime(start, steady, interface, work)
         except RunEnded:
             continue
         except OutOfWork:
             break
-        followed.append((started, found[name]))
+        followed.append((start, found[name]))
     return found
 
 
@@ -206,8 +214,13 @@ def settled_regime(
     for doubling in range(DOUBLINGS + 1):
         length = parameters.surface.run_up_time + steady * 2.0**doubling
         found = regime_of(parameters, length, interface, work)
-        if found.repeats:
+        irregular = abs(found.change["frequency"]) > IRREGULAR * found.frequency
+        if found.repeats or (irregular and doubling >= ENOUGH):
             break
+        if found.swerves and not found.is_aside:
+            initial = parameters.initial
+            further = {"y": FURTHER_ASIDE * initial.y, "phi": FURTHER_ASIDE * initial.phi}
+            parameters = started(parameters, further)
     return found
 
 

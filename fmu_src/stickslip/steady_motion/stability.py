@@ -5,15 +5,21 @@ is beside it: a disturbance d = (y, phi, vy, omega) in the middle of one stick i
 of the next. The eigenvalues of A are the Floquet multipliers of the cycle; the motion is stable
 where all of them lie inside the unit circle (Leine & Nijmeijer, Dynamics and Bifurcations of
 Non-Smooth Mechanical Systems, 2004, chapter 7). A is taken column by column from runs of the model
-that are disturbed either way, stick and slip included, so that no law needs a derivative.
+that are disturbed, stick and slip included, so that no law needs a derivative.
 
-A motion that does not stick is looked at once in each of its swings, one that slides evenly once
-in a natural period.
+Where friction falls steeply a motion can graze: a small disturbance meets other events than a
+smaller one, or than its mirror image, and there is no A. So it is taken for disturbances of two
+sizes and, where the rig is not its own mirror image, of both signs; where these do not agree on
+whether a disturbance grows, nothing is said.
+
+A cycle is as many sticks as it takes until their lengths repeat, and is looked at in a run that is
+made longer until they do. A motion that does not stick is looked at once in each of its swings,
+one that slides evenly once in a natural period.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -25,16 +31,18 @@ from .live import DRY, Interface, LiveRun, RunEnded
 from .work import Work
 
 STABLE, NEUTRAL, UNSTABLE, GUIDED = "stable", "neutral", "unstable", "guided"
+GRAZING = "grazing"
 #: Multipliers this close to 1 are told as 1: what grows by e in a thousand cycles is in no run.
 CLOSE_TO_ONE = 1e-3
-#: Disturbance, m: the model's own error, some 1e-11, is a hundred-thousandth of it, and so are the
-#: terms of third order.
-DISTURBANCE = 1e-6
+#: Disturbances, m: the multipliers are those of the first; the model's own error, some 1e-11, is a
+#: ten-thousandth of the second.
+DISTURBANCES = 1e-5, 1e-7
 #: Of the start, m: far above rounding, and free to grow by a factor of millions.
 START = 1e-9
-#: Cycles are the same where they last equally long to this part; then one is enough. Where they are
-#: not, as many are multiplied as there are, up to so many.
-SAME, CYCLES = 1e-3, 32
+#: Cycles repeat where their lengths do to this part, as groups of up to so many sticks; a run in
+#: which they do not yet is made twice as long, so many times. Where they never do, as many are
+#: multiplied as there are, up to so many.
+SAME, LONGEST_CYCLE, DOUBLINGS, CYCLES = 1e-6, 8, 2, 32
 #: Of the state x, y, phi, vx, vy, omega: what is beside the line.
 BESIDE = {"y": (1, 4), "phi": (2, 5)}
 
@@ -45,19 +53,21 @@ class Stability:
 
     Attributes
     ----------
-    multipliers : (n,) moduli of the multipliers of one cycle, the largest first; n = 2 for each of
-        y and phi that is free, none where the rig guides the block
+    multipliers : (n,) moduli of the multipliers of one stick to the next, the largest first; n = 2
+        for each of y and phi that is free, none where the rig guides the block
     period : of a cycle, s
     amplification : what a disturbance of the start grows by at most in the whole run, its speed
         ramp included; NaN where the run's own motion was looked at
     straight : whether the motion along the x axis was looked at, as of a rig without imperfections
         that starts on its line; else the run's own motion, of a rig that has no such line
+    others : largest multiplier by disturbances of the other size and sign
     """
 
     multipliers: np.ndarray
     period: float
     amplification: float
     straight: bool
+    others: tuple[float, ...] = ()
 
     @property
     def growth(self) -> float:
@@ -66,12 +76,16 @@ class Stability:
 
     @property
     def verdict(self) -> str:
-        """stable, neutral (neither grows nor dies out), unstable, or guided."""
+        """stable, neutral (neither grows nor dies out), unstable, guided, or grazing.
+
+        Grazing: disturbances of other sizes and signs fare differently.
+        """
         if not self.multipliers.size:
             return GUIDED
-        if abs(self.growth - 1.0) < CLOSE_TO_ONE:
-            return NEUTRAL
-        return UNSTABLE if self.growth > 1.0 else STABLE
+        verdicts = {_verdict(growth) for growth in (self.growth, *self.others)}
+        if len(verdicts) > 1 and np.ptp([self.growth, *self.others]) > CLOSE_TO_ONE:
+            return GRAZING
+        return _verdict(self.growth)
 
     @property
     def time_to_grow(self) -> float | None:
@@ -81,37 +95,74 @@ class Stability:
         return self.period * float(np.log(10.0) / np.log(self.growth))
 
 
+def _verdict(growth: float) -> str:
+    if abs(growth - 1.0) < CLOSE_TO_ONE:
+        return NEUTRAL
+    return UNSTABLE if growth > 1.0 else STABLE
+
+
 def stability(
     parameters: Parameters,
     duration: float = 30.0,
     interface: Interface = DRY,
     work: Work | None = None,
 ) -> Stability:
-    """Multipliers of the last cycles of a run of ``duration`` (s), and what grows on the way there.
+    """Multipliers of the cycle that a run of ``duration`` (s) comes to, and what grows on the way.
 
     interface: its temperature and the water in it. work: steps that are left. Raises
     `live.RunEnded` where the motion cannot be followed that far.
     """
-    moduli, period, time = _multipliers(parameters, duration, interface, work)
-    straight = _has_line(parameters)
-    if not moduli.size:
+    found = cycle_stability(parameters, duration, interface, work)
+    if not found.multipliers.size:
         amplified = 0.0
-    elif straight:
-        amplified = _amplification(_as_drawn(parameters), time, interface, work)
+    elif found.straight:
+        amplified = _amplification(_as_drawn(parameters), duration, interface, work)
     else:
         amplified = np.nan
-    return Stability(moduli, period, amplified, straight)
+    return replace(found, amplification=amplified)
 
 
-def growth_in_a_cycle(
+def cycle_stability(
     parameters: Parameters,
     duration: float = 30.0,
     interface: Interface = DRY,
     work: Work | None = None,
-) -> float:
-    """`Stability.growth` alone, in half the time: for searches and maps."""
-    moduli, _, _ = _multipliers(parameters, duration, interface, work)
-    return float(moduli[0]) if moduli.size else 0.0
+) -> Stability:
+    """`stability` without the amplification, in half the time: for searches and maps."""
+    straight = _has_line(parameters)
+    on_line = parameters
+    if straight:
+        parameters = _as_drawn(parameters)
+        on_line = guided(parameters)
+    free = parameters.rig.degrees_of_freedom
+    beside = [i for name in ("y", "phi") if name in free for i in BESIDE[name]]
+    moments, sticking = _converged(on_line, parameters, duration, interface, work)
+    period = float(np.mean(np.diff(moments)))
+    if not beside:
+        return Stability(np.empty(0), period, np.nan, straight)
+    live = LiveRun(on_line, interface)
+    # of its own mirror image both signs fare alike
+    kinds = [
+        (size, sign) for size in DISTURBANCES for sign in ((1.0,) if straight else (1.0, -1.0))
+    ]
+    products = {kind: np.eye(len(beside)) for kind in kinds}
+    scale = _scale(parameters)
+    for begin, end in pairwise(moments):
+        (work or Work()).spend((1.0 + len(kinds) * len(beside)) * (end - begin))
+        disturbed = live.advance(begin).of(parameters)
+        undisturbed = disturbed.copy().advance(end).state
+        course = _course(disturbed, end) if sticking else np.zeros(6)
+        for size, sign in kinds:
+            changes = sign * size * scale
+            transfer = _transfer(disturbed, end, beside, changes, undisturbed, course)
+            products[size, sign] = transfer @ products[size, sign]
+    cycles = len(moments) - 1
+    moduli = [
+        np.sort(np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles))[::-1]
+        for product in products.values()
+    ]
+    others = tuple(float(each[0]) for each in moduli[1:])
+    return Stability(moduli[0], period, np.nan, straight, others)
 
 
 def guided(parameters: Parameters) -> Parameters:
@@ -120,45 +171,39 @@ def guided(parameters: Parameters) -> Parameters:
     return parameters.model_copy(update={"rig": rig})
 
 
-def _multipliers(
-    parameters: Parameters, duration: float, interface: Interface, work: Work | None
-) -> tuple[np.ndarray, float, np.ndarray]:
-    """Moduli of a cycle's multipliers, the largest first, its period (s), and the run's times."""
-    on_line = parameters
-    if _has_line(parameters):
-        parameters = _as_drawn(parameters)
-        on_line = guided(parameters)
-    beside = [
-        i
-        for name in ("y", "phi")
-        if name in parameters.rig.degrees_of_freedom
-        for i in BESIDE[name]
-    ]
-    run = simulate(
-        on_line,
-        duration,
-        _sampling(parameters),
-        **interface.inputs,
-        progress=(work or Work()).over(),
-    )
-    if not run.complete:
-        raise RunEnded(run.reason)
-    moments, sticking = _sections(run)
-    lengths = np.diff(moments)
-    period = float(np.mean(lengths))
-    if np.ptp(lengths) < SAME * period:
-        moments = moments[-2:]
-    if not beside:
-        return np.empty(0), period, run.time
-    scale = _scale(parameters)[beside]
-    product, cycles = np.eye(len(beside)), len(moments) - 1
-    live = LiveRun(on_line, interface)
-    for begin, end in pairwise(moments):
-        (work or Work()).spend(2.0 * len(beside) * (end - begin))
-        free = live.advance(begin).of(parameters)
-        product = _transfer(free, end, beside, scale, sticking) @ product
-    moduli = np.abs(np.linalg.eigvals(product)) ** (1.0 / cycles)
-    return np.sort(moduli)[::-1], period, run.time
+def _converged(
+    on_line: Parameters,
+    parameters: Parameters,
+    duration: float,
+    interface: Interface,
+    work: Work | None,
+) -> tuple[np.ndarray, bool]:
+    """Moments, s, of one cycle, or of as many as there are; whether the block sticks there."""
+    ramp = parameters.surface.run_up_time
+    for doubling in range(DOUBLINGS + 1):
+        run = simulate(
+            on_line,
+            ramp + (duration - ramp) * 2.0**doubling,
+            _sampling(parameters),
+            **interface.inputs,
+            progress=(work or Work()).over(),
+        )
+        if not run.complete:
+            raise RunEnded(run.reason)
+        moments, sticking = _sections(run)
+        count = _sticks_in_a_cycle(np.diff(moments))
+        if count:
+            return moments[-count - 1 :], sticking
+    return moments, sticking
+
+
+def _sticks_in_a_cycle(lengths: np.ndarray) -> int:
+    """After how many their lengths (n,) repeat, twice at least; 0: they do not."""
+    for count in range(1, min(LONGEST_CYCLE, lengths.size // 3) + 1):
+        late = lengths[-3 * count :].reshape(3, count)
+        if np.ptp(late, axis=0).max() < SAME * lengths.mean():
+            return count
+    return 0
 
 
 def _has_line(parameters: Parameters) -> bool:
@@ -226,31 +271,36 @@ def _lowest(run: Trajectory, begin: float) -> np.ndarray:
     """Times after ``begin`` at which x turns upward, s; none where it hardly moves."""
     late = run.time >= begin
     time, vx = run.time[late], run["vx"][late]
-    if time.size < 2 or np.ptp(run["x"][late]) < 1e3 * DISTURBANCE:
+    if time.size < 2 or np.ptp(run["x"][late]) < 1e3 * DISTURBANCES[1]:
         return np.empty(0)
     up = np.flatnonzero((vx[:-1] < 0.0) & (vx[1:] >= 0.0))
     return time[up] - vx[up] * (time[up + 1] - time[up]) / (vx[up + 1] - vx[up])
 
 
 def _transfer(
-    live: LiveRun, end: float, beside: list[int], scale: np.ndarray, sticking: bool
+    live: LiveRun,
+    end: float,
+    beside: list[int],
+    changes: np.ndarray,
+    undisturbed: np.ndarray,
+    course: np.ndarray,
 ) -> np.ndarray:
-    """Disturbances at ``end`` for those now, (n, n), in metres at the rim."""
+    """Disturbances at ``end`` for those now, (n, n), in units of the ``changes`` (6,).
+
+    undisturbed: the state then (6,). course: of it, per travel along x.
+    """
     columns = []
-    course = _course(live, end) if sticking else np.zeros(6)
-    for i, size in zip(beside, scale, strict=True):
+    for i in beside:
         change = np.zeros(6)
-        change[i] = DISTURBANCE * size
-        ahead = live.copy().displace(change).advance(end)
-        behind = live.copy().displace(-change).advance(end)
-        moved = ahead.state - behind.state
+        change[i] = changes[i]
+        moved = live.copy().displace(change).advance(end).state - undisturbed
         moved -= moved[0] * course  # compared where the surface has carried both equally far
-        columns.append(moved[beside] / (2.0 * DISTURBANCE * scale))
+        columns.append(moved[beside] / changes[beside])
     return np.column_stack(columns)
 
 
 def _amplification(
-    parameters: Parameters, time: np.ndarray, interface: Interface, work: Work | None
+    parameters: Parameters, duration: float, interface: Interface, work: Work | None
 ) -> float:
     """Largest distance from the line over that at the start, of a block displaced, and turned."""
     arm, largest = parameters.rig.contact_radius, 0.0
@@ -262,7 +312,11 @@ def _amplification(
             update={"initial": parameters.initial.model_copy(update=start)}
         )
         run = simulate(
-            moved, time[-1], time[1], **interface.inputs, progress=(work or Work()).over()
+            moved,
+            duration,
+            _sampling(parameters),
+            **interface.inputs,
+            progress=(work or Work()).over(),
         )
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)

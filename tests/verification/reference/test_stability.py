@@ -1,5 +1,6 @@
 """Do disturbances beside a motion grow? Against closed forms, an independent model, and runs."""
 
+import falling_friction
 import numpy as np
 import pytest
 from planar_model import Slider
@@ -140,6 +141,32 @@ def test_fifty_rigs_fare_as_their_multipliers_say():
             wrong.append((parameters, found))
     assert not wrong
     assert 5 <= unstable <= 45
+
+
+def test_multipliers_do_not_depend_on_how_long_the_run_is():
+    """Also where friction falls steeply, and a cycle is two sticks, or none twice alike."""
+    for seed in (4, 12, 24):
+        parameters = falling_friction.drawn_rig(np.random.default_rng(seed))
+        growths = [stability(parameters, length).growth for length in (30.0, 35.0, 40.0)]
+        assert growths == pytest.approx([growths[0]] * 3, rel=2e-3)
+
+
+def test_where_small_and_smaller_disturbances_fare_otherwise_nothing_is_said():
+    """1.12 by 1e-7 m and 0.77 by 1e-5 m: a rig whose friction falls steeply from rest."""
+    found = stability(falling_friction.drawn_rig(np.random.default_rng(12)))
+    assert found.verdict == "grazing" and found.time_to_grow is None
+    assert min(found.growth, *found.others) < 0.9 < 1.02 < max(found.growth, *found.others)
+
+
+def test_ten_rigs_of_falling_friction_fare_as_their_multipliers_say():
+    """`falling_friction_multipliers` is the same with 40."""
+    draw, asked = np.random.default_rng(0), 0
+    while asked < 10:
+        answer = falling_friction.compared(falling_friction.drawn_rig(draw))
+        if answer is None:
+            continue
+        asked += 1
+        assert falling_friction.agrees(*answer)
 
 
 def test_the_least_pretension_is_the_border_of_the_runs():
