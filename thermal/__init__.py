@@ -7,13 +7,17 @@
 True
 """
 
-from .belt.single_pass import SinglePass
-from .ice.mesh_file import MeshError
-from .model import BeltIceModel
-from .output import FieldSeries, RigView, collection, rig_view
-from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
-from .steady_sliding import SlidingState, SteadySliding
-from .steady_state import NoSteadyState, settle
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .belt.single_pass import SinglePass
+    from .ice.mesh_file import MeshError
+    from .model import BeltIceModel
+    from .output import FieldSeries, RigView, collection, rig_view
+    from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
+    from .steady_sliding import SlidingState, SteadySliding
+    from .steady_state import NoSteadyState, settle
 
 __all__ = [
     "Ambient",
@@ -35,3 +39,35 @@ __all__ = [
     "rig_view",
     "settle",
 ]
+
+_HOME = {
+    "SinglePass": ".belt.single_pass",
+    "MeshError": ".ice.mesh_file",
+    "BeltIceModel": ".model",
+    "FieldSeries": ".output",
+    "RigView": ".output",
+    "collection": ".output",
+    "rig_view": ".output",
+    "Ambient": ".parameters",
+    "Belt": ".parameters",
+    "Contact": ".parameters",
+    "Ice": ".parameters",
+    "Layer": ".parameters",
+    "ParameterError": ".parameters",
+    "ThermalParameters": ".parameters",
+    "SlidingState": ".steady_sliding",
+    "SteadySliding": ".steady_sliding",
+    "NoSteadyState": ".steady_state",
+    "settle": ".steady_state",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: who reads parameters needs no finite elements."""
+    if name in _HOME:
+        return getattr(import_module(_HOME[name], __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

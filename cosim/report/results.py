@@ -23,7 +23,7 @@ from .material import page_of_material
 from .motion_text import border_sentence, regime_sentence, stability_sentence
 from .page import Picture, render
 from .quantities import digits, spelled, told, with_unit, worded
-from .summary import summary
+from .run_summary import summary
 
 Progress = Callable[[str], None]
 

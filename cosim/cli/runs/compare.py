@@ -104,7 +104,8 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     """A scenario's run, which is kept nowhere."""
     from stickslip import simulate
 
-    from cosim.cli.runs.running import compile_model, progress_over
+    from cosim.cli.runs.run_io import progress_over
+    from cosim.cli.runs.running import compile_model
     from cosim.report import run_dataset, summary, trajectory_dataset
     from cosim.report.compare import OneResult
 

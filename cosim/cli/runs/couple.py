@@ -51,7 +51,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def refused() -> tuple[type[Exception], ...]:
     """What is bad input, as opposed to a run that fails."""
-    import cosim.cli.runs.running
+    import cosim.cli.runs.run_io
     import cosim.systems.show  # noqa: F401  imported where Ctrl-C waits
     from cosim.coupling import CouplingError, FmuError
     from cosim.coupling.record import CheckpointError
@@ -80,15 +80,15 @@ class Job(NamedTuple):
 
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
-    from cosim.cli.runs import running
-    from cosim.cli.runs.running import hearing, is_removed, log_files, message_log
+    from cosim.cli.runs import run_io
+    from cosim.cli.runs.run_io import hearing, is_removed, log_files, message_log
     from cosim.manifest import made_by, results_in
 
     began = time.perf_counter()
     numbers = numbers_asked(arguments, KEYS)
     job = _begun(arguments) if arguments.resume is None else _found(arguments)
     logging = message_log(job.folder, arguments.verbose)
-    going_on = running.going_on(job.folder, job.resume)
+    going_on = run_io.going_on(job.folder, job.resume)
     with going_on, job.specification, patient_interrupts() as patience, logging as log:
         with units_speak_aside():
             done = _run(
@@ -111,7 +111,7 @@ def execute(arguments: Namespace) -> int:
 
 def _begun(arguments: Namespace) -> Job:
     """A run from its start."""
-    from cosim.cli.runs.running import own_folder
+    from cosim.cli.runs.run_io import own_folder
     from cosim.coupling.record import RunFolder
     from cosim.scenario.changes import changes_of
     from cosim.systems import read_system
@@ -139,7 +139,7 @@ def _begun(arguments: Namespace) -> Job:
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
-    from cosim.cli.runs.running import refuse_beside_resume
+    from cosim.cli.runs.run_io import refuse_beside_resume
     from cosim.coupling.record import RunFolder
     from cosim.systems import read_system
 
@@ -206,12 +206,12 @@ def _run(job: Job, patience: Patience, **said: Any) -> SystemRun:
 
 def _with_bar(job: Job, patience: Patience, **said: Any) -> SystemRun:
     """Run; a unit's contents are only unpacked, and refused, when it starts."""
-    from cosim.cli.runs import running
+    from cosim.cli.runs import run_io
     from cosim.coupling import ParticipantError
     from cosim.systems import run_system
 
     start, stop = job.specification.run.start, job.specification.run.stop
-    with running.progress_over(stop - start) as show:
+    with run_io.progress_over(stop - start) as show:
 
         def progress(reached: float) -> None:
             patience.hold()
@@ -237,7 +237,7 @@ def _finish(
     log: MessageLog,
 ) -> int:
     """Write all and say what came out; 0 when the run is complete, else 1."""
-    from cosim.cli.runs.running import log_files, say_how_it_ended
+    from cosim.cli.runs.run_io import log_files, say_how_it_ended
     from cosim.report.coupling import doubts
     from cosim.report.files import json_text
     from cosim.systems.show import write_system

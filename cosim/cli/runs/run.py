@@ -84,7 +84,7 @@ class Job(NamedTuple):
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
     from cosim.cli.numbers import numbers_asked
-    from cosim.cli.runs import running
+    from cosim.cli.runs import run_io, running
     from cosim.cli.scenarios import note_taken
     from cosim.files import writable
     from cosim.interrupts import patient_interrupts
@@ -96,12 +96,12 @@ def execute(arguments: Namespace) -> int:
     job = _begun(arguments) if arguments.resume is None else _found(arguments)
     # said with the first step, when units, too, are known to be good; of old when it goes on
     unsaid = [] if arguments.resume else [job.scenario]
-    fields = writable(job.results / running.FIELDS)
+    fields = writable(job.results / run_io.FIELDS)
     running.compile_model()
-    logging = running.message_log(job.folder, arguments.verbose)
-    going_on = running.going_on(job.folder, _resume(job.results))
+    logging = run_io.message_log(job.folder, arguments.verbose)
+    going_on = run_io.going_on(job.folder, _resume(job.results))
     with going_on, patient_interrupts() as patience, logging as log:
-        with running.progress_over(job.scenario.run.duration) as show:
+        with run_io.progress_over(job.scenario.run.duration) as show:
 
             def progress(reached: float) -> None:
                 patience.hold()
@@ -109,20 +109,20 @@ def execute(arguments: Namespace) -> int:
                     note_taken(unsaid.pop())
                 show(reached)
 
-            said = {"heard": running.hearing(log, arguments.verbose), "debug": arguments.verbose}
+            said = {"heard": run_io.hearing(log, arguments.verbose), "debug": arguments.verbose}
             done = _run(job, fields=fields, progress=progress, **said)
         patience.hold()
-        if running.is_removed(job.results, done.result.time.tolist()):
+        if run_io.is_removed(job.results, done.result.time.tolist()):
             return FAILED
         dataset = run_dataset(
             done.result, job.scenario, job.scenario.to_toml(), snapshots=done.snapshots
         )
         running.assess_motion(dataset, job.scenario, patience)
-        goes_on = done.result.status != running.COMPLETE and job.folder.checkpoint.is_file()
+        goes_on = done.result.status != run_io.COMPLETE and job.folder.checkpoint.is_file()
         made = made_by(job.command, scenario=job.scenario.to_toml())
         with results_in(job.results, made, force=job.force) as results:
-            taken = running.field_files(job.results) if done.snapshots.file else []
-            for name in (*running.log_files(log), *taken):
+            taken = run_io.field_files(job.results) if done.snapshots.file else []
+            for name in (*run_io.log_files(log), *taken):
                 results.add(job.results / name)
             status = running.finish(
                 dataset,
@@ -147,7 +147,7 @@ def _begun(arguments: Namespace) -> Job:
     from stickslip.plugins import files
 
     from cosim.cli.plug_ins import digests
-    from cosim.cli.runs import running
+    from cosim.cli.runs import run_io, running
     from cosim.coupling.record import RunFolder
     from cosim.manifest import require_own
 
@@ -158,7 +158,7 @@ def _begun(arguments: Namespace) -> Job:
         )
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
     results = running.results_folder(arguments.output, scenario, arguments.force)
-    require_own(results, [running.COLLECTION], arguments.force)
+    require_own(results, [run_io.COLLECTION], arguments.force)
     command = shlex.join(["stickslip", *sys.argv[1:]])
     fmu = None if arguments.fmu is None else str(Path(arguments.fmu).resolve())
     asked = {
@@ -176,7 +176,7 @@ def _begun(arguments: Namespace) -> Job:
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
-    from cosim.cli.runs import running
+    from cosim.cli.runs import run_io, running
     from cosim.coupling.record import RunFolder
 
     given = {
@@ -187,7 +187,7 @@ def _found(arguments: Namespace) -> Job:
         "--animation": arguments.animation,
         "--force": arguments.force,
     }
-    running.refuse_beside_resume(given)
+    run_io.refuse_beside_resume(given)
     results = Path(arguments.resume)
     folder = RunFolder.found(results)
     asked = folder.asked

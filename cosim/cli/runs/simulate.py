@@ -71,7 +71,7 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     """
     from stickslip import simulate
 
-    from cosim.cli.runs.running import progress_over
+    from cosim.cli.runs.run_io import progress_over
 
     run = scenario.run
     with progress_over(run.duration) as show:

@@ -37,7 +37,7 @@ if sys.version_info < (3, 11):
 import ctypes
 
 try:
-    import thermal
+    from thermal import BeltIceModel
 except ImportError as error:
     raise ImportError(
         "BeltIceThermal-python.fmu needs the package `stickslip` in the host's Python, %s: %s; "

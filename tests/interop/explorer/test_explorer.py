@@ -17,7 +17,7 @@ from stickslip.packing import in_order
 
 from cosim import read_scenario
 from cosim.report import trajectory_dataset
-from cosim.report.summary import after_ramp
+from cosim.report.run_summary import after_ramp
 from cosim.scenario import ScenarioError
 from cosim.studies.effects.page import PLAIN
 

@@ -8,7 +8,7 @@ import pytest
 
 import cosim.report.bounds
 from cosim.cli import main
-from cosim.cli.runs.running import going_on
+from cosim.cli.runs.run_io import going_on
 from cosim.coupling.record import RunFolder
 from cosim.files import OutputError
 

@@ -13,7 +13,7 @@ from stickslip.compiled import say_if_compiling
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS, parser
-from cosim.cli.runs import running
+from cosim.cli.runs import run_io
 from cosim.cli.saying import Bar, note, saying
 
 SHORT = "[run]\nduration = 0.5\n"
@@ -137,9 +137,9 @@ def test_what_remains_is_not_estimated_from_the_time_before_the_first_step(monke
             self._time = lambda: now[0]
             bars.append(self)
 
-    monkeypatch.setattr(running, "Bar", OnTerminal)
-    monkeypatch.setattr(running.time, "time", lambda: now[0])
-    with running.progress_over(30.0) as show:
+    monkeypatch.setattr(run_io, "Bar", OnTerminal)
+    monkeypatch.setattr(run_io.time, "time", lambda: now[0])
+    with run_io.progress_over(30.0) as show:
         now[0] = 60.0
         show(0.01)
         now[0] = 61.0

@@ -13,7 +13,7 @@ from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import digits, told
 from cosim.report.results import number_tables
-from cosim.report.summary import summary
+from cosim.report.run_summary import summary
 
 
 class References(HTMLParser):

@@ -9,7 +9,7 @@ from stickslip.packing import GRAVITY
 from stickslip.trajectory import break_away_frequency, counted_break_aways
 
 from cosim.report import trajectory_dataset
-from cosim.report.summary import after_ramp
+from cosim.report.run_summary import after_ramp
 from cosim.studies.sweep import FEATURES, features
 from cosim.studies.sweep.features import _extremes, _mean
 

@@ -137,3 +137,14 @@ def test_after_a_crash_of_the_whole_process_it_is_there(system, tmp_path):
     done = subprocess.run([*command, "-o", str(tmp_path / "out")], capture_output=True)
     assert done.returncode < 0  # by a signal
     assert rows(tmp_path / "out") == WARNINGS[:2]
+
+
+def test_a_system_runs_without_the_models_of_this_package(system, tmp_path):
+    """They cost two seconds of processor, more than a small system's run."""
+    program = (
+        "import sys; from cosim.cli import main; code = main(sys.argv[1:]);"
+        "print(sorted({'numba', 'skfem', 'meshio', 'scipy.optimize'} & set(sys.modules)), code)"
+    )
+    command = [sys.executable, "-P", "-c", program, "couple", system(0), "--json"]
+    done = subprocess.run([*command, "-o", str(tmp_path / "out")], capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == "[] 0", done.stderr

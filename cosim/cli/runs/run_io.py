@@ -1,0 +1,166 @@
+"""What every run on the command line shares, whatever is run: its folder, log, bar and end.
+
+Without the models and their results: `stickslip couple` starts without them.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from cosim.cli import DONE, FAILED, BadInput
+from cosim.cli.saying import Bar, note
+from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
+from cosim.coupling.record import LOG, MessageLog, RunFolder
+from cosim.coupling.system import MASTER
+from cosim.files import OutputError, writable
+from cosim.manifest import claim, require_own
+
+FIELDS = "fields"
+COLLECTION = f"{FIELDS}/temperature.pvd"
+COMPLETE = "complete"
+
+
+def own_folder(folder: Path, files: Iterable[str], force: bool) -> Path:
+    """A folder that is made, found writable, and has no file of these that is somebody else's.
+
+    What lies beside a run that was cut off is that run's: it had no time to list it.
+    """
+    writable(folder, files)
+    if RunFolder(folder).is_left:
+        claim(folder, (*files, *field_files(folder)))
+    require_own(folder, files, force)
+    return folder
+
+
+def field_files(folder: Path) -> list[str]:
+    """The collections of the temperature fields, and what they name; none where there are none."""
+    found: list[str] = []
+    for file in sorted((folder / FIELDS).glob(f"{Path(COLLECTION).stem}*.pvd")):
+        try:
+            named = [entry.get("file", "") for entry in ElementTree.parse(file).iter("DataSet")]
+        except (OSError, ElementTree.ParseError):
+            continue
+        found += [f"{FIELDS}/{name}" for name in (file.name, *named)]
+    return found
+
+
+def refuse_beside_resume(given: Mapping[str, object]) -> None:
+    """BadInput for an argument, by what it is called, that was given beside --resume."""
+    for what, value in given.items():
+        if value:
+            raise BadInput(
+                f"--resume: goes on with a run as it was begun, so {what} cannot be given"
+            )
+
+
+def message_log(folder: RunFolder, verbose: bool) -> MessageLog:
+    """The log of a run beside its results, behind what the run had said before it was cut off.
+
+    verbose: shown on stderr, too.
+    """
+    resumed = folder.checkpoint.is_file()
+    return MessageLog(folder.results / LOG, resumed, _show_line if verbose else None)
+
+
+def _show_line(line: str) -> None:
+    """On stderr, above the bar where there is one."""
+    Bar.write(line, file=sys.stderr)
+
+
+def hearing(log: MessageLog, verbose: bool) -> Callable[[Message], None]:
+    """What a run tells its messages to: the log, and at once the terminal where it cannot wait.
+
+    That steps grind at their smallest size, or stand unconverged, is said where it begins; what
+    follows of the kind is in the log alone. verbose: the log shows all of it.
+    """
+    heard: set[str] = set()
+
+    def hear(message: Message) -> None:
+        log.add(message)
+        at_once = message.source == MASTER and message.category in (SMALLEST, UNCONVERGED)
+        if at_once and message.category not in heard and not verbose:
+            heard.add(message.category)
+            when = "" if message.time is None else f"at t = {message.time:.6g} s "
+            _show_line(f"warning: {when}{message.text}; more of it is in {log.path}")
+
+    return hear
+
+
+def log_files(log: MessageLog) -> dict[str, str]:
+    """The log as the page lists it; it is there where something was said."""
+    return {LOG: "what units and master said, a line each"} if log.path.is_file() else {}
+
+
+@contextmanager
+def going_on(folder: RunFolder, resume: str) -> Iterator[None]:
+    """What could not be written, as on a full disk, is said with what goes on from a checkpoint."""
+    try:
+        yield
+    except OutputError as error:
+        if not folder.checkpoint.is_file():
+            raise
+        raise OutputError(f"{error}; this goes on from the newest checkpoint: {resume}") from error
+
+
+def say_how_it_ended(
+    numbers: Mapping[str, Any], folder: Path, resume: str, log: MessageLog | None
+) -> int:
+    """What became of the run, unless that is all well: one line on stderr; the exit status.
+
+    numbers: of its summary. resume: what goes on with it, "" where nothing does. log: of what was
+    said, which is told of where there are warnings or errors.
+    """
+    said = "" if log is None else log.told()
+    if numbers["status"] == COMPLETE:
+        if said:
+            note(said)
+        return DONE
+    goes_on = f", and this goes on from there: {resume}" if resume else ""
+    where = f"{folder}, {said}" if said else str(folder)
+    print(f"error: {numbers['reason']}; what was computed is in {where}{goes_on}", file=sys.stderr)
+    return FAILED
+
+
+def is_removed(folder: Path, time: Iterable[float]) -> bool:
+    """Whether the folder of the results is gone, which is then said in one line, with what is lost.
+
+    time: recorded times of the run, s.
+    """
+    if folder.is_dir():
+        return False
+    reached = max(time, default=0.0)
+    print(
+        f"error: {folder}: was removed while the run went; it has ended at t = {reached:.6g} s, and"
+        " all rows until then, checkpoints and messages are lost: begin anew",
+        file=sys.stderr,
+    )
+    return True
+
+
+@contextmanager
+def progress_over(duration: float) -> Iterator[Callable[[float], object]]:
+    """A bar over simulated time (s) on stderr, none when that is no terminal.
+
+    Gives a function to be called with the time reached. What remains is by the mean speed since
+    the first step: models are made ready before it, which takes as long as a thousand steps.
+    """
+    layout = "{percentage:3.0f}%|{bar}| {n:.2f}/{total:g} s [{elapsed}<{remaining}]"
+    # miniters: a stretch that goes fast is not to keep the bar still in a slow one
+    with Bar(total=duration, bar_format=layout, smoothing=0, miniters=0) as bar:
+        begun = False
+
+        def show(reached: float) -> None:
+            nonlocal begun
+            if not (begun or bar.disable):
+                begun = True
+                bar.initial = bar.n = bar.last_print_n = reached
+                bar.start_t = bar.last_print_t = time.time()  # tqdm's clock
+            bar.update(reached - bar.n)
+
+        yield show
