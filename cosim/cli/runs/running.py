@@ -14,12 +14,10 @@ import xarray as xr
 from stickslip import Parameters, simulate
 from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
-from stickslip.steady_motion.regimes import CREEPING
-from stickslip.steady_motion.stability import GRAZING, UNSTABLE
-from stickslip.steady_motion.starts import OWN
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.numbers import NOT_ASKED, Numbers
+from cosim.cli.runs.closing_lines import closing_lines
 from cosim.cli.runs.run_io import (
     COLLECTION,
     FIELDS,
@@ -33,18 +31,9 @@ from cosim.coupling.record import LOG, MessageLog
 from cosim.interrupts import Patience
 from cosim.report import Views, summary, write_results
 from cosim.report.bounds import bounds_sentences, is_believed
-from cosim.report.contents import attach_assessment
+from cosim.report.contents import attach_assessment, material_of
 from cosim.report.coupling import doubts
 from cosim.report.files import json_text
-from cosim.report.motion_text import (
-    WELL_INSIDE,
-    border_sentence,
-    ramp_sentence,
-    regime_sentence,
-    stability_sentence,
-    unstable_line,
-)
-from cosim.report.quantities import ROUNDING
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.units import doubted
 from cosim.scenario.work import WORTH_SAYING, in_words
@@ -178,7 +167,8 @@ def finish(
     if say_how_it_ended(numbers, folder, resume, log) == FAILED:
         return FAILED
     if not printed:
-        print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
+        lines = closing_lines(numbers, folder, time.perf_counter() - began, material_of(dataset))
+        print("\n".join(lines))
     return DONE if is_believed(numbers) else FAILED
 
 
@@ -191,101 +181,3 @@ def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any
                 patience.release()
 
         write_results(dataset, folder, progress=written, **further)
-
-
-def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:
-    """Three to seven lines for whoever waited."""
-    late, ledgers = numbers["after_run_up"], numbers["ledger"]
-    lines = [
-        f"{numbers['name']}: {numbers['time_reached']:g} s in {wall_time:.1f} s of wall time, "
-        f"{numbers['wall_time']:.2g} s of them in the models",
-        f"  stick-slip   {_motion_line(late)}",
-    ]
-    if "temperatures" in numbers:
-        interface, shares = numbers["temperatures"]["interface"], numbers["heat_shares"]
-        lines += [
-            f"  interface    {interface['end_degC']:z.4f} degC at the end, "
-            f"{interface['end_rise']:+z.4f} K over the air",
-            f"  heat         {_heat(ledgers['heat']['received'])} J, of which "
-            + ", ".join(
-                f"{sink} {_percent(shares[sink])}"
-                for sink in ("belt", "ice", "air", "melting")
-                if sink != "melting" or shares.get(sink)
-            ),
-        ]
-    if "melting" in numbers:
-        lines.append(f"  melting      {_melting_line(numbers['melting'])}")
-    lines += _assessed_lines(numbers)
-    lines.append(f"  ledgers      {_ledger_line(ledgers)}")
-    lines.append(f"  results      {folder / 'report.html'} and beside it")
-    return lines
-
-
-def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
-    """A line where no rig could make this motion, and one where another exists beside it."""
-    if "stability" not in numbers:
-        return []
-    lines = []
-    if numbers["stability"]["verdict"] == UNSTABLE:
-        lines.append(f"  unstable     {unstable_line(numbers)}")
-    elif numbers["stability"]["verdict"] == GRAZING:
-        lines.append(f"  stability    {stability_sentence(numbers)}")
-    elif ramp := ramp_sentence(numbers):
-        lines.append(f"  unstable     {ramp}")
-    if numbers["other_regimes"] or numbers["regimes"][OWN]["name"] == CREEPING:
-        lines.append(f"  regimes      {regime_sentence(numbers)}")
-    if any((border["margin"] or 1.0) < WELL_INSIDE for border in numbers["nearest_borders"] or ()):
-        lines.append(f"  border       {border_sentence(numbers)}")
-    return lines
-
-
-def _motion_line(late: Mapping[str, Any]) -> str:
-    if not late["duration"]:
-        return "not known: the run ends before the surface has its speed (surface.run_up_time)"
-    rate = late["frequency"]
-    times = f"{rate:.3f} Hz" if rate else "no break-away"
-    if rate is None:
-        times = "one break-away"
-    return f"{times} at constant speed, slip share {_number(late['slip_share'], '.3f')}"
-
-
-def _melting_line(melting: Mapping[str, Any]) -> str:
-    film = melting["film_thickness"]
-    return (
-        f"from {melting['onset']:.4g} s, {1e3 * melting['melted_mass']:.3g} g in all; film "
-        f"{_number(film and 1e6 * film, '.3g')} um at the end, friction coefficient "
-        f"{_number(melting['friction_before'], '.3f')} before, "
-        f"{_number(melting['friction_end'], '.3f')} at the end"
-    )
-
-
-def _ledger_line(ledgers: Mapping[str, Any]) -> str:
-    """What each ledger is off by, as a part of what it is about."""
-    parts = [f"mechanics {_off_by(ledgers['mechanics']['relative_residual'], 'of the work')}"]
-    if "heat" in ledgers:
-        parts += [
-            f"heat {_off_by(ledgers['heat']['relative_residual'])}",
-            f"coupling {_off_by(ledgers['coupling']['relative_difference'], 'of the heat')}",
-        ]
-    return ", ".join(parts)
-
-
-def _off_by(part: float | None, of: str = "") -> str:
-    """A part of what a ledger is about; of nothing there is none."""
-    if part is None:
-        return "has nothing in it"
-    return f"{part:.1e} {of}".rstrip() if part else "0"
-
-
-def _percent(share: float | None) -> str:
-    return "none" if share is None else f"{100.0 * share:z.1f} %"
-
-
-def _heat(joules: float) -> str:
-    """Joules, none of them where there is but rounding."""
-    return f"{0.0 if abs(joules) < ROUNDING['J'] else joules:z.4g}"
-
-
-def _number(value: float | None, form: str) -> str:
-    """A run too short for a number has None."""
-    return "none" if value is None else format(value, form)

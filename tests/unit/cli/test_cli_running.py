@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from cosim.cli import main
-from cosim.cli.runs.running import closing_lines
+from cosim.cli.runs.closing_lines import closing_lines
 
 MECHANICS = {
     "name": "case",
@@ -30,16 +30,48 @@ def test_a_coupled_run_ends_in_six_lines():
     assert len(lines) == 6
     for said in (
         "30 s in 6.0 s",
-        "2.300 Hz",
-        "0.900",
-        "-7.9432 degC",
-        "+0.0568 K",
-        "5.126 J",
+        "2.3 Hz",
+        "slip share 0.9",
+        "-7.943 degC",
+        "+0.057 K",
+        "5.13 J",
         "of which belt 31.0 %, ice 48.0 %, air 21.0 %",
         "1.0e-13 of the work",
         "out/report.html",
     ):
         assert any(said in line for line in lines), said
+
+
+def test_a_block_of_steel_is_one_on_the_terminal_too():
+    ledgers = {"ledger": MECHANICS["ledger"] | HEAT_LEDGERS}
+    lines = closing_lines(MECHANICS | HEAT | ledgers, Path("an/ice/out"), 6.0, "steel")
+    assert "belt 31.0 %, steel 48.0 %, air 21.0 %" in lines[3]
+    assert "an/ice/out" in lines[-1]
+
+
+@pytest.mark.parametrize(
+    ("ends", "said"),
+    [
+        (
+            {
+                "interface_degC": -5.6789,
+                "interface_rise": 2.3211,
+                "reached": 5432.1,
+                "within": 0.05,
+            },
+            "-5.7 degC if this went on for ever, +2.3 K over the air; within 5400 s of the start to "
+            "5 %",
+        ),
+        ({"reason": "none: the face of the block comes to melt"}, "none: the face of the block"),
+    ],
+)
+def test_it_is_told_how_warm_the_contact_gets_in_the_end(ends, said):
+    ledgers = {"ledger": MECHANICS["ledger"] | HEAT_LEDGERS}
+    numbers = MECHANICS | HEAT | ledgers | {"in_the_end": ends}
+    (line,) = [
+        line for line in closing_lines(numbers, Path("out"), 6.0) if line.startswith("  in the end")
+    ]
+    assert said in line
 
 
 def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency():
@@ -62,7 +94,7 @@ def test_a_ledger_of_nothing_and_one_that_is_exact():
 def test_without_a_period_there_is_no_frequency(rate, share, said):
     late = {"frequency": rate, "slip_share": share, "duration": 20.0}
     line = closing_lines(MECHANICS | {"after_run_up": late}, Path("out"), 6.0)[1]
-    assert said in line and f"slip share {share:.3f}" in line and "Hz" not in line
+    assert said in line and f"slip share {share:.3g}" in line and "Hz" not in line
 
 
 def test_rounding_is_not_told_of_as_heat_and_nought_has_no_sign():
@@ -71,7 +103,7 @@ def test_rounding_is_not_told_of_as_heat_and_nought_has_no_sign():
     rise = {"end_degC": -8.0, "end_rise": -1e-14}
     heat = HEAT | {"temperatures": {"interface": rise}}
     said = "\n".join(closing_lines(MECHANICS | heat | ledgers, Path("out"), 6.0))
-    assert "heat         0 J" in said and "+0.0000 K" in said and "e-21" not in said
+    assert "heat         0 J" in said and ", 0 K over the air" in said and "e-21" not in said
 
 
 SWERVES = """
