@@ -75,6 +75,7 @@ class Stepper:
             exchange.remark(f"did not converge until it was halved {halved} times", began)
         # the end itself where it was reached: began + size may miss it by a rounding
         reached = end if done.size == end - began else began + done.size
+        exchange.statistics.events += done.size < size  # of one that nobody had to step back for
         exchange.accept(reached)
         if by_event or done.size < size:
             exchange.history.forget_past()

@@ -116,6 +116,7 @@ def test_a_step_that_one_ends_early_ends_for_all(order, scheme):
     # 4 steps of the grid, two of them in two parts
     assert result.steps == 6
     assert result["bouncer.count"].tolist() == [0, 1, 1, 2, 2]
+    assert result.statistics.events == 2
 
 
 def test_the_others_make_the_part_that_was_made():
