@@ -27,12 +27,13 @@ def main():
         begun = time.process_time()
         found = regimes(parameters)
         seconds.append(time.process_time() - begun)
-        ours, theirs = searched(found), by_force(parameters, draw)
+        ours, (theirs, runs) = searched(found), by_force(parameters, draw)
+        lost_here, only_here = missed(theirs, ours), missed(ours, runs)
         several += len(theirs) > 1
-        for what, ones in (("missed", missed(theirs, ours)), ("only ours", missed(ours, theirs))):
+        for what, ones in (("missed", lost_here), ("only ours", only_here)):
             for one in ones:
                 print(f"rig {i}, {what}: {one}")
-        lost, invented = lost + len(missed(theirs, ours)), invented + len(missed(ours, theirs))
+        lost, invented = lost + len(lost_here), invented + len(only_here)
     print(
         f"{told.rigs} rigs, {several} with several regimes: {lost} missed, {invented} only ours; "
         f"the search takes {np.median(seconds):.2f} s, at most {max(seconds):.1f} s"

@@ -68,16 +68,17 @@ def _coefficients(parameters):
 
 
 def by_force(parameters, draw, steady=STEADY, count=STARTS):
-    """Regimes of those starts; a run that has come to none by its end is left out."""
-    distinct = []
+    """Distinct regimes of those starts, and all runs: some have come to none by their end."""
+    distinct, runs = [], []
     for start in drawn_starts(parameters, draw, count):
         try:
             found = regime_of(start, steady + start.surface.run_up_time)
         except RunEnded:
             continue
+        runs.append(found)
         if found.repeats and not any(found.is_as(known) for known in distinct):
             distinct.append(found)
-    return distinct
+    return distinct, runs
 
 
 def searched(found):
