@@ -5,6 +5,7 @@ What couples the models of this product is in `cosim.coupling.case`.
 """
 
 from cosim.coupling.conversion import Affine
+from cosim.coupling.driven import Curve, Driven
 from cosim.coupling.fmu.errors import FmuError
 from cosim.coupling.fmu.participant import FmuParticipant
 from cosim.coupling.isolated import IsolatedError, IsolatedParticipant
@@ -53,8 +54,10 @@ __all__ = [
     "CoupledResult",
     "CoupledSystem",
     "CouplingError",
+    "Curve",
     "Defect",
     "Doubling",
+    "Driven",
     "EnergyFlow",
     "EnergyResidual",
     "FixedStep",

@@ -14,6 +14,7 @@ from cosim.coupling import (
     Connection,
     CoupledSystem,
     CouplingError,
+    Driven,
     FmuParticipant,
     IsolatedParticipant,
     Participant,
@@ -71,10 +72,16 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
         *_faults(specification),
     ]
     by_name = {each.name: each for each in participants}
-    connections = []
+    connections, units = [], {unit.name: unit for unit in specification.units}
     for link in specification.links:
         with naming(source, link.place):
-            affine, remark = _conversion(specification, by_name, link)
+            for end in map(Address.parse, (link.source, link.sink)):
+                if end.participant in descriptions:
+                    refuse_other_types(
+                        descriptions[end.participant], str(end.participant), end.port
+                    )
+            affine, remark = _conversion(units, by_name, link)
+            _check_not_driven(units, link)
         taken = link.taken or _receipt(by_name, link)
         connections.append(
             Connection(link.source, link.sink, taken, transformation=affine, converts=False)
@@ -102,8 +109,24 @@ def _faults(specification: SystemSpecification) -> list[str]:
 def _participant(unit: UnitEntry, description: ModelDescription, debug: bool) -> Participant:
     """A unit with what it is set to, in as many steps a macro step as the file says."""
     options: dict[str, Any] = _settings(unit, description) | {"tolerance": unit.tolerance}
-    participant = _unit(unit, options | {"debug": debug})
+    participant = _driven(unit, _unit(unit, options | {"debug": debug}))
     return participant if unit.substeps == 1 else Subcycled(participant, unit.substeps)
+
+
+def _driven(unit: UnitEntry, participant: Participant) -> Participant:
+    """With what its file has of its inputs over time."""
+    inputs = [port.name for port in participant.ports.values() if port.causality == "input"]
+    for name in unit.driven:
+        if name not in inputs:
+            raise SystemFault(
+                f"{unit.input_file}: {unknown_name('input of ' + unit.name, name, inputs)}"
+            )
+        if name in unit.given:
+            raise SystemFault(
+                f"{unit.name}.{name}: is set, and a column of {unit.input_file}; allowed is one of"
+                " both"
+            )
+    return Driven(participant, unit.driven) if unit.driven else participant
 
 
 def _unit(unit: UnitEntry, options: dict[str, Any]) -> Participant:
@@ -121,11 +144,28 @@ def _settings(unit: UnitEntry, description: ModelDescription) -> dict[str, dict[
     tables: dict[str, dict[str, Value]] = {"parameters": {}, "inputs": {}, "starts": {}}
     for name, start in unit.given.items():
         variable = variables.get(name)
+        refuse_other_types(description, unit.name, name)
         if variable is None:
             raise SystemFault(unknown_name(f"variable of {unit.name}", name, variables))
+        if variable.causality == "structuralParameter":
+            raise SystemFault(
+                f"{unit.name}.{name} is a structural parameter, which sizes arrays and "
+                "is not set here; allowed are parameters and inputs"
+            )
         kind = {"parameter": "parameters", "input": "inputs"}.get(variable.causality, "starts")
         tables[kind][name] = _value(f"{unit.name}.{name}", variable, start, definitions)
     return {key: table for key, table in tables.items() if table}
+
+
+def refuse_other_types(description: ModelDescription, unit: str, name: str) -> None:
+    """Refuse a variable that there is, of a type that nothing here has a value of."""
+    for variable in description.modelVariables:
+        if variable.name == name and (variable.type in ("Binary", "Clock") or variable.clocks):
+            kind = "of a clock" if variable.clocks else f"a {variable.type}"
+            raise SystemFault(
+                f"{unit}.{name} is {kind}, which is not coupled here; allowed are numbers, Booleans"
+                " and texts"
+            )
 
 
 def _value(
@@ -178,18 +218,18 @@ def definitions_of(description: ModelDescription) -> dict[str, UnitDefinition]:
 
 
 def _conversion(
-    specification: SystemSpecification, participants: Mapping[str, Participant], link: Link
+    units: Mapping[str, UnitEntry], participants: Mapping[str, Participant], link: Link
 ) -> tuple[Affine, str]:
     """All that happens to a value on its way, border after border, and what was not checked.
 
     At each border the unit is converted, then the transformation is applied (SSP, common content,
     LinearTransformation).
     """
-    here = _end(specification, participants, link.source)
+    here = _end(units, participants, link.source)
     affine, remarks = IDENTITY, []
     for number, hop in enumerate(link.hops, 1):
         if number == len(link.hops):
-            there = _end(specification, participants, link.sink)
+            there = _end(units, participants, link.sink)
         elif hop.unit is not None:
             there = Port(link.sink, hop.unit, Causality.INPUT, definition=hop.definition)
         else:
@@ -206,6 +246,15 @@ def _conversion(
     return affine, "; ".join(dict.fromkeys(filter(None, remarks)))
 
 
+def _check_not_driven(units: Mapping[str, UnitEntry], link: Link) -> None:
+    sink = Address.parse(link.sink)
+    unit = units.get(sink.participant)
+    if unit is not None and sink.port in unit.driven:
+        raise SystemFault(
+            f"{link}: {link.sink} is a column of {unit.input_file}, too; allowed is one of both"
+        )
+
+
 def _receipt(participants: Mapping[str, Participant], link: Link) -> str | None:
     """Of joules into ``heat``, the output ``heat_received`` beside it, where there is one."""
     sink = Address.parse(link.sink)
@@ -217,13 +266,12 @@ def _receipt(participants: Mapping[str, Participant], link: Link) -> str | None:
 
 
 def _end(
-    specification: SystemSpecification, participants: Mapping[str, Participant], text: str
+    units: Mapping[str, UnitEntry], participants: Mapping[str, Participant], text: str
 ) -> Port:
     """A port; where its unit says nothing of a unit, with what the system's file says."""
     address = Address.parse(text)
     port = find_port(participants, address)
-    stated = {unit.name: unit.ports for unit in specification.units}[address.participant]
-    unit, definition = stated.get(address.port, (NO_UNIT, None))
+    unit, definition = units[address.participant].ports.get(address.port, (NO_UNIT, None))
     if port.unit == NO_UNIT and port.definition is None:
         return Port(port.name, unit, port.causality, port.nominal, definition)
     if port.definition is None and port.unit == unit:

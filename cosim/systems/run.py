@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 from cosim.coupling import CoupledResult, Message, run
 from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
+from cosim.names import unknown_name
 from cosim.systems.assembly import Assembly, assemble, record_every
 from cosim.systems.faults import SystemFault, naming
-from cosim.systems.specification import SystemSpecification
+from cosim.systems.specification import Start, SystemSpecification
 from cosim.systems.ssp.reader import read_ssp
 from cosim.systems.steps import StepLog
 from cosim.systems.toml_file import read_toml
@@ -66,8 +67,8 @@ class SystemRun:
 def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> SystemSpecification:
     """The system in an SSP file (.ssp, or .ssd and folder of the same contents) or a TOML file.
 
-    changes: `coupling.key` or `run.key` -> value, in place of what the file has. Raises SystemFault
-    in one line. To be closed: the units of an archive are unpacked for as long.
+    changes: `coupling.key`, `run.key` or `unit.variable` -> value, in place of what the file has.
+    Raises SystemFault in one line. To be closed: the units of an archive are unpacked for as long.
     """
     path = Path(path)
     if not path.exists():
@@ -75,7 +76,37 @@ def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> S
     if not (path.is_dir() or path.is_file()):  # a pipe or a device may never end
         raise SystemFault(f"{path}: is no regular file, allowed is an SSP or a TOML file")
     archive = path.is_dir() or path.suffix.lower() in (".ssp", ".ssd") or _is_zip(path)
-    return (read_ssp if archive else read_toml)(path, changes or {})
+    of_tables = {key: value for key, value in (changes or {}).items() if _is_of_table(key)}
+    of_units = {key: value for key, value in (changes or {}).items() if not _is_of_table(key)}
+    specification = (read_ssp if archive else read_toml)(path, of_tables)
+    try:
+        return _set(specification, of_units)
+    except BaseException:
+        specification.close()
+        raise
+
+
+def _is_of_table(key: str) -> bool:
+    return key.partition(".")[0] in ("coupling", "run")
+
+
+def _set(specification: SystemSpecification, changes: Mapping[str, Any]) -> SystemSpecification:
+    """The system with variables of units set to other values: `unit.variable` -> value."""
+    units = {unit.name: unit for unit in specification.units}
+    for key, value in changes.items():
+        name, _, variable = key.partition(".")
+        if name not in units or not variable:
+            known = unknown_name("unit", name, units)
+            raise SystemFault(
+                f"{key}: {known}; allowed are keys of coupling and run, and UNIT.VARIABLE"
+            )
+        if not isinstance(value, (bool, int, float, str)):
+            raise SystemFault(
+                f"{key}: not possible ({value}), allowed is a number, true, false or a text"
+            )
+        given = units[name].given | {variable: Start(value)}  # type: ignore[operator]
+        units[name] = replace(units[name], given=given)
+    return replace(specification, units=[*units.values()])
 
 
 def run_system(
@@ -134,6 +165,11 @@ def _kept(
     setup = {"system": specification.text} | {
         f"unit {unit.name}": hashlib.sha256(unit.file.read_bytes()).hexdigest()
         for unit in specification.units
+    }
+    setup |= {
+        f"inputs of {unit.name}": hashlib.sha256(unit.input_file.read_bytes()).hexdigest()
+        for unit in specification.units
+        if unit.input_file is not None
     }
     run = specification.run
     how_often = {"seconds": run.checkpoint_seconds, "steps": run.checkpoint_steps}

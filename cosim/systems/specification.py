@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cosim.coupling import Affine, UnitDefinition
+from cosim.coupling import Affine, Curve, UnitDefinition
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
 
 #: What a variable of a unit can be set to.
@@ -36,7 +36,7 @@ class UnitEntry:
     name: without a dot. given: variable -> what it starts from, an input being held there over the
     run. substeps: steps of its own in each macro step. time_limit: of a call of an isolated unit,
     s. ports: port -> unit (and its definition) that the system's file states, for where the FMU
-    states none.
+    states none. input_file: a table of inputs over time, driven: what it has, input -> curve.
     """
 
     name: str
@@ -46,6 +46,8 @@ class UnitEntry:
     tolerance: float | None = None
     substeps: int = 1
     given: Mapping[str, Start] = field(default_factory=dict)
+    input_file: Path | None = None
+    driven: Mapping[str, Curve] = field(default_factory=dict)
     ports: Mapping[str, tuple[str, UnitDefinition | None]] = field(default_factory=dict)
 
 

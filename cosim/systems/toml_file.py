@@ -16,6 +16,7 @@ from cosim.names import nearest_key, unknown_name
 from cosim.scenario.faults import ScenarioError
 from cosim.scenario.toml_file import parsed, text_of
 from cosim.systems.faults import SystemFault, table_of
+from cosim.systems.input_table import read_input_table
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
 from cosim.systems.specification import (
     Hop,
@@ -43,6 +44,9 @@ class Unit(Table):
     file: str = Field(description="the FMU, from where the file of the system is", min_length=1)
     isolate: bool = Field(False, description="in a process of its own, which may crash or hang")
     time_limit: float = quantity(NOT_GIVEN, "s", "of a call of an isolated unit", gt=0)
+    input_file: str = Field(
+        "", description="CSV of inputs over time: a column time (s), and one for each input"
+    )
     substeps: int = quantity(1, "1", "steps of its own in each macro step", ge=1, le=MOST_SUBSTEPS)
     tolerance: float = quantity(NOT_GIVEN, "1", "told to the unit", gt=0, lt=1)
 
@@ -137,8 +141,9 @@ def _unit(name: str, entry: Any, folder: Path) -> UnitEntry:
             f"{place}.time_limit: is for a unit with isolate = true, allowed is to leave it out"
         )
     given: dict[str, Start] = {}
-    for table in VALUES:
-        given |= _values(entry.get(table, {}), f"{place}.{table}")
+    for values in VALUES:
+        given |= _values(entry.get(values, {}), f"{place}.{values}")
+    table = folder / unit.input_file if unit.input_file else None
     return UnitEntry(
         name=name,
         file=folder / unit.file,
@@ -147,6 +152,8 @@ def _unit(name: str, entry: Any, folder: Path) -> UnitEntry:
         substeps=unit.substeps,
         tolerance=None if unit.tolerance == NOT_GIVEN else unit.tolerance,
         given=given,
+        input_file=table,
+        driven=read_input_table(table, f"{place}.input_file") if table else {},
     )
 
 

@@ -36,7 +36,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="?",
         help="an SSP file (1.0 or 2.0), or a TOML file of units, connections, scheme and steps",
     )
-    add_set(parser, "run.stop=10 (of [coupling] and [run])")
+    add_set(parser, "run.stop=10 (of [coupling] and [run], or UNIT.VARIABLE=VALUE)")
     parser.add_argument(
         "--resume",
         metavar="DIR",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from pathlib import Path
 
 import fmpy
@@ -21,7 +22,24 @@ HARMLESS = re.compile(
 
 
 def describe(path: Path) -> ModelDescription:
-    """What an FMI 2.0 or 3.0 co-simulation FMU declares; FmuError in one line when it is none."""
+    """What an FMI 2.0 or 3.0 co-simulation FMU declares; FmuError in one line when it is none.
+
+    Read once while the file stays what it is: a system may have one unit a thousand times.
+    """
+    return _described(path, _identity(path))
+
+
+def _identity(path: Path) -> tuple[int, ...]:
+    """What changes with the content of a file; () where there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return ()
+    return (found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns)
+
+
+@lru_cache(maxsize=256)
+def _described(path: Path, identity: tuple[int, ...]) -> ModelDescription:
     if read_xml(path, DESCRIPTION) is None:
         raise FmuError(f"{path}: not an FMU: holds no {DESCRIPTION}")
     read_xml(path, "sources/buildDescription.xml")  # which fmpy parses, too
@@ -44,6 +62,11 @@ def faults_of(path: Path) -> list[str]:
     Units of well-known tools lack the definition of a unit, call a whole number continuous, or give
     two inner variables one name.
     """
+    return _faults(path, _identity(path))
+
+
+@lru_cache(maxsize=256)
+def _faults(path: Path, identity: tuple[int, ...]) -> list[str]:
     try:
         fmpy.read_model_description(path)
     except ValidationError as error:
@@ -67,13 +90,27 @@ def _check(path: Path, description: ModelDescription) -> None:
             f"{path}: is FMI {version}; what is coupled here is FMI 2.0 and 3.0, for co-simulation"
         )
     if description.coSimulation is None:
-        raise FmuError(f"{path}: is for model exchange only; a co-simulation FMU is needed")
+        raise FmuError(f"{path}: {_other_interface(description)}")
     identifier = description.coSimulation.modelIdentifier
     if not re.fullmatch(r"[\w.+ -]+", identifier) or identifier.startswith("."):
         raise FmuError(
             f"{path}: its model identifier {identifier!r} is no name of a library: letters, "
             "digits and underscores"
         )
+
+
+def _other_interface(description: ModelDescription) -> str:
+    """Why a unit that is not for co-simulation cannot be coupled, and what to do."""
+    if description.modelExchange is not None:
+        return (
+            "is for model exchange only, whose states the host integrates; allowed is a unit for "
+            "co-simulation: export it as one, with the solver of its tool; by itself it runs with "
+            "`fmpy simulate FILE --interface-type ModelExchange`"
+        )
+    return (
+        "is for scheduled execution only, whose parts a scheduler calls; allowed is a unit for "
+        "co-simulation"
+    )
 
 
 def library_of(path: Path, folder: Path, description: ModelDescription) -> Path:

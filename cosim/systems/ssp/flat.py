@@ -200,10 +200,11 @@ class Flat:
         system = self._systems[path]
         if name in system.connectors:
             yield path, name
-        for element in system.elements:
-            if not name.startswith(element + "."):
+        for dot in (place for place, letter in enumerate(name) if letter == "."):
+            element, rest = name[:dot], name[dot + 1 :]
+            if element not in system.elements:
                 continue
-            inner, rest = (*path, element), name[len(element) + 1 :]
+            inner = (*path, element)
             if inner in self._components:
                 yield inner, rest
             else:
@@ -245,9 +246,11 @@ def _moved(start: Start, hops: Iterable[Hop]) -> Start:
 def _names(paths: Iterable[Path]) -> dict[Path, str]:
     """Component -> its name as a participant: without dots, and no two the same."""
     found: dict[Path, str] = {}
+    taken: set[str] = set()
     for path in paths:
         name = "_".join(path).replace(".", "_").replace("/", "_")
-        while name in found.values():
+        while name in taken:
             name += "_"
         found[path] = name
+        taken.add(name)
     return found
