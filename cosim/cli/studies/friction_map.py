@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 import time
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
@@ -107,6 +108,8 @@ def execute(arguments: Namespace) -> int:
         return DONE
     for ambient in found.ambients:
         _print(found.regimes(ambient))
+    for reason in found.failed:
+        print(f"warning: left out: {reason}", file=sys.stderr)
     wall_time = time.perf_counter() - began
     print(f"{total} coupled runs in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE

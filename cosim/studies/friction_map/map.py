@@ -131,6 +131,7 @@ Array = NDArray[np.float64]
 
 #: Points that a slope over a decade needs at least.
 FEWEST = 4
+FEWEST_OF_MINIMUM = 3
 #: A decade may be short or long by this part, for speeds that are rounded and blocks that creep.
 ROUNDING = 1e-2
 
@@ -181,11 +182,15 @@ MELTING_POINT = 0.0  # degC
 
 @dataclass(frozen=True)
 class FrictionMap:
-    """Points of all ambient temperatures (warmest last), each with the speeds growing."""
+    """Points of all ambient temperatures (warmest last), each with the speeds growing.
+
+    failed: a line for each point at which the block does not slide steadily, with the reason.
+    """
 
     scenario: Scenario
     duration: float
     points: tuple[SteadySliding, ...]
+    failed: tuple[str, ...] = ()
 
     @property
     def ambients(self) -> list[float]:
@@ -217,7 +222,7 @@ class FrictionMap:
             found["steepest_fall_over_warming"] = _extreme(
                 decade_slopes(speed, friction / warming), min
             )
-        lowest = lowest_friction(speed, friction)
+        lowest = lowest_friction(speed, friction) if len(points) >= FEWEST_OF_MINIMUM else None
         found["minimum"] = lowest and {"speed": lowest[0], "friction": lowest[1]}
         return found
 
@@ -228,6 +233,7 @@ class FrictionMap:
             "duration": self.duration,
             "regimes": [self.regimes(ambient) for ambient in self.ambients],
             "points": [asdict(point) for point in self.points],
+            "failed": list(self.failed),
         }
 
 
@@ -244,13 +250,19 @@ def friction_map(
 ) -> FrictionMap:
     """Slide steadily at every speed (m/s, > 0) and ambient temperature (degC, below melting).
 
-    progress: called after each run. Raises NotSteady or ScenarioError for what cannot be.
+    progress: called after each run. Raises ScenarioError for what cannot be, and NotSteady where
+    the block slides steadily nowhere; a point at which it does not is in `FrictionMap.failed`.
     """
     if any(not speed > 0.0 for speed in speeds):
         raise NotSteady(f"speed = {min(speeds):g} m/s: allowed is above 0")
-    points = []
+    points, failed = [], []
     for ambient in sorted(set(ambients_degC)):
         for speed in sorted(set(speeds)):
-            points.append(steady_sliding(scenario, speed, ambient, duration))
+            try:
+                points.append(steady_sliding(scenario, speed, ambient, duration))
+            except NotSteady as reason:
+                failed.append(str(reason))
             progress()
-    return FrictionMap(scenario, duration, tuple(points))
+    if not points:
+        raise NotSteady(failed[0])
+    return FrictionMap(scenario, duration, tuple(points), tuple(failed))

@@ -10,6 +10,7 @@ from stickslip import friction_coefficient
 from cosim.report.page import Picture, render
 from cosim.report.style import GREY, INK, SERIES, panels, picture
 
+from .laws import laws_of
 from .map import FrictionMap, steady_scenario
 
 #: The law is drawn this far beyond the slowest and the fastest run.
@@ -119,6 +120,8 @@ def page(found: FrictionMap, picture: Picture, command: str) -> str:
         duration=found.duration,
         regimes=[found.regimes(ambient) for ambient in found.ambients],
         points=found.points,
+        failed=found.failed,
+        laws=laws_of(found),
         picture=picture,
         scenario=found.scenario.to_toml(),
         command=command,

@@ -16,7 +16,7 @@ import numpy as np
 LOAD_DENSITY = dict(ice=917.0, water=999.8)  # kg/m3
 ICE_C, ICE_K, LATENT, ETA = 2050.0, 2.2, 334e3, 1.79e-3
 BELT_RHO_C, BELT_K, THICK = 700.0 * 840.0, 0.5, 1e-3
-CONDUCTANCE, BELT_AIR = 1e4, 15.0
+CONDUCTANCE, BELT_AIR = 7.5e4, 15.0
 MU_S, MU_K = 0.2815, 0.2086
 
 

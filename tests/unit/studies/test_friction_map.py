@@ -11,12 +11,15 @@ import pytest
 from cosim import read_scenario
 from cosim.cli.studies import friction_map as friction_regimes_command
 from cosim.studies.friction_map import (
+    FrictionMap,
+    SteadySliding,
     decade_slopes,
     friction_map,
     lowest_friction,
     steady_scenario,
 )
 from cosim.studies.friction_map import map as map_module
+from cosim.studies.friction_map.laws import conducted_share, laws_of
 
 CASE = read_scenario("melting_friction").changed(
     {"ice.radial_elements": 2, "ice.axial_elements": 3, "belt.cell_length": 4e-3}
@@ -90,6 +93,41 @@ def test_what_cannot_slide_steadily_is_refused_in_one_line(changes, speed, ambie
         friction_map(CASE.changed(changes), [speed], [ambient], 0.1)
     assert isinstance(refused.value, friction_regimes_command.refused())
     assert "\n" not in str(refused.value)
+
+
+def test_a_point_that_fails_costs_one_point(tmp_path, capsys):
+    """Springs so soft that friction at the slower speed carries the block into their anchors."""
+    file = tmp_path / "case.toml"
+    file.write_text(CASE.changed({"springs.stiffness": 0.2}).to_toml())
+    argv = [file, "--speed", 0.1, 0.4, "--ambient", -8, "--duration", 0.1, "-o", tmp_path / "out"]
+    assert call(*argv) == 0
+    told = capsys.readouterr()
+    assert told.err.count("\n") == 1 and "left out: springs.stiffness" in told.err
+    found = json.loads((tmp_path / "out" / "friction_map.json").read_text())
+    assert len(found["points"]) == len(found["failed"]) == 1
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Points without steady sliding" in page
+
+
+def test_each_law_says_for_which_contact_it_holds():
+    found = FrictionMap(CASE, 2.0, (point(1e-4), point(1.0)))
+    laws = {law.name: law for law in laws_of(found)}
+    assert list(laws) == ["asperity_melting", "melt_film"]
+    # 6.57 N on 20 MPa, ice of 1.17e-6 m2/s over 1 cm
+    assert "N/H = 0.33 mm²" in laws["asperity_melting"].here
+    assert "above 1 from 0.00012 m/s on, 1 of 2 runs slower" in laws["asperity_melting"].here
+    assert all("assumed" in law.numbers for law in laws.values())
+
+
+def test_what_is_conducted_is_that_of_a_disc_on_two_half_spaces():
+    """4 k r dT over pi r^2, over C e dT sqrt(v / l): the law's own flux."""
+    found = FrictionMap(CASE, 2.0, (point(0.1),))
+    flux = 4.0 * (2.2 + 0.5) / (np.pi * 5e-3)
+    assert conducted_share(found, 0.1) == pytest.approx(flux / (1.128 * 2034.0 * 10.0**0.5))
+
+
+def point(speed):
+    return SteadySliding(speed, -8.0, -8.0, 0.1, 0.1, 0.0, 0.0)
 
 
 def test_a_run_that_was_interrupted_ends_the_map(monkeypatch):
