@@ -66,6 +66,11 @@ class Part:
         return self.curve is not None and bool(self.settings) and not self.numbers
 
     @property
+    def in_kernel(self) -> bool:
+        """Whether the model has it at all."""
+        return bool(self.numbers or self.settings)
+
+    @property
     def effect(self) -> str:
         """Id in the catalogue: of the law, where one of the user's own does better."""
         return self.fits[0].effect if self.fits else self.finding.name

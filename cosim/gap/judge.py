@@ -11,9 +11,9 @@
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
- 8. Findings below e^500 that the simulated runs can do without (contact and scatter reach 1.1, and
-    they take less than half of what the contact alone leaves) go; `none` is no finding left, and
-    held-out runs at 1.1 at most; without any nothing tells.
+ 8. A finding below e^500 goes, and the rows are not asked for it again, where the simulated runs
+    are not e^6 times as probable with it, nor does it halve what the contact alone leaves; `none`
+    is no finding left, and held-out runs at 1.1 at most; without any nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.
@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
-from cosim.gap.weak_form.constants import ALIKE, MOST_FINDINGS, NEARLY_ALIKE
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, MOST_FINDINGS, NEARLY_ALIKE
 from cosim.gap.weak_form.ladder import Finding
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
@@ -39,6 +39,8 @@ EXPLAINED = 1.3
 SURE = 500.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
+#: What friction that scatters from run to run, and from stick to stick, takes up.
+SCATTERED = ("load_dependence", "static_strengthening")
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
 MOST = 0.8
 
@@ -86,25 +88,42 @@ def explains(ladder: Sequence[Rung]) -> bool:
     return judged(ladder[-1].gap) <= EXPLAINED
 
 
-def sure_of(findings: Sequence[Finding]) -> list[Finding]:
-    """Those that no contact, however foreign, would make the rows ask for so much."""
-    return [finding for finding in findings if finding.gain >= SURE]
+def may_be_spurious(finding: Finding) -> bool:
+    """Whether a contact that is no switch could make the rows ask for so much.
 
-
-def is_needed(ladder: Sequence[Rung], without: Sequence[Rung]) -> bool:
-    """Whether the simulated runs miss what the rows ask for, or contact and scatter do as well.
-
-    ladder, without : with all findings, and with those that are sure
+    Not of what moves the block across, which no contact along x does.
     """
-    if judged(without[-1].gap) > NOTHING_MISSING or without[-1].gap.fit > NOTHING_MISSING:
-        return True
-    left, before = _unscattered(ladder), _unscattered(without)
-    return left**2 - 1.0 <= TAKEN * max(before**2 - 1.0, 0.0)
+    return bool(finding.added) and finding.gain < SURE
 
 
-def _unscattered(ladder: Sequence[Rung]) -> float:
-    """The gap before friction may scatter."""
-    return judged([rung for rung in ladder if rung.name != "scatter"][-1].gap)
+def runs_ask(gained: float) -> bool:
+    """Whether simulated runs ask for a finding as the rows do.
+
+    gained : ln of how much more probable they are with it
+    """
+    return gained > LEAST_GAIN
+
+
+def is_scattered(finding: Finding) -> bool:
+    """Whether a finding acts from run to run or from stick to stick, as scatter of friction does.
+
+    The simulated runs then gain nothing by a law of it.
+    """
+    return finding.name in SCATTERED
+
+
+def halves(left: Score, before: Score) -> bool:
+    """Whether a finding takes half of what a contact leaves whose friction may not scatter.
+
+    Of fitted runs and of those that judge. left, before : with the finding, and without
+    """
+    pairs = ((left.fit, before.fit), (judged(left), judged(before)))
+    return all(one**2 - 1.0 <= TAKEN * max(other**2 - 1.0, 0.0) for one, other in pairs)
+
+
+def leaves(score: Score) -> bool:
+    """Whether something is missing that the model does not hold: what has no law may be it."""
+    return max(score.fit, judged(score)) > NOTHING_MISSING
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ another does better in its place.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
@@ -79,10 +79,12 @@ class Search:
         self, system: System, unknowns: Mapping[str, Sequence[Unknown]],
         waves: Sequence[periodic.Periodic],
         near: Callable[[Unknown], Sequence[Unknown]] = lambda unknown: (),
+        barred: Collection[str] = (),
     ):  # fmt: skip
-        """near : unknown -> the same argument with settings between those that were tried"""
+        """near : unknown -> the same argument with settings between those that were tried;
+        barred : names that no argument may go by"""
         self.system, self.unknowns, self.waves = system, unknowns, waves
-        self.near = near
+        self.near, self.barred = near, barred
 
     def offers(self, rung: Rung, without: Sequence[str] = ()) -> dict[str, Offer]:
         """name -> the best that each argument offers on a rung."""
@@ -112,7 +114,7 @@ class Search:
             here = rung.system.rung([*rung.added, *offer[1]], *rung.kinds)
             curve = here.posterior[0][here.part_of(offer[1][0])]
             offers[GROWS if curve[-1] > 0.0 else FALLS] = offer
-        return offers
+        return {name: offer for name, offer in offers.items() if name not in self.barred}
 
     def climb(self) -> Ladder:
         """Add, drop and exchange until nothing more is asked for."""

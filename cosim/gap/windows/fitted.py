@@ -149,6 +149,16 @@ class Fitted:
         held_out = [run for run in self.runs if run.hold_out]
         return _rms([run for run in self.runs if not run.hold_out]), _rms(held_out)
 
+    def gain_over(self, other: Fitted) -> float:
+        """ln of how much more probable all runs are than with another model of the same windows.
+
+        What noise does not explain of the better one counts as so much noise more.
+        """
+        mine, others = (np.concatenate([run.residuals for run in each.runs]) ** 2
+                        for each in (self, other))  # fmt: skip
+        left = min(mine.mean(), others.mean())
+        return float(0.5 * (others.sum() - mine.sum()) / max(left, 1.0))
+
     @property
     def stick_scatter(self) -> float:
         """Root mean square by which single sticks of the fitted runs hold more or less, a part."""

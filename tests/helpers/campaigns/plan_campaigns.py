@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.gap.find import name
+from cosim.gap.naming import Naming
 from cosim.gap.plan.planned import simulated
 from cosim.gap.weak_form.constants import ALIKE, OWN_STATIC
 
@@ -35,5 +35,5 @@ def named(campaign):
     """What is named of a campaign with tracks: a group of effects for every finding."""
     return [
         {one.name, *(other for other, less in one.others.items() if less > -ALIKE)}
-        for one in name(campaign).findings
+        for one in Naming.of(campaign).named().findings
     ]

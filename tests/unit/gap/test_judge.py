@@ -3,15 +3,18 @@
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.gap.extended import Part
-from cosim.gap.judge import is_needed, judge, sure_of
+from cosim.gap.judge import halves, is_scattered, judge, leaves, may_be_spurious, runs_ask
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding, Search
+from cosim.gap.weak_form.unknowns import Unknown
 
 PHYSICS = {"run_in", "film_drag", "structural_damping", "speed_ripple"}
 
@@ -79,27 +82,37 @@ def test_held_out_runs_judge_where_there_are_some():
     assert judged(["run_in"], 1.2, 1.25)[0] == "unknown"  # worse than without it
 
 
-def ladder_to(*gaps):
-    """The user's model, then contact and scatter with these gaps of held-out runs."""
-    names = ["user's model", "contact", "scatter"]
-    return [Rung(name, "", Score(1.0, gap), Score(1.0, 1.0), 0.0)
-            for name, gap in zip(names, (5.0, *gaps), strict=True)]  # fmt: skip
+@pytest.mark.parametrize(("gained", "ask"), [(4.5, False), (5.9, False), (6.1, True)])
+def test_simulated_runs_ask_for_a_finding_by_as_much_as_the_rows(gained, ask):
+    assert runs_ask(gained) is ask
 
 
-@pytest.mark.parametrize(("left", "needed"), [(1.48, True), (1.6, False)])
-def test_a_finding_is_needed_where_the_contact_alone_leaves_twice_as_much(left, needed):
-    """2^2 - 1 without it, half of which is (1.58)^2 - 1."""
-    assert is_needed(ladder_to(left, 1.0), ladder_to(2.0, 1.0)) is needed
+@pytest.mark.parametrize(("left", "halved"), [(1.48, True), (1.6, False)])
+@pytest.mark.parametrize("of_fitted", [True, False])
+def test_what_scatter_takes_up_is_needed_where_the_contact_alone_leaves_twice_as_much(
+    left, halved, of_fitted
+):
+    """2^2 - 1 without it, half of which is (1.58)^2 - 1; of fitted runs and of held-out ones."""
+    after = Score(left, 1.0) if of_fitted else Score(1.0, left)
+    assert halves(after, Score(2.0, 2.0)) is halved
 
 
-@pytest.mark.parametrize(("reached", "needed"), [(1.09, False), (1.11, True)])
-def test_a_finding_is_needed_where_scatter_does_not_do(reached, needed):
-    assert is_needed(ladder_to(1.9, 1.0), ladder_to(2.0, reached)) is needed
+def test_what_differs_from_run_to_run_or_stick_to_stick_is_taken_up_by_scatter():
+    names = ("load_dependence", "static_strengthening", "film_drag", "spring_hardening")
+    assert [is_scattered(finding(name)) for name in names] == [True, True, False, False]
 
 
-def test_only_faint_findings_are_asked_of_the_simulated_runs():
-    faint, strong = (Finding("run_in", (), gain, {}) for gain in (499.0, 501.0))
-    assert sure_of([faint, strong]) == [strong]
+@pytest.mark.parametrize("of_fitted", [True, False])
+@pytest.mark.parametrize(("gap", "missing"), [(1.09, False), (1.11, True)])
+def test_what_has_no_law_may_be_what_is_missing_where_something_is(gap, missing, of_fitted):
+    assert leaves(Score(gap, 1.0) if of_fitted else Score(1.0, gap)) is missing
+
+
+def test_only_faint_findings_along_x_may_be_a_contact_s():
+    added = (Added(Unknown("run_in", "", None, np.eye(1))),)
+    assert may_be_spurious(Finding("run_in", added, 499.0, {}))
+    assert not may_be_spurious(Finding("run_in", added, 501.0, {}))
+    assert not may_be_spurious(Finding("lateral_friction", (), 200.0, {}))
 
 
 def test_what_has_no_name_is_unknown():

@@ -1,0 +1,118 @@
+"""What the rows of a campaign ask for: its findings, each a name with its unknowns."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from cosim.gap.data import Campaign
+from cosim.gap.weak_form import periodic
+from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.asked import Unknowns, asked_of
+from cosim.gap.weak_form.camera_faults import SMOOTHING, filters
+from cosim.gap.weak_form.corners import with_corners
+from cosim.gap.weak_form.ladder import Finding, Ladder, Search
+from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
+from cosim.gap.weak_form.rows import RunRows, rows_of
+from cosim.gap.weak_form.surface import best_phase, tracks_of
+from cosim.gap.weak_form.system import Rung as Rows
+from cosim.gap.weak_form.system import System
+from cosim.gap.weak_form.track import thinned
+from cosim.gap.weak_form.unknowns import Unknown
+
+
+@dataclass(frozen=True)
+class Named:
+    """What the rows ask for.
+
+    ladder : of all runs' rows; findings : what moves the block across first, then the ladder's;
+    system, rung : rows of the fitted runs, with all findings; unknowns : that were asked
+    """
+
+    ladder: Ladder
+    findings: tuple[Finding, ...]
+    system: System
+    rung: Rows
+    unknowns: Mapping[str, Sequence[Unknown]]
+
+
+@dataclass(frozen=True)
+class Naming:
+    """Rows of a campaign and all that can be asked of them.
+
+    Which argument it is, every run may say; how large it is, only those that are fitted.
+
+    rows : of every run with a track; system : of them all, held out or not
+    """
+
+    campaign: Campaign
+    rows: Sequence[RunRows]
+    planar: Planar
+    system: System
+    arguments: Arguments
+    unknowns: Unknowns
+
+    @classmethod
+    def of(cls, campaign: Campaign) -> Naming:
+        """Rows along x; where the block moves across, of both directions."""
+        runs = [thinned(run) for run in campaign.runs if run.track is not None]
+        tracks = tracks_of(campaign, runs)
+        rows = [rows_of(track, campaign.rig) for track in tracks]
+        planar = planar_effects(campaign, rows)
+        if planar.answer:
+            rows = rows_in_plane(tracks, campaign, planar)
+        system, arguments, unknowns = asked_of(campaign, rows)
+        if planar.answer:
+            unknowns.pop("measurement.zero", None)
+        return cls(campaign, rows, planar, system, arguments, unknowns)
+
+    def named(self, without: Collection[str] = ()) -> Named:
+        """The findings. without : names that are not asked for"""
+        unknowns = {name: some for name, some in self.unknowns.items() if name not in without}
+        waves = [wave for wave in periodic.kinds(self.system.level.kinetic)
+                 if wave.name not in without]  # fmt: skip
+        ladder = Search(self.system, unknowns, waves, self.arguments.near, without).climb()
+        rows = self.rows
+        if not (ladder.findings or self.planar.answer or SMOOTHING in without):
+            rows, ladder, unknowns = self._at_corners(ladder, unknowns)
+        self._follow_surface(ladder)
+        fitted = System(self.campaign, rows)
+        added = [one for finding in ladder.findings for one in finding.added]
+        findings = (*self._across(), *ladder.findings)
+        return Named(ladder, findings, fitted, fitted.rung(added), unknowns)
+
+    def _follow_surface(self, ladder: Ladder) -> None:
+        """Give a ripple the phases that slips show, in runs whose sticks show none."""
+        for finding in ladder.findings:
+            if finding.name == "speed_ripple":
+                sizes = ladder.rung.posterior[0][ladder.rung.part_of(finding.main)]
+                wave = finding.main.unknown.wave
+                for run in self.system.runs:
+                    here = best_phase(self.campaign, run, wave, sizes)
+                    wave.phases[run.track.run.name] = here.phases[run.track.run.name]
+
+    def _at_corners(
+        self, ladder: Ladder, unknowns: Unknowns
+    ) -> tuple[Sequence[RunRows], Ladder, Unknowns]:
+        """Whether a tracker smooths, asked of runs in which nothing else is missing.
+
+        A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
+        there would be.
+        """
+        cornered = [with_corners(run) for run in self.rows]
+        system = System(self.campaign, cornered, every=True)
+        smoothing = {SMOOTHING: filters(system.rung())}
+        if smoothing[SMOOTHING]:
+            found = Search(system, smoothing, ()).climb()
+            if found.findings:
+                return cornered, found, {**unknowns, **smoothing}
+        return self.rows, ladder, unknowns
+
+    def _across(self) -> Iterator[Finding]:
+        """What moves the block across, as a finding."""
+        planar = self.planar
+        if planar.answer:
+            gain = planar.evidence[planar.answer]
+            others = {name: value - gain for name, value in planar.evidence.items()
+                      if name == planar.runner_up}  # fmt: skip
+            yield Finding(planar.answer, (), gain, others, planar.numbers)
