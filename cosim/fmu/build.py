@@ -27,8 +27,9 @@ from cosim.fmu.thermal import native_unit
 BUILD_FOLDER = Path("build")
 NATIVE, FMI3, PYTHON = native.FILES[libraries.FMI2], native.FILES[libraries.FMI3], python_unit.FMU
 THERMAL, THERMAL_PYTHON = native_unit.FMU, f"{native_unit.NAME}-python.fmu"
+THERMAL_FMI3 = native_unit.FILES[libraries.FMI3]
 SYSTEM = "StickSlipThermal.ssp"
-UNITS = (NATIVE, FMI3, PYTHON, THERMAL, THERMAL_PYTHON, SYSTEM)
+UNITS = (NATIVE, FMI3, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, SYSTEM)
 #: Units of pythonfmu -> the module that makes them when it is run.
 MADE_APART = {PYTHON: python_unit.__name__, THERMAL_PYTHON: "cosim.fmu.thermal.python_unit"}
 
@@ -114,8 +115,9 @@ def _maker(name: str) -> Callable[[Path, Sequence[Platform]], Path]:
         from cosim.fmu.thermal import structure  # the scenario, and with it the heat model
 
         return structure.build
-    if name == THERMAL:
-        return native_unit.build
+    if name in native_unit.FILES.values():
+        of_heat = libraries.FMI3 if name == THERMAL_FMI3 else libraries.FMI2
+        return partial(native_unit.build, fmi=of_heat)
     return partial(native.build, fmi=libraries.FMI3 if name == FMI3 else libraries.FMI2)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import zipfile
 import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from functools import cache
 from importlib.metadata import version
@@ -32,6 +32,7 @@ from cosim.fmu.description import UnitFacts
 from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.description.fmi3 import build_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
+from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, of_platforms
 from cosim.fmu.platforms import PLATFORMS, Platform
 
@@ -120,15 +121,19 @@ def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS, fmi: int =
         files["sources/buildDescription.xml"] = build_description(facts)
     else:
         files["modelDescription.xml"] = fmi2_description(facts, variables())
-    files |= documentation(facts, variables(), fmi)
+    files |= documentation(facts, variables(), fmi) | extras(variables(), fmi)
     files |= of_platforms(guid(), sources, platforms, NAME, fmi)
     return write_bytes(packed(files), directory / FILES[fmi])
 
 
 def _sources_of(fmi: int) -> dict[str, bytes]:
-    """Without the functions and headers of the other version."""
+    return of_version(sources(), fmi)
+
+
+def of_version(files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+    """Sources without the functions and headers of the other version of FMI."""
     other = f"fmi{FMI2 if fmi == FMI3 else FMI3}"
-    return {name: content for name, content in sources().items() if not name.startswith(other)}
+    return {name: content for name, content in files.items() if not name.startswith(other)}
 
 
 def built_guid(fmu: Path) -> str | None:

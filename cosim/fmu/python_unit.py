@@ -36,6 +36,7 @@ from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts, fmi2
 from cosim.fmu.description.documentation import of_mechanics
 from cosim.fmu.description.fmi2 import fmi2_description
+from cosim.fmu.extras import extras
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
 from cosim.fmu.variables import (
@@ -239,7 +240,7 @@ def _finish(raw: Path, recipe: Recipe) -> bytes:
         if name.startswith("binaries/"):
             files[name] = corrected(files[name])
     files["modelDescription.xml"] = fmi2_description(recipe.facts, recipe.variables)
-    return packed(files | recipe.documentation)
+    return packed(files | recipe.documentation | extras(others=["pythonfmu"]))
 
 
 def _facts(content: str) -> UnitFacts:

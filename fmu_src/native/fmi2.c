@@ -123,7 +123,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         why = component == NULL ? "fmi2Instantiate: no memory" : NULL;
     }
     char escaped[2 * MESSAGE_SIZE];
-    if (why == NULL && !read_resources(&component->instance, resources)) {
+    if (why == NULL && !read_resources(&component->instance, resources, true)) {
         escape(escaped, sizeof escaped, component->instance.message);
         why = escaped;
         free(component);

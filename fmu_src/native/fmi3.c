@@ -81,13 +81,19 @@ static const char *wrong_request(fmi3String name, fmi3String token)
     return NULL;
 }
 
-static Component3 *made(const char *call, const char *why, fmi3InstanceEnvironment environment,
-                        fmi3LogMessageCallback log, bool logging)
+static Component3 *made(const char *call, const char *why, fmi3String resources,
+                        fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                        bool logging)
 {
     Component3 *component = why == NULL ? calloc(1, sizeof *component) : NULL;
+    char message[MESSAGE_SIZE];
+    snprintf(message, sizeof message, "%.200s: %.800s", call, why == NULL ? "no memory" : why);
+    if (component != NULL && !read_resources(&component->instance, resources, false)) {
+        memcpy(message, component->instance.message, sizeof message);
+        free(component);
+        component = NULL;
+    }
     if (component == NULL) {
-        char message[MESSAGE_SIZE];
-        snprintf(message, sizeof message, "%s: %s", call, why == NULL ? "no memory" : why);
         if (log != NULL) {
             log(environment, fmi3Error, "logStatusError", message);
         }
@@ -104,8 +110,9 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
                                           fmi3InstanceEnvironment environment,
                                           fmi3LogMessageCallback log)
 {
-    (void)resources, (void)visible; /* this unit needs none, and shows nothing */
-    Component3 *component = made(__func__, wrong_request(name, token), environment, log, logging);
+    (void)visible;
+    const char *why = HAS_EXCHANGE ? wrong_request(name, token) : "this unit is for co-simulation";
+    Component3 *component = made(__func__, why, resources, environment, log, logging);
     if (component != NULL) {
         set_up(&component->instance, true, false);
     }
@@ -120,12 +127,12 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3LogMessageCallback log,
                                          fmi3IntermediateUpdateCallback update)
 {
-    (void)resources, (void)visible, (void)required, (void)update;
+    (void)visible, (void)required, (void)update;
     const char *why = wrong_request(name, token);
     if (why == NULL && count > 0) {
         why = "this unit has no intermediate update, and no variable can be required for it";
     }
-    Component3 *component = made(__func__, why, environment, log, logging);
+    Component3 *component = made(__func__, why, resources, environment, log, logging);
     if (component != NULL) {
         set_up(&component->instance, false, has_event_mode);
         component->returns_early = has_event_mode && early_return;
@@ -139,9 +146,10 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     fmi3ClockUpdateCallback update, fmi3LockPreemptionCallback lock,
     fmi3UnlockPreemptionCallback unlock)
 {
-    (void)name, (void)token, (void)resources, (void)visible, (void)update, (void)lock, (void)unlock;
-    const char *why = "this unit is for co-simulation and model exchange";
-    return made(__func__, why, environment, log, logging);
+    (void)name, (void)token, (void)visible, (void)update, (void)lock, (void)unlock;
+    const char *why = HAS_EXCHANGE ? "this unit is for co-simulation and model exchange"
+                                   : "this unit is for co-simulation";
+    return made(__func__, why, resources, environment, log, logging);
 }
 
 void fmi3FreeInstance(fmi3Instance handle)

@@ -72,7 +72,7 @@ static bool get_value(Instance *instance, size_t reference, Type type, double *v
         return true;
     }
     if (reference >= FIRST_INDICATOR && reference - FIRST_INDICATOR < INDICATOR_COUNT) {
-        double indicators[INDICATOR_COUNT];
+        double indicators[INDICATOR_COUNT + 1]; /* there may be none */
         bool done = look_at_indicators(instance, indicators);
         *value = done ? indicators[reference - FIRST_INDICATOR] : 0.0;
         return done;

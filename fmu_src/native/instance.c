@@ -35,9 +35,9 @@ static const char *phase_name(Phase phase)
     }
 }
 
-bool read_resources(Instance *instance, const char *resources)
+bool read_resources(Instance *instance, const char *resources, bool is_uri)
 {
-    return model_read(&instance->memory.model, resources, instance->message);
+    return model_read(&instance->memory.model, resources, is_uri, instance->message);
 }
 
 void set_up(Instance *instance, bool exchanges, bool has_event_mode)

@@ -54,7 +54,7 @@ enum { SAVED_HEADER = 64 };
 /* Each of these returns false for a call that is refused, with the reason in `message`. */
 
 bool refuse(Instance *instance, const char *format, ...); /* as printf; false */
-bool read_resources(Instance *instance, const char *resources); /* before `set_up`, once */
+bool read_resources(Instance *instance, const char *resources, bool is_uri); /* first of all, once */
 void set_up(Instance *instance, bool exchanges, bool has_event_mode);
 bool is_allowed(Instance *instance, const char *call, int phases);
 bool set_experiment(Instance *instance, double start, bool has_stop, double stop, double tolerance);

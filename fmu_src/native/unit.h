@@ -37,8 +37,9 @@ typedef struct {
 extern const Variable VARIABLES[VARIABLE_COUNT];
 extern const double INPUT_NOMINALS[INPUT_COUNT]; /* a size of each input that counts */
 
-/* Read what the model needs from the unit's resources, a URI or NULL, before anything else; once. */
-bool model_read(Model *model, const char *resources, char message[]);
+/* Read what the model needs from the unit's resources, before anything else; once. Where they are: a
+   URI, as FMI 2 has it, or a path, as FMI 3 has it; or NULL. */
+bool model_read(Model *model, const char *resources, bool is_uri, char message[]);
 
 /* Empty the memory, but for what was read; `values` are the starts, and may get others. */
 void model_clear(Model *model, double values[]);

@@ -13,7 +13,7 @@ from cosim.names import unknown_name
 EXAMPLE = "stickslip build StickSlip3DOF.fmu -o fmus"
 UNITS = (
     *("StickSlip3DOF.fmu", "StickSlip3DOF-fmi3.fmu", "StickSlip3DOF-python.fmu"),
-    *("BeltIceThermal.fmu", "BeltIceThermal-python.fmu"),
+    *("BeltIceThermal.fmu", "BeltIceThermal-fmi3.fmu", "BeltIceThermal-python.fmu"),
     "StickSlipThermal.ssp",
 )
 

@@ -78,10 +78,10 @@ class UnitFacts:
         return LICENSE
 
 
-def add_units(root: Element, variables: Iterable[Variable]) -> None:
-    """Those that the variables are in, by their base units."""
+def add_units(root: Element, variables: Iterable[Variable], more: Iterable[str] = ()) -> None:
+    """Those that the variables are in, and more, by their base units."""
     definitions = SubElement(root, "UnitDefinitions")
-    for name in sorted({variable.unit for variable in variables if variable.unit}):
+    for name in sorted({variable.unit for variable in variables if variable.unit} | {*more}):
         unit = SubElement(definitions, "Unit", name=name)
         base = UNITS[name]
         if base is not None:

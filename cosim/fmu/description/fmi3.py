@@ -13,7 +13,6 @@ from cosim.fmu.description import (
     AUTHOR,
     COPYRIGHT,
     LICENSE,
-    STARTS,
     Dependencies,
     UnitFacts,
     add_common,
@@ -49,16 +48,17 @@ def fmi3_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
         variableNamingConvention="structured",
     )
     _add_interfaces(root, facts)
-    add_units(root, variables)
+    add_units(root, variables, more=["s"])  # of the time
     add_common(root)
-    added = ["time", *INDICATORS]
+    indicators = INDICATORS if facts.indicators else {}
+    added = ["time", *indicators]
     names = [*(variable.name for variable in variables), *added]
     references = {name: str(place) for place, name in enumerate(names)}
     declared = SubElement(root, "ModelVariables")
     for elements in by_array(variables):
         _add_variable(declared, elements, references)
-    _add_time_and_indicators(declared, references)
-    _add_structure(root, variables, references)
+    _add_time_and_indicators(declared, references, indicators)
+    _add_structure(root, variables, references, facts, indicators)
     return _written(root)
 
 
@@ -84,22 +84,19 @@ def _add_interfaces(root: Element, facts: UnitFacts) -> None:
         "canGetAndSetFMUState": "true",
         "canSerializeFMUState": "true",
     }
-    SubElement(
-        root,
-        "ModelExchange",
-        common,
-        providesDirectionalDerivatives="true",
-        needsCompletedIntegratorStep="true",
-    )
-    SubElement(
-        root,
-        "CoSimulation",
-        common,
-        canHandleVariableCommunicationStepSize="true",
-        maxOutputDerivativeOrder="1",
-        mightReturnEarlyFromDoStep="true",
-        hasEventMode="true",
-    )
+    of_steps = {"canHandleVariableCommunicationStepSize": "true"}
+    if facts.gives_rates:
+        of_steps["maxOutputDerivativeOrder"] = "1"
+    if facts.indicators:
+        of_steps |= {"mightReturnEarlyFromDoStep": "true", "hasEventMode": "true"}
+        SubElement(
+            root,
+            "ModelExchange",
+            common,
+            providesDirectionalDerivatives="true",
+            needsCompletedIntegratorStep="true",
+        )
+    SubElement(root, "CoSimulation", common | of_steps)
 
 
 def _type(variable: Variable) -> str:
@@ -138,13 +135,15 @@ def _add_variable(
         variable.set("start", " ".join(repr(each.start) for each in elements))
     if first.derivative_of:
         variable.set("derivative", references[first.derivative_of])
-    if first.is_state:
+    if first.is_state:  # of model exchange
         variable.set("reinit", "true")
     if first.array:
         SubElement(variable, "Dimension", start=str(len(elements)))
 
 
-def _add_time_and_indicators(declared: Element, references: Mapping[str, str]) -> None:
+def _add_time_and_indicators(
+    declared: Element, references: Mapping[str, str], indicators: Mapping[str, str]
+) -> None:
     SubElement(
         declared,
         "Float64",
@@ -155,7 +154,7 @@ def _add_time_and_indicators(declared: Element, references: Mapping[str, str]) -
         description="Time",
         unit="s",
     )
-    for name, event in INDICATORS.items():
+    for name, event in indicators.items():
         SubElement(
             declared,
             "Float64",
@@ -170,13 +169,18 @@ def _add_time_and_indicators(declared: Element, references: Mapping[str, str]) -
 
 
 def _add_structure(
-    root: Element, variables: Sequence[Variable], references: Mapping[str, str]
+    root: Element,
+    variables: Sequence[Variable],
+    references: Mapping[str, str],
+    facts: UnitFacts,
+    indicators: Mapping[str, str],
 ) -> None:
     structure = SubElement(root, "ModelStructure")
     _add_unknowns(structure, "Output", of_outputs(variables), references)
     _add_unknowns(structure, "ContinuousStateDerivative", of_rates(variables), references)
-    _add_unknowns(structure, "InitialUnknown", of_initial_unknowns(variables, STARTS), references)
-    _add_unknowns(structure, "EventIndicator", dict.fromkeys(INDICATORS), references)
+    unknowns = of_initial_unknowns(variables, facts.starts)
+    _add_unknowns(structure, "InitialUnknown", unknowns, references)
+    _add_unknowns(structure, "EventIndicator", dict.fromkeys(indicators), references)
 
 
 def _add_unknowns(

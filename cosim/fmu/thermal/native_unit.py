@@ -22,7 +22,9 @@ from cosim.fmu import c_tables, native
 from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.description.fmi2 import fmi2_description
-from cosim.fmu.libraries import of_platforms
+from cosim.fmu.description.fmi3 import build_description, fmi3_description
+from cosim.fmu.extras import extras
+from cosim.fmu.libraries import FMI2, FMI3, of_platforms
 from cosim.fmu.platforms import PLATFORMS, Platform
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, STARTS, reduced
 from cosim.fmu.variables import Variable, names
@@ -32,6 +34,8 @@ if TYPE_CHECKING:  # the heat model needs scikit-fem
     from thermal.reduction import Reduction
 
 FMU = f"{NAME}.fmu"
+#: Version of FMI -> file.
+FILES = {FMI2: FMU, FMI3: f"{NAME}-fmi3.fmu"}
 #: Files that make the sources, and the heat model that the matrices are of.
 MAKERS = (Path(__file__), Path(__file__).with_name("variables.py"), Path(c_tables.__file__))
 CAN = {"HAS_EXCHANGE": False, "TAKES_RATES": False, "BEGINS_WITH_INPUTS": False}
@@ -46,7 +50,7 @@ ERRORS = (
     ("heat_to_air", "7e-7 (2e-6)", "1.6e-6 (5e-7)"),
 )
 #: Of the C of every unit, what is for model exchange.
-NOT_NEEDED = ("exchange.c", "exchange.h", "fmi2_exchange.c")
+NOT_NEEDED = ("exchange.c", "fmi2_exchange.c", "fmi3_exchange.c")
 
 
 @cache
@@ -63,7 +67,7 @@ def sources() -> dict[str, bytes]:
 def _header() -> str:
     declared = reduced()
     lines = c_tables.count_lines(declared, guid(), CAN)
-    lines += ["#define STATE_COUNT 0", ""]
+    lines += ["#define STATE_COUNT 0", "#define INDICATOR_COUNT 0", ""]
     for causality, prefix in (("input", "IN"), ("output", "OUT")):
         places = [f"{prefix}_{name.upper()}" for name in names(declared, causality)]
         lines.append(f"enum {{ {', '.join(places)} }};")
@@ -72,11 +76,7 @@ def _header() -> str:
 
 def _written() -> dict[str, bytes]:
     shared = native.written("beltice")
-    return {
-        name: content
-        for name, content in shared.items()
-        if name not in NOT_NEEDED and not name.startswith("fmi3")
-    }
+    return {name: content for name, content in shared.items() if name not in NOT_NEEDED}
 
 
 @cache
@@ -101,34 +101,47 @@ def _heat_files() -> list[str]:
     return sorted(file.relative_to(folder).as_posix() for file in folder.rglob("*.py"))
 
 
-def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS) -> Path:
-    """Make the unit of the reference scenario in a directory, with libraries for platforms.
+def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS, fmi: int = FMI2) -> Path:
+    """Make the unit of the reference scenario for a version of FMI in a directory, with libraries
+    for platforms.
 
     Raises CompilerError where there is a way to none.
     """
     from cosim.fmu.thermal.reference_run import reference_parameters  # scikit-fem
 
-    return build_for(reference_parameters(), directory / FMU, platforms)
+    return build_for(reference_parameters(), directory / FILES[fmi], platforms, fmi)
 
 
 def build_for(
-    parameters: ThermalParameters, target: Path, platforms: Sequence[Platform] = PLATFORMS
+    parameters: ThermalParameters,
+    target: Path,
+    platforms: Sequence[Platform] = PLATFORMS,
+    fmi: int = FMI2,
 ) -> Path:
     """Make a unit of any belt and ice."""
     from cosim.fmu.thermal import reference_run, resources  # scikit-fem
 
     made = resources.reduction(parameters)
     declared = reduced(resources.starts(made))
-    files = {f"sources/{name}": content for name, content in sources().items()}
+    facts = _facts(fmi)
+    files = {f"sources/{name}": content for name, content in _sources_of(fmi).items()}
     files[f"resources/{resources.FILE}"] = resources.packed(made)
-    files["modelDescription.xml"] = fmi2_description(_facts(), declared)
-    files["documentation/index.html"] = _documentation(made, declared)
-    files |= reference_run.of_heat(parameters, declared)
-    files |= of_platforms(guid(), sources, platforms, NAME)
+    if fmi == FMI3:
+        files["modelDescription.xml"] = fmi3_description(facts, declared)
+        files["sources/buildDescription.xml"] = build_description(facts)
+    else:
+        files["modelDescription.xml"] = fmi2_description(facts, declared)
+    files["documentation/index.html"] = _documentation(made, declared, fmi)
+    files |= reference_run.of_heat(parameters, declared) | extras(declared, fmi)
+    files |= of_platforms(guid(), sources, platforms, NAME, fmi)
     return write_bytes(packed(files), target)
 
 
-def _documentation(made: Reduction, declared: Sequence[Variable]) -> bytes:
+def _sources_of(fmi: int) -> dict[str, bytes]:
+    return native.of_version(sources(), fmi)
+
+
+def _documentation(made: Reduction, declared: Sequence[Variable], fmi: int) -> bytes:
     from cosim.fmu.description.documentation import allowed
     from cosim.fmu.thermal.reference_run import EXPERIMENT
     from cosim.report.page import render
@@ -136,7 +149,8 @@ def _documentation(made: Reduction, declared: Sequence[Variable]) -> bytes:
     page = render(
         "documentation.html.j2",
         "cosim.fmu.thermal",
-        facts=_facts(),
+        facts=_facts(fmi),
+        fmi=fmi,
         variables=declared,
         allowed=allowed,
         fixed=_fixed(made.parameters, {each.name for each in declared}),
@@ -168,14 +182,14 @@ def _fixed(parameters: ThermalParameters, free: set[str]) -> list[tuple[str, str
     return rows
 
 
-def _facts() -> UnitFacts:
+def _facts(fmi: int) -> UnitFacts:
     return UnitFacts(
         name=NAME,
         guid=guid(),
         description=f"{DESCRIPTION}. Modes of the finite elements",
         version=version("stickslip"),
         tool="stickslip",
-        sources=tuple(sorted(name for name in sources() if name.endswith(".c"))),
+        sources=tuple(sorted(name for name in _sources_of(fmi) if name.endswith(".c"))),
         interpolates=False,
         gives_rates=False,
         starts=STARTS,

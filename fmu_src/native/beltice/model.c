@@ -20,10 +20,10 @@ static const double MOST_LOOPS = 1000.0, MOST_PARTS = 1e5, ROUNDING = 1e-12;
 
 enum { MOST_ITERATIONS = 60, MOST_PATH = 4096 };
 
-bool model_read(Model *model, const char *resources, char message[])
+bool model_read(Model *model, const char *resources, bool is_uri, char message[])
 {
     char path[MOST_PATH];
-    return path_in(resources, "beltice.bin", path, sizeof path, message, MESSAGE_SIZE) &&
+    return path_in(resources, is_uri, "beltice.bin", path, sizeof path, message, MESSAGE_SIZE) &&
            read_tables(&model->tables, path, message, MESSAGE_SIZE);
 }
 

@@ -81,16 +81,20 @@ static const char *path_of(const char *uri, const char **why)
     return path;
 }
 
-bool path_in(const char *uri, const char *file, char path[], size_t size, char message[],
+bool path_in(const char *uri, bool is_uri, const char *file, char path[], size_t size, char message[],
              size_t message_size)
 {
     if (uri == NULL) {
         snprintf(message, message_size, "the location of the unit's resources is not given");
         return false;
     }
-    const char *why = NULL, *begin = path_of(uri, &why);
-    if (begin != NULL) {
+    const char *why = NULL, *begin = is_uri ? path_of(uri, &why) : uri;
+    if (begin != NULL && is_uri) {
         why = unescape(begin, path, size);
+    } else if (begin != NULL) {
+        why = uri[0] == '\0' ? "it is empty" : strlen(uri) >= size ? "it is too long" : NULL;
+        strncpy(path, uri, size - 1);
+        path[size - 1] = '\0';
     }
     if (why == NULL && strlen(path) + strlen(file) + 2 > size) {
         why = "it is too long";
@@ -101,7 +105,7 @@ bool path_in(const char *uri, const char *file, char path[], size_t size, char m
         return false;
     }
     size_t end = strlen(path);
-    if (path[end - 1] != '/') {
+    if (path[end - 1] != '/' && (is_uri || path[end - 1] != '\\')) {
         strcat(path, "/");
     }
     strcat(path, file);

@@ -11,9 +11,9 @@
 #endif
 
 /* Path of a file in a folder that a URI of the scheme "file" names: file:/a, file:///a and
-   file://localhost/a, with escapes or without (RFC 3986, RFC 8089). False, with the reason in
-   `message`, for what is no such URI. */
-bool path_in(const char *uri, const char *file, char path[], size_t size, char message[],
+   file://localhost/a, with escapes or without (RFC 3986, RFC 8089); or that a path names, where it is
+   no URI. False, with the reason in `message`, for what is none. */
+bool path_in(const char *uri, bool is_uri, const char *file, char path[], size_t size, char message[],
              size_t message_size);
 
 /* Read the matrices. False, with the reason in `message`, when the file is not what it must be. */

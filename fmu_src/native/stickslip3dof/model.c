@@ -111,9 +111,9 @@ static bool go_on(Model *model, double values[], double end, bool *event, char m
     return true;
 }
 
-bool model_read(Model *model, const char *resources, char message[])
+bool model_read(Model *model, const char *resources, bool is_uri, char message[])
 {
-    (void)model, (void)resources, (void)message; /* all there is stands in the library */
+    (void)model, (void)resources, (void)is_uri, (void)message; /* all there is stands in the library */
     return true;
 }
 

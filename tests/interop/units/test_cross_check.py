@@ -1,22 +1,29 @@
-"""Each unit reproduces the run that it brings along, as the FMI cross-check asks: its inputs, its
-times and tolerance, and its outputs, computed by the models in Python."""
+"""What each unit brings along: licences, icon, terminals, and a run that it reproduces, as the FMI
+cross-check asks: inputs, times and tolerance, and outputs, computed by the models in Python."""
 
+import re
 import zipfile
+from importlib.metadata import distribution
+from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
 from fmpy.util import read_csv, read_ref_opt_file, validate_result
+from lxml import etree
 
-from cosim.fmu.build import THERMAL, THERMAL_PYTHON, build_fmu
+from cosim.fmu.build import FMI3, NATIVE, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, build_fmu
 from cosim.fmu.platforms import this_platform
+
+SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
+HEAT = (THERMAL, THERMAL_FMI3, THERMAL_PYTHON)
 
 
 @pytest.fixture(scope="module")
 def units(fmu, fmu3, python_fmu, tmp_path_factory):
     """Name -> file and what is beside its page, of every unit."""
     folder = tmp_path_factory.mktemp("units")
-    heat = [build_fmu(folder, name, [this_platform()]) for name in (THERMAL, THERMAL_PYTHON)]
+    heat = [build_fmu(folder, name, [this_platform()]) for name in HEAT]
     found = {}
     for unit in (fmu, fmu3, python_fmu, *heat):
         with zipfile.ZipFile(unit) as archive:
@@ -76,11 +83,75 @@ def test_a_host_s_own_integrator_moves_it_so_too(units, name):
 REDUCED = {"temperature": 2e-6, "belt_share": 2e-5, "melt": 1e-12, "heat": 2e-6}
 
 
-@pytest.mark.parametrize("name", [THERMAL, THERMAL_PYTHON])
+@pytest.mark.parametrize("name", HEAT)
 def test_belt_and_ice_warm_as_in_the_reference(units, name):
     found, expected = run(units, name)
     for each in expected.dtype.names[1:]:
         kind = next(key for key in REDUCED if key in each)
-        allowed = REDUCED[kind] if name == THERMAL else 1e-10  # the same model, told as CSV
+        allowed = 1e-10 if name == THERMAL_PYTHON else REDUCED[kind]  # the same model, told as CSV
         np.testing.assert_allclose(found[each], expected[each], rtol=0, atol=allowed)
     assert np.ptp(expected["interface_temperature"]) > 0.05
+
+
+# --- what is in it ---
+
+
+@pytest.fixture(params=[NATIVE, FMI3, PYTHON, *HEAT])
+def archive(request, units):
+    """A unit, opened."""
+    with zipfile.ZipFile(units[request.param][0]) as opened:
+        yield opened
+
+
+def facts(archive):
+    """Version of FMI, name, and whether it is made with pythonfmu."""
+    root = etree.fromstring(archive.read("modelDescription.xml"))
+    tool = root.get("generationTool")
+    return root.get("fmiVersion"), root.get("modelName"), "pythonfmu" in tool
+
+
+def test_its_licences_are_in_it(archive):
+    own = archive.read("documentation/licenses/license.txt").decode()
+    assert own.startswith("BSD 3-Clause License") and "Redistribution" in own
+    is_python = facts(archive)[2]
+    names = {name for name in archive.namelist() if "/licenses/" in name}
+    assert len(names) == 1 + is_python
+    if is_python:
+        said = archive.read("documentation/licenses/pythonfmu.txt").decode()
+        assert said == distribution("pythonfmu").read_text("licenses/LICENSE")
+
+
+def test_its_icon_and_terminals_are_where_its_fmi_has_them(archive):
+    version, name, _ = facts(archive)
+    icon = "model.png" if version == "2.0" else "terminalsAndIcons/icon.png"
+    assert archive.read(icon).startswith(b"\x89PNG")
+    if version == "2.0":
+        return
+    assert etree.fromstring(archive.read("terminalsAndIcons/icon.svg")).tag.endswith("}svg")
+    root = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    etree.XMLSchema(etree.parse(SCHEMA)).assertValid(root)
+    known = {
+        each.get("name")
+        for each in etree.fromstring(archive.read("modelDescription.xml")).find("ModelVariables")
+    }
+    members = {
+        terminal.get("name"): {m.get("memberName"): m.get("variableName") for m in terminal}
+        for terminal in root.iter("Terminal")
+    }
+    expected = (
+        {"interface", "motion", "external_load"} if name == "StickSlip3DOF" else {"interface"}
+    )
+    assert members.keys() == expected
+    assert {variable for each in members.values() for variable in each.values()} <= known
+    assert [*members["interface"]] == ["heat", "surface_speed", "x", "interface_temperature"]
+
+
+def test_its_reference_run_ends_where_its_page_says(archive):
+    _, name, _ = facts(archive)
+    options = archive.read(f"documentation/{name}_ref.opt").decode()
+    stop = float(re.search(r"StopTime, (\S+)", options)[1])
+    last = archive.read(f"documentation/{name}_ref.csv").decode().splitlines()[-1]
+    assert float(last.partition(",")[0]) == pytest.approx(stop, rel=1e-12)
+    if "documentation/index.html" in archive.namelist():
+        page = archive.read("documentation/index.html").decode()
+        assert f"from 0 to {stop:g} s" in page

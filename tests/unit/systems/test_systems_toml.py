@@ -226,7 +226,7 @@ def test_a_unit_that_fails_leaves_what_there_was(chain, tmp_path, capsys):
     [
         ("run.stop", "allowed is KEY=VALUE"),
         ("run.stop=soon", r'run.stop: not a number ("soon")'),
-        ("units.first.file=x", "cannot be set here, allowed are keys of coupling and run"),
+        ("units.first.file=x", "no unit is named 'units'"),
         ("run.stopp=1", "run.stopp: no such key, nearest known: stop"),
     ],
 )

@@ -1,0 +1,100 @@
+"""What every unit has beside its model: licences, an icon and, for FMI 3, the terminals it has.
+
+A terminal groups what is connected together; two of the same kind fit each other member by member
+(FMI 3.0, section 2.4.9).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from importlib.metadata import distribution
+from importlib.resources import files
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from cosim.fmu.libraries import FMI2, FMI3
+from cosim.fmu.variables import Variable
+
+LICENSES = "documentation/licenses"
+#: Kind of terminal -> member -> variables that it may be, of which a unit has one.
+TERMINALS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "interface": {
+        "heat": ("heat",),
+        "surface_speed": ("surface_speed_actual", "surface_speed"),
+        "x": ("x",),
+        "interface_temperature": ("interface_temperature",),
+    },
+    "motion": {name: (name,) for name in ("x", "y", "phi", "vx", "vy", "omega")},
+    "external_load": {
+        "force_x": ("external_force_x",),
+        "force_y": ("external_force_y",),
+        "moment": ("external_moment",),
+    },
+}
+SAID = {
+    "interface": "What block and heat model exchange at the contact",
+    "motion": "Place and velocity of the block in the frame of the rig",
+    "external_load": "What acts on the block beside springs and friction",
+}
+
+
+def extras(
+    variables: Iterable[Variable] = (), fmi: int = FMI2, others: Iterable[str] = ()
+) -> dict[str, bytes]:
+    """Path in the unit -> content. others: distributions whose code travels in it, too."""
+    found = {f"{LICENSES}/license.txt": _license("stickslip")}
+    for name in others:
+        found[f"{LICENSES}/{name}.txt"] = _license(name)
+    if fmi == FMI3:
+        found["terminalsAndIcons/terminalsAndIcons.xml"] = terminals([*variables])
+        found["terminalsAndIcons/icon.png"] = _icon("png")
+        found["terminalsAndIcons/icon.svg"] = _icon("svg")
+    else:
+        found["model.png"] = _icon("png")
+    return found
+
+
+def _license(name: str) -> bytes:
+    text = distribution(name).read_text("licenses/LICENSE")
+    if not text:
+        raise ValueError(f"the licence of {name} is not installed with it: licenses/LICENSE")
+    return text.encode("utf-8")
+
+
+def _icon(kind: str) -> bytes:
+    return (files("cosim.fmu.description") / f"icon.{kind}").read_bytes()
+
+
+def terminals(variables: Iterable[Variable]) -> bytes:
+    """terminalsAndIcons.xml: those of `TERMINALS` of which a unit has every member."""
+    known = {variable.name for variable in variables}
+    root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    picture = SubElement(root, "GraphicalRepresentation")
+    corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    SubElement(picture, "CoordinateSystem", corners, suggestedScalingFactorTo_mm="0.1")
+    SubElement(picture, "Icon", corners)
+    place = SubElement(root, "Terminals")
+    for kind, members in TERMINALS.items():
+        has = {
+            member: next((name for name in names if name in known), None)
+            for member, names in members.items()
+        }
+        if None in has.values():
+            continue
+        terminal = SubElement(
+            place,
+            "Terminal",
+            name=kind,
+            matchingRule="plug",
+            terminalKind=f"stickslip.{kind}",
+            description=SAID[kind],
+        )
+        for member, name in has.items():
+            SubElement(
+                terminal,
+                "TerminalMemberVariable",
+                variableName=name or "",
+                memberName=member,
+                variableKind="signal",
+            )
+    indent(root)
+    return tostring(root, encoding="UTF-8", xml_declaration=True)
