@@ -35,6 +35,7 @@ from cosim.gap.report_of_findings import (
 from cosim.gap.result import Doubt, Gap, Rung
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
+from cosim.gap.weak_form.ladder import Finding
 from cosim.gap.weak_form.track import thinned
 
 #: Steps of the bar: checks, search, and the models that are fitted.
@@ -121,11 +122,14 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
     while True:
         named = naming.named(spurious)
         parts = [part_of(campaign, named.system, named.rung, finding) for finding in named.findings]
-        doubted = next((part for part in parts if may_be_spurious(part.finding)
-                        and not fitting.needs(part, parts, named)), None)  # fmt: skip
+        doubted = fitting.spurious(parts, named, may_be_spurious)
         if doubted is None:
-            return _Agreed(named, *fitting.best_of(parts, named), tuple(spurious))
-        spurious.append(doubted.finding.name)
+            found, models = fitting.best_of(parts, named)
+            if not explains(models.ladder):
+                doubted = fitting.spurious(parts, named, lambda finding: bool(finding.added))
+        if doubted is None:
+            return _Agreed(named, found, models, tuple(spurious))
+        spurious.append(doubted)
 
 
 @dataclass
@@ -147,6 +151,14 @@ class _Fitting:
                 if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
                     return points, others
         return parts, models
+
+    def spurious(
+        self, parts: Sequence[Part], named: Named, asked: Callable[[Finding], bool]
+    ) -> str | None:
+        """The first of the findings asked for that the simulated runs do without."""
+        doubted = (part for part in parts
+                   if asked(part.finding) and not self.needs(part, parts, named))  # fmt: skip
+        return next((part.finding.name for part in doubted), None)
 
     def needs(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether the simulated runs ask for a finding beside the others."""

@@ -5,15 +5,17 @@
  2. What every rig has unknown is in the rows with its stated error: both coefficients, springs,
     zeros, set-points, the contact's own transition, friction that scatters from run to run.
  3. Whatever friction may depend on is an argument with one free curve; all have the same evidence.
- 4. An argument is a finding where the rows are e^6 times as probable with it, and it takes more
-    than a small part of what was missing at first; the best joins, all others are asked again.
+ 4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
+    it takes more than a small part of what was missing at first; the best joins, all others are
+    asked again.
  5. Findings within e^3 of one another in the same place cannot be told apart: a class.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
- 8. A finding below e^500 goes, and the rows are not asked for it again, where the simulated runs
-    are not e^6 times as probable with it, nor does it halve what the contact alone leaves; `none`
-    is no finding left, and held-out runs at 1.1 at most; without any nothing tells.
+ 8. A finding below e^500, or one that does not explain the runs, goes, and the rows are not asked
+    for it again, where the simulated runs are not e^6 times as probable with it, nor does it halve
+    what the contact alone leaves; `none` is no finding left, and held-out runs at 1.1 at most;
+    without any nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.

@@ -129,7 +129,7 @@ class Search:
             name = max(offers, key=lambda each: offers[each][0])
             offers[name] = self._finer(rung, offers[name])
             more = self._rung([*found, (name, offers[name][1])])
-            if offers[name][0] - rung.evidence < LEAST_GAIN or not self._is_missed(rung, more):
+            if offers[name][0] - rung.evidence < _least(found) or not self._is_missed(rung, more):
                 break
             found = self._exchanged([*found, (name, offers[name][1])])
         found = self._without_idle(found)
@@ -153,7 +153,7 @@ class Search:
 
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
         """Whether rows miss a finding; beside others, by more than a small part of all misfit."""
-        if rung.evidence - without.evidence <= LEAST_GAIN:
+        if rung.evidence - without.evidence <= _least(without.added):
             return False
         part = without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
         return part or not without.added
@@ -200,3 +200,11 @@ class Search:
             }
             findings.append(Finding(name, added, rung.evidence - without.evidence, others))
         return Ladder(self.system, tuple(findings), rung, first)
+
+
+def _least(found: Sequence) -> float:
+    """ln of how much more probable a finding must make the rows; less of the first of all.
+
+    Simulated runs are asked for that, too (`judge`).
+    """
+    return LEAST_GAIN if found else ALIKE

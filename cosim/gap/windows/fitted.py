@@ -106,6 +106,7 @@ class Fitted:
         the noise does not explain count as much noise more; infinite where no motion depends on it
     at_bound : label -> the bound that the value is at
     runs : fitted ones and held-out ones
+    cost : squared residuals of all runs, with those of the numbers from what is known beforehand
     leeway : of the numbers that all runs share
     """
 
@@ -113,6 +114,7 @@ class Fitted:
     sd: dict[str, float]
     at_bound: dict[str, float]
     runs: tuple[FittedRun, ...]
+    cost: float = float("nan")
     leeway: Leeway | None = field(default=None, repr=False)
 
     @classmethod
@@ -122,8 +124,9 @@ class Fitted:
         scaled: np.ndarray,
         derivatives: np.ndarray,
         runs: tuple[FittedRun, ...],
+        cost: float,
     ) -> Fitted:
-        """From the scaled numbers (k,) and the derivatives (rows, k) there.
+        """From the scaled numbers (k,), the derivatives (rows, k) and the cost there.
 
         The covariance of the scaled numbers is (J'J)^-1, sd = |d value / d scaled| times the root
         of its diagonal.
@@ -141,7 +144,7 @@ class Fitted:
             for bound in (number.low, number.high):
                 if abs(place - number.scaled(bound)) < NEAR:
                     at_bound[label] = bound
-        return cls(values, sd, at_bound, runs, Leeway.at(unknowns, scaled, derivatives))
+        return cls(values, sd, at_bound, runs, cost, Leeway.at(unknowns, scaled, derivatives))
 
     @property
     def gap(self) -> tuple[float, float]:
@@ -154,10 +157,8 @@ class Fitted:
 
         What noise does not explain of the better one counts as so much noise more.
         """
-        mine, others = (np.concatenate([run.residuals for run in each.runs]) ** 2
-                        for each in (self, other))  # fmt: skip
-        left = min(mine.mean(), others.mean())
-        return float(0.5 * (others.sum() - mine.sum()) / max(left, 1.0))
+        left = min(_rms(self.runs), _rms(other.runs)) ** 2
+        return 0.5 * (other.cost - self.cost) / max(left, 1.0)
 
     @property
     def stick_scatter(self) -> float:
@@ -176,6 +177,7 @@ def joined(fitted: Fitted, judged: Fitted, names: Sequence[str]) -> Fitted:
     runs = {run.name: run for run in (*fitted.runs, *judged.runs)}
     return replace(
         fitted,
+        cost=fitted.cost + judged.cost,
         values={**judged.values, **fitted.values},
         sd={**judged.sd, **fitted.sd},
         runs=tuple(runs[name] for name in names if name in runs),

@@ -172,4 +172,5 @@ class Problem:
     def _fitted(self, at: np.ndarray) -> Fitted:
         derivatives = self.derivatives(at)
         runs = tuple(part.described(at) for part in self.parts)
-        return Fitted.at(self.unknowns, at, derivatives, runs)
+        cost = float(np.sum(self.residuals(at) ** 2))
+        return Fitted.at(self.unknowns, at, derivatives, runs, cost)

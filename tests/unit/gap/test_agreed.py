@@ -1,0 +1,84 @@
+"""What the rows ask for and the simulated runs do without is not asked of the rows again."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from cosim.gap import find
+from cosim.gap.extended import Part
+from cosim.gap.judge import SURE
+from cosim.gap.result import Score
+from cosim.gap.weak_form.added import Added
+from cosim.gap.weak_form.ladder import Finding
+from cosim.gap.weak_form.unknowns import Unknown
+from cosim.gap.windows.fitted import Fitted, FittedRun
+
+
+def finding(name, gain):
+    return Finding(name, (Added(Unknown(name, "", None, np.eye(1))),), gain, {})
+
+
+class Rows:
+    """Ask for the first of some findings that is not barred."""
+
+    def __init__(self, *findings):
+        self.findings, self.asked = findings, []
+
+    def named(self, without):
+        self.asked.append(tuple(without))
+        left = [one for one in self.findings if one.name not in without]
+        return SimpleNamespace(findings=tuple(left[:1]), system=None, rung=None)
+
+
+def agreed(monkeypatch, rows, gained, reached=1.0):
+    """Findings and what was pretended; gained : name -> what simulated runs gain by it."""
+    monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
+    monkeypatch.setattr(
+        find, "part_of", lambda campaign, system, rung, one: Part(one, None, (), (), {"on": 1.0})
+    )
+
+    class Models:
+        parts, unscattered = (), Score(1.0, 1.0)
+        ladder = [SimpleNamespace(name="user's model", gap=Score(reached, reached))]
+        fits = [None]
+
+        def beside(self, part, rung):
+            return SimpleNamespace(gain_over=lambda other: gained[part.finding.name])
+
+    fitting = find._Fitting(None, lambda: None, 1)
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: Models())
+    answer = find._agreed(None, fitting)
+    return [part.finding.name for part in answer.parts], answer.spurious
+
+
+def test_the_true_one_is_found_behind_a_pretended_one(monkeypatch):
+    rows = Rows(finding("spring_hardening", 205.0), finding("velocity_weakening", 134.0))
+    gained = {"spring_hardening": -906.0, "velocity_weakening": 140.0}
+    assert agreed(monkeypatch, rows, gained) == (["velocity_weakening"], ("spring_hardening",))
+    assert rows.asked == [(), ("spring_hardening",)]
+
+
+@pytest.mark.parametrize(("gained", "names"), [(5.9, []), (6.1, ["film_drag"])])
+def test_simulated_runs_ask_by_as_much_as_the_rows(monkeypatch, gained, names):
+    found, spurious = agreed(monkeypatch, Rows(finding("film_drag", 12.0)), {"film_drag": gained})
+    assert found == names
+    assert spurious == (() if names else ("film_drag",))
+
+
+@pytest.mark.parametrize(("reached", "names"), [(1.29, ["run_in"]), (1.31, [])])
+def test_what_is_sure_is_asked_of_runs_that_it_does_not_explain(monkeypatch, reached, names):
+    rows = Rows(finding("run_in", 2.0 * SURE))
+    assert agreed(monkeypatch, rows, {"run_in": 0.0}, reached)[0] == names
+
+
+def fitted(residual, cost):
+    run = FittedRun("a", {}, np.zeros((4, 3)), np.zeros((1, 6)), np.full(4, residual),
+                    np.zeros(4, dtype=int), False)  # fmt: skip
+    return Fitted({}, {}, {}, (run,), cost)
+
+
+def test_what_noise_does_not_explain_counts_as_noise():
+    """A likelihood ratio, priors of the numbers included; in units of what the better one leaves"""
+    assert fitted(1.0, 10.0).gain_over(fitted(1.0, 30.0)) == 10.0
+    assert fitted(2.0, 10.0).gain_over(fitted(3.0, 30.0)) == 2.5
