@@ -70,7 +70,7 @@ COMMANDS = {
     ),
     "completion": Command("authoring", "completion of commands and options for your shell"),
     "reproduce": Command(
-        "studies", "the source study's claims C1 to C15, each with its number, ours, and a verdict"
+        "studies", "the source study's claims C1 to C18, each with its number, ours, and a verdict"
     ),
     "stability": Command(
         "studies", "which steady motions a rig has, and which it can keep to: maps and a page"

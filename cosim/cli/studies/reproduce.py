@@ -27,7 +27,7 @@ RESULT, PAGE = "reproduction.json", "report.html"
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    parser.add_argument("claims", metavar="CLAIM", nargs="*", help="C1 to C15 (default: all)")
+    parser.add_argument("claims", metavar="CLAIM", nargs="*", help="C1 to C18 (default: all)")
     add_json(parser)
     add_output(
         parser,

@@ -1,4 +1,4 @@
-"""The source study's claims C1 to C15, each computed anew and judged.
+"""The source study's claims C1 to C18, each computed anew and judged.
 
 >>> from cosim.studies.reproduction import reproduce
 >>> reproduce(["C1"])[0].verdict

@@ -120,6 +120,7 @@ STUDY = {
     **_at("§4.3.1, fig. 4.6", rotation_sets_in="after 10"),
     **_at("§4.3.2, §4.3.3", minutes_updated="5 to 8", seconds_others="20 to 30"),
     **_at("§4.5, fig. 4.14", stiff_displacement=0.0),
+    **_at("§4.6.2", least_hold=6.67),
     **_at("§4.6.3, fig. 4.18c", mean_x_measured=0.02, mean_x_dataset_2=0.004),
     **_at("§4.6.3", percent_in_slip="90 to 95 %"),
     **_at("§4.6.4", rotation_measured=20.0),

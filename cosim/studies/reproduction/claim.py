@@ -11,7 +11,7 @@ from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
 from cosim.report.page import Picture
 from cosim.studies.reproduction.cases import Printed
 
-CLAIM_IDS = tuple(f"C{n}" for n in range(1, 16))
+CLAIM_IDS = tuple(f"C{n}" for n in range(1, 19))
 
 
 class UnknownClaim(ValueError):

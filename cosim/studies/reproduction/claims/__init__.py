@@ -1,4 +1,4 @@
-"""The claims C1 to C15 of the source study, one function each that returns the judged claim."""
+"""The claims C1 to C18 of the source study, one function each that returns the judged claim."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Callable
 from ..claim import Claim
 from . import (
     belt_length,
+    dry_friction,
+    friction_approaches,
     friction_level,
     friction_ratio,
     jumps_to_stick,
@@ -14,6 +16,7 @@ from . import (
     rotation,
     run_times,
     spring_angles,
+    static_strengthening,
     trends,
     verification,
 )
@@ -34,4 +37,7 @@ CLAIMS: dict[str, Callable[[], Claim]] = {
     "C13": belt_length.judge_length,
     "C14": jumps_to_stick.judge,
     "C15": belt_length.judge_table,
+    "C16": dry_friction.judge,
+    "C17": friction_approaches.judge,
+    "C18": static_strengthening.judge,
 }

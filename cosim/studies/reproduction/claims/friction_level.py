@@ -84,7 +84,8 @@ OBSERVATIONS = (
         mirrored=True,
     ),
 )
-ROTATION = OBSERVATIONS[3]
+MEAN_X, ROTATION = OBSERVATIONS[1], OBSERVATIONS[3]
+CLOSE = 0.003  # m: what the curves that were laid one over the other may be off by
 EVEN = (1.0,) * len(OBSERVATIONS)
 
 
@@ -200,6 +201,15 @@ def judge() -> Claim:
             all_of_them["exact_cut"].misfit,
         )
     )
+    rows.append(
+        Row(
+            "mean friction by weight that holds the block at the mean of x",
+            "1",
+            derived=needed_friction(MEAN_X.value),
+            how="4 k x/(m g) of the printed mean of x",
+            exact=needed_friction(all_of_them["exact_full"].values[1]),
+        )
+    )
     faults = responsible(_dataset_2_wins)
     better = [
         all_of_them[f"{model}_cut"].misfit < all_of_them[f"{model}_full"].misfit
@@ -221,6 +231,7 @@ def judge() -> Claim:
                 ),
                 turns=tuple(_turns(all_of_them)),
             ),
+            _balance(all_of_them),
         ),
         remarks=_remarks(all_of_them, faults),
         assumed=(
@@ -231,7 +242,45 @@ def judge() -> Claim:
         ),
         pictures=(_draw_observations(all_of_them), _draw_motion()),
         place="§4.6.3, §4.6.4, §7.1",
-        rests="five figures with spreads that we gave them; above all on the mean of x",
+        rests="the balance of forces at the measured mean of x",
+    )
+
+
+def needed_friction(mean_x: float) -> float:
+    """Mean friction by weight of a steady motion: over whole cycles it is the mean spring force."""
+    return 4.0 * DATASET_1.stiffness * mean_x / DATASET_1.weight
+
+
+def _balance(of: dict[str, Variant]) -> Check:
+    """Whether a quarter of mu is as much friction as the measured mean of x takes."""
+    place = OBSERVATIONS.index(MEAN_X)
+    means = [of[f"{model}_cut"].values[place] for model in ("printed", "mended", "exact")]
+    low, high = (needed_friction(MEAN_X.value + side * CLOSE) for side in (-1.0, 1.0))
+    quarter = f"{1e3 * means[2]:.1f} mm with µ quarter"
+    return Check(
+        "a quarter of µ is as much friction as holds the block at the measured mean of x, "
+        f"within {1e3 * CLOSE:.0f} mm",
+        *(abs(mean - MEAN_X.value) <= CLOSE for mean in means),
+        margin=Margin(
+            "mean friction that the mean of x takes, by the quarter of µ_s",
+            needed_friction(MEAN_X.value) / DATASET_2.mu_s,
+            1.0,
+        ),
+        turns=(
+            Turn(
+                f"the mean of x {1e3 * CLOSE:.0f} mm less or more",
+                f"friction of {low:.2f} to {high:.2f} by weight, against {DATASET_2.mu_k:g} to "
+                f"{DATASET_2.mu_s:g}",
+                low <= DATASET_2.mu_s,
+                OPEN,
+            ),
+            Turn(
+                "exact: pretension fitted",
+                f"{1e3 * of['exact_fitted_cut'].values[place]:.1f} mm instead of {quarter}",
+                abs(of["exact_fitted_cut"].values[place] - MEAN_X.value) <= CLOSE,
+                OPEN,
+            ),
+        ),
     )
 
 

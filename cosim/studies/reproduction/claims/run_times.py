@@ -15,14 +15,12 @@ from stickslip.reference.interpreted_scheme import interpreted_run
 from cosim.studies.reproduction.cases import STUDY as PRINTED_TIMES
 
 from ..cases import DATASET_1, exact_parameters, scheme
-from ..claim import Check, Claim, Margin, Row, Turn
+from ..claim import Check, Claim, Row
 
 # one stick and one slip, then the next ones begin: what a script needs grows with the slips
 DURATION = 0.7
 WHOLE = 20.0
 STUDY = (5 * 60 / 30, 8 * 60 / 20)  # the least and the most that its minutes allow
-# machines and numpy versions differ; a ratio within a factor of 3 of the range is the same finding
-LEEWAY = 3.0
 CYCLES = 40  # the runs that the study compares
 
 
@@ -34,10 +32,6 @@ def seconds(call: Callable[[], object], repeats: int) -> float:
         call()
         taken.append(time.perf_counter() - start)
     return statistics.median(taken)
-
-
-def _as_told(ratio: float) -> bool:
-    return STUDY[0] / LEEWAY <= ratio <= LEEWAY * STUDY[1]
 
 
 @dataclass(frozen=True)
@@ -90,26 +84,21 @@ def judge() -> Claim:
         _rows(times),
         (
             Check(
-                "`updated` takes 10 to 24 times as long as the others, within a factor of "
-                f"{LEEWAY:.0f}",
-                _as_told(ratio),
+                "`updated` takes 10 to 24 times as long as the others",
                 None,
                 None,
-                margin=Margin("ratio", ratio, STUDY[0] / LEEWAY),
-                turns=tuple(
-                    Turn(f"{name} instead of in Python", f"ratio {value:.1f}", _as_told(value))
-                    for name, value in others.items()
-                ),
+                None,
             ),
         ),
         remarks=(
+            "Machine, library and number of samples are not printed, and a time of today's machine "
+            f"is no figure of theirs: the ratio is {ratio:.1f} with strips in Python, "
+            + ", ".join(f"{value:.1f} with {name}" for name, value in others.items())
+            + " on this one, and differs from run to run.",
             "The cost is not the stiffness matrix: `updated` samples friction a hundred times in "
             "every 10 ms, a fixed matrix a hundred times in a second. Compiled, the exact model "
             f"takes {1e3 * times.exact:.0f} ms for {WHOLE:.0f} s here.",
         ),
-        scope="as a ratio, within a factor of "
-        f"{LEEWAY:.0f}: the times themselves are {CYCLES * times.python[0] / 60.0:.2g} min and "
-        f"{CYCLES * times.python[1]:.2g} s on this machine",
         place="§4.3.2, §4.3.3",
         rests="how the study's script samples friction; machine and library are not printed",
         leading=2,
