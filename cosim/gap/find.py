@@ -165,7 +165,7 @@ class _Fitting:
         without = self._fitted(named, [other for other in parts if other is not part])
         if not part.in_kernel:
             return leaves(without.ladder[-1].gap)
-        if runs_ask(without.beside(part, -1).gain_over(without.fits[-1])):
+        if runs_ask(without.gained(part)):
             return True
         if not (is_scattered(part.finding) and leaves(without.unscattered)):
             return False

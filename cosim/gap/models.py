@@ -94,13 +94,17 @@ class Models:
         """The gap before friction may scatter."""
         return [rung for rung in self.ladder if rung.name != "scatter"][-1].gap
 
-    def beside(self, part: Part, rung: int) -> Fitted:
-        """A rung with a finding more, from where the rung ended."""
-        (numbers, settings, scatter), near = self.free[rung], self.fits[rung]
-        return fit(
+    def gained(self, part: Part) -> float:
+        """ln of how much more probable the runs are with a finding beside all that the ladder has.
+
+        From where the ladder ended.
+        """
+        (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
+        found = fit(
             self.campaign, self.windows, [*numbers, *part.numbers], {**settings, **part.settings},
             scatter, [{**near.values, **part.starts}], near, self.jobs,
         )  # fmt: skip
+        return found.gain_over(near)
 
     def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:
         before = {**self.starts, **(self.fits[-1].values if self.fits else {})}

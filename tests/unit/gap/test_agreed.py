@@ -41,10 +41,9 @@ def agreed(monkeypatch, rows, gained, reached=1.0):
     class Models:
         parts, unscattered = (), Score(1.0, 1.0)
         ladder = [SimpleNamespace(name="user's model", gap=Score(reached, reached))]
-        fits = [None]
 
-        def beside(self, part, rung):
-            return SimpleNamespace(gain_over=lambda other: gained[part.finding.name])
+        def gained(self, part):
+            return gained[part.finding.name]
 
     fitting = find._Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts: Models())
