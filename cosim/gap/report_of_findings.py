@@ -11,6 +11,7 @@ from scipy.special import logsumexp
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
 from cosim.gap.judge import NOTHING_MISSING
+from cosim.gap.quantities import quantity, with_digits
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
@@ -86,18 +87,27 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
 
 
 def _size(part: Part, gap: Gap) -> str:
-    """The largest value of a curve, with its interval and its power."""
+    """The largest value of a curve, with its interval and its power; else its first number."""
     axis = _axis_of(part)
     if part.curve is None or axis is None:
-        return ""
+        return _first_number(part, gap.extended)
     most = int(np.argmax(np.abs(part.curve.mean)))
     mean, sd = part.curve.mean[most], float(np.sqrt(part.curve.covariance[most, most]))
     at, per = part.curve.at[most], _unit_of(part.finding.name, axis)
     where = f"after {np.exp(at):.2g} s" if axis.unit == "ln s" else f"at {at:.2g} {axis.unit}"
-    value = f", {mean:.2g} ({mean - NINETY * sd:.2g} to {mean + NINETY * sd:.2g}) "
-    value += "N " if per == "N" else f"of {per} "
+    shown, low, high = with_digits(mean, mean - NINETY * sd, mean + NINETY * sd)
+    value = f", {shown} ({low} to {high}) " + ("N " if per == "N" else f"of {per} ")
     power = next((one for one in gap.exponents if one.effect == part.effect), None)
     return value + where + (f", as the power {power.value:.2g} of it" if power else "")
+
+
+def _first_number(part: Part, fitted: Fitted) -> str:
+    keys = [number.key for number in part.numbers if number.key in fitted.values]
+    if not keys or keys[0] in fitted.at_bound:
+        return ""
+    value, half = float(fitted.values[keys[0]]), NINETY * float(fitted.sd[keys[0]])
+    shown = quantity(keys[0], value, (value - half, value + half)).text
+    return f", {shown.removeprefix(f'{part.effect}.')}"
 
 
 def _axis_of(part: Part) -> Curve | None:

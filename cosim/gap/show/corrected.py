@@ -15,10 +15,10 @@ import tomli_w
 from cosim.files import write_text
 from cosim.gap.data import Track
 from cosim.gap.data.campaign_file import FILE_NAME
+from cosim.gap.quantities import BESIDE_THE_MODEL, quantity
 from cosim.gap.result import Gap
 from cosim.gap.windows import camera
 
-from .quantities import BESIDE_THE_MODEL, quantity
 from .text import FAULT, faults_of
 
 UNDONE = tuple(f"{FAULT}{name}" for name in camera.UNDONE)

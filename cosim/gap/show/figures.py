@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from cosim.gap.data import MeasuredRun
+from cosim.gap.quantities import digits
 from cosim.gap.result import NINETY, Gap, Law
 from cosim.gap.windows import Fitted
 from cosim.report.live import Live, live_of
 from cosim.report.style import BLUE, GREY, INK, RED, logarithmic_x, panels, picture, readable
 
-from .quantities import digits
 from .tracks import channels, channels_of, modelled, residuals, shown_runs, starts, title, worst
 
 #: Inches: two beside each other on a wide screen, and large enough type on a phone.

@@ -11,6 +11,7 @@ import numpy as np
 from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import FmuBuildError, own_fmu
+from cosim.gap.quantities import digits, fitted_quantities, with_digits
 from cosim.gap.result import Gap
 from cosim.gap.windows.camera import seen, true_time
 from cosim.interrupts import held_interrupts
@@ -22,7 +23,6 @@ from .figures import figures_of as drawers
 from .model_file import model_text, scenario_of, shown_run
 from .model_file import safe_name as safe_name
 from .numbers import as_json
-from .quantities import digits, fitted_quantities, with_digits
 from .text import closing_lines as closing_lines
 from .tracks import shown_runs, starts
 

@@ -14,13 +14,13 @@ from stickslip.effects import EFFECTS
 from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.quantities import Quantity, fitted_quantities, unit_and_meaning
 from cosim.gap.result import Gap
 from cosim.gap.windows.run_model import parameters_of
 from cosim.gap.windows.windows import moves_across
 from cosim.scenario import Scenario
 from thermal import Ice
 
-from .quantities import Quantity, fitted_quantities, unit_and_meaning
 from .text import faults_of, gap_line
 from .tracks import shown_runs
 

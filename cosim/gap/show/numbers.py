@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
 from typing import Any
 
+from cosim.gap.quantities import undetermined
 from cosim.gap.result import NINETY, Gap, Law, Ranked
 from cosim.gap.windows import Fitted
 from cosim.report.files import json_text
-
-from .quantities import undetermined
 
 #: Significant digits of every number: more than any fit to noisy data knows, fewer than what the
 #: order of a sum may change.

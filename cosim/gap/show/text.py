@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from cosim.gap.quantities import TABLES, Quantity, digits, quantity
 from cosim.gap.result import Gap, Ranked
-
-from .quantities import TABLES, Quantity, digits, quantity
 
 #: Beginning of a measurement fault's name.
 FAULT = "measurement."

@@ -15,6 +15,7 @@ from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding, Search
 from cosim.gap.weak_form.unknowns import Unknown
+from cosim.gap.windows.numbers import Number
 
 PHYSICS = {"run_in", "film_drag", "structural_damping", "speed_ripple"}
 
@@ -209,6 +210,7 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
         share=share,
         exponents=(),
         doubts=(),
+        extended=SimpleNamespace(values={}),
     )
     headline = sentence_of(answer, parts)
     before, after = (
@@ -256,10 +258,16 @@ def part(each):
 
 def test_what_moves_the_block_across_has_a_name_and_no_curve():
     """It has numbers, and no rows along x."""
-    across = Finding("film_drag", (), 50.0, numbers={"turn": (0.1, 0.01)})
-    part = Part(across, None, (), (), {})
-    gap = SimpleNamespace(verdict="named", effects=("film_drag",), exponents=(), doubts=())
-    assert sentence_of(gap, [part]).endswith("film_drag.")
+    across = Finding("turning_surface", (), 50.0, numbers={"curvature": (0.1, 0.01)})
+    key = "turning_surface.curvature"
+    part = Part(across, None, (), (Number(key, 0.1, None, -20.0, 20.0),), {})
+    fitted = SimpleNamespace(values={key: 0.995}, sd={key: 0.00638}, at_bound={})
+    gap = SimpleNamespace(
+        verdict="named", effects=("turning_surface",), exponents=(), doubts=(), extended=fitted
+    )
+    assert sentence_of(gap, [part]).endswith(
+        "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
+    )
     assert law_of(None, None, part) is None and list(exponents_of(part)) == []
 
 

@@ -7,8 +7,8 @@ from html import unescape
 import gap_answers as answers
 import pytest
 
+from cosim.gap.quantities import digits
 from cosim.gap.show import files
-from cosim.gap.show.quantities import digits
 from cosim.gap.show.text import closing_lines, rates_lines, what_is_left
 
 JARGON = ("offset.", "rung 0", "nan", "None", "{")

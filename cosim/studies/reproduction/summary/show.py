@@ -17,7 +17,7 @@ from cosim.gap.show.files import write_pictures
 from cosim.gap.show.model_file import file_text, known_tables, put, scenario_from
 from cosim.gap.show.model_file import safe_name as safe_name
 from cosim.gap.show.numbers import ranked, tree
-from cosim.gap.show.quantities import Quantity, digits, quantity
+from cosim.gap.quantities import Quantity, digits, quantity
 from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
