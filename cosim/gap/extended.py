@@ -232,8 +232,10 @@ def _across(finding: Finding) -> Part:
 def _fault(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     """A camera's fault: its size, one for all runs in which it is; a zero is each run's own."""
     unknown, key = finding.main.unknown, finding.name
-    if unknown.per_run or key == "measurement.zero":
-        return Part(finding, None, (), (), {})
+    if key == "measurement.zero":  # in place of what is stated of it
+        sd = FAULT_SIZES["zero"]
+        zero = Number("offset.x", 0.0, sd, -MOST_FAULT * sd, MOST_FAULT * sd, "run")
+        return Part(finding, None, (), (zero,), {})
     size = float(rung.posterior[0][rung.part_of(finding.main)][0])
     most = MOST_FAULT * FAULT_SIZES[key.partition(".")[2]]
     least = -most

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 from stickslip.effects import EFFECTS
@@ -35,7 +35,6 @@ from cosim.gap.report_of_findings import (
 from cosim.gap.result import Doubt, Gap, Rung
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
-from cosim.gap.weak_form.ladder import Finding
 from cosim.gap.weak_form.track import thinned
 
 #: Steps of the bar: checks, search, and the models that are fitted.
@@ -122,11 +121,14 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
     while True:
         named = naming.named(spurious)
         parts = [part_of(campaign, named.system, named.rung, finding) for finding in named.findings]
-        doubted = fitting.spurious(parts, named, may_be_spurious)
+        faint = {part.finding.name for part in parts
+                 if may_be_spurious(part.finding, alone=len(parts) == 1)}  # fmt: skip
+        doubted = fitting.spurious(parts, named, faint)
         if doubted is None:
             found, models = fitting.best_of(parts, named)
             if not explains(models.ladder):
-                doubted = fitting.spurious(parts, named, lambda finding: bool(finding.added))
+                along = {part.finding.name for part in parts if part.finding.added}
+                doubted = fitting.spurious(parts, named, along)
         if doubted is None:
             return _Agreed(named, found, models, tuple(spurious))
         spurious.append(doubted)
@@ -152,13 +154,12 @@ class _Fitting:
                     return points, others
         return parts, models
 
-    def spurious(
-        self, parts: Sequence[Part], named: Named, asked: Callable[[Finding], bool]
-    ) -> str | None:
+    def spurious(self, parts: Sequence[Part], named: Named, asked: Collection[str]) -> str | None:
         """The first of the findings asked for that the simulated runs do without."""
-        doubted = (part for part in parts
-                   if asked(part.finding) and not self.needs(part, parts, named))  # fmt: skip
-        return next((part.finding.name for part in doubted), None)
+        for part in parts:
+            if part.finding.name in asked and not self.needs(part, parts, named):
+                return part.finding.name
+        return None
 
     def needs(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether the simulated runs ask for a finding beside the others."""

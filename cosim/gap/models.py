@@ -66,7 +66,7 @@ class Models:
         for part in parts:
             added += [*part.finding.added]
             rung = system.rung(added, contact=False, scatter=False)
-            numbers, settings = [*numbers, *part.numbers], {**settings, **part.settings}
+            numbers, settings = [*part.numbers, *numbers], {**settings, **part.settings}
             models._add(part.effect, text_of(part), numbers, settings, rung, rung.evidence - last)
             last = rung.evidence
         step()
@@ -97,14 +97,20 @@ class Models:
     def gained(self, part: Part) -> float:
         """ln of how much more probable the runs are with a finding beside all that the ladder has.
 
-        From where the ladder ended.
+        From where the ladder ended. A number that is less known with the finding is less probable
+        beforehand, in every run.
         """
         (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
         found = fit(
-            self.campaign, self.windows, [*numbers, *part.numbers], {**settings, **part.settings},
+            self.campaign, self.windows, [*part.numbers, *numbers], {**settings, **part.settings},
             scatter, [{**near.values, **part.starts}], near, self.jobs,
         )  # fmt: skip
-        return found.gain_over(near)
+        known = {number.key: number.prior for number in numbers}
+        wider = sum(
+            math.log(number.prior / before) for number in part.numbers
+            if number.prior and (before := known.get(number.key))
+        )  # fmt: skip
+        return found.gain_over(near) - len(near.runs) * wider
 
     def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:
         before = {**self.starts, **(self.fits[-1].values if self.fits else {})}

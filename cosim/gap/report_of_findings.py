@@ -77,8 +77,10 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     if gap.verdict == "class":
         return f"{found}; these runs cannot tell {' from '.join(gap.effects)}."
     if gap.verdict == "partial":
-        part = f"{100.0 * gap.share:.0f} % of the misfit"
-        return f"{found}; this takes {part}, and something else is missing."
+        nuisances = [rung.name for rung in gap.ladder if rung.name in ("contact", "scatter")]
+        this = " and ".join(["this", *nuisances])
+        takes = f"take{'s' * (not nuisances)} {100.0 * gap.share:.0f} % of the misfit"
+        return f"{found}; {this} {takes}, and something else is missing."
     if parts:
         return f"The model lacks something that the catalogue does not hold; nearest: {found}."
     if gap.ladder[-1].gap.held_out is None and gap.ladder[-1].gap.fit <= NOTHING_MISSING:

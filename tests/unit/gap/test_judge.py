@@ -109,11 +109,12 @@ def test_what_has_no_law_may_be_what_is_missing_where_something_is(gap, missing,
     assert leaves(Score(gap, 1.0) if of_fitted else Score(1.0, gap)) is missing
 
 
-def test_only_faint_findings_along_x_may_be_a_contact_s():
+def test_faint_findings_along_x_may_be_a_contact_s_and_further_ones_what_the_first_leaves():
     added = (Added(Unknown("run_in", "", None, np.eye(1))),)
-    assert may_be_spurious(Finding("run_in", added, 499.0, {}))
-    assert not may_be_spurious(Finding("run_in", added, 501.0, {}))
-    assert not may_be_spurious(Finding("lateral_friction", (), 200.0, {}))
+    faint, sure = (Finding("run_in", added, gain, {}) for gain in (499.0, 501.0))
+    assert may_be_spurious(faint, True) and not may_be_spurious(sure, True)
+    assert may_be_spurious(sure, False)
+    assert not may_be_spurious(Finding("lateral_friction", (), 200.0, {}), False)
 
 
 def test_what_has_no_name_is_unknown():

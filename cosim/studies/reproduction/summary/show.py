@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from stickslip import EFFECTS
 
 from cosim.files import write_text
+from cosim.gap.quantities import Quantity, digits, quantity
 from cosim.gap.show import text
 from cosim.gap.show.files import write_pictures
 from cosim.gap.show.model_file import file_text, known_tables, put, scenario_from
 from cosim.gap.show.model_file import safe_name as safe_name
 from cosim.gap.show.numbers import ranked, tree
-from cosim.gap.quantities import Quantity, digits, quantity
 from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
