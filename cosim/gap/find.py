@@ -35,6 +35,7 @@ from cosim.gap.report_of_findings import (
 from cosim.gap.result import Doubt, Gap, Rung
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
+from cosim.gap.weak_form.ladder import price_of
 from cosim.gap.weak_form.track import thinned
 
 #: Steps of the bar: checks, search, and the models that are fitted.
@@ -166,7 +167,7 @@ class _Fitting:
         without = self._fitted(named, [other for other in parts if other is not part])
         if not part.in_kernel:
             return leaves(without.ladder[-1].gap)
-        if runs_ask(without.gained(part)):
+        if runs_ask(without.gained(part) - price_of(part.finding.name)):
             return True
         if not (is_scattered(part.finding) and leaves(without.unscattered)):
             return False

@@ -92,8 +92,7 @@ class Search:
         for name, variants in self.unknowns.items():
             if name not in without and not (name in ALONE and rung.added):
                 evidence, added = rung.offered(variants)
-                price = FAULT_PRICE if name.startswith("measurement.") else 0.0
-                found[name] = (evidence - price, (added,))
+                found[name] = (evidence - price_of(name), (added,))
         best = max((offer[0] for offer in found.values()), default=-inf)
         for kind in self.waves:
             if kind.name in without:
@@ -200,6 +199,11 @@ class Search:
             }
             findings.append(Finding(name, added, rung.evidence - without.evidence, others))
         return Ladder(self.system, tuple(findings), rung, first)
+
+
+def price_of(name: str) -> float:
+    """ln of how much less probable beforehand it is than an effect."""
+    return FAULT_PRICE if name.startswith("measurement.") else 0.0
 
 
 def _least(found: Sequence) -> float:

@@ -65,6 +65,12 @@ def test_simulated_runs_ask_by_as_much_as_the_rows(monkeypatch, gained, names):
     assert spurious == (() if names else ("film_drag",))
 
 
+@pytest.mark.parametrize(("gained", "found"), [(8.9, False), (9.1, True)])
+def test_a_fault_of_the_camera_is_less_probable_beforehand(monkeypatch, gained, found):
+    name = "measurement.scale"
+    assert agreed(monkeypatch, Rows(finding(name, 12.0)), {name: gained})[0] == [name] * found
+
+
 @pytest.mark.parametrize(("reached", "names"), [(1.29, ["run_in"]), (1.31, [])])
 def test_what_is_sure_is_asked_of_runs_that_it_does_not_explain(monkeypatch, reached, names):
     rows = Rows(finding("run_in", 2.0 * SURE))
