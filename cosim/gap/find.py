@@ -129,7 +129,7 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
             found, models = fitting.best_of(parts, named)
             if not explains(models.ladder):
                 along = {part.finding.name for part in parts if part.finding.added}
-                doubted = fitting.spurious(parts, named, along)
+                doubted = fitting.spurious(parts, named, along - faint)
         if doubted is None:
             return _Agreed(named, found, models, tuple(spurious))
         spurious.append(doubted)

@@ -53,10 +53,11 @@ class Models:
     ) -> Models:  # fmt: skip
         """The user's model, then the findings, then contact and scatter where they are felt.
 
-        others : whose user's model it is as well
+        others : whose windows and user's model these have as well
         """
         starts = {label: value for part in parts for label, value in part.starts.items()}
-        models = cls(campaign, windows_of_campaign(campaign), parts, starts, jobs)
+        windows = others.windows if others else windows_of_campaign(campaign)
+        models = cls(campaign, windows, parts, starts, jobs)
         numbers, settings = user_model(campaign)
         weak = system.rung(contact=False, scatter=False)
         first = others.fits[0] if others else None
