@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from stickslip.effects import EFFECTS
 
-from cosim.gap.checks import doubts_of
+from cosim.gap.checks import ANSWERABLE, blocking, doubts_of
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
@@ -23,7 +23,7 @@ from cosim.gap.judge import (
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
-from cosim.gap.rates import rates_of, scatter_of
+from cosim.gap.rates import by_direction, rates_of, scatter_of
 from cosim.gap.report_of_findings import (
     exponents_of,
     law_of,
@@ -32,10 +32,10 @@ from cosim.gap.report_of_findings import (
     sentence_of,
     where_of,
 )
-from cosim.gap.result import Doubt, Gap, Rung
+from cosim.gap.result import Doubt, Gap, Rejected, Rung
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
-from cosim.gap.weak_form.ladder import price_of
+from cosim.gap.weak_form.ladder import Ladder, price_of
 from cosim.gap.weak_form.track import thinned
 
 #: Steps of the bar: checks, search, and the models that are fitted.
@@ -47,7 +47,8 @@ Progress = Callable[[int, int], object]
 def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
     """What the user's model lacks in a campaign with tracks.
 
-    Nothing is drawn: the same campaign gives the same answer.
+    Nothing is drawn: the same campaign gives the same answer. Effects are searched for only where
+    nothing of the data is in such doubt that none would be named.
 
     jobs : runs that are simulated at a time; progress : called with the number of steps done and
     of all
@@ -57,16 +58,51 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     campaign = replace(campaign, runs=tuple(thinned(run) for run in campaign.runs))
     step()
     fitting = _Fitting(campaign, step, jobs)
-    agreed = _agreed(campaign, fitting)
+    search = _unsearched if blocking(doubts) else _agreed
+    gap = _answer(campaign, search(campaign, fitting), doubts)
+    step.end()
+    return gap
+
+
+@dataclass(frozen=True)
+class _Agreed:
+    """Findings of the rows that the simulated runs ask for too, and the models with them.
+
+    rejected : what the rows ask for and the simulated runs do without
+    """
+
+    named: Named
+    parts: list[Part]
+    models: Models
+    rejected: tuple[Rejected, ...] = ()
+
+    @property
+    def spurious(self) -> tuple[str, ...]:
+        """Names of the rejected."""
+        return tuple(one.effect for one in self.rejected)
+
+
+def _unsearched(campaign: Campaign, fitting: _Fitting) -> _Agreed:
+    """The user's model, contact and scatter, without a search for effects."""
+    system = Naming.of(campaign).system
+    rung = system.rung()
+    named = Named(Ladder(system, (), rung, {}), (), system, rung, {})
+    fitting.step()
+    return _Agreed(named, *fitting.best_of([], named))
+
+
+def _answer(campaign: Campaign, agreed: _Agreed, doubts: Sequence[Doubt]) -> Gap:
+    """The verdict, and all that is said of it."""
     named, parts, models = agreed.named, agreed.parts, agreed.models
     ladder, system, rung = named.ladder, named.system, named.rung
-    found = [part.effect for part in parts]
-    rates = rates_of(ladder, named.unknowns)
-    verdict = judge(named.findings, found, models.ladder, _physics(), rates)
+    rates = rates_of(ladder, named.unknowns) if named.unknowns else None
+    names = [part.effect for part in parts]
+    verdict = judge(named.findings, names, models.ladder, _physics(), rates)
     doubts = _unanswered(doubts, models.ladder, bool(parts))
     if any(doubt.severe for doubt in doubts):
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
+    known = {finding.name for finding in ladder.findings} | set(ladder.first_offers)
     gap = Gap(
         campaign=campaign,
         verdict=verdict.verdict,
@@ -82,32 +118,24 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
         exponents=tuple(one for part in parts for one in exponents_of(part)),
         scatter=models.scatter,
         rig=rig_numbers(campaign, extended),
-        rates=rates,
+        rates=rates and by_direction(rates, known),
         doubts=doubts,
         next_experiment=(
             next_experiment(ladder, named.unknowns, verdict.classes[0], scatter_of(rung)[0])
             if verdict.classes else None
         ),
+        rejected=agreed.rejected,
     )  # fmt: skip
-    step.end()
-    hints = list(agreed.spurious)
+    return replace(gap, sentence=sentence_of(gap, parts, _hints(gap, parts)))
+
+
+def _hints(gap: Gap, parts: Sequence[Part]) -> list[str]:
+    """What the rows ask for without a finding."""
+    hints = [one.effect for one in gap.rejected]
     best = max(gap.ranking, key=lambda row: row.evidence, default=None)
     if not (hints or parts) and best and best.evidence > ALIKE:
         hints = [best.effect]
-    return replace(gap, sentence=sentence_of(gap, parts, hints))
-
-
-@dataclass(frozen=True)
-class _Agreed:
-    """Findings of the rows that the simulated runs ask for too, and the models with them.
-
-    spurious : names that the rows ask for and the simulated runs do without
-    """
-
-    named: Named
-    parts: list[Part]
-    models: Models
-    spurious: tuple[str, ...]
+    return hints
 
 
 def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
@@ -118,21 +146,21 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
     """
     naming = Naming.of(campaign)
     fitting.step()
-    spurious: list[str] = []
+    rejected: list[Rejected] = []
     while True:
-        named = naming.named(spurious)
+        named = naming.named([one.effect for one in rejected])
         parts = [part_of(campaign, named.system, named.rung, finding) for finding in named.findings]
         faint = {part.finding.name for part in parts
                  if may_be_spurious(part.finding, alone=len(parts) == 1)}  # fmt: skip
-        doubted = fitting.spurious(parts, named, faint)
+        doubted = fitting.rejected(parts, named, faint)
         if doubted is None:
             found, models = fitting.best_of(parts, named)
             if not explains(models.ladder):
                 along = {part.finding.name for part in parts if part.finding.added}
-                doubted = fitting.spurious(parts, named, along - faint)
+                doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
-            return _Agreed(named, found, models, tuple(spurious))
-        spurious.append(doubted)
+            return _Agreed(named, found, models, tuple(rejected))
+        rejected.append(doubted)
 
 
 @dataclass
@@ -155,23 +183,28 @@ class _Fitting:
                     return points, others
         return parts, models
 
-    def spurious(self, parts: Sequence[Part], named: Named, asked: Collection[str]) -> str | None:
+    def rejected(
+        self, parts: Sequence[Part], named: Named, asked: Collection[str]
+    ) -> Rejected | None:
         """The first of the findings asked for that the simulated runs do without."""
         for part in parts:
-            if part.finding.name in asked and not self.needs(part, parts, named):
-                return part.finding.name
+            if part.finding.name in asked:
+                needed, gained = self.needs(part, parts, named)
+                if not needed:
+                    return Rejected(part.finding.name, part.finding.gain, gained)
         return None
 
-    def needs(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
-        """Whether the simulated runs ask for a finding beside the others."""
+    def needs(self, part: Part, parts: Sequence[Part], named: Named) -> tuple[bool, float | None]:
+        """Whether the simulated runs ask for a finding beside the others, and what they gain."""
         without = self._fitted(named, [other for other in parts if other is not part])
         if not part.in_kernel:
-            return leaves(without.ladder[-1].gap)
-        if runs_ask(without.gained(part) - price_of(part.finding.name)):
-            return True
+            return leaves(without.ladder[-1].gap), None
+        gained = without.gained(part)
+        if runs_ask(gained - price_of(part.finding.name)):
+            return True, gained
         if not (is_scattered(part.finding) and leaves(without.unscattered)):
-            return False
-        return halves(self._fitted(named, parts).unscattered, without.unscattered)
+            return False, gained
+        return halves(self._fitted(named, parts).unscattered, without.unscattered), gained
 
     def _fitted(self, named: Named, parts: Sequence[Part]) -> Models:
         for models in self.known:
@@ -191,7 +224,7 @@ def _unanswered(doubts: Sequence[Doubt], ladder: Sequence[Rung], found: bool) ->
     With findings the model has swings that those springs alone have not; without them nothing rests
     on the rows, which need finer samples than simulated runs do.
     """
-    answered = ("springs" if found else "sampling") if explains(ladder) else None
+    answered = ANSWERABLE[not found] if explains(ladder) else None
     return tuple(replace(one, severe=one.severe and one.check != answered) for one in doubts)
 
 

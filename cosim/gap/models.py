@@ -24,7 +24,7 @@ from cosim.gap.windows.windows import Windows
 #: their gap down by a hundredth of noise.
 FELT_PART, FELT_GAP = 0.02, 0.01
 #: Gap up to which noise is all that is left: fitted starts take 1 or 2 % of it.
-NOISE_LEFT = 1.02
+ONLY_NOISE = 1.02
 
 
 @dataclass
@@ -86,7 +86,7 @@ class Models:
         if models._try("scatter", text, [*numbers, *scatter_numbers(campaign, spread)], settings,
                        rung, rung.evidence - last, spread):  # fmt: skip
             sticks = 100.0 * models.fits[-1].stick_scatter
-            text += f", what one stick holds to the next by {sticks:.2g} %"
+            text += f", from stick to stick by {sticks:.2g} %"
             models.ladder[-1] = replace(models.ladder[-1], text=text)
         return models
 
@@ -139,7 +139,7 @@ class Models:
     ) -> bool:  # fmt: skip
         """Add what is felt; where noise is all that is left nothing can be."""
         before = self.ladder[-1].gap
-        if max(before.fit, before.held_out or 0.0) < NOISE_LEFT:
+        if max(before.fit, before.held_out or 0.0) < ONLY_NOISE:
             return False
         fitted = self._fit(numbers, settings, scatter, rows)
         after = score_of(fitted)

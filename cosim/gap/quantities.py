@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.result import NINETY, Gap
+from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.faults import known_keys, unit_of
 
@@ -63,7 +64,7 @@ class Quantity:
         """`name = value unit (low to high)`, or `name not determined`."""
         if not self.value[-1:].isdigit():
             return f"{self.name} {self.value}"
-        return f"{self.name} = {self.value} {self.unit}".rstrip() + (
+        return f"{self.name} = {self.value} {unit_text(self.unit)}".rstrip() + (
             f" ({self.interval})" if self.interval else ""
         )
 
@@ -87,7 +88,7 @@ def undetermined(gap: Gap) -> set[str]:
     found that any value does.
     """
     values, sd = gap.extended.values, gap.extended.sd
-    said = {key for row in gap.ranking if row.effect in gap.effects for key in row.undetermined}
+    said = {key for row in gap.ranking for key in row.undetermined}
     return {
         label
         for label in sd
@@ -130,6 +131,11 @@ def with_digits(*values: float) -> list[str]:
     return [
         f"{round(one, decimals) + 0.0:.{max(decimals, 0)}f}".replace("-", "−") for one in values
     ]
+
+
+def percent(part: float) -> str:
+    """A part in percent; never all of it where some is left."""
+    return "all" if part >= 0.9995 else f"{digits(round(100.0 * part, 1))} %" if part else "0 %"
 
 
 def digits(value: float | None, count: int = 3) -> str:

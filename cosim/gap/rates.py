@@ -9,7 +9,7 @@ of campaigns are decided in a second.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +20,7 @@ from cosim.gap.result import Rates
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.added import Added, factor_of, factors_of
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, SCALES_ASKED
-from cosim.gap.weak_form.ladder import Finding, Ladder
+from cosim.gap.weak_form.ladder import BY_SPEED, Finding, Ladder
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
@@ -246,9 +246,30 @@ def _asked(
 
 def counted(answers: Sequence[tuple[str, ...]]) -> dict[str, int]:
     """answer -> how often; "class: a, b" where several are alike, in the order of their names."""
-    said = (f"class: {', '.join(sorted(near))}" if len(near) > 1 else (near or (NONE,))[0]
-            for near in answers)  # fmt: skip
-    return dict(Counter(said).most_common())
+    return dict(Counter(map(answer_text, answers)).most_common())
+
+
+def answer_text(names: Sequence[str]) -> str:
+    """`class: a, b` of several, in the order of their names; `NONE` of none."""
+    return f"class: {', '.join(sorted(names))}" if len(names) > 1 else (*names, NONE)[0]
+
+
+def by_direction(rates: Rates, known: Collection[str]) -> Rates:
+    """The table with friction over the sliding speed under the one name that the ladder has for it.
+
+    It is named by its direction (`ladder.Search`), and a draw of noise may turn that.
+    """
+    grows, falls = BY_SPEED
+    pairs = ((grows, falls), (falls, grows))
+    names = {one: other for one, other in pairs if one not in known and other in known}
+    table = {}
+    for truth, row in rates.table.items():
+        merged: Counter[str] = Counter()
+        for answer, count in row.items():
+            near = {names.get(one, one) for one in answer.removeprefix("class: ").split(", ")}
+            merged[answer_text(list(near))] += count
+        table[truth] = dict(merged.most_common())
+    return Rates(rates.each, table)
 
 
 def confirmed(rates: Rates, name: str, level: float = CONFUSED) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy.special import logsumexp
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part
 from cosim.gap.judge import NOTHING_MISSING
-from cosim.gap.quantities import quantity, with_digits
+from cosim.gap.quantities import digits, percent, quantity, with_digits
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
@@ -21,20 +22,22 @@ from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Curve
 from cosim.gap.windows import Fitted
 
+#: Whether a piece of a finding's setting is a figure.
+_FIGURE = re.compile(r"\d").search
 _SAYS = {
     "velocity_weakening": "Friction changes with the sliding speed, in proportion to the load",
-    "film_drag": "Friction grows with the sliding speed, whatever the load",
-    "structural_damping": "A force against the frame grows with the block's own velocity",
-    "spring_hardening": "The springs' force is not linear in the place",
+    "film_drag": "Friction grows with the sliding speed, independent of the load",
+    "structural_damping": "A damping force against the frame grows with the block's own velocity",
+    "spring_hardening": "The spring force is not linear in the displacement",
     "run_in": "Friction drifts with the distance slid",
     "thermal_weakening": "Friction follows the friction heat of the last seconds",
     "load_dependence": "Friction coefficients depend on the load",
     "static_strengthening": "Static friction grows with the time at rest",
-    "surface_pattern": "Friction is periodic in the place on the surface",
-    "speed_ripple": "The surface's speed is periodic in time",
+    "surface_pattern": "Friction varies periodically along the surface",
+    "speed_ripple": "The surface speed varies periodically in time",
     "lateral_friction": "Friction acts across the surface's motion too",
     "turning_surface": "The surface turns about a centre",
-    "spring_misalignment": "The springs stand off the axis",
+    "spring_misalignment": "The springs are not aligned with the axis",
     "measurement.scale": "The camera's scale is off",
     "measurement.clock": "The camera's clock is off",
     "measurement.drift": "The camera drifts",
@@ -43,8 +46,8 @@ _SAYS = {
     "measurement.rotation": "The camera is turned",
     "measurement.zero": "The tracker's zero is off by more than stated",
     "other.time": "Friction drifts with the time of the run, whatever was slid",
-    "other.hysteresis": "The springs, or guides, give way with hysteresis",
-    "other.resonator": "Something on the block swings on a spring of its own",
+    "other.hysteresis": "Springs or guides show hysteresis",
+    "other.resonator": "Something on the block vibrates on a spring of its own",
     "other.release": "Friction changes in the first moments after a break-away",
     "other.springs": "All springs are stiffer, or softer, than stated",
     "other.room": "Friction follows the room's temperature from run to run",
@@ -55,23 +58,31 @@ _SAYS = {
 
 def text_of(part: Part) -> str:
     """A finding in words; one of the user's own effects by its id."""
-    name, variant = part.finding.name, part.finding.variant
-    words = f"{_SAYS.get(name, f'{name} is missing')}: {part.effect}"
+    words = f"{_SAYS.get(part.finding.name, f'{part.finding.name} is missing')}: {part.effect}"
+    variant = _variant(part)
     return f"{words} ({variant})" if variant else words
+
+
+def _variant(part: Part) -> str:
+    """Its setting in words; a figure of it only where the model has no number of its own for it."""
+    pieces = part.finding.variant.split(", ")
+    return ", ".join(one for one in pieces if not (part.numbers and _FIGURE(one)))
 
 
 def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> str:
     """The answer in a sentence. hints : what the rows ask for and simulated runs do without"""
     if gap.verdict == "none":
         extra = [rung.name for rung in gap.ladder[1:]]
-        counted = f"{' and '.join(extra)} {'are' if len(extra) > 1 else 'is'} counted"
+        counted = f"{' and '.join(extra)} {'are' if len(extra) > 1 else 'is'} included"
         beside = f" once {counted}" if extra else ""
-        more = f"; the rows hint at {', '.join(hints)}, which the runs do without" if hints else ""
+        said = f"the regression hints at {', '.join(hints)}, which simulated runs do not confirm"
+        more = f"; {said}" if hints else ""
         return f"No effect is missing: the stated model describes the runs{beside}{more}."
     severe = [doubt.text for doubt in gap.doubts if doubt.severe]
     if severe:
         return f"Nothing is named while the data are in doubt. {severe[0]}"
-    found = "; ".join(text_of(part) + _size(part, gap) for part in parts)
+    each = [text_of(part) + _size(part, gap) for part in parts]
+    found = "; ".join([*each[:1], *map(_lower, each[1:])])
     if gap.verdict == "named":
         return f"{found}."
     if gap.verdict == "class":
@@ -79,37 +90,51 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     if gap.verdict == "partial":
         nuisances = [rung.name for rung in gap.ladder if rung.name in ("contact", "scatter")]
         this = " and ".join(["this", *nuisances])
-        takes = f"take{'s' * (not nuisances)} {100.0 * gap.share:.0f} % of the misfit"
+        takes = f"explain{'s' * (not nuisances)} {percent(gap.share)} of the misfit"
         return f"{found}; {this} {takes}, and something else is missing."
     if parts:
-        return f"The model lacks something that the catalogue does not hold; nearest: {found}."
+        return f"Something is missing that is not in the catalogue; nearest to it: {_lower(found)}."
     if gap.ladder[-1].gap.held_out is None and gap.ladder[-1].gap.fit <= NOTHING_MISSING:
-        return "Nothing more is asked for, and no run is held out that would tell if that is so."
-    return "The model misses the runs, and nothing that was tried repairs it."
+        return "The fitted runs need nothing more, but no run is held out to confirm it."
+    return "The model does not describe the runs, and no effect that was tried explains why."
+
+
+def _lower(text: str) -> str:
+    """Text within a sentence."""
+    return text[:1].lower() + text[1:]
 
 
 def _size(part: Part, gap: Gap) -> str:
-    """The largest value of a curve, with its interval and its power; else its first number."""
+    """Its first number in the model, as in the page's table; of a curve without, its largest value.
+
+    And its power, where the runs exclude that of the catalogue's law.
+    """
     axis = _axis_of(part)
-    if part.curve is None or axis is None:
-        return _first_number(part, gap.extended)
+    power = next((one for one in gap.exponents if one.effect == part.effect), None)
+    if part.numbers or part.curve is None or axis is None:
+        size = _first_number(part, gap.extended)
+        return size + (_power(power) if power and not power.holds else "")
     most = int(np.argmax(np.abs(part.curve.mean)))
     mean, sd = part.curve.mean[most], float(np.sqrt(part.curve.covariance[most, most]))
     at, per = part.curve.at[most], _unit_of(part.finding.name, axis)
     where = f"after {np.exp(at):.2g} s" if axis.unit == "ln s" else f"at {at:.2g} {axis.unit}"
     shown, low, high = with_digits(mean, mean - NINETY * sd, mean + NINETY * sd)
     value = f", {shown} ({low} to {high}) " + ("N " if per == "N" else f"of {per} ")
-    power = next((one for one in gap.exponents if one.effect == part.effect), None)
-    return value + where + (f", as the power {power.value:.2g} of it" if power else "")
+    return value + where
+
+
+def _power(one: Exponent) -> str:
+    value, low, high = with_digits(one.value, one.low, one.high)
+    return f", force as the {one.quantity} to the power {value} ({low} to {high})"
 
 
 def _first_number(part: Part, fitted: Fitted) -> str:
-    keys = [number.key for number in part.numbers if number.key in fitted.values]
-    if not keys or keys[0] in fitted.at_bound:
-        return ""
-    value, half = float(fitted.values[keys[0]]), NINETY * float(fitted.sd[keys[0]])
-    shown = quantity(keys[0], value, (value - half, value + half)).text
-    return f", {shown.removeprefix(f'{part.effect}.')}"
+    """The first that the runs determine, with its 90 % interval."""
+    parameters, intervals, _ = _numbers_of(part, fitted)
+    for key in (number.key for number in part.numbers if number.key in intervals):
+        shown = quantity(key, parameters[key], intervals[key]).text
+        return f", {shown.removeprefix(f'{part.effect}.')}"
+    return ""
 
 
 def _axis_of(part: Part) -> Curve | None:
@@ -212,7 +237,7 @@ def ranking_of(
         if part is None:
             ranking.append(Ranked(name, "", value, probability))
         else:
-            form = part.fits[0].candidate.form if part.fits else part.finding.variant
+            form = part.fits[0].candidate.form if part.fits else _variant(part)
             numbers = _numbers_of(part, extended)
             ranking.append(Ranked(part.effect, form, value, probability, after, *numbers))
     return tuple(ranking)
@@ -241,7 +266,10 @@ def rig_numbers(campaign: Campaign, fitted: Fitted) -> tuple[RigNumber, ...]:
         sd = fitted.sd.get(label, float("inf"))
         if key == "offset.stiffness":
             error = campaign.errors.stiffness
-            found.append(RigNumber(f"stiffness, {owner}", "1", 0.0, error, value, sd))
+            setup = f"set-up {int(owner.removeprefix('setup ')) + 1}"
+            found.append(
+                RigNumber(f"springs stiffer than stated, {setup}", "1", 0.0, error, value, sd)
+            )
         elif key == "offset.x" and owner in runs:
             error = campaign.zero_sd(runs[owner])
             found.append(RigNumber(f"zero of x, {owner}", "m", 0.0, error, value, sd))
@@ -260,7 +288,7 @@ def where_of(campaign: Campaign, ladder: Ladder, plain: Fitted) -> Where:
     regime = _REGIMES[max(squares, key=lambda kind: squares[kind])]
     runs = sorted(plain.runs, key=lambda run: -run.gap)[:3]
     text = (
-        f"the user's model misses x by {runs[0].gap:.2g} noise units in {runs[0].name}; of the "
-        f"balance of forces most in {regime}"
+        f"{runs[0].name}, {digits(runs[0].gap)} noise units; the balance of forces is off most in "
+        f"{regime}"
     )
     return Where("x", regime, tuple(run.name for run in runs), text)

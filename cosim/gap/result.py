@@ -83,6 +83,19 @@ class Ranked:
 
 
 @dataclass(frozen=True)
+class Rejected:
+    """An effect that the regression asked for and simulated runs did not confirm.
+
+    evidence, simulated : ln of how much more probable the rows, and the simulated runs, are with
+        it; None where the model has no such effect to simulate
+    """
+
+    effect: str
+    evidence: float
+    simulated: float | None
+
+
+@dataclass(frozen=True)
 class Law:
     """A named effect's law as a free curve over its argument, and the catalogue's that follows it.
 
@@ -126,6 +139,11 @@ class Exponent:
     low: float
     high: float
     catalogue: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether the catalogue's power is in the interval."""
+        return self.low <= self.catalogue <= self.high
 
 
 @dataclass(frozen=True)
@@ -192,7 +210,7 @@ class Gap:
     classes : groups of effects that this campaign cannot tell apart
     where : of the misfit of the user's model
     ladder : the user's model first, then each finding
-    ranking : every effect tried, most probable first
+    ranking : every effect tried, most probable first; rejected : not confirmed by simulated runs
     plain, extended : user's model and the last of the ladder, simulated over the same windows
     laws, exponents : of what was found
     scatter : of friction from run to run: (value, low, high), parts of it; None: nothing to tell by
@@ -219,6 +237,7 @@ class Gap:
     rates: Rates | None = None
     next_experiment: Mapping[str, Any] | None = None
     doubts: tuple[Doubt, ...] = ()
+    rejected: tuple[Rejected, ...] = ()
 
     def __repr__(self) -> str:
         """Verdict and gap in one line; everything else is in its attributes."""

@@ -103,7 +103,7 @@ def execute(arguments: Namespace) -> int:
     writable(folder, (RESULT, MODEL, PAGE))
     require_own(folder, (RESULT, MODEL, PAGE), arguments.force)
     asked = numbers_asked(arguments, KEYS)
-    for remark in campaign.remarks:
+    for remark in (*campaign.remarks, *_blocking(campaign)):
         note(remark)
     with Bar(unit="step") as bar:
         gap = _find(campaign, arguments.seed, arguments.jobs, bar)
@@ -154,6 +154,17 @@ def _source(given: str) -> Path:
 def _has_no_tracks(campaign: Campaign) -> bool:
     """Whether only figures are known of the runs, or only the study's own scheme is looked at."""
     return campaign.scheme == "study" or all(run.track is None for run in campaign.runs)
+
+
+def _blocking(campaign: Campaign) -> list[str]:
+    """Doubts of the data beside which no effect is searched for, a line each."""
+    if _has_no_tracks(campaign):
+        return []
+    from cosim.gap.checks import blocking, doubts_of
+
+    return [
+        f"{doubt.text}; effects are not searched for" for doubt in blocking(doubts_of(campaign))
+    ]
 
 
 def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:

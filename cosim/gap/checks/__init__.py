@@ -20,7 +20,10 @@ from .motion import doubts_of_direction, doubts_of_force, doubts_of_speed, doubt
 from .tracker import doubts_of_noise, doubts_of_sampling
 from .units import doubts_of_units
 
-__all__ = ["LEVEL", "doubts_of"]
+__all__ = ["ANSWERABLE", "LEVEL", "blocking", "doubts_of"]
+
+#: Doubts that simulated runs may answer: with findings, and without.
+ANSWERABLE = ("springs", "sampling")
 
 #: Cycles of a window, and fewest windows beyond the first of each run: a standard deviation from
 #: two pieces is known to 71 % of itself, from one not at all.
@@ -44,6 +47,11 @@ def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
     for check in (doubts_of_springs, doubts_of_force, doubts_of_noise):
         doubts += check(campaign, runs) if runs else []
     return tuple(doubts)
+
+
+def blocking(doubts: Sequence[Doubt]) -> tuple[Doubt, ...]:
+    """Severe doubts that no fit can answer: nothing is named beside them."""
+    return tuple(one for one in doubts if one.severe and one.check not in ANSWERABLE)
 
 
 def _but(runs: Sequence[MeasuredRun], doubts: Sequence[Doubt]) -> list[MeasuredRun]:

@@ -26,6 +26,8 @@ SIZE = {"height": 3.9, "width": 5.6}
 LOWER = 2.6
 #: Rungs whose names stand upright.
 UPRIGHT = 4
+#: Letters of a name that needs no second line.
+SHORT = 12
 #: A law over so wide a range has a logarithmic axis.
 WIDE = 30.0
 SCALES = {"x": (1e3, "x (mm)"), "y": (1e3, "y (mm)"), "phi": (1e3, "φ (mrad)")}
@@ -36,8 +38,8 @@ TICKS = (-1000, -100, -10, -2, 0, 2, 10, 100, 1000)
 
 
 @picture("ladder", (
-    "The gap, rung by rung: root mean square of model less data in units of the tracker's noise, "
-    "so that 1 (black line) is noise. Each rung adds one finding to the one before."
+    "Gap after each step: root mean square of model minus data in units of the tracker's noise "
+    "(black line: 1, noise alone). Each step adds one finding to the one before."
 ))  # fmt: skip
 def draw_ladder(gap: Gap) -> Figure:
     """Treads of fitted and of held-out runs."""
@@ -62,8 +64,9 @@ def draw_ladder(gap: Gap) -> Figure:
             )  # fmt: skip
     lowest = min(1.0, *(float(np.nanmin(values)) for *_, values in series))
     _logarithmic_y(axis, lowest / 1.35, 1.5 * max(1.0, float(highest.max())))
-    names = [rung.name.replace("_", "_\n").replace(" ", "\n") for rung in gap.ladder]
-    names = [name.replace("measurement.", "measurement.\n") for name in names]
+    names = [rung.name.replace(" ", "\n").replace("measurement.", "measurement.\n")
+             for rung in gap.ladder]  # fmt: skip
+    names = [name if len(name) <= SHORT else name.replace("_", "_\n") for name in names]
     lean = {"rotation": 35, "ha": "right"} if count > UPRIGHT else {}
     axis.set_xticks(range(count), names, **lean)
     axis.set_xlim(-0.5, count - 0.5)
@@ -83,8 +86,8 @@ def _logarithmic_y(axis: Axes, low: float, high: float) -> None:
 
 
 @picture("curve", (
-    "What was found, as the runs themselves have it: a free curve with its 90 % band, and each run "
-    "by itself (dots, one standard deviation to either side). Broken: the catalogue's law."
+    "The effect without an assumed law: curve with its 90 % band, and each run by itself (points, "
+    "± one standard deviation). Dashed, if any: the catalogue's law through the curve."
 ))  # fmt: skip
 def draw_laws(gap: Gap) -> Figure:
     """A panel for each law."""
@@ -104,8 +107,9 @@ def _draw_law(axis: Axes, law: Law) -> None:
     axis.axhline(0.0, color=GREY, linewidth=0.6)
     axis.fill_between(at, mean - band, mean + band, color=RED, alpha=0.2, linewidth=0.0)
     axis.plot(at, mean, color=RED, label="free curve")
-    if law.law is not None:
-        axis.plot(at, factor * law.law, "--", color=INK, label=f"law: {law.form}")
+    if law.law is not None and not law.in_model:
+        label = f"law: {law.form}" if law.form else "nearest law"
+        axis.plot(at, factor * law.law, "--", color=INK, label=label)
     points = law.points.reshape(-1, 3)
     axis.errorbar(
         scaled(points[:, 0]), factor * points[:, 1], factor * points[:, 2], fmt="o", color=BLUE,
@@ -120,7 +124,7 @@ def _draw_law(axis: Axes, law: Law) -> None:
     axis.set_xlabel(law.quantity + (f" ({scaled.unit})" if law.unit not in ("", "1") else ""))
     axis.set_ylabel("force along x (N)" if is_force else f"change of {symbol} (%)")
     axis.set_title(law.effect)
-    axis.legend(loc="best")
+    axis.legend(loc="best", frameon=True, facecolor="white", edgecolor="none", framealpha=0.9)
 
 
 def models(gap: Gap) -> list[tuple[str, Fitted, str]]:
@@ -134,15 +138,15 @@ def _whole_run(figure: Figure) -> Live:
     begin, end = axis.get_xlim()
     axis.autoscale(axis="x")
     live = live_of(figure)
-    part = [begin, end, "where the user's model is farthest off"]
+    part = [begin, end, "where the user's model is worst"]
     shown = [{**one, "part": part, "opens_at_part": True} for one in live["figures"]]
     return {**live, "figures": shown}
 
 
 @picture("run", (
-    "Where the user's model is farthest off, a few cycles: measured (dots), the user's model "
-    "(before), and the model with everything that was found (after). At broken lines the models "
-    "set out anew from the data."
+    "The run with the largest gap, at its worst cycles: measured (points), the user's model "
+    "(before), and the model with all findings (after). At dotted lines the models restart from "
+    "the data."
 ), live=_whole_run)  # fmt: skip
 def draw_run(gap: Gap) -> Figure:
     """Measured, before and after over time."""
@@ -154,8 +158,8 @@ def draw_run(gap: Gap) -> Figure:
 
 
 @picture("overlay", (
-    "Every run: measured (dots), the user's model (before) and the model with everything that was "
-    "found (after). At broken lines the models set out anew from the data."
+    "Every run: measured (points), the user's model (before) and the model with all findings "
+    "(after). At dotted lines the models restart from the data."
 ), live=live_of)  # fmt: skip
 def draw_overlay(gap: Gap, channel: str) -> Figure:
     """A row for each run."""
@@ -163,7 +167,7 @@ def draw_overlay(gap: Gap, channel: str) -> Figure:
 
 
 @picture("residuals", (
-    "Model less data of every run in units of the noise, before and after; broken lines: two "
+    "Model minus data of every run in units of the noise, before and after; dashed lines: two "
     "standard deviations of the noise."
 ), live=live_of)  # fmt: skip
 def draw_residuals(gap: Gap, channel: str) -> Figure:

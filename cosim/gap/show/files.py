@@ -26,6 +26,8 @@ from .numbers import as_json
 from .text import closing_lines as closing_lines
 from .tracks import shown_runs, starts
 
+#: Numbers of runs and set-ups that stand beside what was stated of them.
+STATED = ("offset.x", "offset.stiffness")
 #: Pictures that are seen at once.
 FIRST = ("ladder", "curve", "run")
 
@@ -66,16 +68,32 @@ def write_pictures(
 
 def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> str:
     quantities = fitted_quantities(gap)
-    rates = gap.rates.table.values() if gap.rates else ()
     return render(
         "gap.html.j2", "cosim.gap.show", gap=gap, text=text, digits=digits,
         with_digits=with_digits, remarks=gap.campaign.remarks, reproduction=reproduction_line(gap),
         corrected=corrected, quantities=quantities, runs=shown_runs(gap),
+        rig=rig_rows(gap), setups={gap.campaign.setup_of(run) for run in shown_runs(gap)},
+        owned=[one for one in quantities if one.owner and one.key not in STATED],
         first=[one for one in pictures if one.name in FIRST],
         folded=[one for one in pictures if one.name not in FIRST],
-        numbers=[text.numbers_of(gap, row, quantities) for row in gap.ranking],
-        answers=list(dict.fromkeys(answer for row in rates for answer in row)),
+        numbers=[text.numbers_of(row, quantities) for row in gap.ranking],
     )  # fmt: skip
+
+
+def rig_rows(gap: Gap) -> list[dict[str, str]]:
+    """What was stated of springs and zeros, and what the runs say, in units that are read."""
+    rows = []
+    for one in sorted(gap.rig, key=lambda one: one.name):
+        factor, unit = {"1": (1e2, "%"), "m": (1e3, "mm")}.get(one.unit, (1.0, one.unit))
+        pairs = ((one.stated, one.stated_sd), (one.value, one.sd))
+        stated, found = (plus_minus(factor * value, factor * sd) for value, sd in pairs)
+        rows.append({"name": one.name, "stated": stated, "found": found, "unit": unit})
+    return rows
+
+
+def plus_minus(value: float, sd: float) -> str:
+    """`0.30 ± 0.26`, both with the decimals of two digits of the standard deviation."""
+    return " ± ".join((with_digits(value, value - sd, value + sd)[0], digits(sd, 2)))
 
 
 def reproduction_line(gap: Gap) -> str:

@@ -18,7 +18,7 @@ DIGITS = 6
 #: What is written as it stands in an answer.
 AS_IT_IS = (
     "verdict", "effects", "sentence", "classes", "where", "share", "ladder", "next_experiment",
-    "exponents", "rig", "rates", "doubts",
+    "exponents", "rig", "rates", "doubts", "rejected",
 )  # fmt: skip
 
 

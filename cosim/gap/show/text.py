@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.quantities import TABLES, Quantity, digits, quantity
+from cosim.gap.quantities import percent as percent
+from cosim.gap.rates import answer_text
 from cosim.gap.result import Gap, Ranked
 
 #: Beginning of a measurement fault's name.
 FAULT = "measurement."
-#: Gap above which more than noise is left.
-NOISE_LEFT = 1.1
+#: Settings that are points of a curve, of the fit's own, or said elsewhere.
+UNSAID = (TABLES, FAULT, "with_weight.", "per_weight.", "springs.force_curve", "scatter.")
 #: Channel -> how its noise is written, from SI and from thousandths.
 NOISE_OF = {
     "x": "x: {1:.3g} mm", "y": "y: {1:.3g} mm", "phi": "φ: {1:.3g} mrad",
@@ -36,15 +39,10 @@ def gap_line(gap: Gap) -> str:
 def what_is_left(gap: Gap) -> str:
     """Of the gap after everything that was found, a sentence."""
     held_out = gap.after.held_out or 0.0
-    if max(gap.after.fit, held_out) <= NOISE_LEFT:
+    if max(gap.after.fit, held_out) <= NOTHING_MISSING:
         return "What is left is as large as the tracker's noise."
     which = "held-out" if held_out > gap.after.fit else "fitted"
     return f"What is left in the {which} runs is more than the tracker's noise explains."
-
-
-def percent(part: float) -> str:
-    """A part in percent; never all of it where some is left."""
-    return "all" if part >= 0.9995 else f"{digits(100.0 * part)} %"
 
 
 def probability(part: float) -> str:
@@ -61,12 +59,10 @@ def evidence(value: float | None) -> str:
     return (f"{value:.0f}" if abs(value) >= 10.0 else f"{value:.1f}").replace("-", "−")
 
 
-def numbers_of(gap: Gap, row: Ranked, known: Sequence[Quantity]) -> list[str]:
-    """Of an effect that was tried; of one that was named those of the final model."""
+def numbers_of(row: Ranked, known: Sequence[Quantity]) -> list[str]:
+    """Of an effect that was tried; of one in the final model those of that."""
     own = [one.text for one in known if one.key.startswith(row.effect) and not one.owner]
-    if row.effect in gap.effects and own:
-        return own
-    return [
+    return own or [
         quantity(key, value, row.intervals.get(key), "not determined" * (key in row.undetermined))
         .text
         for key, value in row.parameters.items()
@@ -83,7 +79,7 @@ def runner_up(gap: Gap) -> str:
 
 def rates_lines(gap: Gap) -> list[str]:
     """What else would have led to this answer, and how often."""
-    said = gap.effects[0] if len(gap.effects) == 1 else gap.verdict
+    said = answer_text(gap.effects) if gap.effects else gap.verdict
     return [
         f"If it were {truth}, these runs would say {said} {answers[said]} times in "
         f"{gap.rates.each}."
@@ -108,7 +104,7 @@ def assumptions(gap: Gap) -> list[str]:
     campaign, errors = gap.campaign, gap.campaign.errors
     fitted = {label.partition("@")[0] for label in gap.extended.values}
     kept = {key: value for run in gap.extended.runs for key, value in run.values.items()}
-    kept = {k: v for k, v in kept.items() if k not in fitted and not k.startswith((TABLES, FAULT))}
+    kept = {k: v for k, v in kept.items() if k not in fitted and not k.startswith(UNSAID)}
     estimated = campaign.noise_estimated
     return [
         "masses and geometry of the rig, exactly as stated",

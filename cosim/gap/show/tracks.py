@@ -63,20 +63,21 @@ def modelled(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
 
 
 def worst(gap: Gap) -> tuple[MeasuredRun, str, float, float]:
-    """Run, channel, begin and end (s) of the few cycles in which the user's model is worst."""
+    """Run, channel, begin and end (s) of the worst cycles of the run that the user's model misses
+    most: the run that `where` names."""
+    run = max(shown_runs(gap), key=lambda run: gap.plain.run(run.name).gap)
+    time, fitted = run.motion.time, gap.plain.run(run.name)
+    length = min(CYCLES * cycle(run), float(time[-1]))
+    first = np.flatnonzero(time + length <= time[-1] + 1e-9)
+    last = np.searchsorted(time, time[first] + length)
     found = []
-    for run in shown_runs(gap):
-        time, fitted = run.motion.time, gap.plain.run(run.name)
-        length = min(CYCLES * cycle(run), float(time[-1]))
-        first = np.flatnonzero(time + length <= time[-1] + 1e-9)
-        last = np.searchsorted(time, time[first] + length)
-        for channel in channels_of(run, fitted):
-            squares = np.nan_to_num(residuals(run, fitted, channel)) ** 2
-            total = np.append(0.0, np.cumsum(squares))
-            mean = (total[last] - total[first]) / np.maximum(last - first, 1)
-            begin = float(time[first[np.argmax(mean)]])
-            found.append((float(mean.max()), (run, channel, begin, begin + length)))
-    return max(found, key=lambda one: one[0])[1]
+    for channel in channels_of(run, fitted):
+        squares = np.nan_to_num(residuals(run, fitted, channel)) ** 2
+        total = np.append(0.0, np.cumsum(squares))
+        mean = (total[last] - total[first]) / np.maximum(last - first, 1)
+        found.append((float(mean.max()), channel, float(time[first[np.argmax(mean)]])))
+    _, channel, begin = max(found)
+    return run, channel, begin, begin + length
 
 
 def title(run: MeasuredRun) -> str:

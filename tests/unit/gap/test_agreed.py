@@ -1,5 +1,6 @@
 """What the rows ask for and the simulated runs do without is not asked of the rows again."""
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from cosim.gap import find
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
-from cosim.gap.result import Score
+from cosim.gap.result import Doubt, Rejected, Score
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding
 from cosim.gap.weak_form.unknowns import Unknown
@@ -75,6 +76,41 @@ def test_a_fault_of_the_camera_is_less_probable_beforehand(monkeypatch, gained, 
 def test_what_is_sure_is_asked_of_runs_that_it_does_not_explain(monkeypatch, reached, names):
     rows = Rows(finding("run_in", 2.0 * SURE))
     assert agreed(monkeypatch, rows, {"run_in": 0.0}, reached)[0] == names
+
+
+def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
+    rows = Rows(finding("spring_hardening", 205.0))
+    monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
+    monkeypatch.setattr(
+        find, "part_of", lambda campaign, system, rung, one: Part(one, None, (), (), {"on": 1.0})
+    )
+    fitting = find._Fitting(None, lambda: None, 1)
+    noise = SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))
+    models = SimpleNamespace(ladder=[noise], gained=lambda part: -906.0)
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: models)
+    assert find._agreed(None, fitting).rejected == (Rejected("spring_hardening", 205.0, -906.0),)
+
+
+@pytest.mark.parametrize(
+    ("check", "blocked"), [("units", True), ("speed", True), ("springs", False)]
+)
+def test_no_effect_is_searched_for_where_none_would_be_named(check, blocked, monkeypatch):
+    """Doubts are asked first; those that simulated runs may answer do not stop the search."""
+    doubt = Doubt(check, "run01: surface_speed = 60 m/s", ("run01",), True)
+    monkeypatch.setattr(find, "doubts_of", lambda campaign: (doubt,))
+    taken = []
+    for name in ("_unsearched", "_agreed"):
+        monkeypatch.setattr(find, name, lambda *given, name=name: taken.append(name))
+    monkeypatch.setattr(find, "_answer", lambda campaign, agreed, doubts: doubts)
+    assert find.find_gap(Campaign()) == (doubt,)
+    assert taken == ["_unsearched" if blocked else "_agreed"]
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """One without runs."""
+
+    runs: tuple = ()
 
 
 def fitted(residual, cost):

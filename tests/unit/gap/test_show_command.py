@@ -11,6 +11,7 @@ from gap_campaigns import write_campaign
 from cosim.cli import main
 from cosim.cli.measurements import gap as gap_command
 from cosim.gap import read_campaign
+from cosim.gap.result import Doubt
 from cosim.gap.show import figures
 
 DATA = {"gap.json", "model.toml", "made_by.json"}
@@ -43,6 +44,17 @@ def test_corrected_data_are_told_of(gap, tmp_path, capsys, monkeypatch):
     assert main(["gap", str(gap.campaign.path), "-o", str(tmp_path)]) == 0
     assert "corrected/campaign.toml" in capsys.readouterr().out
     assert "freed of measurement.scale" in (tmp_path / "report.html").read_text()
+
+
+def test_a_doubt_that_nothing_can_answer_is_said_before_the_search(
+    found, tmp_path, capsys, monkeypatch
+):
+    doubt = Doubt("units", "run01: mass in g?", ("run01",), True)
+    monkeypatch.setattr("cosim.gap.checks.doubts_of", lambda campaign: (doubt,))
+    told = []
+    monkeypatch.setattr(gap_command, "_find", lambda *given: told.append(capsys.readouterr().err))
+    assert main(["gap", found[0], "-o", str(tmp_path)]) == 1  # this search has no answer
+    assert "run01: mass in g?; effects are not searched for" in told[0]
 
 
 def test_json_on_standard_output_is_nothing_but_json(found, tmp_path, capsys):
