@@ -1,9 +1,12 @@
-"""While a wheel is made: compiles the native units, so that whoever installs it needs no compiler.
+"""While a wheel is made: compiles the kernel and the native units, for whoever installs it.
 
-A hook of hatchling (pyproject.toml). zig, from PyPI, compiles for every platform. An editable
-install brings no libraries; there a unit is compiled when it is first asked for.
+A hook of hatchling (pyproject.toml). An install from source compiles for its own machine, by the
+system's compiler where there is one. A release, `STICKSLIP_PLATFORMS=all`, has everything for every
+platform and the kernel of the explorer's page, by zig from PyPI. An editable install brings no
+libraries; there each is compiled when it is first asked for.
 """
 
+import os
 import shutil
 import sys
 import tempfile
@@ -13,6 +16,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 ROOT = Path(__file__).resolve().parents[1]
+IS_RELEASE = os.environ.get("STICKSLIP_PLATFORMS") == "all"
 
 
 class NativeUnits(BuildHookInterface):
@@ -21,20 +25,34 @@ class NativeUnits(BuildHookInterface):
     PLUGIN_NAME = "custom"
     scratch: Path | None = None
 
+    def dependencies(self) -> list[str]:
+        """What making a wheel needs, beside what pyproject.toml names."""
+        has_compiler = any(map(shutil.which, ("cc", "gcc", "clang")))
+        return ["ziglang>=0.17"] if IS_RELEASE or not has_compiler else []
+
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Before the wheel is filled."""
         if self.target_name != "wheel" or version == "editable":
             return
         sys.path[:0] = [str(ROOT), str(ROOT / "fmu_src")]
+        from stickslip import compiled
+        from stickslip.generation.platforms import BROWSER, PLATFORMS, this_machine
+
         from cosim.fmu import libraries, native, web
-        from cosim.fmu.platforms import BROWSER
         from cosim.fmu.thermal import native_unit
 
         self.scratch = Path(tempfile.mkdtemp(prefix="stickslip-prebuilt-"))
+        units, kernels = self.scratch / "units", self.scratch / "kernels"
+        platforms = PLATFORMS if IS_RELEASE else (this_machine(),)
         for unit in (native, native_unit):
-            libraries.prebuild(self.scratch, unit.NAME, unit.guid(), unit.sources)
-        libraries.prebuild(self.scratch, web.NAME, web.guid(), web.sources, [BROWSER])
-        build_data["force_include"][str(self.scratch)] = f"cosim/fmu/{libraries.PREBUILT}"
+            libraries.prebuild(units, unit.NAME, unit.guid(), unit.sources, platforms)
+        if IS_RELEASE:
+            libraries.prebuild(units, web.NAME, web.guid(), web.sources, [BROWSER])
+        compiled.prebuild(kernels, platforms)
+        build_data["force_include"] |= {
+            str(units): f"cosim/fmu/{libraries.PREBUILT}",
+            str(kernels): f"stickslip/{compiled.PREBUILT}",
+        }
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """After it."""

@@ -1,6 +1,6 @@
 """Processes of this machine that end in good order, however the work is left.
 
-By joblib's loky, one thread each: two processes of numba or BLAS on two cores would else be four.
+By joblib's loky, one thread each: two processes of BLAS on two cores would else be four.
 """
 
 from __future__ import annotations
@@ -46,7 +46,6 @@ ONE_THREAD = dict.fromkeys(
         "MKL_NUM_THREADS",
         "BLIS_NUM_THREADS",
         "VECLIB_MAXIMUM_THREADS",
-        "NUMBA_NUM_THREADS",
     ),
     "1",
 )

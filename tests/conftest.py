@@ -23,24 +23,19 @@ SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 
 def pytest_configure(config):
-    """Compile once, before there are workers, each of which would do so for itself.
+    """Compile once, before there are workers: the model, and what else tests compile.
 
-    The model here, as commands say when they compile it, and what tests look at is what they say
-    otherwise; what else tests compile meanwhile, on another core.
+    Commands say when they compile, and what tests look at is what they say otherwise.
     """
     if hasattr(config, "workerinput"):
         return
-    from stickslip import Parameters, simulate
-    from stickslip.compiled import is_cached
+    from stickslip.compiled import compiled_kernel
 
-    if is_cached():
-        return
-    ahead = None
-    if config.getoption("numprocesses", None):
-        ahead = subprocess.Popen([sys.executable, str(COMPILED_AHEAD)])
-    simulate(Parameters(), 1e-3, 1e-3)
-    if ahead is not None and ahead.wait() != 0:
-        raise pytest.UsageError(f"{COMPILED_AHEAD} failed, see above")
+    compiled_kernel()
+    kept = (Path(__file__).parent / "blind").glob("*/__pycache__/*.nbi")
+    if config.getoption("numprocesses", None) and not any(kept):
+        if subprocess.run([sys.executable, str(COMPILED_AHEAD)]).returncode != 0:
+            raise pytest.UsageError(f"{COMPILED_AHEAD} failed, see above")
 
 
 @pytest.fixture(scope="session")
@@ -62,8 +57,9 @@ def shared():
 @pytest.fixture(scope="session")
 def fmu(tmp_path_factory):
     """The native unit for this machine, built once a session from what is here now."""
-    from cosim.fmu.build import build_fmu  # numba: only for who asks for it
-    from cosim.fmu.platforms import this_platform
+    from stickslip.generation.platforms import this_platform
+
+    from cosim.fmu.build import build_fmu
 
     return build_fmu(tmp_path_factory.mktemp("fmu"), platforms=[this_platform()])
 
@@ -71,8 +67,9 @@ def fmu(tmp_path_factory):
 @pytest.fixture(scope="session")
 def fmu3(tmp_path_factory):
     """The native unit for FMI 3."""
+    from stickslip.generation.platforms import this_platform
+
     from cosim.fmu.build import FMI3, build_fmu
-    from cosim.fmu.platforms import this_platform
 
     return build_fmu(tmp_path_factory.mktemp("fmu3"), FMI3, [this_platform()])
 

@@ -15,12 +15,12 @@ import stickslip
 from stickslip.effects import EFFECTS
 from stickslip.effects import FILES as CATALOGUE
 from stickslip.effects.effect import Effect
+from stickslip.generation.compiler import CompilerError, possible
+from stickslip.generation.platforms import PLATFORMS, Platform, this_platform
 
 import cosim
 from cosim.fmu import libraries, native, python_unit
-from cosim.fmu.compiler import CompilerError, possible
 from cosim.fmu.libraries import runs_here
-from cosim.fmu.platforms import PLATFORMS, Platform, this_platform
 from cosim.fmu.thermal import native_unit
 
 #: Folder of a checkout in which its units stand, beside the recipes.

@@ -8,8 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import IO
 
-from cosim.fmu.compiler import CompilerError, compiled, joined, possible
-from cosim.fmu.platforms import BROWSER, PLATFORMS, Platform, this_platform
+from stickslip.generation.compiler import CompilerError, compiled, joined, possible
+from stickslip.generation.platforms import BROWSER, PLATFORMS, Platform, this_platform
 
 #: Versions of FMI, each with its own names of the folders in `binaries`.
 FMI2, FMI3 = 2, 3

@@ -21,6 +21,7 @@ from xml.etree.ElementTree import ParseError, fromstring
 from stickslip.contradictions import SAID
 from stickslip.generation import c as c_generation
 from stickslip.generation.c import c_header, c_source
+from stickslip.generation.platforms import PLATFORMS, Platform
 from stickslip.generation.source import kernel_source
 from stickslip.names import NAMES
 from stickslip.status import WHY_NOT
@@ -34,7 +35,6 @@ from cosim.fmu.description.fmi3 import build_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
 from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, of_platforms
-from cosim.fmu.platforms import PLATFORMS, Platform
 
 NAME = "StickSlip3DOF"
 #: Version of FMI -> file.
@@ -48,7 +48,7 @@ MAKERS = (
     *Path(c_generation.__file__).parent.glob("c*.py"),
     *(
         Path(__file__).with_name(f"{name}.py")
-        for name in ("native", "c_tables", "compiler", "exchange", "libraries", "variables")
+        for name in ("native", "c_tables", "exchange", "libraries", "variables")
     ),
 )
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from stickslip.generation.compiler import CompilerError, has_zig
+from stickslip.generation.platforms import BROWSER
+
 from cosim.fmu import native
 from cosim.fmu.archive import digest_of, guid_of
-from cosim.fmu.compiler import CompilerError, has_zig
 from cosim.fmu.libraries import libraries
-from cosim.fmu.platforms import BROWSER
 
 NAME = "explorer"
 #: What is taken of the native unit.

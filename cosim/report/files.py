@@ -24,7 +24,6 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r")
 PACKAGES = (
     "stickslip",
     "numpy",
-    "numba",
     "scipy",
     "scikit-fem",
     "fmpy",

@@ -52,7 +52,7 @@ _HOME = dict.fromkeys(
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use: who only builds a unit needs neither numpy nor numba.
+    """Import on first use: who only builds a unit needs no numpy.
 
     The effects' tables of parameters have their names here too: VelocityWeakening, FilmDrag, ...
     """

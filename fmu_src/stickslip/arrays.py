@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any, Self
 
 import numpy as np
@@ -69,7 +69,7 @@ class RunArrays:
     whose arrays are lists.
     """
 
-    kernel: ModuleType | SimpleNamespace
+    kernel: Any
     p: Any
     u: Any
     z: Any

@@ -1,148 +1,161 @@
-"""The kernel compiled by numba: the same source, function for function.
+"""The kernel as machine code: its text as C, compiled once for this machine, called by ctypes.
 
-The kernel's files are joined into one module, whose name carries a hash of its text, and that
-module is written to the user's cache folder and imported from there: numba keeps its machine code
-beside a real file, and a changed kernel is a new module, so no run ever meets stale code.
+A library is kept in the user's cache folder under a name that carries a hash of all it is made of,
+so that no run ever meets stale code. An installed package may bring it along (`PREBUILT`).
 
 Machine code is code: a folder that anybody else could have written to is not used. One that can
-only be read is, and where there is none at all, the kernel is compiled in memory.
+only be read is, and where there is none at all, the library is made in a scratch folder for this
+process. Where there is no compiler, the text runs interpreted.
 """
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
-import importlib.util
 import logging
-import multiprocessing
 import os
+import re
 import stat
-import sys
 import tempfile
+import threading
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache
-from importlib.machinery import SourceFileLoader
+from importlib import resources
 from pathlib import Path
-from types import FunctionType, ModuleType
+from types import ModuleType
 from typing import Any
 
-import llvmlite.binding
-import numba
 import platformdirs
-from numba.core.caching import (
-    CompileResultCacheImpl,
-    FunctionCache,
-    InTreeCacheLocator,
-    UserProvidedCacheLocator,
-)
-from numba.core.cpu import CPUTargetOptions
 
+from .generation.c import c_header, c_source
+from .generation.c_expressions import function_name
+from .generation.compiler import CALLED_BY_NAME, CompilerError, compiled
+from .generation.platforms import Platform, this_machine
 from .generation.source import kernel_source
 
-# The kernel makes no arrays, so nobody need count who holds one: without the counting a call costs
-# a third. The option has no public name; where a version of numba drops it, only speed is lost.
-OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
-if hasattr(CPUTargetOptions, "_nrt"):
-    OPTIONS["_nrt"] = False
-
-
 LOG = logging.getLogger(__name__)
-#: The function that calls all others of a run, and so is compiled last.
-LAST = "advance"
+#: Beside this file in an installed package: the library of the packaged effects.
+PREBUILT = "prebuilt"
+
+_SCALARS: dict[str, Any] = {
+    "float": ctypes.c_double,
+    "int": ctypes.c_int64,
+    "bool": ctypes.c_bool,
+    "None": None,
+}
+_ARRAY = ctypes.c_char * 0
+_LOADING = threading.Lock()
 
 
-def is_cached() -> bool:
-    """Has machine code of this kernel been made on this machine before?"""
-    kept = f"{_name(kernel_source())}.{LAST}-*.py{sys.version_info[0]}{sys.version_info[1]}*.nbi"
-    places = [folder / "__pycache__" for folder in _folders() if _is_private(folder)]
-    if chosen := getattr(
-        numba.config, "CACHE_DIR", ""
-    ):  # by NUMBA_CACHE_DIR; a folder in it for each module's
-        places = list(Path(chosen).glob("*"))
-    return any(next(place.glob(kept), None) for place in places)
+class Library:
+    """The functions of a kernel's text, by their names; arrays are numpy's, of floats, contiguous.
 
-
-@cache
-def say_if_compiling() -> None:
-    """A word to the log, once, where the first use of the kernel will take long.
-
-    For whoever has the work done by other processes, which say nothing; `compiled_kernel` says it
-    by itself.
+    A call releases the interpreter's lock: threads compute at the same time.
     """
-    if multiprocessing.current_process().name == "MainProcess" and not is_cached():
-        LOG.warning(
-            "compiling the mechanical model for this machine, once: a minute or so, more on a "
-            "busy one"
-        )
+
+    def __init__(self, text: str, file: Path) -> None:
+        self._text, self._library = text, ctypes.CDLL(str(file))
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Bind a function when it is first asked for."""
+        head = re.search(rf"^def {name}\((.*?)\)(?: -> (\w+))?:", self._text, re.M | re.S)
+        if head is None:
+            raise AttributeError(f"no function {name} in the kernel")
+        arguments = re.findall(r"(\w+): ([^,\s]+)", head[1])
+        function = getattr(self._library, function_name(name))
+        function.restype = _SCALARS[head[2] or "None"]
+        function.argtypes = [_SCALARS.get(kind, ctypes.c_void_p) for _, kind in arguments]
+        call = _without_loops(function, [kind not in _SCALARS for _, kind in arguments])
+        setattr(self, name, call)
+        return call
+
+
+def _without_loops(function: Any, is_array: list[bool]) -> Callable[..., Any]:
+    """A caller written out argument by argument, which takes half the time of one that loops."""
+    names = [f"a{i}" for i in range(len(is_array))]
+    given = [f"at({n})" if array else n for n, array in zip(names, is_array, strict=True)]
+    code = f"lambda {', '.join(names)}: f({', '.join(given)})"
+    call: Callable[..., Any] = eval(code, {"f": function, "at": _ARRAY.from_buffer})
+    return call
 
 
 @cache
-def compiled_kernel() -> ModuleType:
-    """The kernel as a module of numba functions; machine code is cached between processes."""
-    say_if_compiling()
-    source = kernel_source()
-    name = _name(source)
-    file = _module_file(name, source)
-    kept = "there from an earlier run" if is_cached() else "made as it is needed"
-    where = "in memory" if file is None else f"beside {file}"
-    LOG.info("mechanical model: machine code %s, %s", kept, where)
-    module = _in_memory(name, source) if file is None else _from_file(name, file)
-    for key, value in list(vars(module).items()):
-        if isinstance(value, FunctionType) and value.__module__ == name:
-            setattr(module, key, _compiled(value, keep=file is not None))
-    return module
+def compiled_kernel() -> Any:
+    """The kernel's functions: a `Library`, or a module that is interpreted."""
+    with _LOADING:
+        return library(kernel_source())
 
 
-def _from_file(name: str, file: Path) -> ModuleType:
-    loader = SourceFileLoader(name, str(file))
-    spec = importlib.util.spec_from_loader(name, loader)
-    assert spec is not None  # there is a loader
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # numba's cache finds the functions again by this name
-    loader.exec_module(module)
-    return module
+def library(text: str) -> Library | ModuleType:
+    """A kernel's text as functions, compiled where it is not yet kept; else interpreted."""
+    here = this_machine()
+    name = _name(text, here)
+    for folder in (Path(__file__).with_name(PREBUILT), *filter(_is_private, _folders())):
+        if (file := folder / name).is_file():
+            LOG.info("mechanical model: machine code in %s", file)
+            return Library(text, file)
+    LOG.warning("compiling the mechanical model for this machine, once: a few seconds")
+    try:
+        made = compiled(sources(text), [here], "kernel", CALLED_BY_NAME, stays=True)
+        return _loaded(text, name, made[here])
+    except (CompilerError, OSError) as error:
+        LOG.warning("%s; until then the model runs interpreted, some 200 times slower", error)
+        return _interpreted(text)
 
 
-def _in_memory(name: str, source: str) -> ModuleType:
-    module = sys.modules[name] = ModuleType(name)
-    exec(compile(source, f"<{name}>", "exec"), vars(module))
-    return module
+def sources(text: str) -> dict[str, bytes]:
+    """A kernel's text as files of C."""
+    made = {"kernel.h": c_header(text), "kernel.c": c_source(text)}
+    return {name: content.encode() for name, content in made.items()}
 
 
-class _Beside(InTreeCacheLocator):
-    """Machine code beside the module, also where it can only be read."""
+def prebuild(folder: Path, platforms: Sequence[Platform]) -> None:
+    """Compile the kernel into ``folder``, for a package. Raises CompilerError."""
+    text = kernel_source()
+    folder.mkdir(parents=True)
+    for platform, made in compiled(sources(text), platforms, "kernel", CALLED_BY_NAME).items():
+        (folder / _name(text, platform)).write_bytes(made)
 
-    def ensure_cache_path(self) -> None:
+
+def _name(text: str, platform: Platform) -> str:
+    """File of a library: what it is made from, by what, and for which machine."""
+    makers = resources.files("stickslip.generation").iterdir()
+    made_by = sorted(each.read_text("utf-8") for each in makers if each.name[0] == "c")
+    key = "\n".join([text, *made_by])
+    digest = hashlib.sha256(key.encode()).hexdigest()[:16]
+    return f"kernel-{platform.name}-{digest}{platform.suffix}"
+
+
+def _loaded(text: str, name: str, content: bytes) -> Library:
+    """A library that was just made, kept for the next process where that can be."""
+    if file := _kept(name, content):
+        return Library(text, file)
+    # Windows removes no library that is loaded
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
+        file = Path(scratch) / name
+        file.write_bytes(content)
+        return Library(text, file)
+
+
+def _kept(name: str, content: bytes) -> Path | None:
+    """The file, written where it will be found again; None for nowhere. Processes may race."""
+    for folder in _folders():
+        partial = folder / f"{name}.{os.getpid()}.partial"
         with suppress(OSError):
-            super().ensure_cache_path()
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            with suppress(FileExistsError):
+                folder.mkdir(mode=0o700)
+            if _is_private(folder):
+                partial.write_bytes(content)
+                return partial.replace(folder / name)
+    return None
 
 
-class _Kept(CompileResultCacheImpl):
-    _locator_classes: list[type[object]] = [UserProvidedCacheLocator, _Beside]  # noqa: RUF012
-
-
-class _Cache(FunctionCache):
-    """numba's own, but for what cannot be written: it is compiled again in the next process."""
-
-    _impl_class = _Kept
-
-    def save_overload(self, signature: Any, compiled: Any) -> None:
-        with suppress(OSError):
-            super().save_overload(signature, compiled)
-
-
-def _compiled(function: FunctionType, keep: bool) -> Any:
-    dispatcher: Any = numba.njit(function, **OPTIONS | {"cache": False})
-    if keep:
-        dispatcher._cache = _Cache(function)
-    return dispatcher
-
-
-def _name(source: str) -> str:
-    # numba's cache does not know with which options it was filled, and fills itself anew for
-    # another version or another kind of processor
-    cpu = llvmlite.binding.get_host_cpu_name()
-    key = f"{source}{OPTIONS}{numba.__version__}{cpu}"
-    return "stickslip_kernel_" + hashlib.sha256(key.encode()).hexdigest()[:16]
+def _interpreted(text: str) -> ModuleType:
+    module = ModuleType("stickslip_kernel")
+    exec(compile(text, "<kernel>", "exec"), vars(module))
+    return module
 
 
 def _folders() -> list[Path]:
@@ -179,26 +192,3 @@ def _warn_of_others(folder: Path) -> None:
         "chmod go-w %s",
         *(folder, folder),
     )
-
-
-def _module_file(name: str, source: str) -> Path | None:
-    """The module, found or written where numba may keep its cache beside it; None for nowhere.
-
-    Processes may race for it.
-    """
-    folders = _folders()
-    for path in (folder / f"{name}.py" for folder in folders if _is_private(folder)):
-        if path.exists() and path.read_text(encoding="utf-8") == source:
-            return path
-    for folder in folders:
-        path = folder / f"{name}.py"
-        partial = folder / f"{name}.{os.getpid()}.partial"
-        with suppress(OSError):
-            folder.parent.mkdir(parents=True, exist_ok=True)
-            with suppress(FileExistsError):
-                folder.mkdir(mode=0o700)
-            if _is_private(folder):
-                partial.write_text(source, encoding="utf-8")
-                partial.replace(path)
-                return path
-    return None

@@ -16,8 +16,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from command_line import stickslip_here
-
-from cosim.fmu.platforms import this_platform
+from stickslip.generation.platforms import this_platform
 
 MODULE = [sys.executable, "-m", "cosim"]
 SCRIPT = Path(sys.executable).with_name("stickslip")

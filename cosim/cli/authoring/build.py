@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Sequence
 from pathlib import Path
+
+from stickslip.generation.platforms import PLATFORMS, Platform
 
 from cosim.cli import DONE
 from cosim.cli.arguments import add_output
-from cosim.fmu.platforms import PLATFORMS, Platform
 from cosim.names import unknown_name
 
 EXAMPLE = "stickslip build StickSlip3DOF.fmu -o fmus"
@@ -30,11 +32,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--platforms",
         nargs="+",
-        type=_platform,
-        default=PLATFORMS,
+        type=_platforms,
+        default=[PLATFORMS],
         metavar="PLATFORM",
         help="that a native unit is to have libraries for, as far as there is a compiler: "
-        f"{', '.join(each.name for each in PLATFORMS)} (default: all)",
+        f"{', '.join(each.name for each in PLATFORMS)}, or all (default)",
     )
     parser.add_argument(
         "--effects",
@@ -55,10 +57,10 @@ def _unit(name: str) -> str:
     return name
 
 
-def _platform(name: str) -> Platform:
-    for platform in PLATFORMS:
-        if platform.name == name:
-            return platform
+def _platforms(name: str) -> Sequence[Platform]:
+    found = [each for each in PLATFORMS if name in ("all", each.name)]
+    if found:
+        return found
     raise ArgumentTypeError(unknown_name("platform", name, [each.name for each in PLATFORMS]))
 
 
@@ -77,7 +79,8 @@ def execute(arguments: Namespace) -> int:
 
     units = arguments.units or UNITS
     folder = writable(Path(arguments.output) if arguments.output else own_folder(), units)
+    platforms = list(dict.fromkeys(each for named in arguments.platforms for each in named))
     for name in units:
-        fmu = build_fmu(folder, name, arguments.platforms)
+        fmu = build_fmu(folder, name, platforms)
         print(f"{fmu}: {', '.join(platforms_of(fmu))}")
     return DONE

@@ -39,8 +39,9 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def refused() -> tuple[type[Exception], ...]:
     """What is bad input."""
+    from stickslip.generation.compiler import CompilerError
+
     from cosim.files import OutputRefused
-    from cosim.fmu.compiler import CompilerError
     from cosim.scenario import ScenarioError
 
     return (ScenarioError, OutputRefused, CompilerError)

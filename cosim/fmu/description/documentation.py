@@ -130,7 +130,7 @@ def _place(variable: Variable) -> int:
 @cache
 def _motion(u: tuple[float, ...]) -> list[tuple[float, list[float]]]:
     """Times, s, and all outputs of the kernel; once for the units of a process."""
-    from stickslip.arrays import RunArrays  # numba: only for who gets here
+    from stickslip.arrays import RunArrays  # numpy: only for who gets here
 
     rig = Parameters.model_validate(rig_defaults())
     run = RunArrays.begin(rig.pack(), list(u), interpreted=True)

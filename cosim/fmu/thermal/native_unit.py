@@ -14,6 +14,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from stickslip.generation.platforms import PLATFORMS, Platform
 from stickslip.quantity import details
 
 import cosim
@@ -25,7 +26,6 @@ from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.description.fmi3 import build_description, fmi3_description
 from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, of_platforms
-from cosim.fmu.platforms import PLATFORMS, Platform
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, STARTS, reduced
 from cosim.fmu.variables import Variable, names
 

@@ -13,11 +13,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
+from stickslip.generation.platforms import PLATFORMS, Platform
+
 from cosim.files import write_bytes
 from cosim.fmu import exchange, native
 from cosim.fmu.archive import packed
 from cosim.fmu.description import STOP_TIME
-from cosim.fmu.platforms import PLATFORMS, Platform
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 from cosim.fmu.units import UNITS

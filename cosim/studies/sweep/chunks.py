@@ -19,7 +19,7 @@ from types import TracebackType
 from typing import Self
 
 import joblib
-from stickslip.compiled import say_if_compiling
+from stickslip.compiled import compiled_kernel
 from stickslip.plugins.sent import packed, to_send, unpacked_call
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
@@ -111,7 +111,7 @@ class LocalWorkers:
     def run(self, work: Work, chunks: Sequence[Sequence[Task]]) -> Generator[list[Row], None, None]:
         """The rows of each chunk as it is finished; WorkersLost when a process died."""
         calls = [(work, chunk) for chunk in chunks]
-        say_if_compiling()
+        compiled_kernel()  # here, once, and not by each process
         try:
             yield from as_finished(min(self.count, len(chunks)), _compute, calls)
         except BrokenProcessPool as error:

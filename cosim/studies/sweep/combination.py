@@ -7,7 +7,6 @@ import hashlib
 import inspect
 import json
 import platform
-import threading
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
@@ -16,10 +15,8 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 from stickslip import Parameters, Trajectory, simulate
-from stickslip.compiled import compiled_kernel
 from stickslip.generation.source import kernel_source
 
-from cosim.interrupts import held_interrupts
 from cosim.scenario import Scenario, ScenarioError
 
 from . import features as feature_module
@@ -151,9 +148,6 @@ def _values(trajectory: Trajectory) -> tuple[float, ...]:
     return tuple(numbers[name] for name in FEATURES)
 
 
-_LOADING = threading.Lock()
-
-
 class Work(NamedTuple):
     """What all combinations of a sweep have in common."""
 
@@ -183,8 +177,6 @@ def compute_chunk(
             f"the worker on {platform.node()} has another version of the model than this process; "
             "install the same one there, or start again if it was just changed"
         )
-    with _LOADING, held_interrupts():  # threads of one worker must not load the kernel twice
-        compiled_kernel()
     with warnings.catch_warnings():
         # what there is to warn of was said when the combinations were checked
         warnings.simplefilter("ignore", UserWarning)

@@ -1,12 +1,13 @@
 """The kernel as the text of one module, from the core's files and the effects' declarations.
 
-That one text is what numba compiles, what becomes C, and what travels inside the FMU.
+That one text is what becomes C, and what travels inside the FMU.
 """
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Sequence
+from functools import cache
 from importlib import resources
 
 from ..effects import EFFECTS
@@ -22,6 +23,15 @@ _ARRAY = "Floats"
 
 def kernel_source(effects: Sequence[Effect] = EFFECTS) -> str:
     """The core's files in order, without their mutual imports, between layout and terms."""
+    return _catalogue_source() if effects is EFFECTS else _source(effects)
+
+
+@cache
+def _catalogue_source() -> str:
+    return _source(EFFECTS)
+
+
+def _source(effects: Sequence[Effect]) -> str:
     made = {"layout": layout_source(effects), "terms": terms_source(effects)}
     return "\n".join(
         f"# {name}\n{made[name] if name in made else _core(name)}\n" for name in MODULES

@@ -1,8 +1,8 @@
 """The physics, written once: plain typed scalar Python on flat arrays of floats.
 
-The same source runs interpreted (lists of floats, nothing but `math`: in the FMU), compiled by
-numba (`stickslip.compiled`) and translated to C. What the arrays hold is in `layout`; parameters
-become the array ``p`` in `packing`. A run::
+The same source runs interpreted (lists of floats, nothing but `math`) and translated to C (in the
+FMU, and by `stickslip.compiled` in whatever else calls it). What the arrays hold is in `layout`;
+parameters become the array ``p`` in `packing`. A run::
 
     z, w, e, o = [0.0] * Z_SIZE, [0.0] * W_SIZE, [0.0, 0.0], [0.0] * O_SIZE
     initialise(p, z, 0.0)

@@ -1,7 +1,7 @@
 """Where each number stands in the kernel's flat arrays.
 
-The kernel speaks only in flat arrays of floats, so that one source runs interpreted (lists),
-under numba (numpy arrays) and as generated C. Five arrays travel together:
+The kernel speaks only in flat arrays of floats, so that one source runs interpreted (lists)
+and as generated C (numpy arrays). Five arrays travel together:
 
 =====  ==========================================================================
 ``p``  parameters as the motion needs them, constant during a run (`P_*`)

@@ -26,12 +26,12 @@ from typing import NamedTuple
 from baseline import Figure, arguments, write
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
+from stickslip.generation.platforms import this_platform
 
 from cosim.coupling import FmuParticipant
 from cosim.coupling.case import run_scenario
 from cosim.fmu.build import PYTHON, build_fmu
 from cosim.fmu.native import native_folder
-from cosim.fmu.platforms import this_platform
 from cosim.scenario import read_scenario
 
 HERE = Path(__file__).resolve().parent

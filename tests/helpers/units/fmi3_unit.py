@@ -12,10 +12,10 @@ from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, 
 from pathlib import Path
 
 from plain_start import PLAIN
+from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.exchange import variables
 from cosim.fmu.native import NAME, built_guid, native_folder
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.variables import by_array
 
 OK, WARNING, DISCARD, ERROR = range(4)

@@ -12,8 +12,9 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint, 
 from pathlib import Path
 from types import TracebackType
 
+from stickslip.generation.platforms import this_platform
+
 from cosim.fmu.native import NAME, built_guid
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.variables import Variable, variables
 
 OK, WARNING, DISCARD, ERROR = range(4)

@@ -4,10 +4,10 @@ import shutil
 
 import pytest
 from explorer_page import Page
+from stickslip.generation.compiler import CompilerError
 
 from cosim.cli import main
 from cosim.fmu import web
-from cosim.fmu.compiler import CompilerError
 
 #: Longest that a run of these tests may take in the page, s; they take a hundredth of that.
 PATIENCE = 60.0

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from fmpy.util import read_csv, read_ref_opt_file, validate_result
 from lxml import etree
+from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.build import FMI3, NATIVE, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, build_fmu
-from cosim.fmu.platforms import this_platform
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 HEAT = (THERMAL, THERMAL_FMI3, THERMAL_PYTHON)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from fmpy import simulate_fmu
 from fmpy_slave import fmpy_slave
+from stickslip.generation.platforms import this_platform
 
 from cosim.cli import main
 from cosim.fmu.build import THERMAL, build_fmu
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.variables import parameter_table
 from cosim.scenario.defaults import stated
 

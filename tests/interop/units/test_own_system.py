@@ -12,12 +12,12 @@ import pytest
 import xarray as xr
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssv
+from stickslip.generation.platforms import this_platform
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
 from cosim.coupling.record import CheckpointError, RunFolder
 from cosim.fmu.build import SYSTEM, build_fmu
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system
 

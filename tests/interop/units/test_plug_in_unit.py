@@ -18,7 +18,7 @@ import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from stickslip import Parameters, simulate
 from cosim.fmu.build import build_fmu
-from cosim.fmu.platforms import this_platform
+from stickslip.generation.platforms import this_platform
 
 fmu = build_fmu(sys.argv[2], sys.argv[3], [this_platform()])
 parameters = Parameters(
@@ -67,7 +67,7 @@ WITHOUT = """
 import sys
 from stickslip.effects import use
 use(sys.argv[1])
-from cosim.fmu import compiler
+from stickslip.generation import compiler
 compiler.has_zig = lambda: False
 compiler._system_compiler = lambda: None
 from cosim.fmu.build import FmuBuildError, build_fmu

@@ -20,12 +20,12 @@ from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimObserver import CosimObserver
+from stickslip.generation.platforms import this_platform
 from test_other_hosts import ecos_environment  # noqa: F401  (a fixture)
 
 from cosim import read_scenario, run_scenario
 from cosim.fmu.build import SYSTEM, build_fmu
 from cosim.fmu.libraries import platforms_of
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system
 

@@ -3,10 +3,11 @@
 import webbrowser
 
 import pytest
+from stickslip.generation import compiler
 
 from cosim.cli import main
 from cosim.explore.explorer import GENERATOR
-from cosim.fmu import compiler, libraries, web
+from cosim.fmu import libraries, web
 
 #: Begins as every WebAssembly does; whether it runs is asked of a browser.
 MODULE = b"\0asm\x01\0\0\0"

@@ -7,10 +7,8 @@ import sys
 import time
 from pathlib import Path
 
-import numba
 import pytest
 from joblib.externals.loky import ProcessPoolExecutor
-from numba.core.cpu import CPUTargetOptions
 
 from cosim.processes import apart, as_finished, processes
 
@@ -64,14 +62,6 @@ def test_what_is_used_of_loky_and_is_not_public_is_there():
     ):
         missing = parameters - set(inspect.signature(owner).parameters)
         assert not missing, f"loky's {owner.__qualname__} takes no {missing} any more"
-
-
-def test_what_is_used_of_numba_and_is_not_public_is_there():
-    """Without it a call of the compiled kernel counts references; numba is bounded for its sake."""
-    assert hasattr(CPUTargetOptions, "_nrt"), (
-        f"numba {numba.__version__} has no option _nrt: measure the kernel without it and mend "
-        "stickslip/compiled.py, or lower the upper bound of numba in pyproject.toml"
-    )
 
 
 def square(number):

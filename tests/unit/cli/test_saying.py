@@ -5,11 +5,10 @@ import json
 import logging
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
-import stickslip.compiled
-from stickslip import Parameters, simulate
-from stickslip.compiled import say_if_compiling
+from stickslip import Parameters, compiled, simulate
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS, parser
@@ -92,39 +91,41 @@ def test_how_much_is_said_ends_with_the_command(capsys):
 
 
 @pytest.fixture
-def not_compiled(monkeypatch):
-    monkeypatch.setattr(stickslip.compiled, "is_cached", lambda: False)
-    say_if_compiling.cache_clear()
-    stickslip.compiled.compiled_kernel.cache_clear()
+def not_compiled(monkeypatch, tmp_path):
+    monkeypatch.setattr(compiled, "_folders", lambda: [tmp_path / "cache"])
+    monkeypatch.setattr(compiled, "PREBUILT", "none")
+    compiled.compiled_kernel.cache_clear()
     yield
-    say_if_compiling.cache_clear()
+    compiled.compiled_kernel.cache_clear()
+
+
+COMPILING = "compiling the mechanical model for this machine, once: a few seconds"
 
 
 def test_what_compiles_says_so_before_it_begins(case, not_compiled, capsys, monkeypatch):
     """Also where stderr is no terminal, as in a log; once."""
-    compiled = []
+    make, said = compiled.sources, []
     monkeypatch.setattr(
-        stickslip.compiled,
-        "kernel_source",
-        lambda source=stickslip.compiled.kernel_source: (
-            compiled.append(capsys.readouterr().err) or source()
-        ),
+        compiled, "sources", lambda text: said.append(capsys.readouterr().err) or make(text)
     )
     assert main(["simulate", case]) == 0
-    (said,) = [text for text in compiled if text]  # before the kernel's text is even made
-    assert said.splitlines()[-1].startswith("note: compiling the mechanical model for this machine")
+    assert said[0].splitlines()[-1] == f"note: {COMPILING}"
+    assert "compiling" not in capsys.readouterr().err
+    compiled.compiled_kernel.cache_clear()
+    assert main(["simulate", case, "-o", "again"]) == 0
     assert "compiling" not in capsys.readouterr().err
 
 
 def test_quiet_does_not_say_what_compiles_and_python_does(case, not_compiled, capsys, caplog):
     assert main(["simulate", case, "-q"]) == 0
     assert capsys.readouterr().err == ""
-    say_if_compiling.cache_clear()
-    stickslip.compiled.compiled_kernel.cache_clear()
+    for file in Path("cache").iterdir():
+        file.unlink()
+    compiled.compiled_kernel.cache_clear()
     caplog.clear()
     simulate(Parameters(), 0.01)
     (record,) = caplog.records
-    assert record.levelname == "WARNING" and "compiling" in record.getMessage()
+    assert record.levelname == "WARNING" and record.getMessage() == COMPILING
 
 
 def test_what_remains_is_not_estimated_from_the_time_before_the_first_step(monkeypatch):

@@ -7,10 +7,10 @@ import zipfile
 
 import platformdirs
 import pytest
+from stickslip.generation.platforms import this_platform
 
 from cosim.fmu import libraries, native, python_unit, pythonfmu_library
 from cosim.fmu.build import FMI3, PYTHON, FmuBuildError, build_fmu, ensure_fmu, own_folder
-from cosim.fmu.platforms import this_platform
 
 STANDARD_LIBRARY_USED = {
     "__future__",

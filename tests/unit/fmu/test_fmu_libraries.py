@@ -7,11 +7,11 @@ import struct
 import subprocess
 
 import pytest
+from stickslip.generation.compiler import compiled, has_zig
+from stickslip.generation.platforms import PLATFORMS, this_platform
 
 from cosim.fmu import libraries, native
 from cosim.fmu.build import FmuBuildError, build_fmu
-from cosim.fmu.compiler import compiled, has_zig
-from cosim.fmu.platforms import PLATFORMS, this_platform
 from cosim.fmu.thermal import native_unit
 
 UNITS = {unit.NAME: unit for unit in (native, native_unit)}

@@ -4,17 +4,18 @@ import random
 
 import numpy as np
 import pytest
-from c_library import Library, compiler
+from c_library import compiler, library, warnings
 from c_snippets import CALLED, HEAD, SNIPPETS
 from same_as_c import compare, interpreted
 from stickslip.generation.c import c_header, c_source
+from stickslip.generation.source import kernel_source
 
 needs_compiler = pytest.mark.skipif(not compiler(), reason="no C compiler")
 
 
 @pytest.fixture(scope="module")
 def translated(tmp_path_factory):
-    return Library(SNIPPETS, tmp_path_factory.mktemp("snippets"))
+    return library(SNIPPETS, tmp_path_factory.mktemp("snippets"))
 
 
 @needs_compiler
@@ -33,8 +34,9 @@ def test_two_arrays_may_be_one(translated):
 
 
 @needs_compiler
-def test_the_compiler_has_nothing_to_say(translated):
-    assert translated.said == ""
+@pytest.mark.parametrize("text", (SNIPPETS, kernel_source()), ids=("snippets", "kernel"))
+def test_the_compiler_has_nothing_to_say(text, tmp_path):
+    assert warnings(text, tmp_path) == ""
 
 
 class Expressions:
@@ -87,10 +89,10 @@ def test_random_expressions_give_the_same(tmp_path):
             parts.append(text)
     assert refused < 300
     text = "\n".join(parts)
-    library = Library(text, tmp_path)
+    made_of_them = library(text, tmp_path)
     functions = interpreted(text)
     compared = sum(
-        compare(functions[name], getattr(library, name), 30, name)
+        compare(functions[name], getattr(made_of_them, name), 30, name)
         for name in functions
         if name.startswith("f")
     )

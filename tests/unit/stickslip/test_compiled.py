@@ -2,18 +2,28 @@
 
 import logging
 import os
+import shutil
 import subprocess
 import sys
+import threading
+import time
 
+import numpy as np
 import pytest
-from stickslip import compiled
+from stickslip import Parameters, compiled, simulate
+from stickslip.arrays import RunArrays, inputs
+from stickslip.generation.platforms import this_machine
+from stickslip.kernel.layout import O_SIZE
 
-#: Compiles a kernel of one line; prints what it gives, how often machine code of it was there.
-PROGRAM = """
+TEXT = "def advance(x: float) -> float:\n    return x + 1.0\n"
+#: Compiles a kernel of one line; prints what it gives, and whether it was there before.
+PROGRAM = f"""
+import logging
 from stickslip import compiled
-compiled.kernel_source = lambda: "def advance(x):\\n    return x + 1.0\\n"
-advance = compiled.compiled_kernel().advance
-print(advance(1.0), sum(advance.stats.cache_hits.values()), compiled.is_cached())
+told = []
+compiled.LOG.addFilter(lambda record: told.append(record.getMessage()))
+advance = compiled.library({TEXT!r}).advance
+print(advance(1.0), not any("compiling" in each for each in told))
 """
 #: Number of somebody else.
 NOBODY = 65534
@@ -40,45 +50,41 @@ def test_a_cache_that_was_filled_and_can_only_be_read_is_used(tmp_path):
     cache, scratch = tmp_path / "cache", tmp_path / "scratch"
     cache.mkdir()
     scratch.mkdir()
-    assert run(cache, scratch) == ["2.0", "0", "True"]
-    filled = (cache / "stickslip" / "__pycache__", cache / "stickslip", cache, scratch)
+    assert run(cache, scratch) == ["2.0", "False"]
+    filled = (cache / "stickslip", cache, scratch)
     for folder in filled:
         folder.chmod(0o555)
     try:
-        assert run(cache, scratch) == ["2.0", "1", "True"]
+        assert run(cache, scratch) == ["2.0", "True"]
     finally:
         for folder in filled:
             folder.chmod(0o755)
 
 
-def test_without_any_folder_the_kernel_is_compiled_in_memory(tmp_path, monkeypatch):
-    def none():
-        raise FileNotFoundError("No usable temporary directory found")
-
-    (tmp_path / "file").touch()
-    monkeypatch.setattr(compiled.platformdirs, "user_cache_path", lambda _: tmp_path / "file" / "x")
-    monkeypatch.setattr(compiled.tempfile, "gettempdir", none)
-    monkeypatch.setattr(compiled, "kernel_source", lambda: "def advance(x):\n    return x + 2.0\n")
-    assert compiled.compiled_kernel.__wrapped__().advance(1.0) == 3.0
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
-
-
 @pytest.fixture
-def kept_in(tmp_path, monkeypatch):
+def keeps(tmp_path, monkeypatch):
     """The folder that a kernel is kept in, None for none, and what it may be."""
     monkeypatch.setattr(compiled.platformdirs, "user_cache_path", lambda name: tmp_path / name)
     monkeypatch.setattr(compiled.tempfile, "gettempdir", lambda: str(tmp_path))
 
     def keep():
-        file = compiled._module_file("kernel", "pass\n")
+        file = compiled._kept("kernel", b"machine code")
         return None if file is None else file.parent
 
     return keep, tmp_path / "stickslip", tmp_path / f"stickslip-{os.getuid()}"
 
 
+def test_where_nothing_can_be_kept_it_is_compiled_for_this_process(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setattr(compiled, "_folders", lambda: [tmp_path / "file" / "x"])
+    library = compiled.library(TEXT)
+    assert isinstance(library, compiled.Library) and library.advance(1.0) == 2.0
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
 @posix
-def test_machine_code_is_not_kept_where_others_can_write(kept_in, caplog):
-    keep, mine, scratch = kept_in
+def test_machine_code_is_not_kept_where_others_can_write(keeps, caplog):
+    keep, mine, scratch = keeps
     assert keep() == mine and not scratch.exists()
     mine.chmod(0o777)
     with caplog.at_level(logging.WARNING):
@@ -89,13 +95,56 @@ def test_machine_code_is_not_kept_where_others_can_write(kept_in, caplog):
 
 @posix
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="needs two users")
-def test_a_folder_or_link_of_another_user_in_its_place_is_not_used(kept_in):
-    keep, mine, scratch = kept_in
+def test_a_folder_or_link_of_another_user_in_its_place_is_not_used(keeps):
+    keep, mine, scratch = keeps
     mine.mkdir()
     os.chown(mine, NOBODY, NOBODY)
     elsewhere = mine.with_name("elsewhere")
     elsewhere.mkdir(mode=0o700)
     scratch.symlink_to(elsewhere)
     os.chown(scratch, NOBODY, NOBODY, follow_symlinks=False)
-    (mine / "kernel.py").write_text("pass\n")
     assert keep() is None
+    (mine / compiled._name(TEXT, this_machine())).write_bytes(b"somebody else's")
+    assert compiled.library(TEXT).advance(1.0) == 2.0
+
+
+def test_without_a_compiler_it_runs_interpreted_and_says_so(tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr(compiled, "_folders", lambda: [tmp_path])
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    monkeypatch.setattr("stickslip.generation.compiler.has_zig", lambda: False)
+    compiled.compiled_kernel.cache_clear()
+    try:
+        slow = simulate(Parameters(), 1.0)
+    finally:
+        compiled.compiled_kernel.cache_clear()
+    assert "`pip install ziglang`" in caplog.text and "interpreted" in caplog.text
+    monkeypatch.undo()
+    np.testing.assert_array_equal(slow["x"], simulate(Parameters(), 1.0)["x"])
+
+
+def test_a_package_brings_the_library_along(tmp_path, monkeypatch):
+    folder = tmp_path / compiled.PREBUILT
+    compiled.prebuild(folder, [this_machine()])
+    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "compiled.py"))
+    monkeypatch.setattr(compiled, "compiled", None)  # nothing is compiled
+    assert isinstance(compiled.library(compiled.kernel_source()), compiled.Library)
+
+
+def test_threads_compute_at_the_same_time():
+    """A call lets other threads go on: they count while one call simulates an hour."""
+    parameters = Parameters()
+    run = RunArrays.begin(parameters.pack(), inputs(parameters.surface.speed, -8.0))
+    times, counted, ended = np.arange(0.0, 3000.0, 1.0), [0], threading.Event()
+    o = np.zeros(O_SIZE * len(times))
+
+    def record():
+        run.kernel.record(*run.all, times, o, 0, len(times))
+        ended.set()
+
+    thread = threading.Thread(target=record)
+    thread.start()
+    while not ended.is_set():
+        counted[0] += 1
+        time.sleep(0.001)
+    thread.join()
+    assert counted[0] > 20

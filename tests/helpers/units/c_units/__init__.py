@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 from c_library import compiler
+from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.native import native_folder
-from cosim.fmu.platforms import this_platform
 
 HERE = Path(__file__).parent
 

@@ -18,10 +18,10 @@ import pytest
 from native_unit import references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
+from stickslip.generation.platforms import PLATFORMS, this_platform
 
 from cosim.fmu import native
 from cosim.fmu.build import THERMAL, FmuBuildError, build_fmu
-from cosim.fmu.platforms import PLATFORMS, this_platform
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 
@@ -74,7 +74,7 @@ def host(wine, tmp_path_factory):
     """The host as a program for Windows; not compiled where there is no wine to run it."""
     program = tmp_path_factory.mktemp("windows") / "host.exe"
     headers = f"-I{native.native_folder() / 'headers'}"
-    # as the library is compiled (`cosim/fmu/compiler.py`), so that zig needs no second runtime
+    # as the library is compiled, so that zig needs no second runtime
     options = ["-std=c99", "-O2", "-s", "-Wall", "-Wextra", "-Werror", "-static", headers]
     command = [*windows_compiler(), *options, HOST, "-o", program, "-lpthread"]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)

@@ -13,10 +13,10 @@ import pytest
 from c_library import compiler
 from fmpy_slave import fmpy_slave
 from plain_start import PLAIN
+from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.exchange import INDICATORS, states, variables
 from cosim.fmu.native import NAME, built_guid, native_folder
-from cosim.fmu.platforms import this_platform
 
 STOP, RATE = 6.0, 0.025  # s; m/s2
 SHOWN = ("x", "vx", "heat", "slip_count")

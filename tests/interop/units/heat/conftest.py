@@ -2,9 +2,9 @@
 
 import pytest
 from heat_instance import instance
+from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.build import build_fmu
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import NAME
 

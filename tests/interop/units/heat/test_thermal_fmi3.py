@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 from heat_instance import OUTPUTS
+from stickslip.generation.platforms import this_platform
 
 from cosim.coupling.fmu.errors import FmuCallError
 from cosim.coupling.fmu.participant import FmuParticipant
 from cosim.fmu.build import THERMAL_FMI3, build_fmu
-from cosim.fmu.platforms import this_platform
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 from heat_instance import OUTPUTS, H, constant, instance
+from stickslip.generation.platforms import this_platform
 
 from cosim import read_scenario, run_scenario
-from cosim.fmu.platforms import this_platform
 from cosim.fmu.thermal import native_unit, resources
 from cosim.fmu.thermal.python_unit import parameters
 from cosim.fmu.thermal.variables import REFERENCE, reduced

@@ -1,4 +1,4 @@
-"""C to shared libraries: by zig for every platform, else by the system's compiler for this one."""
+"""C to shared libraries: by zig for every platform, by the compiler of the system for this one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from cosim.fmu.platforms import Platform, this_platform
+from .platforms import Platform, this_machine
 
 LOG = logging.getLogger(__name__)
 
@@ -27,6 +27,9 @@ OPTIONS = (
     "-fvisibility=hidden",
     "-s",
 )
+# Whoever calls the functions of a library by their names sees them all, and they call each other
+# without a detour for somebody's functions of the same names.
+CALLED_BY_NAME = ("-O3", "-fvisibility=default", "-fno-semantic-interposition")
 # WebAssembly has no libraries that are linked later: a module that is called, without a `main`.
 SHARED = {".wasm": ["-mexec-model=reactor"]}
 # A library of a Mac says where it is to be looked for: wherever who links to it says. (Who opens it
@@ -48,17 +51,23 @@ def possible(platforms: Sequence[Platform]) -> list[Platform]:
     """Those that can be compiled for here: all with zig, else at most this machine's own."""
     if has_zig():
         return list(platforms)
-    own = this_platform() if _system_compiler() else None
+    own = this_machine() if _system_compiler() else None
     return [each for each in platforms if each == own]
 
 
 def compiled(
-    sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
+    sources: Mapping[str, bytes],
+    platforms: Sequence[Platform],
+    name: str,
+    options: Sequence[str] = (),
+    *,
+    stays: bool = False,
 ) -> dict[Platform, bytes]:
     """A library for each platform, of C sources by their names; ``name``: what it calls itself.
 
-    Each is compiled by a process of its own, as many at once as there are processors. Raises
-    CompilerError.
+    stays : for this machine alone, by its own compiler if it has one, which is quicker; what zig
+    compiles runs on older systems, too. Each is compiled by a process of its own, as many at once
+    as there are processors. Raises CompilerError.
     """
     LOG.info("compiling %s for %s", name, ", ".join(each.name for each in platforms))
     with tempfile.TemporaryDirectory(prefix="stickslip-c-") as scratch:
@@ -66,18 +75,23 @@ def compiled(
         for file, content in sources.items():
             (folder / file).write_bytes(content)
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            made = list(pool.map(lambda each: _library(folder, each, name), platforms))
-    return dict(zip(platforms, made, strict=True))
+            made = pool.map(
+                lambda each: _library(
+                    folder, each, name, [*_compiler(each, stays), *OPTIONS, *options]
+                ),
+                platforms,
+            )
+            return dict(zip(platforms, made, strict=True))
 
 
-def _library(folder: Path, platform: Platform, name: str) -> bytes:
+def _library(folder: Path, platform: Platform, name: str, compiler: Sequence[str]) -> bytes:
     # A DLL calls itself as the file that the compiler writes, so each platform has a folder.
     library = Path(platform.name) / f"{name}{platform.suffix}"
     (folder / library.parent).mkdir()
     files = sorted(file.name for file in folder.glob("*.c"))
     more = [word.format(library=library.name) for word in MORE.get(platform.suffix, ["-lm"])]
     shared = SHARED.get(platform.suffix, ["-fPIC", "-shared"])
-    command = [*_compiler(platform), *OPTIONS, *shared, "-o", str(library), *files, *more]
+    command = [*compiler, *shared, "-o", str(library), *files, *more]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         said = next((line for line in done.stderr.splitlines() if "error" in line), done.stderr)
@@ -85,12 +99,12 @@ def _library(folder: Path, platform: Platform, name: str) -> bytes:
     return (folder / library).read_bytes()
 
 
-def _compiler(platform: Platform) -> list[str]:
+def _compiler(platform: Platform, stays: bool) -> list[str]:
+    system = _system_compiler() if platform == this_machine() else None
+    if system and (stays or not has_zig()):
+        return [system]
     if has_zig():
         return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
-    compiler = _system_compiler()
-    if compiler and platform == this_platform():
-        return [compiler]
     raise CompilerError(
         f"{platform.name}: no compiler for it; `pip install ziglang` brings one for every platform"
     )

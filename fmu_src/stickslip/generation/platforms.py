@@ -36,8 +36,16 @@ BROWSER = Platform("wasm32-browser", "", "wasm32-wasi", ".wasm")
 
 def this_platform() -> Platform | None:
     """That of this machine; None where it is none of those."""
-    system = {"linux": "linux", "win32": "windows", "darwin": "darwin"}.get(sys.platform)
-    machine = {"amd64": "x86_64", "arm64": "aarch64"}.get(
-        platform.machine().lower(), platform.machine().lower()
-    )
-    return next((each for each in PLATFORMS if each.name == f"{machine}-{system}"), None)
+    return next((each for each in PLATFORMS if each.name == _name()), None)
+
+
+def this_machine() -> Platform:
+    """That of this machine, also where it is none of those: then the system's compiler makes it."""
+    return this_platform() or Platform(_name(), "", "native", ".so")
+
+
+def _name() -> str:
+    system = {"win32": "windows"}.get(sys.platform, sys.platform)
+    machine = platform.machine().lower()
+    processor = {"amd64": "x86_64", "arm64": "aarch64"}.get(machine, machine)
+    return f"{processor}-{system}"
