@@ -35,8 +35,10 @@ class NativeUnits(BuildHookInterface):
         if self.target_name != "wheel" or version == "editable":
             return
         sys.path[:0] = [str(ROOT), str(ROOT / "fmu_src")]
-        from stickslip import compiled
+        from stickslip import compiled, machine_code
         from stickslip.generation.platforms import BROWSER, PLATFORMS, this_machine
+        from stickslip.generation.source import kernel_source
+        from stickslip.reference import scheme_code
 
         from cosim.fmu import libraries, native, web
         from cosim.fmu.thermal import native_unit
@@ -48,10 +50,11 @@ class NativeUnits(BuildHookInterface):
             libraries.prebuild(units, unit.NAME, unit.guid(), unit.sources, platforms)
         if IS_RELEASE:
             libraries.prebuild(units, web.NAME, web.guid(), web.sources, [BROWSER])
-        compiled.prebuild(kernels, platforms)
+        for code in (compiled.code(kernel_source()), scheme_code()):
+            code.prebuild(kernels, platforms)
         build_data["force_include"] |= {
             str(units): f"cosim/fmu/{libraries.PREBUILT}",
-            str(kernels): f"stickslip/{compiled.PREBUILT}",
+            str(kernels): f"stickslip/{machine_code.PREBUILT}",
         }
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:

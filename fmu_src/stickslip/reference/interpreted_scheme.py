@@ -13,7 +13,7 @@ import math
 import numpy as np
 from scipy import signal
 
-from .scheme_types import INTERVAL, STEPS
+from .scheme import INTERVAL, STEPS
 from .spring_angles import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,

@@ -2,7 +2,7 @@
 
 Stick: x' = v, y' = phi' = 0 until the springs reach mu_s N. Slip: M q'' + K q = (F, 0, M_F) with
 q = (x, y, phi), solved exactly in blocks of 10 ms with the friction sampled a hundred times a
-block (`linear_step`), the spring angles alpha by one of four treatments (`spring_angles`) and
+block (`scheme.c`), the spring angles alpha by one of four treatments (`spring_angles`) and
 friction summed over a hundred strips (`strip_friction`). Each known fault can be mended
 (`faults`).
 
@@ -23,22 +23,9 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from . import linearised_motion
 from .faults import PRINTED, Faults
+from .scheme import CUT, SLIP, STUCK_AGAIN, Motion, SchemeFaults, SchemeRig
 from .scheme_effects import NO_EFFECTS, SchemeEffects
-from .scheme_types import (
-    CUT,
-    PHASE,
-    ROW,
-    ROW_STEPS,
-    SLIP,
-    STEP,
-    STICK_STEP,
-    STUCK_AGAIN,
-    Memory,
-    SchemeFaults,
-    SchemeRig,
-)
 from .spring_angles import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,
@@ -49,7 +36,6 @@ from .spring_angles import (
 from .strip_friction import strips
 
 GRAVITY = 9.81
-MOST_PHASES = 20_000
 
 
 @dataclass(frozen=True)
@@ -111,23 +97,17 @@ class Scheme:
         turned: rad, of the block at the start; the mirror images cancel exactly here, so that
         without scatter an unstable straight motion stays straight unless the start is turned.
         """  # fmt: skip
-        memory = self._memory(duration)
-        memory.q[2] = turned
-        linearised_motion.run(
-            self._rig(seed), self._faults(), self.effects, memory, cycles, float(duration)
-        )
-        return _result(memory)
+        motion = self._motion(duration, seed, q=[0.0, 0.0, turned])
+        motion.run(self._rig(seed), self._faults(), self.effects, cycles, float(duration))
+        return _result(motion)
 
     def slide(
         self, duration: float, *, x0: float = 0.0, v0: float = 0.0, seed: int = 0
     ) -> SchemeRun:
         """Slip alone, whatever the block's speed, as the study's verification runs do."""
-        memory = self._memory(duration)
-        memory.q[0], memory.v[0] = x0, v0
-        linearised_motion.slide(
-            self._rig(seed), self._faults(), self.effects, memory, float(duration)
-        )
-        return _result(memory)
+        motion = self._motion(duration, seed, q=[x0, 0.0, 0.0], v=[v0, 0.0, 0.0])
+        motion.run(self._rig(seed), self._faults(), self.effects, float(duration))
+        return _result(motion)
 
     def _rig(self, seed: int) -> SchemeRig:
         normal_force = self.mass * GRAVITY
@@ -171,27 +151,20 @@ class Scheme:
             lagging=faults.F15,
         )
 
-    def _memory(self, duration: float) -> Memory:
+    def _motion(self, duration: float, seed: int, **begin: list[float]) -> Motion:
         shares, middles = strips(self.radius)
         # the mean load of all strips where it does not depend on their speeds
         steady = np.array([shares.sum() * self.mu_k * self.mass * GRAVITY, 0.0])
-        rows = int(duration / (ROW_STEPS * STEP) + duration / STICK_STEP) + 4 * MOST_PHASES
-        return Memory(
-            q=np.zeros(3),
-            v=np.zeros(3),
-            before=np.zeros(3),
+        return Motion(
+            duration,
+            seed,
             alpha=fixed_angles(self.treatment),
-            load=np.zeros(3),
-            mean=steady,
-            side=np.ones(1),
-            past=np.zeros(3),
             attachment=attachments(self.radius),
-            beta=ATTACHMENT_ANGLES.copy(),
+            beta=ATTACHMENT_ANGLES,
+            mean=steady,
             shares=shares,
             middles=middles,
-            rows=np.empty((rows, ROW)),
-            phases=np.empty((MOST_PHASES, PHASE)),
-            counts=np.zeros(2, dtype=np.int64),
+            **{name: np.array(value) for name, value in begin.items()},
         )
 
 
@@ -200,7 +173,7 @@ class SchemeRun:
     """A run of the scheme.
 
     time (n,) s; q, velocity (n, 3): x, y, phi; load (n, 2): N, N m; mode (n,): 0 stick, 1 slip.
-    phases (k, 5): begin s, end s, mode, how it ended (`scheme_types`), jump of x' at its end m/s.
+    phases (k, 5): begin s, end s, mode, how it ended (`scheme`), jump of x' at its end m/s.
     """
 
     time: np.ndarray
@@ -227,13 +200,13 @@ class SchemeRun:
         return int(np.sum(self.phases[:, 3] == CUT))
 
 
-def _result(memory: Memory) -> SchemeRun:
-    rows = memory.rows[: memory.counts[0]].copy()
+def _result(motion: Motion) -> SchemeRun:
+    rows = motion.rows
     return SchemeRun(
         time=rows[:, 0],
         q=rows[:, 1:4],
         velocity=rows[:, 4:7],
         load=rows[:, 7:9],
         mode=rows[:, 9],
-        phases=memory.phases[: memory.counts[1]].copy(),
+        phases=motion.phases,
     )

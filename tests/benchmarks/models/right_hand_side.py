@@ -7,22 +7,22 @@ call from Python is in it), then the quadrature's error against adaptive integra
 mu_k, the larger of force and moment.
 """
 
+from functools import cache
 from types import SimpleNamespace
 
-import numba
 import numpy as np
 from baseline import Figure, arguments, write
 from disc_integral import law_over_disc
 from mechanics import median_seconds
 from stickslip import Parameters
-from stickslip.compiled import OPTIONS, compiled_kernel
+from stickslip.compiled import library
+from stickslip.generation.source import kernel_source
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import (
     DEPTHS,
     OMEGA,
     PHI,
     RAYS,
-    SLIP,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -30,7 +30,6 @@ from stickslip.kernel.layout import (
     VY,
     W_FRICTION,
     W_SIZE,
-    W_SLOPES,
     W_STATE,
     X,
     Y,
@@ -65,15 +64,21 @@ RATIOS = (0.1, 0.5, 0.9, 1.0, 1.1, 2.0, 10.0)  # rim speed over sliding speed
 ACCURACY = 1e-10  # of the adaptive integration; no error below it is shown
 
 
-@numba.njit(**{**OPTIONS, "cache": False})
-def repeat(slopes, p, u, w, loops):
-    """Sum of what depends on every call, so that none is left out."""
+#: Sum of what depends on every call, so that none is left out; becomes C with the kernel.
+REPEAT = """
+def repeat(p: 'float[:]', u: 'float[:]', w: 'float[:]', loops: int) -> float:
     total = 0.0
     for i in range(loops):
         w[W_STATE + X] = 0.02 + 1e-9 * i
-        slopes(p, u, w, 1.0 * SLIP, W_SLOPES)
+        set_slopes(p, u, w, 1.0 * SLIP, W_SLOPES)
         total += w[W_SLOPES + VX - 1]
     return total
+"""
+
+
+@cache
+def repeat():
+    return library(kernel_source() + REPEAT).repeat
 
 
 def moving(blocks: dict, turning: float) -> SimpleNamespace:
@@ -90,9 +95,8 @@ def moving(blocks: dict, turning: float) -> SimpleNamespace:
 
 def nanoseconds(kind: str) -> float:
     at = moving(*KINDS[kind])
-    slopes = compiled_kernel().set_slopes
-    repeat(slopes, at.p, at.u, at.w, 10)  # compiles
-    return 1e9 / LOOPS * median_seconds(lambda: repeat(slopes, at.p, at.u, at.w, LOOPS), 7)
+    call = repeat()
+    return 1e9 / LOOPS * median_seconds(lambda: call(at.p, at.u, at.w, LOOPS), 7)
 
 
 def quadrature_error(law: str, ratio: float) -> float:

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from stickslip.reference.faults import PRINTED
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from blind.laboratory.apparatus import apparatus  # noqa: E402
@@ -17,12 +16,9 @@ from blind.laboratory.simulation import COLUMNS, simulate  # noqa: E402
 from blind.motion import walk  # noqa: E402
 from blind.simulator.hidden import Hidden, State  # noqa: E402
 
-from cosim.studies.reproduction.cases import DATASET_1, scheme_motion  # noqa: E402
-
 
 def compile_all() -> None:
-    """The study's scheme, both foreign simulators."""
-    scheme_motion(DATASET_1, PRINTED, cycles=1)
+    """Both foreign simulators."""
     simulate(apparatus(0.67, 20.0, 0.1, 0.1, 0.1, contact="jump"), np.zeros(COLUMNS), 1e-3)
     for plane in (False, True):
         walk(Hidden(), State(), plane, 1e-3, 1)

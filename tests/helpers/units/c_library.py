@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import ctypes
 import importlib.util
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-from stickslip.compiled import Library, sources
-from stickslip.generation.compiler import CALLED_BY_NAME, compiled
+from stickslip.compiled import Library, code, sources
 from stickslip.generation.platforms import this_machine
 
 WARNINGS = "-std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -fsyntax-only"
@@ -25,11 +25,9 @@ def compiler() -> list[str]:
 
 def library(text: str, folder: Path) -> Library:
     """The functions of a text, compiled in a folder."""
-    here = this_machine()
-    made = compiled(sources(text), [here], "kernel", CALLED_BY_NAME, stays=True)
-    file = folder / f"kernel{here.suffix}"
-    file.write_bytes(made[here])
-    return Library(text, file)
+    made = code(text)
+    made.prebuild(folder, [this_machine()])
+    return Library(text, ctypes.CDLL(str(folder / made.file(this_machine()))))
 
 
 def warnings(text: str, folder: Path) -> str:

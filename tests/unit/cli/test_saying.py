@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from stickslip import Parameters, compiled, simulate
+from stickslip import Parameters, compiled, machine_code, simulate
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS, parser
@@ -92,8 +92,8 @@ def test_how_much_is_said_ends_with_the_command(capsys):
 
 @pytest.fixture
 def not_compiled(monkeypatch, tmp_path):
-    monkeypatch.setattr(compiled, "_folders", lambda: [tmp_path / "cache"])
-    monkeypatch.setattr(compiled, "PREBUILT", "none")
+    monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path / "cache"])
+    monkeypatch.setattr(machine_code, "PREBUILT", "none")
     compiled.compiled_kernel.cache_clear()
     yield
     compiled.compiled_kernel.cache_clear()

@@ -10,7 +10,7 @@ import time
 
 import numpy as np
 import pytest
-from stickslip import Parameters, compiled, simulate
+from stickslip import Parameters, compiled, machine_code, simulate
 from stickslip.arrays import RunArrays, inputs
 from stickslip.generation.platforms import this_machine
 from stickslip.kernel.layout import O_SIZE
@@ -19,9 +19,9 @@ TEXT = "def advance(x: float) -> float:\n    return x + 1.0\n"
 #: Compiles a kernel of one line; prints what it gives, and whether it was there before.
 PROGRAM = f"""
 import logging
-from stickslip import compiled
+from stickslip import compiled, machine_code
 told = []
-compiled.LOG.addFilter(lambda record: told.append(record.getMessage()))
+machine_code.LOG.addFilter(lambda record: told.append(record.getMessage()))
 advance = compiled.library({TEXT!r}).advance
 print(advance(1.0), not any("compiling" in each for each in told))
 """
@@ -64,11 +64,11 @@ def test_a_cache_that_was_filled_and_can_only_be_read_is_used(tmp_path):
 @pytest.fixture
 def keeps(tmp_path, monkeypatch):
     """The folder that a kernel is kept in, None for none, and what it may be."""
-    monkeypatch.setattr(compiled.platformdirs, "user_cache_path", lambda name: tmp_path / name)
-    monkeypatch.setattr(compiled.tempfile, "gettempdir", lambda: str(tmp_path))
+    monkeypatch.setattr(machine_code.platformdirs, "user_cache_path", lambda name: tmp_path / name)
+    monkeypatch.setattr(machine_code.tempfile, "gettempdir", lambda: str(tmp_path))
 
     def keep():
-        file = compiled._kept("kernel", b"machine code")
+        file = machine_code._kept("kernel", b"machine code")
         return None if file is None else file.parent
 
     return keep, tmp_path / "stickslip", tmp_path / f"stickslip-{os.getuid()}"
@@ -76,7 +76,7 @@ def keeps(tmp_path, monkeypatch):
 
 def test_where_nothing_can_be_kept_it_is_compiled_for_this_process(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
-    monkeypatch.setattr(compiled, "_folders", lambda: [tmp_path / "file" / "x"])
+    monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path / "file" / "x"])
     library = compiled.library(TEXT)
     assert isinstance(library, compiled.Library) and library.advance(1.0) == 2.0
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
@@ -104,12 +104,12 @@ def test_a_folder_or_link_of_another_user_in_its_place_is_not_used(keeps):
     scratch.symlink_to(elsewhere)
     os.chown(scratch, NOBODY, NOBODY, follow_symlinks=False)
     assert keep() is None
-    (mine / compiled._name(TEXT, this_machine())).write_bytes(b"somebody else's")
+    (mine / compiled.code(TEXT).file(this_machine())).write_bytes(b"somebody else's")
     assert compiled.library(TEXT).advance(1.0) == 2.0
 
 
 def test_without_a_compiler_it_runs_interpreted_and_says_so(tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(compiled, "_folders", lambda: [tmp_path])
+    monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path])
     monkeypatch.setattr(shutil, "which", lambda name: None)
     monkeypatch.setattr("stickslip.generation.compiler.has_zig", lambda: False)
     compiled.compiled_kernel.cache_clear()
@@ -123,11 +123,10 @@ def test_without_a_compiler_it_runs_interpreted_and_says_so(tmp_path, monkeypatc
 
 
 def test_a_package_brings_the_library_along(tmp_path, monkeypatch):
-    folder = tmp_path / compiled.PREBUILT
-    compiled.prebuild(folder, [this_machine()])
-    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "compiled.py"))
-    monkeypatch.setattr(compiled, "compiled", None)  # nothing is compiled
-    assert isinstance(compiled.library(compiled.kernel_source()), compiled.Library)
+    compiled.code(TEXT).prebuild(tmp_path / machine_code.PREBUILT, [this_machine()])
+    monkeypatch.setattr(machine_code, "__file__", str(tmp_path / "machine_code.py"))
+    monkeypatch.setattr(machine_code, "compiled", None)  # nothing is compiled
+    assert compiled.library(TEXT).advance(1.0) == 2.0
 
 
 def test_threads_compute_at_the_same_time():

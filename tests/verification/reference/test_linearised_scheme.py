@@ -1,5 +1,7 @@
 """The study's scheme: its matrices, its exact step, its limit cycle once mended, its faults."""
 
+from ctypes import c_double
+
 import numpy as np
 import pytest
 from scipy import signal
@@ -13,10 +15,10 @@ from stickslip.reference.interpreted_scheme import (
     load_strip_by_strip,
     load_strips_together,
 )
-from stickslip.reference.linear_step import propagator, step
 from stickslip.reference.linearised import Scheme
+from stickslip.reference.scheme import Propagator, functions
 from stickslip.reference.spring_angles import fixed_angles, stiffness_matrix
-from stickslip.reference.strip_friction import field_scatter, strips
+from stickslip.reference.strip_friction import strips
 
 #: K/k as printed, five decimals
 PRINTED_MATRICES = {
@@ -52,10 +54,11 @@ def test_step_is_the_matrix_exponential():
     system[3:6, :3], system[3:6, 6:9] = -w, np.eye(3)
     system[6:9, 9:12] = np.eye(3)
     expected = expm(system * h) @ np.concatenate([q, v, a0, (a1 - a0) / h])
-    prop, q1, v1 = np.empty((5, 3, 3)), np.empty(3), np.empty(3)
-    propagator(w, h, prop)
-    step(prop, h, q, v, a0, a1, q1, v1)
-    np.testing.assert_allclose(np.concatenate([q1, v1]), expected[:6], rtol=1e-13, atol=1e-15)
+    matrices, vector, found = Propagator(), c_double * 3, np.empty((2, 3))
+    functions().propagator((vector * 3).from_buffer(w), h, matrices)
+    given = [vector.from_buffer(np.array(each)) for each in (q, v, a0, a1)]
+    functions().step(matrices, h, *given, *(vector.from_buffer(row) for row in found))
+    np.testing.assert_allclose(found.ravel(), expected[:6], rtol=1e-13, atol=1e-15)
 
 
 def test_slip_is_what_lsim_gives():
@@ -148,19 +151,22 @@ def test_strips_one_by_one_or_together():
     assert strips(0.05)[0].sum() == pytest.approx(0.9989, abs=1e-4)
 
 
+def scatter_at(place):
+    """Two normals that belong to a place, m."""
+    normals = (c_double * 2)()
+    functions().field_scatter(7, place, 1e-3, normals)
+    return np.array(normals)
+
+
 def test_scatter_belongs_to_places():
     """Mended F5: the same place gives the same draw, neighbours are alike, variance is one."""
-    normals = np.empty((4000, 2))
-    for i, row in enumerate(normals):
-        field_scatter(7, 0.00137 * i, 1e-3, row)
-    again = np.empty(2)
-    field_scatter(7, 0.00137 * 5, 1e-3, again)
+    normals = np.array([scatter_at(0.00137 * i) for i in range(4000)])
+    again = scatter_at(0.00137 * 5)
     np.testing.assert_array_equal(again, normals[5])
     # neighbouring places share a node, so four standard errors of independent draws, doubled
     np.testing.assert_allclose(normals.mean(axis=0), 0.0, atol=8 / np.sqrt(4000))
     np.testing.assert_allclose(normals.std(axis=0), 1.0, atol=8 / np.sqrt(2 * 4000))
-    close = np.empty(2)
-    field_scatter(7, 0.00137 * 5 + 1e-9, 1e-3, close)
+    close = scatter_at(0.00137 * 5 + 1e-9)
     np.testing.assert_allclose(close, again, atol=1e-5)
 
 

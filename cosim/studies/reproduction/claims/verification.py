@@ -10,10 +10,8 @@ from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.linearised import GRAVITY, SchemeRun
 from stickslip.reference.spring_angles import (
     ATTACHMENT_RADIUS,
-    attachments,
     fixed_angles,
     stiffness_matrix,
-    stiffness_over_k,
 )
 
 from cosim.studies.reproduction.cases import MATRICES, STUDY
@@ -74,10 +72,10 @@ def judge_matrices() -> Claim:
 
 def _other_radius(treatment: str, expected: np.ndarray) -> Turn:
     """The least attachment radius above the study's with which a printed digit changes."""
-    matrix, radius = np.empty((3, 3)), ATTACHMENT_RADIUS
+    radius = ATTACHMENT_RADIUS
     while True:
         radius += 1e-5
-        stiffness_over_k(fixed_angles(treatment), attachments(radius), matrix)
+        matrix = stiffness_matrix(fixed_angles(treatment), radius)
         if not np.array_equal(np.round(matrix, DIGITS), expected):
             break
     return Turn(
