@@ -217,7 +217,8 @@ def _realigned(
         far = 2.0 * sd * 2.0 * np.pi * wave.wavenumber * _travel(run)[-1]
         count = min(int(far / ALIGNED), SPEEDS_TRIED)
         tried = mean + 2.0 * sd * np.arange(-count, count + 1) / max(count, 1)
-        free = np.hstack([each.unknown.columns([run]) @ each.factor for each in rung.unknowns])
+        free = np.hstack([rung.system.columns_of(each.unknown, run) @ each.factor
+                          for each in rung.unknowns])  # fmt: skip
         inner = np.eye(free.shape[1]) + free.T @ free
         best = (np.inf, 0.0, mean)
         for faster in tried:
@@ -280,10 +281,14 @@ class Wave:
         Half a step of the scan is how far off a wavenumber may be.
         """
 
+        slopes: dict[int, np.ndarray] = {}
+
         def slope(run: RunRows) -> np.ndarray:
-            """(n,) derivative of the wave by its angle."""
-            cosines, sines = np.hsplit(self.waves(run), 2)
-            return np.hstack([-ORDERS * sines, ORDERS * cosines]) @ sizes
+            """(n,) derivative of the wave by its angle, which all three ask for."""
+            if id(run) not in slopes:
+                cosines, sines = np.hsplit(self.waves(run), 2)
+                slopes[id(run)] = np.hstack([-ORDERS * sines, ORDERS * cosines]) @ sizes
+            return slopes[id(run)]
 
         def turned(run: RunRows) -> Response:
             return self.kind.effect(run, -slope(run)[:, None])

@@ -71,6 +71,9 @@ class System:
         self._grams: dict[tuple[int, int], np.ndarray] = {}
         self._rights: dict[int, np.ndarray] = {}
         self._kept: list[Unknown] = []
+        ends = np.cumsum([0, *map(len, self.fitted)])
+        self._places = {id(run): (number, slice(ends[number], ends[number + 1]))
+                        for number, run in enumerate(self.fitted)}  # fmt: skip
         #: What scans for waves have made of the runs (see `periodic`).
         self.waves: dict[Any, Any] = {}
 
@@ -82,9 +85,19 @@ class System:
             self._rights[id(unknown)] = self._columns[id(unknown)].T @ self.rows
         return self._columns[id(unknown)]
 
+    def columns_of(self, unknown: Unknown, run: RunRows) -> np.ndarray:
+        """(rows, q) of one run, which need not be among the fitted ones."""
+        if id(run) not in self._places:
+            return unknown.columns([run])
+        (number, rows), q = self._places[id(run)], unknown.size
+        columns = self.columns(unknown)[rows]
+        return columns[:, number * q : (number + 1) * q] if unknown.per_run else columns
+
     def gram(self, unknowns: Sequence[Unknown], others: Sequence[Unknown]) -> np.ndarray:
         """X'Y of two lists of unknowns, from pairs that are made once."""
-        return np.block([[self._pair(a, b) for b in others] for a in unknowns])
+        return np.concatenate(
+            [np.concatenate([self._pair(a, b) for b in others], axis=1) for a in unknowns]
+        )
 
     def _pair(self, a: Unknown, b: Unknown) -> np.ndarray:
         if (id(a), id(b)) not in self._grams:
@@ -251,7 +264,7 @@ class Rung:
         rows, own = run.values.copy(), []
         mean, covariance = self.posterior
         shared = [(each, part) for each, part in self._parts if not each.unknown.per_run]
-        columns = np.hstack([each.unknown.columns([run]) for each, _ in shared])
+        columns = np.hstack([self.system.columns_of(each.unknown, run) for each, _ in shared])
         places = np.concatenate([np.arange(part.start, part.stop) for _, part in shared])
         rows -= columns @ mean[places]
         inside = covariance[np.ix_(places, places)]
@@ -260,7 +273,7 @@ class Rung:
         for each in self.unknowns:
             if not each.unknown.per_run:
                 continue
-            columns = each.unknown.columns([run])
+            columns = self.system.columns_of(each.unknown, run)
             scale = {SCATTER: scatter, ZERO_NAME: zeros}.get(each.unknown.name, 1.0)
             own.append(scale * (columns @ each.factor))
         free = np.hstack(own)
