@@ -37,6 +37,8 @@ class RunFit:
         self.unknowns, self.felt, self.settings = unknowns, list(felt), settings
         self.near = near
         self.tried: dict[bytes, Started] = {}
+        #: id of start states -> these, and their derivatives: simulated once in a fit
+        self.known: dict[int, tuple[Started, np.ndarray, np.ndarray, np.ndarray]] = {}
         self.base: np.ndarray | None = None  # where the following were taken
         self.columns: np.ndarray | None = None
         self.response = np.empty(0)
@@ -81,20 +83,28 @@ class RunFit:
 
     def derivatives(self, scaled: np.ndarray) -> np.ndarray:
         """(size, k) by the numbers, normal to those by the start states."""
-        at, values = self.followed(scaled), self.values(scaled)
-        p = self.model.packed(values)
-        self.columns = self.starts.derivatives(values, at, p)
+        at = self.followed(scaled)
+        if id(at) not in self.known:
+            self.known[id(at)] = (at, *self._derivatives(scaled, at))
+        _, self.columns, self.response, derivatives = self.known[id(at)]
+        self.base = scaled[self.felt].copy()
+        self.tried = {self.base.tobytes(): at}
+        return derivatives
+
+    def _derivatives(
+        self, scaled: np.ndarray, at: Started
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """By the start states, of these by the numbers, and of the rest by the numbers."""
+        values = self.values(scaled)
+        columns = self.starts.derivatives(values, at, self.model.packed(values))
         slopes = np.zeros((at.residuals.size, len(self.felt)))
         for place, i in enumerate(self.felt):
             slopes[:, place] = self._slope(scaled, i, at)
-        move = self.starts.coordinates(self.columns, slopes)
+        move = self.starts.coordinates(columns, slopes)
         steps = self.starts.steps[self.starts.axes(values)]
-        self.response = -move * steps[None, :, None]
-        self.base = scaled[self.felt].copy()
-        self.tried = {self.base.tobytes(): at}
         derivatives = np.zeros((at.residuals.size, len(self.unknowns)))
-        derivatives[:, self.felt] = self.starts.normal_part(self.columns, slopes)
-        return derivatives
+        derivatives[:, self.felt] = self.starts.normal_part(columns, slopes)
+        return columns, -move * steps[None, :, None], derivatives
 
     def _slope(self, scaled: np.ndarray, i: int, at: Started) -> np.ndarray:
         """(size,) by one number, at fixed start states."""
@@ -112,7 +122,8 @@ class RunFit:
         """Whether windows off course have found better states, which are then kept."""
         at, values = self.followed(scaled), self.values(scaled)
         p = self.model.packed(values)
-        other = self.starts.retried(values, self.starts.settled(values, at, p), p)
+        columns = self.known[id(at)][1] if id(at) in self.known else None
+        other = self.starts.retried(values, self.starts.settled(values, at, p, columns=columns), p)
         self.forget(scaled, other)
         return self.starts.gain(at, other) > LEADS_ON
 

@@ -109,11 +109,15 @@ class StartStates:
                 break
         return at
 
-    def settled(self, values, at: Started, p: np.ndarray, rounds: int = ROUNDS) -> Started:
-        """The best states nearby."""
+    def settled(
+        self, values, at: Started, p: np.ndarray, rounds: int = ROUNDS,
+        columns: np.ndarray | None = None,
+    ) -> Started:  # fmt: skip
+        """The best states nearby. columns : derivatives there, where they are known"""
         for _ in range(rounds):
             before = at
-            at = self.stepped(values, at, self.derivatives(values, at, p), p)
+            here = self.derivatives(values, at, p) if columns is None else columns
+            at, columns = self.stepped(values, at, here, p), None
             if self.gain(before, at) < GAIN:
                 break
         return at
