@@ -8,7 +8,9 @@ unknowns about where they were found, so that the evidence has their price in it
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from scipy.signal import find_peaks
@@ -35,6 +37,8 @@ Coordinate = Callable[[RunRows], np.ndarray]
 Effect = Callable[[RunRows, np.ndarray], Response]
 
 ORDERS = np.arange(1, HARMONICS + 1)
+#: Runs and waves are worked out beside one another, in numpy's loops.
+THREADS = ThreadPoolExecutor(2)
 
 
 @dataclass(frozen=True)
@@ -95,7 +99,7 @@ def offered(
         return None
     # bumps are strongest in a harmonic: twice and three times the strongest wave's length too
     longer = [tops[0] / part for part in (2.0, 3.0) if tops[0] / part >= wavenumbers[0]]
-    found = [_as_one_shape(rung, kind, float(wavenumber)) for wavenumber in (*tops, *longer)]
+    found = list(THREADS.map(partial(_as_one_shape, rung, kind), map(float, (*tops, *longer))))
     evidence, added = max(found, key=lambda each: each[0])
     return evidence - price_of_scan(wavenumbers.size, len(longer)), added
 
@@ -147,7 +151,8 @@ def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
     system = rung.system
     if kind not in system.waves:
         wavenumbers = wavenumbers_of(system.fitted, kind)
-        runs = [_Waves.of(run, kind, wavenumbers) for run in system.fitted]
+        made = partial(_Waves.of, kind=kind, wavenumbers=wavenumbers)
+        runs = list(THREADS.map(made, system.fitted))
         system.waves[kind] = (wavenumbers, runs)
     wavenumbers, runs = system.waves[kind]
     gains = np.zeros(wavenumbers.size)

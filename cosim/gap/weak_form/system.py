@@ -81,8 +81,9 @@ class System:
         """(rows, unknowns) of the fitted runs; made once."""
         if id(unknown) not in self._columns:
             self._kept.append(unknown)  # its id must not be given to another
-            self._columns[id(unknown)] = unknown.columns(self.fitted)
-            self._rights[id(unknown)] = self._columns[id(unknown)].T @ self.rows
+            columns = unknown.columns(self.fitted)
+            self._rights[id(unknown)] = columns.T @ self.rows
+            self._columns[id(unknown)] = columns  # last: another thread may ask for both
         return self._columns[id(unknown)]
 
     def columns_of(self, unknown: Unknown, run: RunRows) -> np.ndarray:
