@@ -142,6 +142,14 @@ def claim(folder: Path, files: Iterable[str]) -> None:
         write_text(json.dumps(content, indent=1) + "\n", folder / MANIFEST)
 
 
+def list_further(folder: Path, files: Iterable[str]) -> None:
+    """List files that were added to a complete result, which is otherwise as it was."""
+    file = folder / MANIFEST
+    content = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else made_by()
+    content["files"] = sorted({*content.get("files", ()), *files})
+    write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", file)
+
+
 def files_of_earlier(folder: Path) -> set[str]:
     """What the last run here has listed, as names inside the folder; none where there was none."""
     try:

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn, TypedDict
 
 
 class Command(NamedTuple):
@@ -39,6 +39,7 @@ COMMANDS = {
     "couple": Command(
         "runs", "any system of units: an SSP file, or a TOML of units, connections, scheme, steps"
     ),
+    "plot": Command("runs", "figures of a result as PNG files"),
     "compare": Command("runs", "two results, or two scenarios: numbers, curves, what differs"),
     "belt-length": Command(
         "studies", "how long the belt must be: drift of its temperature, loop after loop"
@@ -147,7 +148,25 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         command,
         "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)",
     )
+    command.add_argument(
+        "--figures",
+        action="store_true",
+        help="also write the figures of the page as PNG files (later: stickslip plot DIR)",
+    )
+    command.add_argument("--no-page", action="store_true", help="write no report.html")
     add_force(command, ", and begin anew where an unfinished run could be gone on with")
+
+
+class Shown(TypedDict):
+    """What is drawn of a run."""
+
+    figures: bool
+    page: bool
+
+
+def shown(arguments: argparse.Namespace) -> Shown:
+    """As the command line says it."""
+    return {"figures": arguments.figures, "page": not arguments.no_page}
 
 
 def add_output(command: argparse.ArgumentParser, said: str, default: str | None = None) -> None:

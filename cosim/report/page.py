@@ -4,9 +4,9 @@ A page is a Jinja template that extends `page.html.j2` and fills its blocks titl
 content. Beside its own values it has ``figure(picture)`` and the filters ``number`` and ``unit``.
 
 A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
-where scripts do not run, and on paper, stands its PNG. The scripts are in the page, plain and
-readable, and so is uPlot (MIT licence, in `templates/uplot`), which draws the curves: a page asks
-for nothing outside. Wide tables scroll by themselves, so that a page never does sideways.
+where scripts do not run, and on paper, stands its PNG if it has one. The scripts are in the page,
+plain and readable, and so is uPlot (MIT licence, in `templates/uplot`), which draws the curves: a
+page asks for nothing outside. Wide tables scroll by themselves, so that a page never does sideways.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Picture:
     """A PNG with its caption.
 
     alt: what a reader hears who does not see it (left out, the caption). live: what the page draws
-    in place of the PNG, see `cosim.report.live`.
+    in place of the PNG, see `cosim.report.live`; there need not be a PNG then.
     """
 
     name: str
@@ -120,17 +120,18 @@ def figure(picture: Picture, alt: str = "") -> Markup:
     data = Markup("")
     if picture.live is not None:
         data = Markup('<script type="application/json">{}</script>\n').format(_json(picture.live))
+    alt = alt or picture.alt or picture.caption
+    still = Markup('<noscript><p class="warning">{}: this figure needs scripts.</p></noscript>')
+    still = still.format(alt)
+    if picture.png:
+        image = '<img class="still" width="{}" src="data:image/png;base64,{}" alt="{}">'
+        encoded = base64.b64encode(picture.png).decode("ascii")
+        still = Markup(image).format(_width(picture.png), encoded, alt)
     return Markup(
-        '<figure{} data-name="{}"><img class="still" width="{}" '
-        'src="data:image/png;base64,{}" alt="{}">\n{}<figcaption>{}</figcaption></figure>\n'
+        '<figure{} data-name="{}" data-alt="{}">{}\n{}<figcaption>{}</figcaption></figure>\n'
     ).format(
         Markup(' class="live"') if picture.live is not None else "",
-        picture.name,
-        _width(picture.png),
-        base64.b64encode(picture.png).decode("ascii"),
-        alt or picture.alt or picture.caption,
-        data,
-        picture.caption,
+        *(picture.name, alt, still, data, picture.caption),
     )
 
 

@@ -1,4 +1,4 @@
-"""A run's dataset to the files of its output folder: data, summary, figures and one page."""
+"""A run's dataset to the files of its output folder: data, summary, page, figures on request."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import xarray as xr
 from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_bytes, write_text
+from cosim.names import unknown_name
 from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
 
@@ -21,7 +22,7 @@ from .files import write_csv, write_json, write_netcdf
 from .heat_numbers import ambient_degC
 from .material import page_of_material
 from .motion_text import border_sentence, regime_sentence, stability_sentence
-from .page import Picture, render
+from .page import render
 from .quantities import digits, spelled, told, with_unit, worded
 from .run_summary import summary
 
@@ -56,17 +57,17 @@ def write_results(
     files: Mapping[str, str] | None = None,
     views: Views = (),
     progress: Progress | None = None,
+    figures: bool = False,
+    page: bool = True,
 ) -> list[Path]:
-    """Write data, summary, figures and page into a folder that exists; the data first.
+    """Write data, summary and page into a folder that exists; the data first.
 
     command: how the run was asked for, shown on the page. files: further files of the run,
     relative to the folder -> what they are, to be listed there. views: times (s) and what is seen
     of belt and ice, for an animation; none without them. progress: called with the name
-    of each file once it is written. Raises OutputError where the disk refuses.
+    of each file once it is written. figures: those of the page as PNG files, too. Raises
+    OutputError where the disk refuses.
     """
-    from .figures import plates_of
-    from .figures.animation import Moving, animation
-
     folder = Path(folder)
     written: list[Path] = []
 
@@ -79,19 +80,38 @@ def write_results(
         done(path)
     numbers = summary(dataset)
     done(write_json(numbers, folder / "summary.json"))
-    pictures = []
-    for plate in plates_of(dataset):
-        pictures.append(plate.picture(dataset))
-        done(write_bytes(pictures[-1].png, folder / f"{plate.name}.png"))
     files = dict(files or {})
+    if figures:
+        for path in write_figures(dataset, folder):
+            done(path)
+            files[path.name] = "figure, as above"
     if views:
+        from .figures.animation import Moving, animation
+
         columns = (dataset[name].values for name in ("time", "x", "surface_travel"))
         film = animation(views, ambient_degC(dataset), dataset.attrs["title"], Moving(*columns))
         done(write_bytes(film, folder / ANIMATION))
         files[ANIMATION] = "temperature of belt and ice over time, an animation"
-    text = page(dataset, numbers, pictures, command=command, files=files)
-    done(write_text(text, folder / "report.html"))
+    if page:
+        text = run_page(dataset, numbers, command=command, files=files)
+        done(write_text(text, folder / "report.html"))
     return written
+
+
+def write_figures(dataset: xr.Dataset, folder: Path, names: Sequence[str] = ()) -> Iterator[Path]:
+    """The figures of a run's page as ``NAME.png``, one after the other; all, if none is named.
+
+    Raises ValueError for a name that is none, before anything is written.
+    """
+    from .figures import plates_of
+    from .style import png
+
+    plates = {plate.name: plate for plate in plates_of(dataset)}
+    for name in names:
+        if name not in plates:
+            raise ValueError(unknown_name("figure of this run", name, plates))
+    for name in names or plates:
+        yield write_bytes(png(plates[name].drawn(dataset)), folder / f"{name}.png")
 
 
 def write_data(dataset: xr.Dataset, folder: str | Path) -> list[Path]:
@@ -103,16 +123,16 @@ def write_data(dataset: xr.Dataset, folder: str | Path) -> list[Path]:
     ]
 
 
-def page(
+def run_page(
     dataset: xr.Dataset,
     numbers: Mapping[str, Any],
-    pictures: Sequence[Picture],
     *,
     command: str = "",
     files: Mapping[str, str] | None = None,
 ) -> str:
     """HTML of a run: numbers of `summary`, its figures, further files to be listed."""
-    own = dict(OWN_FILES) | {f"{one.name}.png": "figure, as above" for one in pictures}
+    from .figures import plates_of
+
     html = render(
         "run.html.j2",
         "cosim.report",
@@ -126,10 +146,10 @@ def page(
         beyond=beyond(numbers),
         assessed=assessed(numbers),
         regimes=regime_rows(numbers),
-        figures=pictures,
+        figures=[plate.picture(dataset) for plate in plates_of(dataset)],
         parameters=parameter_tables(dataset),
         defaults=taken_line(numbers["defaults"]),
-        files=own | dict(files or {}),
+        files=OWN_FILES | dict(files or {}),
         command=command,
         coupled=numbers["case"] == "coupled",
     )

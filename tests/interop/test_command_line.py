@@ -47,7 +47,7 @@ def place(tmp_path_factory):
     (folder / "build").mkdir()
     (folder / "build" / "units.py").touch()
     (folder / "short.toml").write_text(SHORT)
-    done = stickslip(folder, "run", "short.toml")
+    done = stickslip(folder, "run", "short.toml", "--fields", "--figures")
     assert (done.returncode, done.stderr) == (0, "")
     return folder
 

@@ -51,7 +51,7 @@ def mesh():
 
 def test_a_sample_beside_the_scenario_and_an_animation(tmp_path, fmu, mesh):
     meshio.Mesh(mesh.p.T, [("tetra", mesh.t.T)]).write(tmp_path / "block.vtk")
-    done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n', "--animation")
+    done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n', "--animation", "--fields")
     assert (done.returncode, done.stderr) == (0, "")
     with Image.open(tmp_path / "out" / "temperature.gif") as animation:
         assert animation.n_frames == 5

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from cosim.cli import DONE, FAILED, BadInput, Failed
-from cosim.cli.arguments import add_run_arguments
+from cosim.cli.arguments import Shown, add_run_arguments, shown
 
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun
@@ -34,6 +34,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--animation",
         action="store_true",
         help="also write temperature.gif: belt and ice, a frame every run.snapshot_interval",
+    )
+    parser.add_argument(
+        "--fields",
+        action="store_true",
+        help="also write fields/temperature.pvd: belt and ice for ParaView, every"
+        " run.snapshot_interval",
     )
     parser.add_argument(
         "--resume",
@@ -77,6 +83,8 @@ class Job(NamedTuple):
     folder: RunFolder
     fmu: str | None
     views: bool
+    fields: bool
+    shown: Shown
     command: str
     force: bool
 
@@ -96,7 +104,7 @@ def execute(arguments: Namespace) -> int:
     job = _begun(arguments) if arguments.resume is None else _found(arguments)
     # said with the first step, when units, too, are known to be good; of old when it goes on
     unsaid = [] if arguments.resume else [job.scenario]
-    fields = writable(job.results / run_io.FIELDS)
+    fields = writable(job.results / run_io.FIELDS) if job.fields else None
     running.compile_model()
     logging = run_io.message_log(job.folder, arguments.verbose)
     going_on = run_io.going_on(job.folder, _resume(job.results))
@@ -135,6 +143,7 @@ def execute(arguments: Namespace) -> int:
                 resume=_resume(job.results) if goes_on else "",
                 log=log,
                 asked=numbers,
+                **job.shown,
             )
             results.complete = status == DONE
     # only now: had the results not come to the disk, there would still be what they are made of
@@ -166,12 +175,16 @@ def _begun(arguments: Namespace) -> Job:
         "command": command,
         "fmu": fmu,
         "views": arguments.animation,
+        "fields": arguments.fields,
+        "shown": shown(arguments),
         "taken": dict(scenario.taken),
         "effects": digests(files()),
     }
     folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
-    views, force = arguments.animation, arguments.force
-    return Job(scenario, results, folder, arguments.fmu, views, command, force)
+    return Job(
+        *(scenario, results, folder, arguments.fmu, arguments.animation, arguments.fields),
+        *(shown(arguments), command, arguments.force),
+    )
 
 
 def _found(arguments: Namespace) -> Job:
@@ -185,6 +198,9 @@ def _found(arguments: Namespace) -> Job:
         "--set": arguments.changes,
         "--fmu": arguments.fmu,
         "--animation": arguments.animation,
+        "--fields": arguments.fields,
+        "--figures": arguments.figures,
+        "--no-page": arguments.no_page,
         "--force": arguments.force,
     }
     run_io.refuse_beside_resume(given)
@@ -199,8 +215,20 @@ def _found(arguments: Namespace) -> Job:
     scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
     scenario = scenario.with_taken(asked.get("taken", {}))
     command = f"{asked.get('command', '')} (cut off, and gone on with)"
-    views = bool(asked.get("views"))
-    return Job(scenario, results, folder, asked.get("fmu"), views, command, force=False)
+    views, fields = bool(asked.get("views")), bool(asked.get("fields"))
+    return Job(
+        *(
+            scenario,
+            results,
+            folder,
+            asked.get("fmu"),
+            views,
+            fields,
+            asked.get("shown", {"figures": False, "page": True}),
+            command,
+        ),
+        force=False,
+    )
 
 
 def _resume(results: Path) -> str:

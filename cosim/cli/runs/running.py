@@ -141,19 +141,22 @@ def finish(
     resume: str = "",
     log: MessageLog | None = None,
     asked: Numbers = NOT_ASKED,
+    figures: bool = False,
+    page: bool = True,
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
     began: of the command, on time.perf_counter, s. patience: released when the data are on
     disk; a Ctrl-C then ends the drawing. files: further ones to list on the page. views:
     of belt and ice, for an animation. command: as the run was asked for; None: this one.
-    resume: what goes on with a run that is not complete. log: of what was said in it.
-    asked: where the numbers go as JSON.
+    resume: what goes on with a run that is not complete. log: of what was said in it. asked: where
+    the numbers go as JSON. figures, page: whether they are drawn.
     """
     command = shlex.join(["stickslip", *sys.argv[1:]]) if command is None else command
     try:
         files = dict(files or {}) | (log_files(log) if log else {})
-        _write(dataset, folder, patience, files=files, views=views, command=command)
+        further = {"files": files, "views": views, "command": command}
+        _write(dataset, folder, patience, figures=figures, page=page, **further)
     except KeyboardInterrupt:
         print(f"error: interrupted while drawing; the data are in {folder}", file=sys.stderr)
         return FAILED

@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_run_arguments
+from cosim.cli.arguments import add_run_arguments, shown
 from cosim.interrupts import Patience, patient_interrupts
 from cosim.manifest import made_by, results_in
 
@@ -58,7 +58,9 @@ def execute(arguments: Namespace) -> int:
         running.assess_motion(dataset, scenario, patience)
         made = made_by(scenario=scenario.to_toml())
         with results_in(folder, made, force=arguments.force) as results:
-            status = running.finish(dataset, folder, began, patience, asked=numbers)
+            status = running.finish(
+                dataset, folder, began, patience, asked=numbers, **shown(arguments)
+            )
             results.complete = status == DONE
         return status
 

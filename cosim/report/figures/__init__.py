@@ -27,8 +27,8 @@ from .top_view import draw_top_view, top_view_live
 class Plate:
     """A figure: name of its file, title, caption, how it is drawn, the variable that it needs.
 
-    alt: what a reader hears who does not see it. live: what the page's scripts make of it; None
-    where it stays a drawing. grows: the variable must rise above 0, or there is nothing to see.
+    alt: what a reader hears who does not see it. live: what the page's scripts draw; None where
+    the page has the drawing. grows: the variable must rise above 0, or there is nothing to see.
     """
 
     name: str
@@ -40,14 +40,17 @@ class Plate:
     needs: str = "x"
     grows: bool = False
 
+    def drawn(self, dataset: xr.Dataset) -> Figure:
+        """The drawing."""
+        return figure_of_material(self.draw(dataset), material_of(dataset))
+
     def picture(self, dataset: xr.Dataset) -> Picture:
-        """Drawn, and with what makes it alive."""
-        material = material_of(dataset)
-        alive = self.live(dataset) if self.live is not None else None
-        if alive is not None:
-            alive = live_of_material({"title": self.title, **alive}, material)
-        drawn = figure_of_material(self.draw(dataset), material)
-        return Picture(self.name, self.caption, png(drawn), self.alt, alive)
+        """For a page: with what its scripts draw, or else the drawing."""
+        if self.live is None:
+            return Picture(self.name, self.caption, png(self.drawn(dataset)), self.alt)
+        alive = {"title": self.title, **self.live(dataset)}
+        alive = live_of_material(alive, material_of(dataset))
+        return Picture(self.name, self.caption, b"", self.alt, alive)
 
 
 def _over_time(
@@ -170,7 +173,7 @@ def figure_of(dataset: xr.Dataset, name: str) -> Figure:
     plates = {plate.name: plate for plate in plates_of(dataset)}
     if name not in plates:
         raise ValueError(unknown_name("figure of this run", name, plates))
-    return displayed(plates[name].draw(dataset))
+    return displayed(plates[name].drawn(dataset))
 
 
 def _has(dataset: xr.Dataset, plate: Plate) -> bool:

@@ -26,12 +26,25 @@ FORCES = ("friction_force_x", "friction_force_y", "friction_moment")
 FARTHEST = 2.0
 
 
+@xr.register_dataset_accessor("rows_through_events")
+class _Kept:
+    """The rows, made when they are first asked for: xarray keeps this beside the dataset."""
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self.rows = _rows_through_events(dataset)
+
+
 def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
     """What there is over time, with two rows at each event: before and after; and which those are.
 
     The row after comes the smallest number later, so that time rises. Sides without rows (of phases
-    shorter than the interval) have none.
+    shorter than the interval) have none. Made once for a dataset.
     """
+    rows: tuple[xr.Dataset, NDArray[np.bool_]] = dataset.rows_through_events.rows
+    return rows
+
+
+def _rows_through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
     columns = [n for n, v in dataset.data_vars.items() if v.dims == ("time",)]
     over_time = dataset[columns]
     time = dataset["time"].values.astype(float)

@@ -24,16 +24,15 @@ const live = (() => {
     return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e-", "e−");
   }
 
-  // Each figure of a kind with its data and an empty stage in place of the PNG. A figure whose
-  // script fails keeps its PNG.
+  // Each figure of a kind with its data and an empty stage in place of the PNG, if it has one. A
+  // figure whose script fails keeps its PNG.
   function each(kind, draw) {
     for (const figure of document.querySelectorAll("figure.live")) {
       const script = figure.querySelector("script");
       if (!script) continue;
       const data = JSON.parse(script.textContent);
       if (data.kind !== kind) continue;
-      const still = figure.querySelector("img");
-      const stage = element("div", { class: "stage", role: "group", "aria-label": still.alt });
+      const stage = element("div", { class: "stage", role: "group", "aria-label": figure.dataset.alt });
       if (data.title) stage.append(element("h3", {}, data.title));
       figure.insertBefore(stage, script);
       figure.classList.add("on");

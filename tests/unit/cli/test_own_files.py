@@ -88,7 +88,7 @@ def test_the_figures_of_run_do_not_stay_where_simulate_writes(tmp_path):
     """Nor its temperature fields; what somebody else put there does."""
     (tmp_path / "short.toml").write_text(SHORT)
     out = tmp_path / "out"
-    assert main(["run", "short.toml", "-o", "out"]) == 0
+    assert main(["run", "short.toml", "--fields", "--figures", "-o", "out"]) == 0
     coupled = names_in(out)
     listed = json.loads((out / MANIFEST).read_text())
     assert coupled == {*listed["files"], MANIFEST} and listed["status"] == "complete"
@@ -106,7 +106,7 @@ def test_the_figures_of_run_do_not_stay_where_simulate_writes(tmp_path):
     "argv, name",
     [
         (("simulate", "short.toml"), "result.csv"),
-        (("run", "short.toml"), "fields/temperature.pvd"),
+        (("run", "short.toml", "--fields"), "fields/temperature.pvd"),
         (("effects", "film_drag"), "film_drag.png"),
         (("friction-map",), "friction_map.csv"),
         (("stability",), "report.html"),

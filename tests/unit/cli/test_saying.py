@@ -37,7 +37,7 @@ def test_every_command_can_say_less_and_more(name, capsys):
     assert "-q, --quiet" in shown and "-v, --verbose" in shown
 
 
-NO_FIGURES = {"build", "completion", "effect", "explore", "new", "schema"}
+NO_FIGURES = {"build", "completion", "effect", "explore", "new", "plot", "schema"}
 
 
 @pytest.mark.parametrize("name", sorted({*COMMANDS} - NO_FIGURES))

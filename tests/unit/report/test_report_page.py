@@ -62,16 +62,24 @@ def written(tmp_path_factory):
 
 def test_all_files_of_a_run_are_there_data_first(written):
     folder, paths, seen = written
-    expected = [plate.name + ".png" for plate in plates_of(coupled_dataset())]
-    names = ["result.nc", "result.csv", "summary.json", *expected, "report.html"]
+    names = ["result.nc", "result.csv", "summary.json", "report.html"]
     assert [path.name for path in paths] == names == seen
     assert {path.name for path in folder.iterdir()} == set(names)
+
+
+def test_figures_are_drawn_and_the_page_left_out_on_request(tmp_path):
+    paths = write_results(coupled_dataset(), tmp_path, figures=True, page=False)
+    drawn = [plate.name + ".png" for plate in plates_of(coupled_dataset())]
+    assert [path.name for path in paths] == ["result.nc", "result.csv", "summary.json", *drawn]
+    for path in paths[3:]:
+        assert path.read_bytes().startswith(b"\x89PNG"), path
 
 
 def test_page_holds_everything_it_shows(written):
     page, references = read(written[0] / "report.html")
     pictures = [source for source in references.loaded if source != "script"]
-    assert len(pictures) == 7
+    assert len(pictures) == 1, "what no script draws is a picture"
+    assert page.count('<figure class="live"') == 6 and page.count("needs scripts") == 6
     assert all(source.startswith("data:image/png;base64,") for source in pictures)
     assert not any(link.startswith(("http", "//", "file:")) for link in references.linked)
     assert not re.search(r"https?://|url\(|@import", re.sub(r"base64,[^\"]*", "", page))

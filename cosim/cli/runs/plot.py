@@ -1,0 +1,58 @@
+"""`stickslip plot`: figures of a result, as PNG files."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from cosim.cli import DONE, BadInput
+from cosim.cli.arguments import add_force
+
+EXAMPLE = "stickslip plot results/reference motion heat"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("folder", metavar="DIR", help="results of stickslip run or simulate")
+    parser.add_argument(
+        "figures",
+        nargs="*",
+        metavar="FIGURE",
+        help="its name, such as motion, phase_portrait or heat (default: all that the run has)",
+    )
+    add_force(parser)
+
+
+def refused() -> tuple[type[Exception], ...]:
+    """What is bad input."""
+    from cosim.files import OutputRefused
+    from cosim.report.compare.one_result import NotAResult
+
+    return (NotAResult, OutputRefused)
+
+
+def execute(arguments: Namespace) -> int:
+    """Draw into the folder of the result; say which files."""
+    from cosim.files import writable
+    from cosim.manifest import list_further, require_own
+    from cosim.report.compare.one_result import read_result
+    from cosim.report.figures import plates_of
+    from cosim.report.results import write_figures
+
+    folder = Path(arguments.folder)
+    result = read_result(folder)
+    if not result.scenario:
+        raise BadInput(
+            f"{folder}: the result of a system, whose figures are beside its page; allowed is a "
+            "folder of stickslip run or simulate"
+        )
+    names = arguments.figures or [plate.name for plate in plates_of(result.dataset)]
+    files = [f"{name}.png" for name in names]
+    require_own(writable(folder), files, arguments.force)
+    try:
+        for path in write_figures(result.dataset, folder, names):
+            print(path)
+    except ValueError as error:
+        raise BadInput(str(error)) from error
+    list_further(folder, files)
+    return DONE
