@@ -97,7 +97,7 @@ def laws_of(name: str, curve: FreeCurve, context: Context) -> list[LawFit]:
         if law is None or not (effect.offered or effect.id in context.own):
             continue
         for candidate in effect.candidates(context.scales):
-            if context.allows(name, effect, candidate):
+            if context.allows(effect, candidate):
                 found.append(_fitted(effect, candidate, law, curve, name not in _WITHOUT_LEVEL))
     return sorted(found, key=lambda fit: fit.price)
 
@@ -114,11 +114,9 @@ class Context:
     settings: Mapping[str, float]
     own: frozenset[str] = frozenset()
 
-    def allows(self, name: str, effect: Effect, candidate: Candidate) -> bool:
+    def allows(self, effect: Effect, candidate: Candidate) -> bool:
         """What the argument's variant has settled is set by it, not by a candidate's settings."""
-        if effect.id not in ("run_in", "thermal_weakening"):
-            return True
-        return not candidate.settings
+        return not (candidate.settings and effect.id in ("run_in", "thermal_weakening"))
 
 
 #: (q,) arguments and parameters -> (q,) values of the law.

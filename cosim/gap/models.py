@@ -13,6 +13,7 @@ from cosim.gap.extended import Part, contact_numbers, scatter_numbers, started_f
 from cosim.gap.rates import scatter_of
 from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import SCATTER_PRIOR
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
@@ -26,25 +27,29 @@ FELT_PART, FELT_GAP = 0.02, 0.01
 #: Gap up to which noise is all that is left: fitted starts take 1 or 2 % of it.
 ONLY_NOISE = 1.02
 
+#: Numbers of a model, and its settings.
+_Free = tuple[list[Number], dict[str, float]]
+
 
 @dataclass
 class Models:
     """The ladder's models, each fitted over the same windows.
 
-    starts : labels -> values from which runs' own numbers start; jobs : runs simulated at a time
+    system : rows of the fitted runs; jobs : runs simulated at a time
     fits, ladder : one a rung; free : its numbers, its settings and how much friction scatters
-    scatter : of friction, with its 90 % interval
+    scatter : of friction, with its 90 % interval; last : ln evidence of the last rung's rows
     """
 
     campaign: Campaign
+    system: System
     windows: Mapping[str, Windows]
     parts: Sequence[Part]
-    starts: dict[str, float]
     jobs: int
     fits: list[Fitted] = field(default_factory=list)
     free: list[tuple[list[Number], dict[str, float], float]] = field(default_factory=list)
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
+    last: float | None = None
 
     @classmethod
     def fitted(
@@ -53,42 +58,54 @@ class Models:
     ) -> Models:  # fmt: skip
         """The user's model, then the findings, then contact and scatter where they are felt.
 
-        others : whose windows and user's model these have as well
+        rows : with all findings; others : whose windows and user's model these have as well
         """
-        starts = {label: value for part in parts for label, value in part.starts.items()}
         windows = others.windows if others else windows_of_campaign(campaign)
-        models = cls(campaign, windows, parts, starts, jobs)
-        numbers, settings = user_model(campaign)
+        models = cls(campaign, system, windows, parts, jobs)
         weak = system.rung(contact=False, scatter=False)
         first = others.fits[0] if others else None
-        models._add("user's model", "the model as stated", numbers, settings, weak, None, first)
+        models._add("user's model", "the model as stated", user_model(campaign), weak, first)
         step()
-        added, last = [], weak.evidence
-        for part in parts:
-            added += [*part.finding.added]
-            rung = system.rung(added, contact=False, scatter=False)
-            numbers, settings = [*part.numbers, *numbers], {**settings, **part.settings}
-            models._add(part.effect, text_of(part), numbers, settings, rung, rung.evidence - last)
-            last = rung.evidence
+        models._add_parts()
         step()
-        fastest = max(float(np.percentile(np.abs(run.track.sliding), 99)) for run in system.runs)
-        rung = system.rung(added, scatter=False)
-        contact = contact_numbers(campaign, fastest)
-        if models._try("contact", "the contact is not a switch", [*numbers, *contact], settings,
-                       rung, rung.evidence - last):  # fmt: skip
-            numbers, last = [*numbers, *contact], rung.evidence
+        models._try_contact()
         step()
-        models.scatter = scatter_of(rows)
-        spread = models.scatter[2]  # a run may lie at the far end of what is probable
-        rung = system.rung(added)
-        text = f"friction scatters from run to run by {100.0 * models.scatter[0]:.2g} %"
-        settings = {**settings, BREAK_AWAY: SCATTER_PRIOR}
-        if models._try("scatter", text, [*numbers, *scatter_numbers(campaign, spread)], settings,
-                       rung, rung.evidence - last, spread):  # fmt: skip
-            sticks = 100.0 * models.fits[-1].stick_scatter
-            text += f", from stick to stick by {sticks:.2g} %"
-            models.ladder[-1] = replace(models.ladder[-1], text=text)
+        models._try_scatter(scatter_of(rows))
         return models
+
+    @property
+    def _added(self) -> list[Added]:
+        return [one for part in self.parts for one in part.finding.added]
+
+    def _add_parts(self) -> None:
+        added: list[Added] = []
+        for part in self.parts:
+            added += part.finding.added
+            numbers, settings, _ = self.free[-1]
+            more = [*part.numbers, *numbers], {**settings, **part.settings}
+            rung = self.system.rung(added, contact=False, scatter=False)
+            self._add(part.effect, text_of(part), more, rung)
+
+    def _try_contact(self) -> None:
+        fastest = max(
+            float(np.percentile(np.abs(run.track.sliding), 99)) for run in self.system.runs
+        )
+        numbers, settings, _ = self.free[-1]
+        more = [*numbers, *contact_numbers(self.campaign, fastest)], settings
+        rung = self.system.rung(self._added, scatter=False)
+        self._try("contact", "the contact is not a switch", more, rung)
+
+    def _try_scatter(self, scatter: tuple[float, float, float]) -> None:
+        self.scatter = scatter
+        spread = scatter[2]  # a run may lie at the far end of what is probable
+        text = f"friction scatters from run to run by {100.0 * scatter[0]:.2g} %"
+        numbers, settings, _ = self.free[-1]
+        more = [*numbers, *scatter_numbers(self.campaign, spread)]
+        settings = {**settings, BREAK_AWAY: SCATTER_PRIOR}
+        if self._try("scatter", text, (more, settings), self.system.rung(self._added), spread):
+            sticks = 100.0 * self.fits[-1].stick_scatter
+            text += f", from stick to stick by {sticks:.2g} %"
+            self.ladder[-1] = replace(self.ladder[-1], text=text)
 
     @property
     def unscattered(self) -> Score:
@@ -113,35 +130,35 @@ class Models:
         )  # fmt: skip
         return found.gain_over(near) - len(near.runs) * wider
 
-    def _fit(self, numbers: list[Number], settings: dict, scatter: float, rows: Rows) -> Fitted:
-        before = {**self.starts, **(self.fits[-1].values if self.fits else {})}
-        starts = [{**before, **started_from(self.campaign, rows)}, before]
+    def _fit(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
         near = self.fits[-1] if self.fits else None
-        return fit(self.campaign, self.windows, numbers, settings, scatter, starts, near, self.jobs)
+        own = {label: value for part in self.parts for label, value in part.starts.items()}
+        before = {**own, **(near.values if near else {})}
+        starts = [{**before, **started_from(self.campaign, rows)}, before]
+        return fit(self.campaign, self.windows, *free, scatter, starts, near, self.jobs)
 
     def _add(
-        self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
-        evidence: float | None, fitted: Fitted | None = None, scatter: float = 0.0,
+        self, name: str, text: str, free: _Free, rows: Rows, fitted: Fitted | None = None,
+        scatter: float = 0.0,
     ) -> None:  # fmt: skip
-        fitted = fitted or self._fit(numbers, settings, scatter, rows)
+        fitted = fitted or self._fit(free, scatter, rows)
         self.fits.append(fitted)
-        self.free.append((numbers, settings, scatter))
-        gap = score_of(fitted)
-        first = self.ladder[0].gap if self.ladder else gap
-        missing = max(first.fit**2 - 1.0, 1e-9)
-        share = min(max(1.0 - (gap.fit**2 - 1.0) / missing, 0.0), 1.0) if self.ladder else 0.0
+        self.free.append((*free, scatter))
+        gap, share, evidence = score_of(fitted), 0.0, None
+        if self.last is not None:
+            missing = max(self.ladder[0].gap.fit ** 2 - 1.0, 1e-9)
+            share = min(max(1.0 - (gap.fit**2 - 1.0) / missing, 0.0), 1.0)
+            evidence = rows.evidence - self.last
+        self.last = rows.evidence
         weak = Score(rows.gap, rows.held_out_gap)
         self.ladder.append(Rung(name, text, gap, weak, share, evidence))
 
-    def _try(
-        self, name: str, text: str, numbers: list[Number], settings: dict, rows: Rows,
-        evidence: float, scatter: float = 0.0,
-    ) -> bool:  # fmt: skip
+    def _try(self, name: str, text: str, free: _Free, rows: Rows, scatter: float = 0.0) -> bool:
         """Add what is felt; where noise is all that is left nothing can be."""
         before = self.ladder[-1].gap
         if max(before.fit, before.held_out or 0.0) < ONLY_NOISE:
             return False
-        fitted = self._fit(numbers, settings, scatter, rows)
+        fitted = self._fit(free, scatter, rows)
         after = score_of(fitted)
         gained = before.fit**2 - after.fit**2
         felt = gained > FELT_PART * max(before.fit**2 - 1.0, 0.0) and (
@@ -150,7 +167,7 @@ class Models:
         if scatter and before.held_out and after.held_out:
             felt = felt or before.held_out - after.held_out > FELT_GAP
         if felt:
-            self._add(name, text, numbers, settings, rows, evidence, fitted, scatter)
+            self._add(name, text, free, rows, fitted, scatter)
         return felt
 
 

@@ -161,7 +161,7 @@ def _along_curves(
     for name in unknowns:
         law = SHAPES[name](effect, context) if name in SHAPES else None
         fitting = [one for one in unknowns[name] if not one.settings.get("per_weight")]
-        if law is None or not fitting or not context.allows(name, effect, candidate):
+        if law is None or not fitting or not context.allows(effect, candidate):
             continue
         unknown = min(fitting, key=lambda u: abs(np.log(u.settings.get("memory", memory) / memory)))
         if unknown.curve is None:

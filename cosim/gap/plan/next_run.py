@@ -65,11 +65,9 @@ class NextRun:
 
 
 def next_experiment(
-    ladder: Ladder,
-    unknowns: Mapping[str, Sequence[Unknown]],
-    members: Sequence[str],
+    ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], members: Sequence[str],
     scatter: float,
-) -> dict[str, Any] | None:
+) -> dict[str, Any] | None:  # fmt: skip
     """The run that would separate a class, each member as large as the rows have it.
 
     unknowns : that were asked. None where no run within the limits does.

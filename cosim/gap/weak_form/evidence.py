@@ -26,17 +26,12 @@ def posterior(gram: np.ndarray, right: np.ndarray, square: float, prior: np.ndar
 
     gram : X'X (q, q); right : X'z (q,); square : z'z; prior : covariance (q, q) of b
     """
-    factor, inner, scaled = _factored(gram, right, prior)
-    solved = solve_triangular(inner, scaled, lower=True)
+    factor = np.linalg.cholesky(prior + 1e-14 * np.diag(np.diag(prior)))
+    inner = factor.T @ gram @ factor
+    inner[np.diag_indices_from(inner)] += 1.0
+    inner = np.linalg.cholesky(inner)  # L L' = 1 + X'X of unit unknowns
+    solved = solve_triangular(inner, factor.T @ right, lower=True)
     evidence = -0.5 * (square - solved @ solved) - float(np.log(np.diag(inner)).sum())
     mean = factor @ solve_triangular(inner.T, solved)
     half = solve_triangular(inner, factor.T, lower=True)
     return Posterior(float(evidence), mean, half.T @ half)
-
-
-def _factored(gram: np.ndarray, right: np.ndarray, prior: np.ndarray):
-    """L of the prior = L L', the Cholesky factor of 1 + L'X'X L, and L'X'z."""
-    factor = np.linalg.cholesky(prior + 1e-14 * np.diag(np.diag(prior)))
-    inner = factor.T @ gram @ factor
-    inner[np.diag_indices_from(inner)] += 1.0
-    return factor, np.linalg.cholesky(inner), factor.T @ right

@@ -8,13 +8,9 @@ from cosim.gap.data.campaign_file import Rig
 
 
 def spring_loads(
-    rig: Rig,
-    stiffness: float,
-    x: np.ndarray,
-    y: np.ndarray | float = 0.0,
-    phi: np.ndarray | float = 0.0,
-    turned: float = 0.0,
-) -> np.ndarray:
+    rig: Rig, stiffness: float, x: np.ndarray, y: np.ndarray | float = 0.0,
+    phi: np.ndarray | float = 0.0, turned: float = 0.0,
+) -> np.ndarray:  # fmt: skip
     """(3, n) forces along x and y and moments on the block at places (n,), N, N m; exact geometry.
 
     stiffness : of one spring, N/m; x, y : m; phi : rad; turned : of every spring about its

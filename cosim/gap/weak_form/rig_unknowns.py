@@ -108,22 +108,24 @@ def scatter(level: Level) -> list[Unknown]:
         kinetic = run.weight * level.kinetic * run.track.direction
         return Response(force=column(kinetic), static=_static(run, run.weight * level.static))
 
-    def alone(run: RunRows) -> Response:
-        return Response(static=_static(run, run.weight * level.static))
-
     return [
         Unknown(SCATTER, "both", both, np.eye(1), per_run=True),
-        Unknown(SCATTER, "static", alone, OWN_STATIC**2 * np.eye(1), per_run=True),
+        _static_of_runs(SCATTER, "static", level, OWN_STATIC),
     ]
 
 
 def reading(level: Level) -> Unknown:
     """How well break-aways are read off a track in a run, beside their scatter."""
+    return _static_of_runs("break-away", "", level, STATIC_FLOOR)
+
+
+def _static_of_runs(name: str, variant: str, level: Level, part: float) -> Unknown:
+    """Static friction alone, in each run by another part."""
 
     def alone(run: RunRows) -> Response:
         return Response(static=_static(run, run.weight * level.static))
 
-    return Unknown("break-away", "", alone, STATIC_FLOOR**2 * np.eye(1), per_run=True)
+    return Unknown(name, variant, alone, part**2 * np.eye(1), per_run=True)
 
 
 def set_points(campaign: Campaign) -> Unknown:

@@ -60,12 +60,9 @@ def _normal(derivatives: np.ndarray, off: np.ndarray) -> tuple[np.ndarray, np.nd
 
 
 def _step(
-    normal: np.ndarray,
-    slope: np.ndarray,
-    at: np.ndarray,
-    bounds: tuple[np.ndarray, np.ndarray],
+    normal: np.ndarray, slope: np.ndarray, at: np.ndarray, bounds: tuple[np.ndarray, np.ndarray],
     damping: float,
-) -> np.ndarray:
+) -> np.ndarray:  # fmt: skip
     """Damped step; a number that would leave its bounds stops there, the others take note."""
     least, most = bounds[0] - at, bounds[1] - at
     step, is_free = np.zeros(at.size), np.ones(at.size, dtype=bool)

@@ -15,15 +15,10 @@ from .windows import Windows
 
 
 def fit(
-    campaign: Campaign,
-    windows: Mapping[str, Windows],
-    numbers: Sequence[Number],
-    settings: Mapping[str, float] | None = None,
-    scatter: float = 0.0,
-    starts: Sequence[Mapping[str, float]] = (),
-    near: Fitted | None = None,
-    jobs: int = 2,
-) -> Fitted:
+    campaign: Campaign, windows: Mapping[str, Windows], numbers: Sequence[Number],
+    settings: Mapping[str, float] | None = None, scatter: float = 0.0,
+    starts: Sequence[Mapping[str, float]] = (), near: Fitted | None = None, jobs: int = 2,
+) -> Fitted:  # fmt: skip
     """Numbers that minimise the squared residuals over the windows of the runs for fitting.
 
     Minimises sum(((model - data) / noise)^2) + sum(((value - start) / prior)^2); held-out runs are
@@ -52,17 +47,11 @@ def fit(
 
 
 def judge(
-    campaign: Campaign,
-    windows: Mapping[str, Windows],
-    numbers: Sequence[Number],
-    values: Mapping[str, float],
-    scatter: float = 0.0,
-    runs: Sequence[MeasuredRun] | None = None,
-    leeway: Leeway | None = None,
-    start: Mapping[str, float] | None = None,
-    near: Mapping[str, np.ndarray] | None = None,
-    jobs: int = 2,
-) -> Fitted:
+    campaign: Campaign, windows: Mapping[str, Windows], numbers: Sequence[Number],
+    values: Mapping[str, float], scatter: float = 0.0, runs: Sequence[MeasuredRun] | None = None,
+    leeway: Leeway | None = None, start: Mapping[str, float] | None = None,
+    near: Mapping[str, np.ndarray] | None = None, jobs: int = 2,
+) -> Fitted:  # fmt: skip
     """How well given values describe some runs, those held out if not said.
 
     Free are the windows' start states and what no other run can tell: the tracker's zero, within

@@ -119,13 +119,9 @@ class Fitted:
 
     @classmethod
     def at(
-        cls,
-        unknowns: Sequence[Unknown],
-        scaled: np.ndarray,
-        derivatives: np.ndarray,
-        runs: tuple[FittedRun, ...],
-        cost: float,
-    ) -> Fitted:
+        cls, unknowns: Sequence[Unknown], scaled: np.ndarray, derivatives: np.ndarray,
+        runs: tuple[FittedRun, ...], cost: float,
+    ) -> Fitted:  # fmt: skip
         """From the scaled numbers (k,), the derivatives (rows, k) and the cost there.
 
         The covariance of the scaled numbers is (J'J)^-1, sd = |d value / d scaled| times the root

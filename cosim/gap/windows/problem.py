@@ -45,16 +45,10 @@ class Problem:
     """Residuals and derivatives as functions of the scaled numbers (k,)."""
 
     def __init__(
-        self,
-        campaign: Campaign,
-        runs: Sequence[MeasuredRun],
-        windows: Mapping[str, Windows],
-        numbers: Sequence[Number],
-        settings: Mapping[str, float],
-        leeway: Leeway | None = None,
-        near: Mapping[str, np.ndarray] | None = None,
-        jobs: int = 2,
-    ):
+        self, campaign: Campaign, runs: Sequence[MeasuredRun], windows: Mapping[str, Windows],
+        numbers: Sequence[Number], settings: Mapping[str, float], leeway: Leeway | None = None,
+        near: Mapping[str, np.ndarray] | None = None, jobs: int = 2,
+    ):  # fmt: skip
         """leeway : what another fit left open of some of the numbers, in place of their priors;
         near : run's name -> start states of a model nearby; jobs : runs simulated at a time."""
         self.settings, self.threads = dict(settings), _threads(jobs)

@@ -25,13 +25,9 @@ class RunFit:
     """One run of a problem, with the start states that belong to the last derivatives."""
 
     def __init__(
-        self,
-        model: RunModel,
-        unknowns: Sequence[Unknown],
-        felt: Sequence[int],
-        settings: Mapping[str, float],
-        near: np.ndarray | None = None,
-    ):
+        self, model: RunModel, unknowns: Sequence[Unknown], felt: Sequence[int],
+        settings: Mapping[str, float], near: np.ndarray | None = None,
+    ):  # fmt: skip
         """near : start states of a model nearby."""
         self.model, self.starts = model, StartStates(model)
         self.unknowns, self.felt, self.settings = unknowns, list(felt), settings

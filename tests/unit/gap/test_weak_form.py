@@ -202,3 +202,13 @@ def test_intervals_of_both_coefficients_hold_the_truth(tmp_path):
             off.append((mean[part][0] - truth) / np.sqrt(covariance[part, part][0, 0]))
     within = np.mean(np.abs(off) < 1.645)
     assert within >= 0.7, off  # 90 % of 24: 17 at least
+
+
+def test_columns_of_a_run_are_cut_from_those_of_all(tmp_path):
+    """Bit by bit what the unknown makes of that run alone, held out or not, its own or shared."""
+    system = system_of(written(tmp_path, held_out=(1,)), every=False)
+    assert len(system.held_out) == 1
+    for each in system.rung().unknowns:
+        for run in system.runs:
+            alone = each.unknown.columns([run])
+            np.testing.assert_array_equal(system.columns_of(each.unknown, run), alone)

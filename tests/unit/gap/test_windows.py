@@ -21,6 +21,7 @@ from cosim.gap.windows import (
     windows_of_campaign,
 )
 from cosim.gap.windows.problem import Problem
+from cosim.gap.windows.run_model import RunModel
 from cosim.gap.windows.windows import cycle
 
 MU_S, MU_K = 0.3, 0.2
@@ -267,3 +268,20 @@ def test_a_table_of_friction_is_the_law(tmp_path):
     assert mu_k.start == pytest.approx(0.2) and mu_k.prior == pytest.approx(0.01)
     result = fit(campaign, windows_of_campaign(campaign), numbers, settings)
     assert result.gap[0] == pytest.approx(1.0, abs=0.03)
+
+
+def test_nothing_is_simulated_twice_in_a_fit(tmp_path, monkeypatch):
+    """Derivatives at start states that are known are not taken again."""
+    campaign, seen = measured(tmp_path, SPEEDS[1:]), []
+    track = RunModel.track
+
+    def counted(self, values, states, p=None):
+        packed = self.packed(values) if p is None else p
+        offsets = repr(sorted((k, v) for k, v in values.items() if k.startswith("offset.")))
+        seen.append((self.run.name, packed.tobytes(), states.tobytes(), offsets))
+        return track(self, values, states, p)
+
+    monkeypatch.setattr(RunModel, "track", counted)
+    fitted(campaign)
+    described = len(campaign.runs)  # each run's track is taken once more for who draws it
+    assert len(seen) - len(set(seen)) <= described
