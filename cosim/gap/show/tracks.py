@@ -67,7 +67,7 @@ def worst(gap: Gap) -> tuple[MeasuredRun, str, float, float]:
     most: the run that `where` names."""
     run = max(shown_runs(gap), key=lambda run: gap.plain.run(run.name).gap)
     time, fitted = run.motion.time, gap.plain.run(run.name)
-    length = min(CYCLES * cycle(run), float(time[-1]))
+    length = min(CYCLES * cycle(run), float(time[-1] - time[0]))
     first = np.flatnonzero(time + length <= time[-1] + 1e-9)
     last = np.searchsorted(time, time[first] + length)
     found = []
