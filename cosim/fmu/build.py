@@ -16,7 +16,7 @@ from stickslip.effects import EFFECTS
 from stickslip.effects import FILES as CATALOGUE
 from stickslip.effects.effect import Effect
 from stickslip.generation.compiler import CompilerError, possible
-from stickslip.generation.platforms import PLATFORMS, Platform, this_platform
+from stickslip.generation.platforms import Platform, this_machine
 
 import cosim
 from cosim.fmu import libraries, native, python_unit
@@ -82,19 +82,19 @@ def ensure_fmu(directory: str | Path, name: str = NATIVE) -> Path:
     fmu = Path(directory) / name
     if native.built_guid(fmu) == native.guid() and runs_here(fmu):
         return fmu
-    own = this_platform()
-    return build_fmu(directory, name, PLATFORMS if own is None else [own])
+    return build_fmu(directory, name)
 
 
 def build_fmu(
-    directory: str | Path, name: str = NATIVE, platforms: Sequence[Platform] = PLATFORMS
+    directory: str | Path, name: str = NATIVE, platforms: Sequence[Platform] = ()
 ) -> Path:
     """Build a unit of `UNITS` in a directory, which is made when it does not exist; its path.
 
     platforms : of a native unit, those that it is to have libraries for, as far as there is a
-    compiler for them. The file appears at once and whole. Raises FmuBuildError in one line.
+    compiler for them; none: that of this machine. The file appears at once and whole. Raises FmuBuildError in one line.
     """
     directory = Path(directory)
+    platforms = platforms or [this_machine()]
     _check_writable(directory)
     if name in MADE_APART:
         return _build_python_unit(directory, name)

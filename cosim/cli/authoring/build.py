@@ -6,7 +6,7 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
-from stickslip.generation.platforms import PLATFORMS, Platform
+from stickslip.generation.platforms import PLATFORMS, Platform, this_machine
 
 from cosim.cli import DONE
 from cosim.cli.arguments import add_output
@@ -33,10 +33,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--platforms",
         nargs="+",
         type=_platforms,
-        default=[PLATFORMS],
+        default=[[this_machine()]],
         metavar="PLATFORM",
         help="that a native unit is to have libraries for, as far as there is a compiler: "
-        f"{', '.join(each.name for each in PLATFORMS)}, or all (default)",
+        f"{', '.join(each.name for each in PLATFORMS)}, or all (default: this machine's)",
     )
     parser.add_argument(
         "--effects",

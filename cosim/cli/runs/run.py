@@ -214,19 +214,11 @@ def _found(arguments: Namespace) -> Job:
         )
     scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
     scenario = scenario.with_taken(asked.get("taken", {}))
-    command = f"{asked.get('command', '')} (cut off, and gone on with)"
-    views, fields = bool(asked.get("views")), bool(asked.get("fields"))
     return Job(
-        *(
-            scenario,
-            results,
-            folder,
-            asked.get("fmu"),
-            views,
-            fields,
-            asked.get("shown", {"figures": False, "page": True}),
-            command,
-        ),
+        *(scenario, results, folder, asked.get("fmu")),
+        *(bool(asked.get("views")), bool(asked.get("fields"))),
+        shown=asked.get("shown", {"figures": False, "page": True}),
+        command=f"{asked.get('command', '')} (cut off, and gone on with)",
         force=False,
     )
 
