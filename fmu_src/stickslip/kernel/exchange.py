@@ -109,6 +109,9 @@ AT_THE_LIMIT = 1e-9
 # has a direction of its own where it slides on so fast.
 TURNED_BACK = 0.5
 WELL_ON = 2.0
+# Of that speed: with this a slip goes on in an event, where an input is a little off the one that
+# the host has found the event with. A slip that did not would have another event at once.
+NEARLY = 0.75
 # Of its speed: a slip is reversed, and not only turned, where it goes back that fast.
 REVERSED = 0.5
 # Factor of the speed from one event of a slip in the plane that gains speed to the next one, and
@@ -398,7 +401,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
         elif 0.0 < z[Z_FASTER] <= (1.0 + AT_THE_LIMIT) * speed:
             slide_on(p, u, z, speed)
             set_direction(p, z, w, SHOWN, speed)
-    elif speed >= (1.0 - AT_THE_LIMIT) * WELL_ON * slow:
+    elif speed >= NEARLY * WELL_ON * slow:
         slide_on(p, u, z, speed)
         set_direction(p, z, w, SHOWN, speed)
 

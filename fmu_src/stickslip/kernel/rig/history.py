@@ -8,8 +8,8 @@ of the polynomial through some of them,
 
     u(t) = u0 + u01 (t - t0) + u012 (t - t0) (t - t1) + ...,
 
-Newton's, from the nearest time on. Of the degrees up to `DEGREES` it is the one at which the first
-term left out is the smallest: behind a kink, or where the times lie far apart, a low one. Around a
+Newton's, from the nearest time on, up to the degree `DEGREES` as long as each term is well below
+the one before it: around a kink, or where the times lie far apart, a low one. Around a
 break-away, where the host looks for it, the times get dense, and the rate as exact as it has to be.
 
 What jumps in an event has no past: there the memory begins anew. A host that gives inputs at each
@@ -71,7 +71,16 @@ LATEST = 1e300  # s: later than any time
 # Of the tolerance, relative to sizes that count: by how much a course may be missed.
 ASTRAY = 10.0
 FINEST = 1e-10  # such a tolerance: below it is the rounding of differences
+SHRINKS = 0.1  # a term of the course of a smooth input, at most, relative to the one before it
 AT_ITS_END = 0.01  # what an indicator may have left in its event
+
+
+def move_moment(g: Floats, j: int, to: int):
+    """Put the remembered moment ``j`` into the place ``to``."""
+    g[G_MOMENT_TIME + to] = g[G_MOMENT_TIME + j]
+    for i in range(GIVEN_INPUTS):
+        at = G_MOMENT_VALUE + i
+        g[at + GIVEN_INPUTS * to] = g[at + GIVEN_INPUTS * j]
 
 
 def forget_later(g: Floats, t: float):
@@ -79,10 +88,20 @@ def forget_later(g: Floats, t: float):
     kept = 0
     for j in range(int(g[G_COUNT])):
         if g[G_MOMENT_TIME + j] <= t:
-            g[G_MOMENT_TIME + kept] = g[G_MOMENT_TIME + j]
-            for i in range(GIVEN_INPUTS):
-                at = G_MOMENT_VALUE + i
-                g[at + GIVEN_INPUTS * kept] = g[at + GIVEN_INPUTS * j]
+            move_moment(g, j, kept)
+            kept += 1
+    g[G_COUNT] = kept
+
+
+def forget_close(p: Floats, g: Floats, t: float):
+    """Drop what is known of inputs close to the time t of an event, which takes its place.
+
+    The event is decided by the inputs that the host has found it with.
+    """
+    kept = 0
+    for j in range(int(g[G_COUNT])):
+        if abs(g[G_MOMENT_TIME + j] - t) >= CLOSE / p[P_RATE]:
+            move_moment(g, j, kept)
             kept += 1
     g[G_COUNT] = kept
 
@@ -156,16 +175,20 @@ def set_divided_differences(g: Floats, i: int, count: int):
 
 
 def best_degree(g: Floats, count: int, t: float) -> int:
-    """Degree of the polynomial, at least 1, whose first term left out is the smallest at t."""
+    """Degree of the polynomial, at least 1, from which on the terms left out no longer shrink at t.
+
+    Around a kink none shrinks, and one that happens to be small says nothing.
+    """
     best = 1
     least = -1.0
     part = 1.0
     for k in range(2, count):
         part *= t - g[G_MOMENT_TIME + int(g[G_NEAR + k - 1])]
         term = abs(g[G_TABLE + k] * part)
-        if least < 0.0 or term < least:
-            least = term
-            best = k - 1
+        if least >= 0.0 and term > SHRINKS * least:
+            return best
+        least = term
+        best = k - 1
     return best
 
 
@@ -320,6 +343,9 @@ def take_given(p: Floats, g: Floats, u: Floats, t: float) -> bool:
         note_inputs(p, g, t)
     elif course_reserve(p, u, g, t) <= AT_ITS_END:
         begin_course(p, g, t)
+    elif g[G_SET_TIME] == t:
+        forget_close(p, g, t)
+        note_inputs(p, g, t)
     follow_memory(g, t)  # as the host has found the event: by what lies behind it, too
     forget_later(g, t)
     g[G_IN_EVENT] = 0.0

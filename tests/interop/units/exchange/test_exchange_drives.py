@@ -84,6 +84,7 @@ def exchanged(unit, drive, tables, tolerance):
         input=drive,
         output=NAMES,
         record_events=False,
+        timeout=60.0,
     )
 
 
@@ -164,11 +165,33 @@ def drawn(seed):
     )
 
 
-@pytest.mark.parametrize("seed", range(12))
-def test_drawn_drives(fmu, tmp_path, seed):
-    """At 1e-9 x is off by some 1e-8 m, and by up to 2e-6 m where a stick ends, or a slip, close to
-    where it just would not: there an error of the host's grows."""
+DRAWN = range(50)
+#: Kinks where a stick is near its limit: there a rate across the kink is a break-away that is none.
+KINKED = (13, 33, 37, 39, 47)
+SEEDS = [
+    pytest.param(seed, marks=[] if seed < 5 or seed in KINKED else pytest.mark.slow)
+    for seed in DRAWN
+]
+#: Of a drawn drive: the host's tolerance and the largest errors of x, m, and of heat, relative.
+GIVEN_ALWAYS, GIVEN_AT_EVENTS = (1e-9, 1e-6, 1e-5), (1e-10, 1e-4, 2e-4)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_drawn_drives(fmu, tmp_path, host, seed):
+    """All slips at their times. Of 50 drives, in the median and at most:
+
+    given at every time, at 1e-9: x 1.4e-8 and 3e-7 m, heat 5e-8 and 3e-6;
+    given at events only, at 1e-10: x 8e-9 and 3e-5 m, heat 1.4e-8 and 7e-5.
+
+    A tolerance is that of one step, of which there are some hundred to a slip; the most is where a
+    stick ends, or a slip, close to where it just would not: there an error grows. With inputs at
+    events only a kink is found late, by what the course is off.
+    """
+    always = sundials.CVodeSolver.f is give_at_every_time
+    tolerance, most, most_heat = GIVEN_ALWAYS if always else GIVEN_AT_EVENTS
     drive = drawn(seed)
-    exact, result = own(fmu, tmp_path, drive, {}), exchanged(fmu, drive, {}, 1e-9)
+    exact, result = own(fmu, tmp_path, drive, {}), exchanged(fmu, drive, {}, tolerance)
+    assert len(result) == len(exact["x"])
     assert (result["slip_count"] == exact["slip_count"]).all()
-    assert off(result, exact, "x") < 5e-6 and off(result, exact, "heat") < 1e-5
+    assert off(result, exact, "x") < most
+    assert off(result, exact, "heat") < most_heat * exact["heat"][-1]
