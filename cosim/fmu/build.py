@@ -91,7 +91,8 @@ def build_fmu(
     """Build a unit of `UNITS` in a directory, which is made when it does not exist; its path.
 
     platforms : of a native unit, those that it is to have libraries for, as far as there is a
-    compiler for them; none: that of this machine. The file appears at once and whole. Raises FmuBuildError in one line.
+    compiler for them; none: that of this machine. The file appears at once and whole. Raises
+    FmuBuildError in one line.
     """
     directory = Path(directory)
     platforms = platforms or [this_machine()]
