@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import platformdirs
 import stickslip
@@ -22,6 +22,7 @@ import cosim
 from cosim.fmu import libraries, native, python_unit
 from cosim.fmu.libraries import runs_here
 from cosim.fmu.thermal import native_unit
+from cosim.scratch import scratch_folder
 
 #: Folder of a checkout in which its units stand, beside the recipes.
 BUILD_FOLDER = Path("build")
@@ -68,9 +69,15 @@ def own_fmu() -> Path:
         except FmuBuildError as error:
             refused = error  # the last is told
     try:
-        return ensure_fmu(tempfile.mkdtemp(prefix="stickslip-"))
+        return ensure_fmu(_scratch().name)
     except (FmuBuildError, OSError):
         raise refused from None
+
+
+@cache
+def _scratch() -> TemporaryDirectory[str]:
+    """A folder for units, as long as this process."""
+    return scratch_folder("units")
 
 
 def ensure_fmu(directory: str | Path, name: str = NATIVE) -> Path:

@@ -15,7 +15,6 @@ import json
 import pprint
 import re
 import sys
-import tempfile
 import zipfile
 import zlib
 from collections.abc import Sequence
@@ -47,6 +46,7 @@ from cosim.fmu.variables import (
     parameter_table,
     variables,
 )
+from cosim.scratch import scratch_folder
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"
@@ -191,7 +191,7 @@ def made(recipe: Recipe, target: Path) -> Path:
 
     Written beside its final place and moved there, so that nobody ever sees half of it.
     """
-    with tempfile.TemporaryDirectory(prefix=f"{recipe.module}-") as scratch:
+    with scratch_folder(recipe.module) as scratch:
         finished = _finish(_build_with_pythonfmu(Path(scratch), recipe), recipe)
     return write_bytes(finished, target)
 

@@ -8,7 +8,6 @@ there as well, with the components' names before the parameters'.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
@@ -23,6 +22,7 @@ from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 from cosim.fmu.units import UNITS
 from cosim.fmu.variables import Variable
+from cosim.scratch import scratch_folder
 
 SSP = "StickSlipThermal.ssp"
 MECHANICS, THERMAL = "mechanics", "thermal"
@@ -49,7 +49,7 @@ def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS) -> Path:
 
     Raises CompilerError where there is no way to a library for any of the platforms.
     """
-    with tempfile.TemporaryDirectory(prefix="stickslip-ssp-") as scratch:
+    with scratch_folder("ssp") as scratch:
         units = [each.build(Path(scratch), platforms) for each in (native, native_unit)]
         files = {f"resources/{fmu.name}": fmu.read_bytes() for fmu in units}
     files |= {"SystemStructure.ssd": description(), SET_FILE: values()}
