@@ -62,7 +62,7 @@ RANGES = {
     "surface_scatter.seed": (0, 100),
     "run.duration": (1.0, 300.0),
     "run.output_interval": (1e-3, 0.1),
-    "ambient.temperature_degC": (-40.0, 0.0),
+    "ambient.temperature_degC": (-40.0, 40.0),
 }
 #: A slider is logarithmic where its ends are further apart than this.
 DECADES = 30.0

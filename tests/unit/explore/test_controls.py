@@ -45,6 +45,11 @@ def test_an_effect_can_be_turned_off_and_over_its_typical_range(effect):
         assert slider["low"] <= typical[0] and typical[1] <= slider["high"]
 
 
+def test_the_air_can_be_warmer_than_ice():
+    slider = CONTROLS["ambient.temperature_degC"]["slider"]
+    assert slider["low"] <= -16.0 and slider["high"] >= 25.0
+
+
 def test_ranges_are_of_keys_that_there_are():
     assert RANGES.keys() <= CONTROLS.keys()
 
