@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 NOTEBOOK = "cosim.gap.notebook"
 #: Standard deviations to either side in which a number lies with 90 %.
 NINETY = 1.645
+#: Powers that differ by less make forces that differ by a tenth over a decade.
+SAME_POWER = 0.05
 #: What can be said of a campaign.
 VERDICTS = ("named", "class", "none", "partial", "unknown")
 
@@ -142,8 +144,9 @@ class Exponent:
 
     @property
     def holds(self) -> bool:
-        """Whether the catalogue's power is in the interval."""
-        return self.low <= self.catalogue <= self.high
+        """Whether the catalogue's power is in the interval, or as good as the one found."""
+        near = abs(self.value - self.catalogue) < SAME_POWER
+        return near or self.low <= self.catalogue <= self.high
 
 
 @dataclass(frozen=True)

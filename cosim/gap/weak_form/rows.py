@@ -129,6 +129,8 @@ class RunRows:
 
 def _slip_part(block: _Block, response: Response, unknowns: int, track: SmoothTrack) -> np.ndarray:
     rows = np.zeros((block.force.shape[0], unknowns))
+    if response.force is None and response.place is None and response.inertia is None:
+        return rows
     if response.force is not None:
         rows += block.force @ response.force
     if response.place is not None:
@@ -140,6 +142,8 @@ def _slip_part(block: _Block, response: Response, unknowns: int, track: SmoothTr
 
 def _stick_part(block: _Block, response: Response, unknowns: int) -> np.ndarray:
     rows = np.zeros((block.force.shape[0], unknowns))
+    if response.speed is None and response.place is None:
+        return rows
     if response.speed is not None:
         rows += block.force @ response.speed
     if response.place is not None:

@@ -55,9 +55,10 @@ def _ripple(campaign: Campaign, rows: list[RunRows]) -> dict[str, Varies]:
         return {}
     after, shape = system.rung(best[1]), best[1][0]
     sizes, wave = after.posterior[0][after.part_of(shape)], shape.unknown.wave
+    phased = periodic.THREADS.map(lambda run: best_phase(campaign, run, wave, sizes), system.runs)
     return {
-        run.track.run.name: best_phase(campaign, run, wave, sizes).at_times(run, sizes)
-        for run in system.runs
+        run.track.run.name: one.at_times(run, sizes)
+        for run, one in zip(system.runs, phased, strict=True)
     }
 
 

@@ -155,6 +155,11 @@ def test_the_headline_has_the_models_number_not_that_of_the_curve(gap):
     assert "as the sliding speed to the power 0.70 (0.60 to 0.80)" in made.sentence
 
 
+@pytest.mark.parametrize(("power", "told"), [(0.994, False), (0.9, True)])
+def test_a_power_as_good_as_the_catalogue_s_is_not_told(power, told):
+    assert Exponent("film_drag", "u", power, power - 0.005, power + 0.005, 1.0).holds != told
+
+
 def test_friction_over_speed_has_one_name_in_headline_and_error_rates():
     """As many draws of noise call growing friction by the other name: the class is of two."""
     three = "class: film_drag, structural_damping, velocity_weakening"
