@@ -18,7 +18,10 @@ from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
-from typing import NamedTuple, NoReturn, TypedDict
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
+
+if TYPE_CHECKING:
+    from cosim.report.files import Shown
 
 
 class Command(NamedTuple):
@@ -148,20 +151,18 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         command,
         "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)",
     )
-    command.add_argument(
-        "--figures",
-        action="store_true",
-        help="also write the figures of the page as PNG files (later: stickslip plot DIR)",
-    )
-    command.add_argument("--no-page", action="store_true", help="write no report.html")
+    add_shown(command, " (later: stickslip plot DIR)")
     add_force(command, ", and begin anew where an unfinished run could be gone on with")
 
 
-class Shown(TypedDict):
-    """What is drawn of a run."""
-
-    figures: bool
-    page: bool
+def add_shown(command: argparse.ArgumentParser, later: str = "") -> None:
+    """What is drawn of a run. later: how its figures are drawn another time."""
+    command.add_argument(
+        "--figures",
+        action="store_true",
+        help=f"also write the figures of the page as PNG files{later}",
+    )
+    command.add_argument("--no-page", action="store_true", help="write no report.html")
 
 
 def shown(arguments: argparse.Namespace) -> Shown:

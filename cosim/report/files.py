@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
 import xarray as xr
 
@@ -34,6 +34,15 @@ PACKAGES = (
     "pydantic",
 )
 
+
+class Shown(TypedDict):
+    """What is drawn of a run: its figures as PNG files, its page."""
+
+    figures: bool
+    page: bool
+
+
+PAGE_ALONE: Shown = {"figures": False, "page": True}
 
 #: Most that a netCDF file has beside its numbers, and for each variable, bytes.
 _OVERHEAD, _A_VARIABLE = 2**18, 2**13

@@ -4,9 +4,9 @@ A page is a Jinja template that extends `page.html.j2` and fills its blocks titl
 content. Beside its own values it has ``figure(picture)`` and the filters ``number`` and ``unit``.
 
 A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
-where scripts do not run, and on paper, stands its PNG if it has one. The scripts are in the page,
-plain and readable, and so is uPlot (MIT licence, in `templates/uplot`), which draws the curves: a
-page asks for nothing outside. Wide tables scroll by themselves, so that a page never does sideways.
+others are PNGs. The scripts are in the page, plain and readable, and so is uPlot (MIT licence, in
+`templates/uplot`), which draws the curves: a page asks for nothing outside. Wide tables scroll by
+themselves, so that a page never does sideways.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import base64
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from importlib import resources
 from typing import Any
 
@@ -30,17 +30,22 @@ CSS_DPI, DPI = 96, 150
 
 @dataclass(frozen=True)
 class Picture:
-    """A PNG with its caption.
+    """A figure with its caption.
 
-    alt: what a reader hears who does not see it (left out, the caption). live: what the page draws
-    in place of the PNG, see `cosim.report.live`; there need not be a PNG then.
+    drawing: makes its PNG, when that is asked for. alt: what a reader hears who does not see it
+    (left out, the caption). live: what the page draws in place of the PNG, see `cosim.report.live`.
     """
 
     name: str
     caption: str
-    png: bytes = field(repr=False)
+    drawing: Callable[[], bytes] = field(repr=False)
     alt: str = ""
     live: Mapping[str, Any] | None = field(default=None, repr=False)
+
+    @cached_property
+    def png(self) -> bytes:
+        """The file's content."""
+        return self.drawing()
 
 
 UPLOT, ITS_LICENCE = "uplot/uPlot.iife.min.js", "uplot/LICENSE"
@@ -117,22 +122,20 @@ def _environment(package: str) -> Environment:
 
 def figure(picture: Picture, alt: str = "") -> Markup:
     """A picture and its caption, as wide as its inches say; with the numbers of a live one."""
-    data = Markup("")
-    if picture.live is not None:
-        data = Markup('<script type="application/json">{}</script>\n').format(_json(picture.live))
     alt = alt or picture.alt or picture.caption
-    still = Markup('<noscript><p class="warning">{}: this figure needs scripts.</p></noscript>')
-    still = still.format(alt)
-    if picture.png:
-        image = '<img class="still" width="{}" src="data:image/png;base64,{}" alt="{}">'
+    if picture.live is None:
         encoded = base64.b64encode(picture.png).decode("ascii")
-        still = Markup(image).format(_width(picture.png), encoded, alt)
+        image = '<img width="{}" src="data:image/png;base64,{}" alt="{}">'
+        kind, shown = "still", Markup(image).format(_width(picture.png), encoded, alt)
+    else:
+        sent = (
+            '<noscript><p class="warning">{}: this figure needs scripts.</p></noscript>\n'
+            '<script type="application/json">{}</script>'
+        )
+        kind, shown = "live", Markup(sent).format(alt, _json(picture.live))
     return Markup(
-        '<figure{} data-name="{}" data-alt="{}">{}\n{}<figcaption>{}</figcaption></figure>\n'
-    ).format(
-        Markup(' class="live"') if picture.live is not None else "",
-        *(picture.name, alt, still, data, picture.caption),
-    )
+        '<figure class="{}" data-name="{}" data-alt="{}">{}\n<figcaption>{}</figcaption></figure>\n'
+    ).format(kind, picture.name, alt, shown, picture.caption)
 
 
 def _json(content: Mapping[str, Any]) -> Markup:

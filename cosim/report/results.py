@@ -104,14 +104,13 @@ def write_figures(dataset: xr.Dataset, folder: Path, names: Sequence[str] = ()) 
     Raises ValueError for a name that is none, before anything is written.
     """
     from .figures import plates_of
-    from .style import png
 
     plates = {plate.name: plate for plate in plates_of(dataset)}
     for name in names:
         if name not in plates:
             raise ValueError(unknown_name("figure of this run", name, plates))
     for name in names or plates:
-        yield write_bytes(png(plates[name].drawn(dataset)), folder / f"{name}.png")
+        yield write_bytes(plates[name].picture(dataset).png, folder / f"{name}.png")
 
 
 def write_data(dataset: xr.Dataset, folder: str | Path) -> list[Path]:

@@ -95,7 +95,7 @@ def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
 def picture(
     name: str, caption: str, *, alt: str = "", live: Callable[[Figure], Live] | None = None
 ) -> Callable[[Callable[..., Figure]], Callable[..., Picture]]:
-    """Turn a function that draws a figure into one that returns its PNG.
+    """Turn a function that draws a figure into one that returns a `Picture`.
 
     alt: what a reader hears. live: makes it alive, as `live.live_of` does a figure over time.
     """
@@ -103,9 +103,10 @@ def picture(
     def wrap(draw: Callable[..., Figure]) -> Callable[..., Picture]:
         @wraps(draw)
         def drawn(*args: Any, **options: Any) -> Picture:
+            if live is None:
+                return Picture(name, caption, lambda: png(styled(draw)(*args, **options)), alt)
             figure = styled(draw)(*args, **options)
-            image = png(figure)
-            return Picture(name, caption, image, alt, live(figure) if live else None)
+            return Picture(name, caption, partial(png, figure), alt, live(figure))
 
         return drawn
 

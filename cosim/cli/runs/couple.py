@@ -13,12 +13,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from cosim.cli import DONE, FAILED, BadInput, Failed
-from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.arguments import add_force, add_json, add_output, add_set, add_shown, shown
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.interrupts import Patience, patient_interrupts
 
 if TYPE_CHECKING:
     from cosim.coupling.record import MessageLog, RunFolder
+    from cosim.report.files import Shown
     from cosim.systems import SystemRun
     from cosim.systems.specification import SystemSpecification
 
@@ -45,6 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         " are run: resume a folder of somebody else's only if you trust them",
     )
     add_json(parser)
+    add_shown(parser)
     add_output(parser, "folder of the results; made when missing (default: results/NAME)")
     add_force(parser, ", and begin anew where an unfinished run could be gone on with")
 
@@ -69,6 +71,7 @@ class Job(NamedTuple):
     source: str
     results: Path
     folder: RunFolder
+    shown: Shown
     command: str
     force: bool
 
@@ -128,25 +131,32 @@ def _begun(arguments: Namespace) -> Job:
         "system": str(Path(arguments.system).resolve()),
         "changes": changes,
         "command": command,
+        "shown": shown(arguments),
         "resume": shlex.join(["stickslip", "couple", "--resume", str(results)]),
     }
     with closed_if_refused(specification):
         check_system(specification)  # before what an earlier run left in the folder is gone
         own_folder(results, FILES, arguments.force)
         folder = RunFolder.begun(results, asked, {}, force=arguments.force)
-    return Job(specification, asked["system"], results, folder, command, arguments.force)
+    return Job(
+        *(specification, asked["system"], results, folder),
+        *(shown(arguments), command, arguments.force),
+    )
 
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
     from cosim.cli.runs.run_io import refuse_beside_resume
     from cosim.coupling.record import RunFolder
+    from cosim.report.files import PAGE_ALONE
     from cosim.systems import read_system
 
     given = {
         "a system": arguments.system,
         "-o": arguments.output,
         "--set": arguments.changes,
+        "--figures": arguments.figures,
+        "--no-page": arguments.no_page,
         "--force": arguments.force,
     }
     refuse_beside_resume(given)
@@ -157,7 +167,11 @@ def _found(arguments: Namespace) -> Job:
         raise BadInput(f"{arguments.resume}: its run is none of couple's; see {folder.path}")
     specification = read_system(system, changes)
     command = f"{asked.get('command', '')} (cut off, and gone on with)"
-    return Job(specification, system, folder.results, folder, command, force=False)
+    return Job(
+        *(specification, system, folder.results, folder),
+        *(asked.get("shown", PAGE_ALONE), command),
+        force=False,
+    )
 
 
 @contextmanager
@@ -251,7 +265,12 @@ def _finish(
     further = f", and this goes on from there: {job.resume}" if goes_on else ""
     try:
         numbers: dict[str, Any] = write_system(
-            done, folder, command=job.command, files=log_files(log), progress=written
+            done,
+            folder,
+            command=job.command,
+            files=log_files(log),
+            progress=written,
+            shown=job.shown,
         )
     except KeyboardInterrupt:
         print(

@@ -43,8 +43,8 @@ def execute(arguments: Namespace) -> int:
     result = read_result(folder)
     if not result.scenario:
         raise BadInput(
-            f"{folder}: the result of a system, whose figures are beside its page; allowed is a "
-            "folder of stickslip run or simulate"
+            f"{folder}: the result of a system, whose figures stickslip couple --figures draws; "
+            "allowed is a folder of stickslip run or simulate"
         )
     names = arguments.figures or [plate.name for plate in plates_of(result.dataset)]
     files = [f"{name}.png" for name in names]

@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from cosim.cli import DONE, FAILED, BadInput, Failed
-from cosim.cli.arguments import Shown, add_run_arguments, shown
+from cosim.cli.arguments import add_run_arguments, shown
 
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun
     from cosim.coupling.record import RunFolder
+    from cosim.report.files import Shown
     from cosim.scenario import Scenario
 
 EXAMPLE = "stickslip run my_case.toml -o results/first"
@@ -191,6 +192,7 @@ def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
     from cosim.cli.runs import run_io, running
     from cosim.coupling.record import RunFolder
+    from cosim.report.files import PAGE_ALONE
 
     given = {
         "a scenario": arguments.scenario,
@@ -217,7 +219,7 @@ def _found(arguments: Namespace) -> Job:
     return Job(
         *(scenario, results, folder, asked.get("fmu")),
         *(bool(asked.get("views")), bool(asked.get("fields"))),
-        shown=asked.get("shown", {"figures": False, "page": True}),
+        shown=asked.get("shown", PAGE_ALONE),
         command=f"{asked.get('command', '')} (cut off, and gone on with)",
         force=False,
     )

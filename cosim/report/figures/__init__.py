@@ -46,11 +46,11 @@ class Plate:
 
     def picture(self, dataset: xr.Dataset) -> Picture:
         """For a page: with what its scripts draw, or else the drawing."""
-        if self.live is None:
-            return Picture(self.name, self.caption, png(self.drawn(dataset)), self.alt)
-        alive = {"title": self.title, **self.live(dataset)}
-        alive = live_of_material(alive, material_of(dataset))
-        return Picture(self.name, self.caption, b"", self.alt, alive)
+        alive = None
+        if self.live is not None:
+            alive = {"title": self.title, **self.live(dataset)}
+            alive = live_of_material(alive, material_of(dataset))
+        return Picture(self.name, self.caption, lambda: png(self.drawn(dataset)), self.alt, alive)
 
 
 def _over_time(

@@ -24,8 +24,7 @@ const live = (() => {
     return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e-", "e−");
   }
 
-  // Each figure of a kind with its data and an empty stage in place of the PNG, if it has one. A
-  // figure whose script fails keeps its PNG.
+  // Each figure of a kind with its data and an empty stage; none where its script fails.
   function each(kind, draw) {
     for (const figure of document.querySelectorAll("figure.live")) {
       const script = figure.querySelector("script");

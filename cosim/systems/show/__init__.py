@@ -8,7 +8,7 @@ from typing import Any
 
 from cosim.coupling.record import LOG
 from cosim.files import write_bytes, write_text
-from cosim.report.files import write_csv, write_json, write_netcdf
+from cosim.report.files import PAGE_ALONE, Shown, write_csv, write_json, write_netcdf
 from cosim.systems.run import SystemRun
 from cosim.systems.show.dataset import system_dataset
 from cosim.systems.show.page import page
@@ -26,12 +26,14 @@ def write_system(
     command: str = "",
     files: Mapping[str, str] | None = None,
     progress: Callable[[str], None] = lambda name: None,
+    shown: Shown = PAGE_ALONE,
 ) -> dict[str, Any]:
     """Write everything into a folder that exists, the data first; the numbers of the summary.
 
     command: how the run was asked for, shown on the page. files: further files of
     the run -> what they are, to be listed there. progress: called with the name of each
-    file once it is written. Raises OutputError where the disk refuses.
+    file once it is written. shown: whether there are figures as PNG files, and a page. Raises
+    OutputError where the disk refuses.
     """
     dataset = system_dataset(run)
     numbers = summary(run, dataset)
@@ -44,8 +46,9 @@ def write_system(
     from cosim.systems.show.figures import pictures  # matplotlib: after the data are on disk
 
     figures = pictures(run, dataset)
-    for name, picture in figures.items():
+    for name, picture in figures.items() if shown["figures"] else ():
         progress(write_bytes(picture.png, folder / f"{name}.png").name)
-    text = page(numbers, figures, command=command, files=files or {})
-    progress(write_text(text, folder / "report.html").name)
+    if shown["page"]:
+        text = page(numbers, figures, command=command, files=files or {})
+        progress(write_text(text, folder / "report.html").name)
     return numbers

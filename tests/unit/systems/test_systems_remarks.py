@@ -205,7 +205,7 @@ def test_many_units_are_a_matrix(tmp_path):
     text = "".join(f'[units.u{k}]\nfile = "u.fmu"\n' for k in range(30))
     text += "".join(f'[[connections]]\nfrom = "u{k}.y"\nto = "u{k + 1}.u"\n' for k in range(29))
     (tmp_path / "row.toml").write_text(text + "[run]\nstop = 0.02\n")
-    status, numbers = couple(str(tmp_path / "row.toml"))
+    status, numbers = couple(str(tmp_path / "row.toml"), "--figures")
     assert status == 0 and len(numbers["participants"]) == 30
     assert "Who feeds whom" in (tmp_path / "out" / "report.html").read_text()
     from cosim.systems import read_system

@@ -190,7 +190,9 @@ def test_one_spelling_for_two_units_is_refused(chain):
 
 def test_the_command_leaves_what_run_leaves(chain, tmp_path, capsys):
     folder = tmp_path / "out"
-    assert main(["couple", str(chain()), "--set", "run.stop=0.5", "-o", str(folder)]) == 0
+    assert (
+        main(["couple", str(chain()), "--set", "run.stop=0.5", "--figures", "-o", str(folder)]) == 0
+    )
     assert "a chain: 0.5 s in" in capsys.readouterr().out
     assert {path.name for path in folder.iterdir()} == {
         *("result.nc", "result.csv", "summary.json", "report.html", "made_by.json"),
