@@ -41,9 +41,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--resume",
         metavar="DIR",
-        help="go on with the run in DIR that was cut off, from its newest checkpoint"
-        " (run.checkpoint_seconds says how often there is one). The units that it was begun with"
-        " are run: resume a folder of somebody else's only if you trust them",
+        help="go on with the run of SYSTEM in DIR that was cut off, from its newest checkpoint"
+        " (run.checkpoint_seconds says how often there is one). Units are code: those of SYSTEM are"
+        " run, and none that DIR alone names",
     )
     add_json(parser)
     add_shown(parser)
@@ -78,7 +78,11 @@ class Job(NamedTuple):
     @property
     def resume(self) -> str:
         """What goes on with it once it is cut off."""
-        return shlex.join(["stickslip", "couple", "--resume", str(self.results)])
+        return _resume(self.source, self.results)
+
+
+def _resume(system: str, results: Path) -> str:
+    return shlex.join(["stickslip", "couple", system, "--resume", str(results)])
 
 
 def execute(arguments: Namespace) -> int:
@@ -122,7 +126,7 @@ def _begun(arguments: Namespace) -> Job:
     from cosim.systems.show import FILES
 
     if arguments.system is None:
-        raise BadInput("SYSTEM: missing, needed is an SSP or a TOML file, or --resume DIR")
+        raise BadInput("SYSTEM: missing, needed is an SSP or a TOML file")
     changes = changes_of(arguments.changes, "run.stop=10")
     specification = read_system(arguments.system, changes)
     results = Path(arguments.output or Path(RESULTS) / _folder_name(specification.name))
@@ -132,7 +136,7 @@ def _begun(arguments: Namespace) -> Job:
         "changes": changes,
         "command": command,
         "shown": shown(arguments),
-        "resume": shlex.join(["stickslip", "couple", "--resume", str(results)]),
+        "resume": _resume(arguments.system, results),
     }
     with closed_if_refused(specification):
         check_system(specification)  # before what an earlier run left in the folder is gone
@@ -152,7 +156,6 @@ def _found(arguments: Namespace) -> Job:
     from cosim.systems import read_system
 
     given = {
-        "a system": arguments.system,
         "-o": arguments.output,
         "--set": arguments.changes,
         "--figures": arguments.figures,
@@ -165,10 +168,15 @@ def _found(arguments: Namespace) -> Job:
     system, changes = asked.get("system"), asked.get("changes", {})
     if not isinstance(system, str) or not isinstance(changes, dict):
         raise BadInput(f"{arguments.resume}: its run is none of couple's; see {folder.path}")
-    specification = read_system(system, changes)
+    if arguments.system is None:
+        raise BadInput(
+            "SYSTEM: missing; units are code and run only where they are named: "
+            f"{_resume(system, folder.results)}"
+        )
+    specification = read_system(arguments.system, changes)
     command = f"{asked.get('command', '')} (cut off, and gone on with)"
     return Job(
-        *(specification, system, folder.results, folder),
+        *(specification, arguments.system, folder.results, folder),
         *(asked.get("shown", PAGE_ALONE), command),
         force=False,
     )

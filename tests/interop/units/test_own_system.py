@@ -158,12 +158,12 @@ def test_the_command_goes_on_with_what_was_killed(ssp, tmp_path, capsys):
             time.sleep(0.01)
         process.kill()
     assert process.returncode == -signal.SIGKILL
-    assert main(["couple", "--resume", str(place)]) == 0
+    assert main(["couple", str(ssp), "--resume", str(place)]) == 0
     assert "20 s in" in capsys.readouterr().out
     whole = result_of(ssp, **{"coupling.macro_step": 0.001, "run.stop": 20})
     with xr.open_dataset(place / "result.nc", engine="h5netcdf") as dataset:
         np.testing.assert_array_equal(dataset["mechanics.x"], whole["mechanics.x"])
         assert dataset["step_time"][-1] == 20.0
     assert not (place / "unfinished").exists()
-    assert main(["couple", "--resume", str(place)]) == 2
+    assert main(["couple", str(ssp), "--resume", str(place)]) == 2
     assert "holds no unfinished run" in capsys.readouterr().err

@@ -255,6 +255,25 @@ def test_the_run_of_another_command_is_not_gone_on_with(tmp_path, capsys, comman
     assert said in told and told.count("\n") == 1
 
 
+@pytest.mark.parametrize("named", [False, True])
+def test_units_that_only_an_unfinished_run_names_are_not_run(chain, tmp_path, capsys, named):
+    """A folder of somebody else's can name any: the system of the call is read, or none."""
+    theirs = tmp_path / "theirs.toml"
+    theirs.write_text("no system at all")
+    (tmp_path / "out").mkdir()
+    folder = RunFolder.begun(tmp_path / "out", {"system": str(theirs)}, {})
+    folder.checkpoint.write_text("of a run that was cut off")
+    folder.release()
+    system = [str(chain())] if named else []
+    assert main(["couple", *system, "--resume", str(tmp_path / "out")]) == 2
+    told = capsys.readouterr().err.splitlines()[-1]
+    if named:
+        assert "checkpoint.zip" in told  # of the run, which is no checkpoint: the system was read
+    else:
+        assert "SYSTEM: missing" in told
+        assert f"couple {theirs} --resume" in told
+
+
 @pytest.mark.parametrize("old, new", [("second.fmu", "third.fmu"), ("second.u", "second.v")])
 def test_what_is_refused_leaves_an_unfinished_run_alone(chain, tmp_path, old, new):
     (tmp_path / "out").mkdir()
