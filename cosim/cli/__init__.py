@@ -70,7 +70,7 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
             return status
         with held_interrupts():
             from cosim.cli.arguments import command_module, parser
-            from cosim.cli.saying import saying
+            from cosim.cli.console import saying
 
             arguments = parser(argv).parse_args(argv)
             command = command_module(arguments.command)

@@ -48,7 +48,7 @@ COMMANDS = {
         "studies", "how long the belt must be: drift of its temperature, loop after loop"
     ),
     "effect": Command(
-        "authoring", "writes the file of an effect of one's own, to be changed: effect new NAME.py"
+        "authoring", "writes the file of a custom effect, to be changed: effect new NAME.py"
     ),
     "effects": Command(
         "studies", "the catalogue of effects: what each adds, its parameters, and a figure"
@@ -143,7 +143,7 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         "scenario",
         nargs="?",
         help="TOML file, or the name of a packaged scenario such as reference (default), slab, "
-        "warm_friction; effects of one's own that it names are code, and are run",
+        "warm_friction; custom effects that it names execute Python",
     )
     add_set(command)
     add_json(command)
@@ -152,7 +152,7 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)",
     )
     add_shown(command, " (later: stickslip plot DIR)")
-    add_force(command, ", and begin anew where an unfinished run could be gone on with")
+    add_force(command, ", and begin anew where an unfinished run could be resumed")
 
 
 def add_shown(command: argparse.ArgumentParser, later: str = "") -> None:

@@ -88,7 +88,7 @@ def load() -> None:
 def files_named(argv: Sequence[str]) -> list[Path]:
     """Effects' files that arguments name: themselves, or in the scenarios and campaigns there.
 
-    PluginError for those of a run to go on with that it cannot be gone on with.
+    PluginError for those of a run to go on with that it cannot be resumed.
     """
     if "run" in argv[:2] and (resumed := _RESUMING.parse_known_args(argv)[0]).resume:
         return _of_resumed(Path(resumed.resume), resumed.effects)
@@ -140,7 +140,7 @@ def _of_resumed(results: Path, named: Sequence[str]) -> list[Path]:
     lacking = [file for file in known if file not in now]
     if lacking:
         raise PluginError(
-            f"{results}: its run has effects of one's own, whose code is run only where you name "
+            f"{results}: its run has custom effects, whose code is run only where you name "
             f"it; allowed is, if you trust them, --effects {' '.join(known)}"
         )
     asked = [str(file) for file in _in_toml(results / "unfinished" / "scenario.toml")]

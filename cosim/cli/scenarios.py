@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from cosim.cli.saying import note
+from cosim.cli.console import note
 
 if TYPE_CHECKING:
     from cosim.scenario import Scenario
@@ -19,7 +19,7 @@ def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:
     changes = changes_of(settings)
     if "effects" in changes:  # code is read before the settings are, and from a file's own folder
         raise ScenarioError(
-            f"--set effects={changes['effects']}: effects of one's own cannot be set; allowed is "
+            f"--set effects={changes['effects']}: custom effects cannot be set; allowed is "
             'effects = ["brush.py"] at the top of the scenario, or STICKSLIP_EFFECTS=brush.py in '
             "the environment"
         )

@@ -29,15 +29,15 @@ from cosim.coupling.participant import (
 from cosim.coupling.result import CoupledResult, EnergyFlow, Ledger
 from cosim.coupling.run import run
 from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton, Relaxation
+from cosim.coupling.schemes.explicit import GaussSeidel, Jacobi
 from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.one_pass import GaussSeidel, Jacobi
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep
-from cosim.coupling.step_control.beforehand import restores_exactly
 from cosim.coupling.step_control.control import ConvergenceError, StepControl
 from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual
 from cosim.coupling.step_control.fixed import FixedStep
 from cosim.coupling.step_control.power_bond import PowerBond
+from cosim.coupling.step_control.precheck import restores_exactly
 from cosim.coupling.subcycled import Subcycled
 from cosim.coupling.system import Connection, CoupledSystem
 from cosim.coupling.tolerance import Tolerance

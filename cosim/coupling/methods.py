@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from cosim.coupling.schemes.acceleration import Acceleration, Aitken, QuasiNewton, Relaxation
+from cosim.coupling.schemes.explicit import GaussSeidel, Jacobi
 from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.one_pass import GaussSeidel, Jacobi
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.control import StepControl

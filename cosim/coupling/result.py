@@ -176,7 +176,7 @@ def _resumed(columns: int, folder: RunFolder, place: Place) -> GrowingTable:
     try:
         return GrowingTable.resumed(columns, folder.record, place)
     except OutputError as error:
-        raise CheckpointError(f"{error}: its run cannot be gone on with") from error
+        raise CheckpointError(f"{error}: its run cannot be resumed") from error
 
 
 #: Whether outputs or inputs, of whom, and what takes a row's values from them.

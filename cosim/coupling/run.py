@@ -13,9 +13,9 @@ from cosim.coupling.participant import CouplingError, ParticipantError
 from cosim.coupling.record.keeper import Keep, Keeper
 from cosim.coupling.result import CoupledResult, Recording, Status, ledger_of
 from cosim.coupling.schemes.scheme import Scheme
-from cosim.coupling.step_control.beforehand import check_restore, remarks_of, try_restore
 from cosim.coupling.step_control.control import STOP, ConvergenceError, StepControl, Stepper
 from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.step_control.precheck import check_restore, remarks_of, try_restore
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt

@@ -17,7 +17,7 @@ from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
 from cosim.scenario import Scenario
-from cosim.scenario.faults import allowed, unit_of
+from cosim.scenario.validation import allowed, unit_of
 
 #: Table -> heading, of what is no effect, in the order of the page; the first are open.
 HEADINGS = {

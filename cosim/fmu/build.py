@@ -108,7 +108,7 @@ def build_fmu(
         return _build_python_unit(directory, name)
     if _outside() and name in (NATIVE, FMI3) and not possible(platforms):
         raise FmuBuildError(
-            f"{name} was not built: an effect of one's own has to be compiled, and there is no C "
+            f"{name} was not built: a custom effect has to be compiled, and there is no C "
             "compiler: `pip install ziglang` brings one for every platform; or build "
             f"{PYTHON}, which needs none (`stickslip run --fmu` takes it)"
         )

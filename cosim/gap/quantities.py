@@ -10,7 +10,7 @@ import numpy as np
 from cosim.gap.result import NINETY, Gap
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
-from cosim.scenario.faults import known_keys, unit_of
+from cosim.scenario.validation import known_keys, unit_of
 
 #: Numbers of tracker and drive: factor from SI, unit shown, meaning.
 BESIDE_THE_MODEL = {

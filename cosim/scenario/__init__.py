@@ -4,14 +4,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cosim.scenario.faults import ScenarioError
     from cosim.scenario.scenario import Scenario, packaged_scenarios, read_scenario
+    from cosim.scenario.validation import ScenarioError
     from cosim.scenario.work import check_work
 
 __all__ = ["Scenario", "ScenarioError", "check_work", "packaged_scenarios", "read_scenario"]
 
 _HOME = {
-    "ScenarioError": "faults",
+    "ScenarioError": "validation",
     "Scenario": "scenario",
     "packaged_scenarios": "scenario",
     "read_scenario": "scenario",

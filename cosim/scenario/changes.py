@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 
 
 def changes_of(settings: Iterable[str], example: str = "run.duration=10") -> dict[str, Any]:

@@ -9,8 +9,8 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from cosim.scenario.defaults import IN_PROPORTION, stated
-from cosim.scenario.faults import allowed, known_keys, unit_of
 from cosim.scenario.scenario import Scenario
+from cosim.scenario.validation import allowed, known_keys, unit_of
 
 
 class Key(NamedTuple):

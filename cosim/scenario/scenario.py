@@ -29,9 +29,9 @@ from stickslip.quantity import Table, quantity
 from cosim.names import nearest
 from cosim.scenario import defaults as defaults_of_files
 from cosim.scenario.changes import changed_tables, is_of_change
-from cosim.scenario.faults import ScenarioError, checked
 from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
+from cosim.scenario.validation import ScenarioError, checked
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 from thermal.materials import ICE, MATERIALS
 
@@ -119,7 +119,7 @@ class Scenario(Parameters):
     )
     effects: tuple[str, ...] = Field(
         (),
-        description="files of effects of one's own, beside the scenario's file: their code is run",
+        description="files of custom effects, beside the scenario's file: their code is run",
     )
     defaults: Literal["rig", "plain"] = Field(
         "plain",

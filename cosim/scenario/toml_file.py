@@ -8,7 +8,7 @@ from typing import Any
 
 from stickslip.text_file import MOST_TOML, read_text, tables_in
 
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 
 
 def parsed(text: str, source: str | Path) -> dict[str, Any]:

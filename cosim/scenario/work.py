@@ -17,8 +17,8 @@ from stickslip.status import (
     time_to_slide,
 )
 
-from cosim.scenario.faults import ScenarioError
 from cosim.scenario.scenario import Scenario
+from cosim.scenario.validation import ScenarioError
 from thermal.model import MOST_LOOPS
 from thermal.work import ice_unknowns, internal_steps, seconds_to_prepare, seconds_to_run
 

@@ -3,7 +3,7 @@
 >>> from cosim.systems import read_system, run_system
 """
 
-from cosim.systems.faults import SystemFault
 from cosim.systems.run import SystemRun, read_system, run_system
+from cosim.systems.system_errors import SystemFault
 
 __all__ = ["SystemFault", "SystemRun", "read_system", "run_system"]

@@ -30,9 +30,9 @@ from cosim.coupling.participant import Causality
 from cosim.coupling.system import ENERGY_UNIT, Address, find_port
 from cosim.coupling.tolerance import Tolerance
 from cosim.names import unknown_name
-from cosim.systems.faults import SystemFault, naming
 from cosim.systems.settings import NOT_GIVEN, unused
 from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
+from cosim.systems.system_errors import SystemFault, naming
 
 #: More macro steps than this are a slip of the unit, and have no end.
 MOST_STEPS = 1_000_000_000

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from cosim.coupling import Curve
-from cosim.systems.faults import SystemFault
+from cosim.systems.system_errors import SystemFault
 
 #: Bytes; more is no table that somebody has made for a drive.
 MOST_BYTES = 64 << 20

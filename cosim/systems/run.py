@@ -14,10 +14,10 @@ from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.names import unknown_name
 from cosim.systems.assembly import Assembly, assemble, record_every
-from cosim.systems.faults import SystemFault, naming
 from cosim.systems.specification import Start, SystemSpecification
 from cosim.systems.ssp.reader import read_ssp
 from cosim.systems.steps import StepLog
+from cosim.systems.system_errors import SystemFault, naming
 from cosim.systems.toml_file import read_toml
 
 if TYPE_CHECKING:

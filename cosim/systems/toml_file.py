@@ -13,9 +13,8 @@ from stickslip.quantity import Table, quantity
 
 from cosim.coupling import Affine
 from cosim.names import nearest_key, unknown_name
-from cosim.scenario.faults import ScenarioError
 from cosim.scenario.toml_file import parsed, text_of
-from cosim.systems.faults import SystemFault, table_of
+from cosim.scenario.validation import ScenarioError
 from cosim.systems.input_table import read_input_table
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
 from cosim.systems.specification import (
@@ -26,6 +25,7 @@ from cosim.systems.specification import (
     UnitEntry,
     Value,
 )
+from cosim.systems.system_errors import SystemFault, table_of
 
 #: A name of a participant: part of `unit.port`, of the columns of a table and of file names.
 NAME = re.compile(r"[^\s.\"'/\\\x00-\x1f][^.\"'/\\\x00-\x1f]*")

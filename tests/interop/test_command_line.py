@@ -268,7 +268,7 @@ def test_a_signal_in_mid_run_keeps_what_was_computed(place, command, duration, i
         'defaults = "plain"\n'
         f"[run]\nduration = {duration}\noutput_interval = {interval}\n[belt]\nelements = 2\n"
     )
-    # the run before it can be gone on with
+    # the run before it can be resumed
     running = OnTerminal(place, command, "long.toml", "-o", f"long-{command}", "--force")
     running.wait_for(r"\| (?!0\.00/)\d+\.\d+/\d+ s")
     running.process.send_signal(wanted)

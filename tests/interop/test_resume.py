@@ -1,4 +1,4 @@
-"""A run that is killed, and gone on with from its folder; what cannot be is refused."""
+"""A run that is killed, and resumed from its folder; what cannot be is refused."""
 
 import json
 import os

@@ -63,7 +63,7 @@ def test_results_are_those_of_one_process(plain, fmu, made):
 
 
 def test_results_of_one_that_was_cut_off_are_so_too(plain, fmu, tmp_path):
-    """Cut off isolated, gone on with in one process, cut off again, and ended isolated."""
+    """Cut off isolated, resumed in one process, cut off again, and ended isolated."""
     run, keys = plain
     folder = RunFolder.begun(tmp_path, {}, {})
     goes_on_isolated = [True, False, True]

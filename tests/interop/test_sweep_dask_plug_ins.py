@@ -1,4 +1,4 @@
-"""A sweep with an effect of one's own on Dask workers that know nothing of its file."""
+"""A sweep with a custom effect on Dask workers that know nothing of its file."""
 
 import json
 import subprocess

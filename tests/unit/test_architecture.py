@@ -261,7 +261,7 @@ def test_the_check_sees_the_imports_that_there_are():
     assert "cosim.cli.arguments.parser" in IMPORTS["cosim.cli"]
     assert "thermal.BeltIceModel" in IMPORTS["cosim.coupling.case"]
     assert home_of("thermal.BeltIceModel") == "thermal"
-    assert room_of("cosim.scenario.faults") == room_of("cosim.scenario") == "cosim.scenario"
+    assert room_of("cosim.scenario.validation") == room_of("cosim.scenario") == "cosim.scenario"
     assert room_of("cosim.gap.data.errors") == "cosim.gap.data"
     assert room_of("cosim.systems.ssp.reader") == "cosim.systems.ssp"
     assert room_of("cosim.systems.run") == "cosim.systems.run"

@@ -43,7 +43,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="+",
         default=(),
         metavar="FILE.py",
-        help="effects of one's own that the units of the block are to have behind the catalogue's; "
+        help="custom effects that the units of the block are to have behind the catalogue's; "
         "their code is run. The default folder is then one of their own in the user's cache",
     )
     add_output(

@@ -1,4 +1,4 @@
-"""`stickslip effect new`: an effect of one's own, to begin with."""
+"""`stickslip effect new`: a custom effect, to begin with."""
 
 from __future__ import annotations
 
@@ -58,8 +58,7 @@ def execute(arguments: Namespace) -> int:
     name = file.stem
     if name in {*TABLES, *(effect.id for effect in EFFECTS)}:
         raise OutputRefused(
-            f"{file}: {name} is the name of a table that there is; allowed is another: `stickslip "
-            "effects` shows the catalogue"
+            f"{file}: the name {name} is in use, allowed is another; `stickslip effects` lists them"
         )
     writable(file.parent)
     write_unless_owned({file.name: text_of(name)}, file.parent, arguments.force)

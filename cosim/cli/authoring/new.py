@@ -6,7 +6,7 @@ import shlex
 from argparse import ArgumentParser, Namespace
 
 from cosim.cli import DONE
-from cosim.cli.saying import note
+from cosim.cli.console import note
 
 EXAMPLE = "stickslip new cold_room --from reference"
 

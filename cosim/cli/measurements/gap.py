@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
+from cosim.cli.console import Bar, note
 from cosim.cli.numbers import numbers_asked
-from cosim.cli.saying import Bar, note
 from cosim.files import OutputRefused, writable
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, require_own, results_in
@@ -35,7 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "campaign",
         nargs="?",
         help="TOML file, a folder with campaign.toml, or a packaged campaign: "
-        f"{', '.join(packaged_campaigns())}; effects of one's own that it names are code, and are "
+        f"{', '.join(packaged_campaigns())}; custom effects that it names execute "
         "run. A run's CSV file, of up to 64 MiB, has columns t (s), x (m, along the "
         "surface's motion) and, where they were measured, y (m), phi (rad) and force (N: what all "
         "springs pull the block back with along x, positive where x is; compared with their "

@@ -10,8 +10,8 @@ from typing import Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
+from cosim.cli.console import Bar, note
 from cosim.cli.numbers import numbers_asked
-from cosim.cli.saying import Bar, note
 from cosim.files import OutputRefused, writable, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, require_own, results_in

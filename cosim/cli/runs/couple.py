@@ -48,7 +48,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_json(parser)
     add_shown(parser)
     add_output(parser, "folder of the results; made when missing (default: results/NAME)")
-    add_force(parser, ", and begin anew where an unfinished run could be gone on with")
+    add_force(parser, ", and begin anew where an unfinished run could be resumed")
 
 
 def refused() -> tuple[type[Exception], ...]:
@@ -167,14 +167,14 @@ def _found(arguments: Namespace) -> Job:
     asked = folder.asked
     system, changes = asked.get("system"), asked.get("changes", {})
     if not isinstance(system, str) or not isinstance(changes, dict):
-        raise BadInput(f"{arguments.resume}: its run is none of couple's; see {folder.path}")
+        raise BadInput(f"{arguments.resume}: not created by `stickslip couple`; see {folder.path}")
     if arguments.system is None:
         raise BadInput(
             "SYSTEM: missing; units are code and run only where they are named: "
             f"{_resume(system, folder.results)}"
         )
     specification = read_system(arguments.system, changes)
-    command = f"{asked.get('command', '')} (cut off, and gone on with)"
+    command = f"{asked.get('command', '')} (interrupted and resumed)"
     return Job(
         *(specification, arguments.system, folder.results, folder),
         *(asked.get("shown", PAGE_ALONE), command),

@@ -1,4 +1,4 @@
-"""`stickslip run`: the coupled case, begun or gone on with."""
+"""`stickslip run`: the coupled case, begun or resumed."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="+",
         default=[],
         metavar="FILE.py",
-        help="with --resume: the effects of one's own that the run has. Code is run only of files"
+        help="with --resume: the custom effects that the run has. Code is run only of files"
         " that are named here, and whose SHA-256 is still that of when the run began",
     )
 
@@ -211,8 +211,8 @@ def _found(arguments: Namespace) -> Job:
     asked = folder.asked
     if not (folder.path / SCENARIO).is_file():
         raise BadInput(
-            f"{results}: its run is none of run's; {folder.path / 'README.txt'} says what goes on"
-            " with it"
+            f"{results}: not created by `stickslip run`; {folder.path / 'README.txt'} says what"
+            " resumes it"
         )
     scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
     scenario = scenario.with_taken(asked.get("taken", {}))
@@ -220,7 +220,7 @@ def _found(arguments: Namespace) -> Job:
         *(scenario, results, folder, asked.get("fmu")),
         *(bool(asked.get("views")), bool(asked.get("fields"))),
         shown=asked.get("shown", PAGE_ALONE),
-        command=f"{asked.get('command', '')} (cut off, and gone on with)",
+        command=f"{asked.get('command', '')} (interrupted and resumed)",
         force=False,
     )
 

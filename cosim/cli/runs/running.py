@@ -16,6 +16,7 @@ from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
 
 from cosim.cli import DONE, FAILED
+from cosim.cli.console import Bar, note
 from cosim.cli.numbers import NOT_ASKED, Numbers
 from cosim.cli.runs.closing_lines import closing_lines
 from cosim.cli.runs.run_io import (
@@ -25,7 +26,6 @@ from cosim.cli.runs.run_io import (
     own_folder,
     say_how_it_ended,
 )
-from cosim.cli.saying import Bar, note
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG, MessageLog
 from cosim.interrupts import Patience

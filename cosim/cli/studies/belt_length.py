@@ -14,15 +14,15 @@ from pathlib import Path
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.console import Bar as tqdm
+from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
-from cosim.cli.saying import Bar as tqdm
-from cosim.cli.saying import note
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 from cosim.report.page import Picture
 from cosim.scenario import Scenario
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
@@ -36,9 +36,9 @@ from cosim.studies.belt_length import (
     check_slides,
     empty_map,
     fill_map,
+    ignored_keys,
     remarks,
     scenario_case,
-    unheeded,
     verdict,
     with_ranges,
     work_off,
@@ -308,9 +308,9 @@ def _look_at(scenario: Scenario, wanted: list[Case], source: str) -> None:
     note_taken(scenario)
     for remark in remarks(scenario):
         note(remark)
-    if keys := unheeded(scenario):
+    if keys := ignored_keys(scenario):
         note(
-            f"{', '.join(keys)}: not heeded, belt-length has a resolution of its own;"
+            f"{', '.join(keys)}: ignored, belt-length has a resolution of its own;"
             " `stickslip run` heeds them"
         )
 
@@ -428,11 +428,11 @@ def _print_answers(study: Study) -> None:
 
 
 def _print_shortest(study: Study) -> None:
-    """The shortest belts as the rig is said, and at the levels of its doubt."""
+    """The shortest belts of the nominal rig, and at the levels of its doubt."""
     doubted = study.shortest_in_doubt()
     print(
         "Shortest belt [m], rounded up to two digits: as the rig is given; in half and in 95 % of"
-        " the rigs of the doubt; for ever"
+        " the sampled rigs; for ever"
     )
     print(
         f"{'speed [m/s]':>12} {'question':<20} {'as said':>8} {'median':>8} {'95 %':>8}"

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.console import Bar
 from cosim.cli.numbers import numbers_asked
-from cosim.cli.saying import Bar
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, results_in
@@ -29,8 +29,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "effects",
         metavar="EFFECT",
         nargs="*",
-        help="ids, or files of effects of one's own such as brush.py, whose code is run "
-        "(default: all)",
+        help="ids, or files of custom effects such as brush.py, whose code is run (default: all)",
     )
     add_json(parser)
     add_output(parser, f"also write {PAGE}, {RESULT} and the figures there")

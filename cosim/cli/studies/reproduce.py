@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.console import Bar
 from cosim.cli.numbers import numbers_asked
-from cosim.cli.saying import Bar
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, require_own, results_in
@@ -95,7 +95,7 @@ def execute(arguments: Namespace) -> int:
 
 def _codes(claims: list[Claim]) -> list[str]:
     """What the codes of the study's faults stand for, of those that the closing lines use."""
-    from stickslip.reference.faults import DESCRIPTIONS
+    from stickslip.reference.scheme_errors import DESCRIPTIONS
 
     said = " ".join(
         f"{claim.verdict} {claim.scope} {claim.reason} {_firmness(claim)}" for claim in claims
@@ -129,7 +129,7 @@ def _write(
     datasets: Datasets | None = None,
 ) -> str:
     """Numbers first, then figures, then the page; the numbers as JSON."""
-    from stickslip.reference.faults import DESCRIPTIONS
+    from stickslip.reference.scheme_errors import DESCRIPTIONS
 
     from cosim.report.files import json_text
     from cosim.studies.reproduction.result import as_data, page

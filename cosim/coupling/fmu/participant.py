@@ -20,7 +20,7 @@ from cosim.coupling.fmu.calls import Calls, How
 from cosim.coupling.fmu.description import describe, is_fmi3, library_of
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
 from cosim.coupling.fmu.log import STATUSES, FmuLog
-from cosim.coupling.fmu.process_wide import claim_modules, claim_place, leave_place
+from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
 from cosim.coupling.fmu.values import Group, Values
 from cosim.coupling.fmu.variables import (
     REALS,

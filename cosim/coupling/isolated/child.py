@@ -14,7 +14,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import Any
 
-from cosim.coupling.isolated.line import (
+from cosim.coupling.isolated.pipe_protocol import (
     CLOSE,
     DONE,
     FAILED,

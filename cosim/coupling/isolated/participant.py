@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cosim.coupling.isolated.line import START, packed
+from cosim.coupling.isolated.pipe_protocol import START, packed
 from cosim.coupling.isolated.process import IsolatedError, Process
 from cosim.coupling.messages import Messages
 from cosim.coupling.participant import CouplingError, port_table

@@ -64,11 +64,11 @@ class RunFolder:
     ) -> RunFolder:
         """Begin anew; what an earlier run left is gone.
 
-        force: also where that run could be gone on with; else that is refused.
+        force: also where that run could be resumed; else that is refused.
 
         asked: what the run was asked for (`resume`: the command that goes on with it). files: name
         -> text of what else it needs. Raises OutputRefused where another process is at work here
-        or a run can be gone on with, OutputError where the disk refuses.
+        or a run can be resumed, OutputError where the disk refuses.
         """
         folder = cls(results)
         try:
@@ -157,7 +157,7 @@ class RunFolder:
         return (self.path / _ASKED).is_file()
 
     def _refuse_to_lose(self) -> None:
-        """OutputRefused where an earlier run could be gone on with."""
+        """OutputRefused where an earlier run could be resumed."""
         if not self.checkpoint.is_file():
             return
         try:

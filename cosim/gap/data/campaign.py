@@ -19,7 +19,7 @@ from cosim.gap.data.measured import Campaign, MeasuredRun
 from cosim.gap.data.noise import with_noise
 from cosim.gap.data.track_file import read_track, regime_remarks
 from cosim.gap.data.units import check_units
-from cosim.scenario.faults import checked
+from cosim.scenario.validation import checked
 
 #: So many equal samples in a row are no coincidence of two measurements.
 PATTERN = 16

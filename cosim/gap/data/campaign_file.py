@@ -15,8 +15,8 @@ from stickslip.quantity import Table, quantity
 from cosim.gap.data.columns import to_si
 from cosim.gap.data.errors import CampaignError, within
 from cosim.names import nearest
-from cosim.scenario.faults import ScenarioError, checked
 from cosim.scenario.toml_file import parsed, text_of
+from cosim.scenario.validation import ScenarioError, checked
 
 if TYPE_CHECKING:
     Rig = stickslip.Rig  # for those who read its keys: they are the same

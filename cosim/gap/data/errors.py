@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 
 
 class CampaignError(ValueError):

@@ -12,7 +12,7 @@ from stickslip.parameters import Friction
 
 from cosim.gap.data.campaign_file import CampaignTable
 from cosim.gap.data.errors import CampaignError
-from cosim.scenario.faults import ScenarioError, checked
+from cosim.scenario.validation import ScenarioError, checked
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from cosim.gap.weak_form.asked import Unknowns, asked_of
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth, thinned
-from cosim.scenario.faults import describe_faults
+from cosim.scenario.validation import describe_faults
 
 #: Ice on steel or ice at the temperatures and speeds of a cold room slides at about 0.1 (Marmo et
 #: al. 2005); a usual break-away takes 1.3 times as much.

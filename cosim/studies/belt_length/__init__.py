@@ -4,10 +4,10 @@ from .case import Case, Protocol, StudyError
 from .changes import Change, FrictionEffect, changes, friction_effect
 from .drift import CAMERA, Drift, Wait, drift, interface_drift, run_drift, steady_drift, wait
 from .lengths import DriftMap, empty_map, fill_map, shortest_belt
-from .own import Answer, Question, how_long
+from .required_length import Answer, Question, how_long
 from .result import Options, Row, Study
 from .rigs import FEWEST_SAMPLES
-from .said import check_slides, remarks, scenario_case, unheeded, with_ranges
+from .scenario_priors import check_slides, ignored_keys, remarks, scenario_case, with_ranges
 from .show.verdict import verdict
 from .study import AIR, answer_all, cases, work_off
 from .uncertainty import Uncertainty, uncertainty
@@ -46,7 +46,7 @@ __all__ = [
     "shortest_belt",
     "steady_drift",
     "uncertainty",
-    "unheeded",
+    "ignored_keys",
     "verdict",
     "wait",
     "with_ranges",

@@ -11,7 +11,7 @@ from .case import Case
 from .changes import Change, FrictionEffect
 from .drift import Drift, Wait
 from .lengths import Length, shortest_in_doubt
-from .own import Answer
+from .required_length import Answer
 from .uncertainty import Uncertainty
 
 #: Field of a case -> column of the table.

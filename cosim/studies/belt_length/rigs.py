@@ -42,7 +42,7 @@ MOST_MELTING = 0.5
 
 
 class Rigs:
-    """The rigs of the doubt of a case, on its belt, or on belts between two lengths.
+    """The sampled rigs of a case, on its belt, or on belts between two lengths.
 
     Attributes
     ----------

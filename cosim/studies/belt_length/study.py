@@ -23,7 +23,7 @@ from .case import OWN_KEYS, Case, StudyError
 from .changes import changes, friction_effect
 from .drift import drift, endless_belt, interface_drift, run_drift, steady_drift, wait
 from .lengths import LONGEST, shortest_belt
-from .own import Answer, how_long
+from .required_length import Answer, how_long
 from .result import Options, Row, Study
 from .rigs import FEWEST_SAMPLES
 from .uncertainty import uncertainty

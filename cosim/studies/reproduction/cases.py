@@ -14,8 +14,8 @@ from itertools import product
 
 import numpy as np
 from stickslip import Parameters, simulate
-from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.linearised import GRAVITY, Scheme
+from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
 from cosim.studies.reproduction.motion import Motion, MotionFigures, average, figures
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
 from itertools import combinations
 
-from stickslip.reference.faults import DESCRIPTIONS, PRINTED, Faults
+from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.report.page import Picture
 from cosim.studies.reproduction.cases import Printed

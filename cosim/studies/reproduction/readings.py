@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
-from stickslip.reference.faults import PRINTED, Faults
+from stickslip.reference.scheme_errors import PRINTED, Faults
 
 from cosim.studies.reproduction.cases import STUDY
 

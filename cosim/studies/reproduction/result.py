@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
-from stickslip.reference.faults import DESCRIPTIONS
+from stickslip.reference.scheme_errors import DESCRIPTIONS
 
 from cosim.report.page import render
 

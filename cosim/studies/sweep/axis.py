@@ -16,7 +16,7 @@ from stickslip.quantity import details
 
 from cosim.names import nearest_key
 from cosim.scenario import Scenario
-from cosim.scenario.faults import known_keys
+from cosim.scenario.validation import known_keys
 
 from .errors import SweepError
 

@@ -20,7 +20,7 @@ from typing import Self
 
 import joblib
 from stickslip.compiled import compiled_kernel
-from stickslip.plugins.sent import packed, to_send, unpacked_call
+from stickslip.plugins.dask_transport import packed, to_send, unpacked_call
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 from cosim.processes import BrokenProcessPool, as_finished, is_stopped
@@ -187,7 +187,7 @@ class DaskWorkers:
         from distributed import KilledWorker, as_completed
 
         # the work travels with every chunk: data scattered to workers would die with them. packed,
-        # for what is made of an effect of one's own can be unpacked only where that effect is.
+        # for what is made of a custom effect can be unpacked only where that effect is.
         # not pure: work that is started again must not be given the futures of before
         calls = [packed(compute_chunk, work, chunk) for chunk in chunks]
         sent = [to_send()] * len(calls)

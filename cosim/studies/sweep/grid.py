@@ -24,7 +24,7 @@ from pydantic import ValidationError
 from stickslip import Parameters
 
 from cosim.scenario import Scenario, ScenarioError
-from cosim.scenario.faults import describe_faults
+from cosim.scenario.validation import describe_faults
 from cosim.scenario.work import check_mechanics
 
 from .axis import MECHANICS, SCENARIO, Axis, axis, labelled_axis, scenario_axis

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 
 from cosim.coupling import UnitDefinition
 from cosim.names import unknown_name
-from cosim.systems.faults import SystemFault
 from cosim.systems.specification import Hop, Link, Start, UnitEntry
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import NUMBERS, Component, Connector, Ends, Structure, System
 from cosim.systems.ssp.values import bound_values
+from cosim.systems.system_errors import SystemFault
 
 #: Names of the elements from the outermost system's to this one, without the outermost's.
 Path = tuple[str, ...]

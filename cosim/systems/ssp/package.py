@@ -16,7 +16,7 @@ from urllib.parse import unquote, urlsplit
 from lxml import etree
 
 from cosim.scratch import scratch_folder
-from cosim.systems.faults import SystemFault
+from cosim.systems.system_errors import SystemFault
 
 STRUCTURE = "SystemStructure.ssd"
 #: Bytes of an archive's contents, of one of its XML files, and how much smaller all may be packed.

@@ -9,12 +9,12 @@ from typing import Any
 
 from lxml import etree
 
-from cosim.systems.faults import SystemFault, table_of
 from cosim.systems.settings import Coupling, Run
 from cosim.systems.specification import SystemSpecification
 from cosim.systems.ssp.flat import Flat
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import Structure, read_structure
+from cosim.systems.system_errors import SystemFault, table_of
 
 
 def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:

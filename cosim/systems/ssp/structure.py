@@ -13,7 +13,7 @@ from lxml import etree
 
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
-from cosim.systems.faults import SystemFault
+from cosim.systems.system_errors import SystemFault
 
 _SPACES = {
     prefix: f"http://ssp-standard.org/SSP1/SystemStructure{name}"

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from lxml import etree
 
 from cosim.coupling import UnitDefinition
-from cosim.systems.faults import SystemFault
 from cosim.systems.specification import Start
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import (
@@ -23,6 +22,7 @@ from cosim.systems.ssp.structure import (
     unit_of,
     units_of,
 )
+from cosim.systems.system_errors import SystemFault
 
 SET, MAPPING = "application/x-ssp-parameter-set", "application/x-ssp-parameter-mapping"
 TRUTH = {"true": True, "1": True, "false": False, "0": False}

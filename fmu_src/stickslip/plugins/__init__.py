@@ -6,7 +6,7 @@ file is executed: whoever names one runs its author's code. `load` makes an effe
 `check` holds its terms to what can become C, `template.py` is what `stickslip effect new` writes.
 """
 
-from .chosen import GROUP, VARIABLE, files, use
+from .active_plugins import GROUP, VARIABLE, files, use
 from .errors import PluginError
 
 __all__ = ["GROUP", "VARIABLE", "PluginError", "files", "use"]

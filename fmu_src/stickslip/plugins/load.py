@@ -21,8 +21,8 @@ from ..effects.effect import Effect
 from ..generation.terms import terms_source
 from ..quantity import Table
 from ..text_file import read_text
+from .active_plugins import GROUP, files
 from .check import check_translatable
-from .chosen import GROUP, files
 from .errors import PluginError
 from .trial import try_terms
 

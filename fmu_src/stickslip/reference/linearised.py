@@ -23,9 +23,9 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from .faults import PRINTED, Faults
 from .scheme import CUT, SLIP, STUCK_AGAIN, Motion, SchemeFaults, SchemeRig
 from .scheme_effects import NO_EFFECTS, SchemeEffects
+from .scheme_errors import PRINTED, Faults
 from .spring_angles import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,

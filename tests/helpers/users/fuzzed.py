@@ -23,7 +23,7 @@ from hypothesis import strategies as st
 from cosim.cli import main
 from cosim.gap.data.campaign_file import CampaignTable, RunTable
 from cosim.scenario import Scenario
-from cosim.scenario.faults import known_keys
+from cosim.scenario.validation import known_keys
 
 #: What only a library says.
 INSIDE = re.compile(

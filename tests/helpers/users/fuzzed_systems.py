@@ -10,7 +10,7 @@ from fuzzed import EXTREME, NUMBERS, RUBBISH, Wildness, _values, toml
 from hypothesis import strategies as st
 from lag_unit import lag_unit
 
-from cosim.scenario.faults import known_keys
+from cosim.scenario.validation import known_keys
 from cosim.systems.settings import Coupling, Run
 
 #: File of a unit -> units of its input and its output.

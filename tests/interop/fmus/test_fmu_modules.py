@@ -8,7 +8,7 @@ from fmpy import simulate_fmu
 from pythonfmu import FmuBuilder
 
 from cosim.coupling import FmuError, FmuParticipant, IsolatedParticipant
-from cosim.coupling.fmu import process_wide
+from cosim.coupling.fmu import module_conflicts
 
 UNIT = """
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real
@@ -52,7 +52,7 @@ def made(folder, name, value, helper=None):
 
 @pytest.fixture(autouse=True)
 def nothing_loaded(monkeypatch):
-    monkeypatch.setattr(process_wide, "_modules", {})
+    monkeypatch.setattr(module_conflicts, "_modules", {})
 
 
 def x_of(unit):

@@ -13,9 +13,9 @@ from cosim.cli.arguments import COMMANDS
 from cosim.cli.authoring.schema import KINDS
 from cosim.gap import read_campaign
 from cosim.scenario import Scenario, packaged_scenarios, read_scenario
-from cosim.scenario.faults import known_keys
 from cosim.scenario.keys import all_keys
 from cosim.scenario.scenario import source_text
+from cosim.scenario.validation import known_keys
 
 
 @pytest.fixture(autouse=True)

@@ -1,4 +1,4 @@
-"""Commands and effects of one's own: written, found in what is named, refused in one line."""
+"""Commands and custom effects: written, found in what is named, refused in one line."""
 
 import json
 import os

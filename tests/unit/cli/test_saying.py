@@ -12,8 +12,8 @@ from stickslip import Parameters, compiled, machine_code, simulate
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS, parser
+from cosim.cli.console import Bar, note, saying
 from cosim.cli.runs import run_io
-from cosim.cli.saying import Bar, note, saying
 
 SHORT = "[run]\nduration = 0.5\n"
 

@@ -10,7 +10,7 @@ from cosim import Scenario, run_scenario
 from cosim.coupling import FmuError
 from cosim.coupling.case.snapshots import Snapshots
 from cosim.coupling.case.thermal_participant import ThermalParticipant
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 from thermal import BeltIceModel
 
 SHORT = {"run.duration": 2.0, "run.snapshot_interval": 0.5}

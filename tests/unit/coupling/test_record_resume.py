@@ -1,4 +1,4 @@
-"""A run that is cut off and gone on with is the run that was not, to the last bit."""
+"""A run that is cut off and resumed is the run that was not, to the last bit."""
 
 import os
 import shutil
@@ -14,8 +14,8 @@ from saved_pendulums import ORDER, pendulums
 from cosim.coupling import GaussSeidel, run
 from cosim.coupling.record import CheckpointError, Keep, RunFolder, load_checkpoint, read_columns
 from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
+from cosim.coupling.schemes.explicit import Jacobi
 from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.one_pass import Jacobi
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.estimates import Defect, Doubling
 from cosim.coupling.tolerance import Tolerance

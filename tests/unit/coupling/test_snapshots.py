@@ -56,7 +56,7 @@ def same(found, expected):
 
 @pytest.mark.parametrize("cut", [0, 3, 17, 29])
 def test_pictures_go_on_where_they_were_saved(tmp_path, monkeypatch, cut):
-    """Saved after `cut` states, cut off at 30 and gone on with from there, as if nothing was."""
+    """Saved after `cut` states, cut off at 30 and resumed from there, as if nothing was."""
     monkeypatch.setattr("cosim.coupling.case.snapshots.MOST_VIEWS", 8)
     parameters = ThermalParameters(belt=Belt(cell_length=0.02, elements=2))
     outcomes = {}

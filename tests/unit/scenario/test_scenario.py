@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from stickslip import Parameters
 
 from cosim.scenario import Scenario, packaged_scenarios, read_scenario
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 from thermal import ThermalParameters
 
 

@@ -8,8 +8,8 @@ import pytest
 from cosim.report.contents import tables_of
 from cosim.report.material import live_of_material, of_material, page_of_material
 from cosim.scenario import read_scenario
-from cosim.scenario.faults import ScenarioError
 from cosim.scenario.scenario import Scenario
+from cosim.scenario.validation import ScenarioError
 from cosim.studies.belt_length import how_long, scenario_case
 from thermal.materials import MATERIALS
 from thermal.model import BeltIceModel

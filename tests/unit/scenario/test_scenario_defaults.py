@@ -9,7 +9,7 @@ from stickslip import simulate
 from cosim.cli import main
 from cosim.scenario import Scenario, ScenarioError, read_scenario
 from cosim.scenario.defaults import IN_PROPORTION, stated
-from cosim.scenario.faults import known_keys
+from cosim.scenario.validation import known_keys
 
 THREE_LINES = "[rig]\nmass = 1.0\n[run]\nduration = 30.0\n"
 

@@ -3,7 +3,7 @@
 import pytest
 
 from cosim.scenario import Scenario, read_scenario
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 
 CSV = "v, mu\n0, 0.25\n0.1, 0.2\n0.3, 0.22\n"
 

@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from cosim.scenario import Scenario
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 
 LAYERS = """
 [[belt.layers]]

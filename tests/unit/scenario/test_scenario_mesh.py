@@ -1,7 +1,7 @@
 import pytest
 
 from cosim.scenario import Scenario, read_scenario
-from cosim.scenario.faults import ScenarioError
+from cosim.scenario.validation import ScenarioError
 
 
 def scenario(folder, mesh):

@@ -4,14 +4,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-from stickslip.plugins.sent import packed, unpacked_call
+from stickslip.plugins.dask_transport import packed, unpacked_call
 
 LAW = Path(__file__).resolve().parents[2] / "examples" / "effects" / "flash_heating.py"
 FAR = """
 import sys
 from pathlib import Path
 from stickslip.plugins import PluginError, files, use
-from stickslip.plugins.sent import Sent, receive
+from stickslip.plugins.dask_transport import Sent, receive
 text = Path(sys.argv[1]).read_text()
 receive([Sent("/home/somebody/law.py", text)])
 receive([Sent("/home/somebody/law.py", text)])  # with the next piece of work

@@ -166,11 +166,11 @@ def test_a_resolution_that_is_not_heeded_is_told(steel, monkeypatch, capsys):
     belt_length_command.add_arguments(parser)
     words = [str(steel), "--map", "0", "-o", str(steel.parent / "told")]
     belt_length_command.execute(parser.parse_args(words))
-    assert "not heeded" not in capsys.readouterr().err
+    assert "ignored" not in capsys.readouterr().err
     words += ["--set", "belt.elements=12", "--set", "contact.strips=16", "--force"]
     belt_length_command.execute(parser.parse_args(words))
     said = capsys.readouterr().err
-    assert "note: belt.elements, contact.strips: not heeded, belt-length has a resolution" in said
+    assert "note: belt.elements, contact.strips: ignored, belt-length has a resolution" in said
 
 
 def test_a_film_that_is_said_is_taken_as_it_is():

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED
+from stickslip.reference.scheme_errors import DESCRIPTIONS, MENDED, PRINTED
 
 from cosim.cli import main
 from cosim.cli.studies import reproduce as reproduction_command

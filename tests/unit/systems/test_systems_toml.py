@@ -240,10 +240,10 @@ def test_a_setting_that_cannot_be_is_refused(chain, capsys, setting, message):
 @pytest.mark.parametrize(
     "command, asked, said",
     [
-        ("run", {"system": "chain.toml"}, "its run is none of run's"),
-        ("couple", {"command": "run"}, "its run is none of couple's"),
-        ("couple", {"system": 5}, "its run is none of couple's"),
-        ("couple", {"system": "chain.toml", "changes": [1]}, "its run is none of couple's"),
+        ("run", {"system": "chain.toml"}, "not created by `stickslip run`"),
+        ("couple", {"command": "run"}, "not created by `stickslip couple`"),
+        ("couple", {"system": 5}, "not created by `stickslip couple`"),
+        ("couple", {"system": "chain.toml", "changes": [1]}, "not created by `stickslip couple`"),
     ],
 )
 def test_the_run_of_another_command_is_not_gone_on_with(tmp_path, capsys, command, asked, said):

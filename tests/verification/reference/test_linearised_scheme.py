@@ -8,7 +8,6 @@ from scipy import signal
 from scipy.linalg import expm
 from stickslip import Parameters, simulate
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.faults import DESCRIPTIONS, MENDED, PRINTED, Faults
 from stickslip.reference.interpreted_scheme import (
     interpreted_run,
     linear_system,
@@ -17,6 +16,7 @@ from stickslip.reference.interpreted_scheme import (
 )
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme import Propagator, functions
+from stickslip.reference.scheme_errors import DESCRIPTIONS, MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import fixed_angles, stiffness_matrix
 from stickslip.reference.strip_friction import strips
 

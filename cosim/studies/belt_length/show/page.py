@@ -9,7 +9,7 @@ from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
 from ..lengths import rounded_up
-from ..own import Answer, Question
+from ..required_length import Answer, Question
 from ..result import Row, Study
 from ..unknowns import unknowns_of
 from .verdict import two_digits, verdict

@@ -10,7 +10,7 @@ from ..case import Case
 from ..changes import NO_HELP
 from ..drift import CAMERA
 from ..lengths import LONGEST, metres, rounded_up
-from ..own import NOT_ASKED, Answer, Question
+from ..required_length import NOT_ASKED, Answer, Question
 from ..result import Row, Study
 
 ONE_METRE = 1.0
@@ -291,7 +291,7 @@ def _doubted(study: Study) -> list[str]:
             f" in half of the rigs on {words('run', 'median')}, in 95 % of them on"
             f" {words('run', 'high')}; the interface is that steady in half on"
             f" {words('interface', 'median')}, in 95 % on {words('interface', 'high')}"
-            " (between the lengths asked for, rounded up to two digits; nothing is told beyond)."
+            " (between the lengths asked for, rounded up to two digits; none is reported beyond)."
         )
     if not said:
         return []
@@ -466,7 +466,7 @@ def _melting_rigs(study: Study) -> list[str]:
         return []
     share = _percent(most) if most >= 0.01 else "less than 1 %"
     return [
-        f"In {share} of the rigs of the doubt the ice comes to melt within the runs. Their rises"
+        f"In {share} of the sampled rigs the ice comes to melt within the runs. Their rises"
         " are told as if it did not, which is more than they are, for melting takes heat that the"
         " belt does not get then; and less friction on the water is left out."
     ]

@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 from stickslip import Parameters
-from stickslip.reference.faults import MENDED, PRINTED
+from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from thermal import BeltIceModel, ThermalParameters
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from stickslip.reference.faults import MENDED, PRINTED
+from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from ..cases import (
     DATASET_1,

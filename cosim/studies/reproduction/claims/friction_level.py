@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from matplotlib.figure import Figure
-from stickslip.reference.faults import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
 from cosim.report.live import live_of
 from cosim.report.style import GREY, LIGHT_GREY, panels, picture

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip.reference.faults import MENDED, PRINTED
+from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from cosim.report.style import panels, picture
 from cosim.studies.reproduction.cases import STUDY

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip.reference.faults import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
 from cosim.report.live import live_of
 from cosim.report.style import INK, panels, picture

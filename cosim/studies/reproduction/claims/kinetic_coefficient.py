@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip.reference.faults import PRINTED
+from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.report.style import panels, picture
 from cosim.studies.reproduction.cases import ASSUMED, CASE, STUDY, Grid, grid

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import partial
 
 from stickslip import simulate
-from stickslip.reference.faults import PRINTED
 from stickslip.reference.interpreted_scheme import interpreted_run
+from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.studies.reproduction.cases import STUDY as PRINTED_TIMES
 

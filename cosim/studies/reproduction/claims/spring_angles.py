@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip.reference.faults import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
 from cosim.report.live import live_of

@@ -6,7 +6,7 @@ import math
 from functools import cache
 
 import numpy as np
-from stickslip.reference.faults import MENDED, PRINTED
+from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from cosim.studies.reproduction.cases import STUDY
 

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 from stickslip import simulate
-from stickslip.reference.faults import MENDED, PRINTED, Faults
 from stickslip.reference.linearised import GRAVITY, SchemeRun
+from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import (
     ATTACHMENT_RADIUS,
     fixed_angles,

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from stickslip import Parameters, simulate
 from stickslip.packing import GRAVITY
-from stickslip.reference.faults import PRINTED
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_effects import SchemeEffects
+from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.studies.reproduction.motion import BAND, Motion, time_mean
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .chosen import files, is_read, known_as, use
+from .active_plugins import files, is_read, known_as, use
 from .errors import PluginError
 
 

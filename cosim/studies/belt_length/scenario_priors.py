@@ -144,12 +144,12 @@ _RESOLUTION = (
 )
 
 
-def unheeded(scenario: Scenario) -> list[str]:
+def ignored_keys(scenario: Scenario) -> list[str]:
     """Keys that a scenario holds and its case leaves aside, for the study has its own resolution.
 
     >>> from cosim import read_scenario
-    >>> from cosim.studies.belt_length import unheeded
-    >>> unheeded(read_scenario().changed({"belt": {"elements": 12}}))
+    >>> from cosim.studies.belt_length import ignored_keys
+    >>> ignored_keys(read_scenario().changed({"belt": {"elements": 12}}))
     ['belt.elements']
     """
     return [key for key in _RESOLUTION if _holds(scenario, key)]

@@ -1,7 +1,7 @@
 """How long an own belt must be: one drive of any material, its answer and how sure that is.
 
 Two questions: does the belt come round cold, and is the interface steady? For each the shortest
-belt as the rig is said, the shortest in 5, 50 and 95 % of the rigs that may be meant, and in how
+belt of the nominal rig, the shortest in 5, 50 and 95 % of the rigs that may be meant, and in how
 many of them the belt that is there is long enough.
 """
 
@@ -20,7 +20,7 @@ from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift, steady_drift
 from .lengths import LONGEST, Length, between, rounded_up, shortest_belt
 from .rigs import MOST_MELTING, Rigs
-from .said import scenario_case
+from .scenario_priors import scenario_case
 from .uncertainty import INTERVAL, quantiles
 from .unknowns import ENTRY, INTERFACE, Melts
 
@@ -31,7 +31,7 @@ QUESTIONS = (ENTRY, INTERFACE)
 #: Lengths at which the rigs are looked at, and how many rigs there are, a power of two.
 POINTS, RIGS = 40, 2048
 #: The lengths go from this part of the nominal shortest belt to this many times its length: the
-#: rigs of the doubt need hardly less, and up to ten times as much.
+#: sampled rigs need hardly less, and up to ten times as much.
 _PART, _TIMES = 0.7, 16.0
 #: And at least to this many times the belt that is there, where nearly any belt does.
 _TIMES_OWN = 4.0
@@ -47,9 +47,9 @@ LEVELS = (f"{INTERVAL[0]:.0%} level", "median", f"{INTERVAL[1]:.0%} level")
 class Question:
     """One question about a belt; lengths in m, rises in K.
 
-    rise: on the case's own belt, as the rig is said. shortest, for_ever: belts that keep it below
+    rise: on the case's own belt, nominal rig. shortest, for_ever: belts that keep it below
     the limit at the end of the runs, and in all time; None where none does up to the longest that
-    is tried. low, median, high: shortest belts in 5, 50 and 95 % of the rigs of the doubt, rises:
+    is tried. low, median, high: shortest belts in 5, 50 and 95 % of the sampled rigs, rises:
     on the case's own belt at these levels; share: of these rigs in which the own belt is long
     enough. All four None where there is no doubt, `Answer.reason` says why.
     """
@@ -78,12 +78,12 @@ class Answer:
     case : what was asked, with the length of the belt that is there
     limit : largest rise that is allowed, K
     run, interface : does the belt come round cold, is the interface steady
-    lengths : m, (n,); of the rigs of the doubt
+    lengths : m, (n,); of the sampled rigs
     levels : K, (2, 3, n): for both questions 5, 50 and 95 % of the rigs' rises over ``lengths``
     evaluations : runs of the model for the doubt; unexplained: share of the variance that is missed
         in its place, for both questions
     reason : why there is no doubt, "" where there is
-    melts : share of the rigs of the doubt, on the case's own belt, in which the ice comes to melt;
+    melts : share of the sampled rigs, on the case's own belt, in which the ice comes to melt;
         their rises are told as if it did not
     """
 
@@ -144,7 +144,7 @@ def how_long(
     limit : largest rise that is allowed, K, > 0, such as what a camera tells apart
     samples : runs of the model for the doubt, a power of two from 32; 0 for none
     jobs : processes
-    lengths : of further belts, m, on which the rigs of the doubt are to be known
+    lengths : of further belts, m, on which the sampled rigs are to be known
 
     Returns an `Answer`. Raises StudyError in one line for a scenario without a belt, or whose belt
     never slides; ParameterError for what has no room on its belt; NoSteadyState where nothing
@@ -194,7 +194,7 @@ def _doubted(
     drawn = qmc.Sobol(len(rigs.unknowns), rng=2).random(RIGS)
     melts = rigs.melting(drawn, case.length)
     if melts > MOST_MELTING:
-        why = f"in {melts:.0%} of the rigs of the doubt the ice comes to melt"
+        why = f"in {melts:.0%} of the sampled rigs the ice comes to melt"
         return _without(case, limit, run, interface, why, melts)
     levels = {
         rise: np.array([quantiles(rigs.rise(rise, drawn, length)) for length in lengths]).T

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel
 
 from cosim.coupling import CouplingError, FmuError
-from cosim.scenario.faults import ScenarioError, checked
+from cosim.scenario.validation import ScenarioError, checked
 
 Model = TypeVar("Model", bound=BaseModel)
 
