@@ -1,20 +1,19 @@
-"""How sure the drift is, and what the doubt is made of: Sobol indices (SALib), single changes.
+"""How sure the drift is, and what the doubt is made of: Sobol indices, single changes.
 
 Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order and total indices with
-bootstrapped 95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
+95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
 each of the answers that a rise is made of (`rigs`).
 """
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from SALib.analyze import sobol as analyse
-from SALib.sample import sobol as sample
-from scipy.stats import qmc
+from scipy.stats import qmc, sobol_indices, uniform
+from scipy.stats import t as student
 
 from .case import Case
 from .rigs import MOST_MELTING, Rigs
@@ -38,8 +37,9 @@ Array = NDArray[np.float64]
 
 #: Interval that is told, quantiles.
 INTERVAL = (0.05, 0.95)
-#: Of Sobol's sequence for the indices: their 95 % intervals are then below 0.05.
-SEQUENCE = 2**13
+#: Of Sobol's sequence for the indices, and how often, scrambled anew: their 95 % intervals, from
+#: the spread of these, are then below 0.05.
+SEQUENCE, REPLICATES = 2**10, 8
 #: Of the sequence where a share of the rigs is counted.
 RIGS = 2048
 
@@ -114,24 +114,19 @@ def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertain
     """
     try:
         rigs = Rigs(case, samples) if rigs is None else rigs
-        melts = rigs.melting(_drawn(rigs), case.length)
+        melts = rigs.melting(_drawn(rigs, RIGS), case.length)
         if melts > MOST_MELTING:
             return None
         single_changes = _single_changes(case, rigs.unknowns)
     except Melts:
         return None
-    problem = {
-        "num_vars": len(rigs.unknowns),
-        "names": [one.key for one in rigs.unknowns],
-        "bounds": [[0.0, 1.0]] * len(rigs.unknowns),
-    }
-    drawn = sample.sample(problem, SEQUENCE, calc_second_order=False, seed=1)
+    drawn = _drawn(rigs, REPLICATES * SEQUENCE)
     drifts = rigs.rise(ENTRY, drawn, case.length)
-    # one point in each block of the sequence has all unknowns drawn anew
-    interface = rigs.rise(INTERFACE, drawn[:: len(rigs.unknowns) + 2], case.length)
+    interface = rigs.rise(INTERFACE, drawn, case.length)
+    keys = [one.key for one in rigs.unknowns]
     return Uncertainty(
         *quantiles(drifts),
-        _influences(problem, drifts),
+        _influences(keys, drifts, lambda shares: rigs.rise(ENTRY, shares, case.length)),
         single_changes,
         rigs.evaluations + 2 * len(single_changes),
         rigs.unexplained[ENTRY],
@@ -141,9 +136,9 @@ def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertain
     )
 
 
-def _drawn(rigs: Rigs) -> Array:
-    """Shares of the ranges, evenly spread: (n, unknowns)."""
-    return qmc.Sobol(len(rigs.unknowns), rng=2).random(RIGS)
+def _drawn(rigs: Rigs, count: int) -> Array:
+    """Shares of the ranges, evenly spread: (count, unknowns)."""
+    return qmc.Sobol(len(rigs.unknowns), rng=2).random(count)
 
 
 def quantiles(rises: Array) -> tuple[float, float, float]:
@@ -187,16 +182,23 @@ def _drift_with(case: Case, one: Unknown, end: float) -> float:
     return float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0])
 
 
-def _influences(problem: dict, drifts: Array) -> tuple[Influence, ...]:
+def _influences(
+    keys: Sequence[str], drifts: Array, drift_of: Callable[[Array], Array]
+) -> tuple[Influence, ...]:
     """Nothing has an influence on a drift that is always the same."""
-    keys = problem["names"]
     if np.ptp(drifts) == 0.0:
         return tuple(Influence(key, 0.0, 0.0, 0.0, 0.0) for key in keys)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", FutureWarning)
-        found = analyse.analyze(problem, drifts, calc_second_order=False, seed=1)
-    influences = [
-        Influence(key, *(float(found[name][i]) for name in ("S1", "S1_conf", "ST", "ST_conf")))
-        for i, key in enumerate(keys)
-    ]
+    replicates = np.stack([_indices(len(keys), drift_of, seed) for seed in range(REPLICATES)])
+    quantile = student.ppf(0.975, REPLICATES - 1)
+    doubt = quantile * replicates.std(axis=0, ddof=1) / np.sqrt(REPLICATES)
+    rows = np.stack([replicates.mean(axis=0), doubt], axis=1).reshape(4, -1).T
+    influences = [Influence(key, *row) for key, row in zip(keys, rows.tolist(), strict=True)]
     return tuple(sorted(influences, key=lambda one: -one.total))
+
+
+def _indices(count: int, drift_of: Callable[[Array], Array], seed: int) -> Array:
+    """First-order and total (2, unknowns), from a scrambled sequence of its own."""
+    found = sobol_indices(
+        func=lambda shares: drift_of(shares.T), n=SEQUENCE, dists=[uniform()] * count, rng=seed
+    )
+    return np.stack([np.ravel(found.first_order), np.ravel(found.total_order)])
